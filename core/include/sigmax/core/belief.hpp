@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include <sigmax/core/distribution.hpp>
+#include <sigmax/core/logarithm.hpp>
+
+namespace sigmax {
+
+/// A distribution that accumulates evidence over time: its logarithms are kept, so that an outcome that was almost
+/// excluded can come back. Normalised: ⊕ exp(log) = 1.
+template <Uncertainty Kind>
+  requires ScalingAlgebra<AlgebraOf<Kind>>
+class Belief {
+ public:
+  using kind = Kind;
+
+  explicit Belief(const Distribution<Kind>& distribution)
+      : variable_(distribution.variable()), logs_(1, distribution.size()) {
+    const auto values = distribution.values();
+    std::transform(values.begin(), values.end(), logs_.data(), [](double value) { return std::log(value); });
+  }
+
+  const Variable<Kind>& variable() const { return variable_; }
+  std::size_t size() const { return logs_.size(); }
+  std::span<const double> logs() const { return logs_.values(); }
+  double log(std::size_t index) const { return logs_(0, index); }
+
+  /// The probability or possibility of one outcome.
+  double operator[](std::size_t index) const { return std::exp(log(index)); }
+
+  /// The belief as numbers; weights below the smallest double become zero here, and only here.
+  Distribution<Kind> distribution() const {
+    Table table(1, size());
+    std::transform(logs().begin(), logs().end(), table.data(), [](double log) { return std::exp(log); });
+    return {variable_, std::move(table), ByLaw{}};
+  }
+
+  /// Replaces the logarithms by log_weight(i), normalised; returns the logarithm of the ⊕ they had.
+  /// Throws std::domain_error if every outcome is excluded.
+  template <class LogWeight>
+  double assign(const LogWeight& log_weight) {
+    for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
+    const double log_total =
+        log_combine<AlgebraOf<Kind>>(size(), [this](std::size_t i) { return logs_(0, i); }, [](std::size_t) { return 1.0; });
+    if (log_total == log_zero)
+      throw std::domain_error("the evidence excludes every outcome of variable '" + variable_.name() + "'");
+    for (double& log : logs_.values()) log -= log_total;
+    return log_total;
+  }
+
+ private:
+  Variable<Kind> variable_;
+  Table logs_;
+};
+
+template <Uncertainty Kind>
+std::string most_likely(const Belief<Kind>& belief) {
+  return belief.variable().label(index_of_greatest(belief.logs()));
+}
+
+}  // namespace sigmax

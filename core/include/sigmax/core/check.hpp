@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <sigmax/core/outcomes.hpp>
+#include <sigmax/core/uncertainty.hpp>
+
+namespace sigmax {
+
+/// How far from one the ⊕ of a distribution may lie when a constructor proves it.
+inline constexpr double normalization_tolerance = 1e-9;
+
+/// ⊕ of numbers in the algebra of `Kind`, (2) or (3).
+template <Uncertainty Kind>
+constexpr double total(std::span<const double> values) {
+  double sum = AlgebraOf<Kind>::zero();
+  for (const double value : values) sum = AlgebraOf<Kind>::plus(sum, value);
+  return sum;
+}
+
+/// The failures of the constructors, with the variable, the row and the value in the message. All throw
+/// std::invalid_argument.
+namespace check {
+
+/// The row of a conditional table that is being checked: outcome `index` of `variable`. None if `variable` is null.
+struct Row {
+  const Outcomes* variable = nullptr;
+  std::size_t index = 0;
+};
+
+/// Every value is a finite number in [0, greatest].
+void values(const Outcomes& variable, Row row, std::span<const double> values, double greatest);
+
+/// There are as many values as the variable has outcomes.
+void size(const Outcomes& variable, Row row, std::size_t size);
+
+/// The ⊕ of the values is one to within `normalization_tolerance`.
+void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total);
+
+/// Both are the same variable; `where` says who asks.
+void same(const Outcomes& expected, const Outcomes& found, std::string_view where);
+
+}  // namespace check
+
+/// Proves that the values are a distribution of `variable`: each in [0, 1], their ⊕ one.
+template <Uncertainty Kind>
+void prove_normalized(const Outcomes& variable, check::Row row, std::span<const double> values) {
+  check::size(variable, row, values.size());
+  check::values(variable, row, values, 1.0 + normalization_tolerance);
+  check::total(variable, row, total<Kind>(values), Kind::total);
+}
+
+}  // namespace sigmax

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cassert>
+#include <concepts>
+#include <type_traits>
+
+#include <sigmax/core/belief.hpp>
+#include <sigmax/core/induced.hpp>
+#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/likelihood.hpp>
+#include <sigmax/core/relation.hpp>
+
+namespace sigmax {
+
+/// A Relation, or what is induced of one.
+template <class T>
+concept Conditional = std::derived_from<T, ConditionalTable<typename T::to_kind, typename T::from_kind>>;
+
+/// A Distribution, or what is induced of one.
+template <class T>
+concept Marginal =
+    std::same_as<T, Distribution<typename T::kind>> || std::same_as<T, Induced<Distribution<typename T::kind>>>;
+
+/// `T`, or only Induced<T> where normalisation is lost: if a part was induced already, or if the variable eliminated
+/// between Left and Right is not of the result's kind.
+template <class Left, class Right, class T>
+using InducedBy =
+    std::conditional_t<is_induced<Left> || is_induced<Right> ||
+                           !std::same_as<typename Left::to_kind, typename Left::from_kind>,
+                       Induced<T>, T>;
+
+/// `left` after `right`, eliminating the variable m between them: ⊕ over m of left(to|m) ⊗ right(m|from), where m's
+/// kind chooses ⊕.
+///
+///     compose(speed_given_mood, mood_given_age)   // speed given age
+///
+/// Of one kind it is (6), (7) and a Relation; else (17), (18) and only Induced. It associates within one kind; with
+/// mixed kinds (A∘B)∘C and A∘(B∘C) differ, and the order of the calls is what is meant.
+/// Throws std::invalid_argument, naming both, if the variables in the middle are not the same.
+template <Conditional Left, Conditional Right>
+  requires std::same_as<typename Left::from_kind, typename Right::to_kind>
+auto compose(const Left& left, const Right& right) {
+  using Composed = InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>;
+  Composed result{left.to(), right.from(), Table(right.from().size(), left.to().size()), ByLaw{}};
+  compose(left, right, result);
+  return result;
+}
+
+/// The same, written into an existing `result` of the same variables: nothing is allocated. `result` is neither part.
+template <Conditional Left, Conditional Right>
+  requires std::same_as<typename Left::from_kind, typename Right::to_kind>
+void compose(const Left& left, const Right& right,
+             InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>& result) {
+  check::same(left.from(), right.to(), "compose");
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.table(), right.table(), result.table(ByLaw{}));
+}
+
+/// The distribution of `left.to()` when its condition has the distribution `right`: (5), (15), (16).
+///
+///     compose(mood_given_age, age_prior)   // mood
+template <Conditional Left, Marginal Right>
+  requires std::same_as<typename Left::from_kind, typename Right::kind>
+auto compose(const Left& left, const Right& right) {
+  check::same(left.from(), right.variable(), "compose");
+  Table table(1, left.to().size());
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.table(), right.table(), table);
+  return InducedBy<Left, Right, Distribution<typename Left::to_kind>>{left.to(), std::move(table), ByLaw{}};
+}
+
+/// The belief about the next value of a variable after a transition, (51), (53): log b(j) = log ⊕ᵢ p(j|i) ⊗ exp b(i).
+template <Uncertainty Kind>
+Belief<Kind> compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right) {
+  Belief<Kind> result{uninformative(left.to())};
+  compose(left, right, result);
+  return result;
+}
+template <Uncertainty Kind>
+void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief<Kind>& result) {
+  check::same(left.from(), right.variable(), "compose");
+  check::same(left.to(), result.variable(), "compose");
+  assert(&right != &result);
+  result.assign([&](std::size_t to) {
+    return log_combine<AlgebraOf<Kind>>(
+        right.size(), [&](std::size_t from) { return right.log(from); },
+        [&](std::size_t from) { return left(from, to); });
+  });
+}
+
+/// How well each outcome of `right.from()` explains evidence about `right.to()`: (42), (45), and with a random sensor
+/// over a fuzzy feature the p⁺ of (17), unnormalised as a likelihood should be.
+template <Uncertainty Middle, Uncertainty From>
+Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
+  check::same(left.variable(), right.to(), "compose");
+  Likelihood<From> result{right.from()};
+  for (std::size_t from = 0; from < result.size(); ++from)
+    result.set_log(from, log_combine<AlgebraOf<Middle>>(
+                             left.size(), [&](std::size_t middle) { return left.log(middle); },
+                             [&](std::size_t middle) { return right(from, middle); }));
+  return result;
+}
+
+}  // namespace sigmax

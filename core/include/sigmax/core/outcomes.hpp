@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sigmax {
+
+/// The name and the outcomes of a variable, whatever its kind: an immutable value that is cheap to copy.
+class Outcomes {
+ public:
+  /// Labelled outcomes. Throws std::invalid_argument if there is none, or a label is empty or repeated.
+  Outcomes(std::string name, std::vector<std::string> labels);
+
+  /// `size` outcomes labelled "0", "1", …; nothing is stored for them.
+  Outcomes(std::string name, std::size_t size);
+
+  const std::string& name() const { return table_->name; }
+  std::size_t size() const { return table_->size; }
+  std::string label(std::size_t index) const;
+
+  /// Index of an outcome; throws std::invalid_argument that names the variable and its outcomes.
+  std::size_t index_of(std::string_view label) const;
+
+  /// Whether both have the same name and the same outcomes.
+  friend bool operator==(const Outcomes& a, const Outcomes& b);
+
+ private:
+  struct Table {
+    std::string name;
+    std::size_t size;
+    std::vector<std::string> labels;
+  };
+  std::shared_ptr<const Table> table_;
+};
+
+}  // namespace sigmax

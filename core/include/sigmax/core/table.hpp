@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sigmax {
+
+/// A dense rows × columns table of numbers, row by row; up to 16 of them are stored without allocation.
+class Table {
+ public:
+  Table(std::size_t rows, std::size_t columns, double value = 0.0) {
+    reshape(rows, columns);
+    std::fill_n(data(), size(), value);
+  }
+
+  /// Changes the shape and leaves the values unspecified; allocates nothing if they fit into what is there.
+  void reshape(std::size_t rows, std::size_t columns) {
+    rows_ = rows;
+    columns_ = columns;
+    if (size() > inline_capacity) heap_.resize(size());
+  }
+
+  std::size_t rows() const { return rows_; }
+  std::size_t columns() const { return columns_; }
+  std::size_t size() const { return rows_ * columns_; }
+
+  double* data() { return size() > inline_capacity ? heap_.data() : inline_.data(); }
+  const double* data() const { return size() > inline_capacity ? heap_.data() : inline_.data(); }
+
+  std::span<double> values() { return {data(), size()}; }
+  std::span<const double> values() const { return {data(), size()}; }
+  std::span<double> row(std::size_t r) { return {data() + r * columns_, columns_}; }
+  std::span<const double> row(std::size_t r) const { return {data() + r * columns_, columns_}; }
+
+  double& operator()(std::size_t r, std::size_t c) {
+    assert(r < rows_ && c < columns_);
+    return data()[r * columns_ + c];
+  }
+  double operator()(std::size_t r, std::size_t c) const {
+    assert(r < rows_ && c < columns_);
+    return data()[r * columns_ + c];
+  }
+
+ private:
+  static constexpr std::size_t inline_capacity = 16;
+  std::size_t rows_ = 0;
+  std::size_t columns_ = 0;
+  std::array<double, inline_capacity> inline_{};
+  std::vector<double> heap_;
+};
+
+}  // namespace sigmax

@@ -1,0 +1,53 @@
+#include <sigmax/core/check.hpp>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace sigmax::check {
+namespace {
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+std::string named(const Outcomes& variable, Row row) {
+  std::string name = "'" + variable.name() + "'";
+  if (row.variable) name += " given " + row.variable->name() + " = '" + row.variable->label(row.index) + "'";
+  return name;
+}
+
+}  // namespace
+
+void values(const Outcomes& variable, Row row, std::span<const double> values, double greatest) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= 0.0 && values[i] <= greatest))
+      throw std::invalid_argument("the value of " + named(variable, row) + " at outcome '" + variable.label(i) +
+                                  "' is " + shown(values[i]) + "; expected a number " +
+                                  (greatest > 2.0 ? "that is finite and not negative" : "between 0 and 1"));
+}
+
+void size(const Outcomes& variable, Row row, std::size_t size) {
+  if (size != variable.size())
+    throw std::invalid_argument(named(variable, row) + " has " + std::to_string(variable.size()) +
+                                " outcomes, but " + std::to_string(size) + " values were given");
+}
+
+void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total) {
+  if (!(std::abs(total - 1.0) <= normalization_tolerance))
+    throw std::invalid_argument("the " + std::string(name_of_total) + " of " + named(variable, row) + " is " +
+                                shown(total) + ", not 1");
+}
+
+void same(const Outcomes& expected, const Outcomes& found, std::string_view where) {
+  if (expected == found) return;
+  std::string message =
+      std::string(where) + ": expected variable '" + expected.name() + "', found '" + found.name() + "'";
+  if (expected.name() == found.name()) message += " with other outcomes";
+  throw std::invalid_argument(message);
+}
+
+}  // namespace sigmax::check

@@ -1,0 +1,62 @@
+#include <sigmax/core/outcomes.hpp>
+
+#include <charconv>
+#include <stdexcept>
+#include <unordered_set>
+
+namespace sigmax {
+namespace {
+
+std::string listed(const Outcomes& outcomes) {
+  constexpr std::size_t shown = 8;
+  std::string list;
+  for (std::size_t i = 0; i < outcomes.size() && i < shown; ++i) list += (i ? ", " : "") + outcomes.label(i);
+  if (outcomes.size() > shown) list += ", … (" + std::to_string(outcomes.size()) + " in all)";
+  return list;
+}
+
+}  // namespace
+
+Outcomes::Outcomes(std::string name, std::vector<std::string> labels) {
+  if (labels.empty()) throw std::invalid_argument("variable '" + name + "' needs at least one outcome");
+  std::unordered_set<std::string_view> seen;
+  for (const auto& label : labels) {
+    if (label.empty()) throw std::invalid_argument("variable '" + name + "' has an outcome with an empty label");
+    if (!seen.insert(label).second)
+      throw std::invalid_argument("variable '" + name + "' has the outcome '" + label + "' twice");
+  }
+  const std::size_t size = labels.size();
+  table_ = std::make_shared<const Table>(Table{std::move(name), size, std::move(labels)});
+}
+
+Outcomes::Outcomes(std::string name, std::size_t size) {
+  if (size == 0) throw std::invalid_argument("variable '" + name + "' needs at least one outcome");
+  table_ = std::make_shared<const Table>(Table{std::move(name), size, {}});
+}
+
+std::string Outcomes::label(std::size_t index) const {
+  if (index >= size())
+    throw std::invalid_argument("variable '" + name() + "' has " + std::to_string(size()) + " outcomes, no number " +
+                                std::to_string(index));
+  return table_->labels.empty() ? std::to_string(index) : table_->labels[index];
+}
+
+std::size_t Outcomes::index_of(std::string_view label) const {
+  if (table_->labels.empty()) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), index);
+    if (error == std::errc{} && end == label.data() + label.size() && index < size()) return index;
+  } else {
+    for (std::size_t i = 0; i < size(); ++i)
+      if (table_->labels[i] == label) return i;
+  }
+  throw std::invalid_argument("variable '" + name() + "' has no outcome '" + std::string(label) +
+                              "'; its outcomes are " + listed(*this));
+}
+
+bool operator==(const Outcomes& a, const Outcomes& b) {
+  if (a.table_ == b.table_) return true;
+  return a.table_->size == b.table_->size && a.table_->name == b.table_->name && a.table_->labels == b.table_->labels;
+}
+
+}  // namespace sigmax
