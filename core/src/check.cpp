@@ -32,8 +32,8 @@ void values(const Outcomes& variable, Row row, std::span<const double> values, d
 
 void size(const Outcomes& variable, Row row, std::size_t size) {
   if (size != variable.size())
-    throw std::invalid_argument(named(variable, row) + " has " + std::to_string(variable.size()) +
-                                " outcomes, but " + std::to_string(size) + " values were given");
+    throw std::invalid_argument(named(variable, row) + " has " + std::to_string(variable.size()) + " outcomes, but " +
+                                std::to_string(size) + " values were given");
 }
 
 void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total) {

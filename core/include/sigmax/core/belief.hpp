@@ -45,8 +45,8 @@ class Belief {
   template <class LogWeight>
   double assign(const LogWeight& log_weight) {
     for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
-    const double log_total =
-        log_combine<AlgebraOf<Kind>>(size(), [this](std::size_t i) { return logs_(0, i); }, [](std::size_t) { return 1.0; });
+    const double log_total = log_combine<AlgebraOf<Kind>>(
+        size(), [this](std::size_t i) { return logs_(0, i); }, [](std::size_t) { return 1.0; });
     if (log_total == log_zero)
       throw std::domain_error("the evidence excludes every outcome of variable '" + variable_.name() + "'");
     for (double& log : logs_.values()) log -= log_total;

@@ -24,10 +24,9 @@ concept Marginal =
 /// `T`, or only Induced<T> where normalisation is lost: if a part was induced already, or if the variable eliminated
 /// between Left and Right is not of the result's kind.
 template <class Left, class Right, class T>
-using InducedBy =
-    std::conditional_t<is_induced<Left> || is_induced<Right> ||
-                           !std::same_as<typename Left::to_kind, typename Left::from_kind>,
-                       Induced<T>, T>;
+using InducedBy = std::conditional_t<is_induced<Left> || is_induced<Right> ||
+                                         !std::same_as<typename Left::to_kind, typename Left::from_kind>,
+                                     Induced<T>, T>;
 
 /// `left` after `right`, eliminating the variable m between them: ⊕ over m of left(to|m) ⊗ right(m|from), where m's
 /// kind chooses ⊕.

@@ -40,8 +40,7 @@ class Distribution {
     std::copy(values.begin(), values.end(), table_.data());
   }
 
-  Distribution(Variable<Kind> variable, Table table, ByLaw)
-      : variable_(std::move(variable)), table_(std::move(table)) {
+  Distribution(Variable<Kind> variable, Table table, ByLaw) : variable_(std::move(variable)), table_(std::move(table)) {
     assert(std::abs(total<Kind>(values()) - 1.0) <= 1e-6);
   }
 
@@ -62,27 +61,26 @@ class Distribution {
 /// Divides by their ⊕ values that are finite, not negative and not all zero: the distribution in proportion to them.
 /// Throws std::invalid_argument otherwise.
 template <Uncertainty Kind>
-  requires ScalingAlgebra<AlgebraOf<Kind>>
-Distribution<Kind> normalized(Variable<Kind> variable, std::span<const double> weights) {
-  check::size(variable, {}, weights.size());
-  check::values(variable, {}, weights, std::numeric_limits<double>::max());
-  const double greatest = total<Fuzzy>(weights);
-  if (greatest == 0.0) throw std::invalid_argument("every weight of variable '" + variable.name() + "' is zero");
-  Table table(1, weights.size());
-  // Divided by the greatest first, so that their ⊕ neither overflows nor rounds a lone weight away from one.
-  for (std::size_t i = 0; i < weights.size(); ++i) table(0, i) = weights[i] / greatest;
-  const double sum = total<Kind>(table.values());
-  for (double& value : table.values()) value = AlgebraOf<Kind>::divide(value, sum);
-  return {std::move(variable), std::move(table), ByLaw{}};
-}
+  requires ScalingAlgebra<AlgebraOf<Kind>> Distribution<Kind> normalized(Variable<Kind> variable,
+                                                                         std::span<const double> weights) {
+    check::size(variable, {}, weights.size());
+    check::values(variable, {}, weights, std::numeric_limits<double>::max());
+    const double greatest = total<Fuzzy>(weights);
+    if (greatest == 0.0) throw std::invalid_argument("every weight of variable '" + variable.name() + "' is zero");
+    Table table(1, weights.size());
+    // Divided by the greatest first, so that their ⊕ neither overflows nor rounds a lone weight away from one.
+    for (std::size_t i = 0; i < weights.size(); ++i) table(0, i) = weights[i] / greatest;
+    const double sum = total<Kind>(table.values());
+    for (double& value : table.values()) value = AlgebraOf<Kind>::divide(value, sum);
+    return {std::move(variable), std::move(table), ByLaw{}};
+  }
 
 /// What is known of a variable before anything is known: 1/n each for a random, one each for a fuzzy variable.
 template <Uncertainty Kind>
-  requires ScalingAlgebra<AlgebraOf<Kind>>
-Distribution<Kind> uninformative(Variable<Kind> variable) {
-  const Table ones(1, variable.size(), 1.0);
-  return normalized(std::move(variable), ones.values());
-}
+  requires ScalingAlgebra<AlgebraOf<Kind>> Distribution<Kind> uninformative(Variable<Kind> variable) {
+    const Table ones(1, variable.size(), 1.0);
+    return normalized(std::move(variable), ones.values());
+  }
 
 /// Index of the greatest value, the lowest on a tie.
 inline std::size_t index_of_greatest(std::span<const double> values) {

@@ -9,9 +9,9 @@ namespace sigmax {
 /// The kind of an uncertain variable; it alone chooses the algebra by which the variable is eliminated.
 template <class Kind>
 concept Uncertainty = Algebra<typename Kind::Algebra> && requires {
-  { Kind::name } -> std::convertible_to<std::string_view>;      // "random"
-  { Kind::measure } -> std::convertible_to<std::string_view>;   // "probability"
-  { Kind::total } -> std::convertible_to<std::string_view>;     // "sum"
+  { Kind::name } -> std::convertible_to<std::string_view>;     // "random"
+  { Kind::measure } -> std::convertible_to<std::string_view>;  // "probability"
+  { Kind::total } -> std::convertible_to<std::string_view>;    // "sum"
 };
 
 /// The algebra of a kind of variable.

@@ -38,7 +38,7 @@ Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind
 template <Uncertainty From, Uncertainty To>
 struct Inverse {
   Relation<From, To> relation;
-  std::vector<std::size_t> unreachable;   ///< their rows in `relation` are uninformative
+  std::vector<std::size_t> unreachable;  ///< their rows in `relation` are uninformative
 };
 
 /// The relation read backwards under a prior of its condition, each row an update: (43), (46), (52), (54).

@@ -27,9 +27,7 @@ class Classifier {
 
   /// Takes one report, given as the likelihood of every feature: (42) and (41), or (45) and (44).
   /// Throws std::domain_error if the report excludes every pattern that was left.
-  void observe(const Likelihood<Feature>& report) {
-    update(belief_, compose(report, feature_given_pattern_), belief_);
-  }
+  void observe(const Likelihood<Feature>& report) { update(belief_, compose(report, feature_given_pattern_), belief_); }
 
   /// What is believed of the pattern after all reports.
   Distribution<Pattern> belief() const { return belief_.distribution(); }
