@@ -1,0 +1,51 @@
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace sigmax {
+
+/// A column of N numbers; N may be Eigen::Dynamic with at most MaxN, which never allocates.
+template <int N, int MaxN = N>
+using Vector = Eigen::Matrix<double, N, 1, 0, MaxN, 1>;
+
+/// A square matrix of size N.
+template <int N, int MaxN = N>
+using SquareMatrix = Eigen::Matrix<double, N, N, 0, MaxN, MaxN>;
+
+/// A Gaussian N(x; mean, covariance): an estimate with its uncertainty, or a measurement with its R.
+template <int N, int MaxN = N>
+struct Gaussian {
+  Vector<N, MaxN> mean;
+  SquareMatrix<N, MaxN> covariance;
+
+  Gaussian() = default;
+  Gaussian(Vector<N, MaxN> m, SquareMatrix<N, MaxN> c) : mean(std::move(m)), covariance(std::move(c)) {}
+
+  Eigen::Index size() const { return mean.size(); }
+};
+
+/// Whether no entry is infinite or not a number.
+template <int N, int MaxN>
+bool all_finite(const Gaussian<N, MaxN>& gaussian) {
+  return gaussian.mean.allFinite() && gaussian.covariance.allFinite();
+}
+
+/// Copies the lower triangle over the upper one, so that rounding cannot make a covariance unsymmetric.
+template <class Derived>
+void mirror_lower(Eigen::MatrixBase<Derived>& covariance) {
+  for (Eigen::Index column = 1; column < covariance.cols(); ++column)
+    for (Eigen::Index row = 0; row < column; ++row) covariance(row, column) = covariance(column, row);
+}
+
+/// A size that the compiler knows if N is fixed, else n: for blocks of matrices that may be either.
+template <int N>
+constexpr auto extent([[maybe_unused]] Eigen::Index n) {
+  if constexpr (N == Eigen::Dynamic)
+    return n;
+  else
+    return Eigen::fix<N>;
+}
+
+}  // namespace sigmax
