@@ -44,8 +44,8 @@ std::string Outcomes::label(std::size_t index) const {
 std::size_t Outcomes::index_of(std::string_view label) const {
   if (table_->labels.empty()) {
     std::size_t index = 0;
-    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), index);
-    if (error == std::errc{} && end == label.data() + label.size() && index < size()) return index;
+    const auto error = std::from_chars(label.data(), label.data() + label.size(), index).ec;
+    if (error == std::errc{} && index < size() && std::to_string(index) == label) return index;
   } else {
     for (std::size_t i = 0; i < size(); ++i)
       if (table_->labels[i] == label) return i;

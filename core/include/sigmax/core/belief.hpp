@@ -41,16 +41,21 @@ class Belief {
   }
 
   /// Replaces the logarithms by log_weight(i), normalised; returns the logarithm of the ⊕ they had.
-  /// Throws std::domain_error if every outcome is excluded.
+  /// Throws std::domain_error if every outcome is excluded, and is then unchanged.
   template <class LogWeight>
   double assign(const LogWeight& log_weight) {
-    for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
-    const double log_total = log_combine<AlgebraOf<Kind>>(
-        size(), [this](std::size_t i) { return logs_(0, i); }, [](std::size_t) { return 1.0; });
-    if (log_total == log_zero)
+    std::size_t left = 0;
+    while (left < size() && log_weight(left) == log_zero) ++left;
+    if (left == size())
       throw std::domain_error("the evidence excludes every outcome of variable '" + variable_.name() + "'");
+    for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
+    // Shifted by the greatest first: far from zero, the logarithm of the ⊕ is too coarse a number to normalise by.
+    const double greatest = log(index_of_greatest(logs()));
+    for (double& log : logs_.values()) log -= greatest;
+    const double log_total = log_combine<AlgebraOf<Kind>>(
+        size(), [this](std::size_t i) { return log(i); }, [](std::size_t) { return 1.0; });
     for (double& log : logs_.values()) log -= log_total;
-    return log_total;
+    return greatest + log_total;
   }
 
  private:

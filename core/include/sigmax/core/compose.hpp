@@ -51,6 +51,9 @@ template <Conditional Left, Conditional Right>
 void compose(const Left& left, const Right& right,
              InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>& result) {
   check::same(left.from(), right.to(), "compose");
+  check::same(left.to(), result.to(), "compose");
+  check::same(right.from(), result.from(), "compose");
+  assert(&left.table() != &result.table() && &right.table() != &result.table());
   kernels::compose<AlgebraOf<typename Left::from_kind>>(left.table(), right.table(), result.table(ByLaw{}));
 }
 

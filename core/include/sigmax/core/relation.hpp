@@ -93,7 +93,8 @@ class Relation : public ConditionalTable<To, From> {
   }
 
   /// Itself: generic code need not ask whether a composition was only induced.
-  const Relation& normalized() const { return *this; }
+  const Relation& normalized() const& { return *this; }
+  Relation normalized() && { return std::move(*this); }
 };
 
 template <Uncertainty To, Uncertainty From>

@@ -13,10 +13,11 @@ namespace sigmax {
 
 /// Posterior belief: the prior times the likelihood, divided by its own ⊕. (8), (19), (20), (41), (44), (62), (63).
 /// `result` may be `prior`. Returns the logarithm of that ⊕: the evidence.
-/// Throws std::domain_error if the evidence excludes every outcome that the prior left.
+/// Throws std::domain_error if the evidence excludes every outcome that the prior left; `result` is then unchanged.
 template <Uncertainty Kind>
 double update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihood, Belief<Kind>& result) {
   check::same(prior.variable(), likelihood.variable(), "update");
+  check::same(prior.variable(), result.variable(), "update");
   return result.assign([&](std::size_t i) { return prior.log(i) + likelihood.log(i); });
 }
 template <Uncertainty Kind>
@@ -63,6 +64,8 @@ template <Uncertainty To, Uncertainty From>
 void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inverse<From, To>& result) {
   using Algebra = AlgebraOf<From>;
   check::same(relation.from(), prior.variable(), "invert");
+  check::same(relation.from(), result.relation.to(), "invert");
+  check::same(relation.to(), result.relation.from(), "invert");
   const std::size_t n = prior.size();
   Table& rows = result.relation.table(ByLaw{});
   result.unreachable.clear();

@@ -16,7 +16,8 @@ struct Band {
   double upper;
 };
 
-/// The band of a mean NEES or NIS over `count` runs if the filter is consistent (Bar-Shalom, Li, Kirubarajan 2001, 5.4).
+/// The band of a mean NEES or NIS over `count` runs if the filter is consistent (Bar-Shalom, Li, Kirubarajan
+/// 2001, 5.4).
 Band chi_square_band(double degrees, double count, double probability = 0.95);
 
 }  // namespace sigmax

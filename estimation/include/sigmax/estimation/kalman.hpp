@@ -15,10 +15,10 @@ namespace sigmax {
 /// What a measurement told beyond its prediction.
 template <int M>
 struct Innovation {
-  Vector<M> residual;              ///< ν = z − H x
-  SquareMatrix<M> covariance;      ///< S, (31)
-  double squared_distance = 0.0;   ///< d² = νᵀ S⁻¹ ν, the NIS
-  double log_likelihood = 0.0;     ///< log N(ν; 0, S)
+  Vector<M> residual;             ///< ν = z − H x
+  SquareMatrix<M> covariance;     ///< S, (31)
+  double squared_distance = 0.0;  ///< d² = νᵀ S⁻¹ ν, the NIS
+  double log_likelihood = 0.0;    ///< log N(ν; 0, S)
 };
 
 /// Prediction, (27) and (28): x = F x + u, P = F P Fᵀ + G Q Gᵀ. `result` may be `prior`.
@@ -64,15 +64,14 @@ Innovation<Model::measurement_size> update(const Model& model, const EstimateOf<
                             "' is not positive definite");
   const Vector<M> whitened = S.matrixL().solve(innovation.residual);
   innovation.squared_distance = whitened.squaredNorm();
-  innovation.log_likelihood =
-      -0.5 * innovation.squared_distance - S.matrixLLT().diagonal().array().log().sum() -
-      0.5 * M * std::log(2.0 * std::numbers::pi);
+  innovation.log_likelihood = -0.5 * innovation.squared_distance - S.matrixLLT().diagonal().array().log().sum() -
+                              0.5 * M * std::log(2.0 * std::numbers::pi);
   const Gain W = S.solve(PHt.transpose()).transpose();
 
   SquareMatrix<N, max_N> result;
   if constexpr (measures_leading_components<Model>) {
     // I − WH = [R S⁻¹ 0; −W₂ I], so that the zeros and ones cost nothing, and I − W₁ does not cancel.
-    const auto rest = extent<N == Eigen::Dynamic ? N : N - M>(model.size() - M);
+    const auto rest = extent < N == Eigen::Dynamic ? N : N - M > (model.size() - M);
     const SquareMatrix<M> A = S.solve(R).transpose();
     const auto W2 = W.bottomRows(rest);
     SquareMatrix<N, max_N> AP(model.size(), model.size());

@@ -26,9 +26,9 @@ class RootMeanSquare {
   std::size_t count_ = 0;
 };
 
-/// Normalised estimation error squared, eᵀ P⁻¹ e: χ² with as many degrees of freedom as there are states if the estimate
-/// is consistent. Of the innovation and its S the same number is the NIS. Throws std::domain_error if P is not positive
-/// definite.
+/// Normalised estimation error squared, eᵀ P⁻¹ e: χ² with as many degrees of freedom as there are states if the
+/// estimate is consistent. Of the innovation and its S the same number is the NIS. Throws std::domain_error if P is not
+/// positive definite.
 template <int N, int MaxN>
 double normalized_error_squared(const Vector<N, MaxN>& error, const SquareMatrix<N, MaxN>& covariance) {
   const Eigen::LLT<SquareMatrix<N, MaxN>> factor(covariance);

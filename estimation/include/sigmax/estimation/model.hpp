@@ -44,6 +44,8 @@ using MeasurementOf = Gaussian<Model::measurement_size>;
 
 /// Whether a model measures its first components and nothing else, H = [I 0]; the Kalman filter then skips the zeros.
 template <class Model>
-inline constexpr bool measures_leading_components = requires { requires Model::measures_leading_components; };
+inline constexpr bool measures_leading_components = requires {
+  requires Model::measures_leading_components;
+};
 
 }  // namespace sigmax

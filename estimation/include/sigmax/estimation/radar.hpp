@@ -20,8 +20,7 @@ struct Polar {
 /// Where a radar at the origin sees a position.
 inline Polar to_polar(const Vector<3>& position) {
   const double ground = std::hypot(position.x(), position.y());
-  return {std::hypot(ground, position.z()), std::atan2(position.y(), position.x()),
-          std::atan2(position.z(), ground)};
+  return {std::hypot(ground, position.z()), std::atan2(position.y(), position.x()), std::atan2(position.z(), ground)};
 }
 
 /// The position that a radar measurement stands for.

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <sigmax/estimation/gaussian.hpp>
+
+namespace sigmax {
+
+/// What stands for a component that a model lacks when it is mixed into one that has it. Going down drops components.
+enum class Lift {
+  zero,               ///< value 0, variance 0
+  borrowed_variance,  ///< value 0, the receiving model's variance, no cross terms (the authors' program)
+  unbiased            ///< value and covariance of the receiving model, uncorrelated with the rest (Yuan, Bar-Shalom,
+                      ///< Willett 2012)
+};
+
+/// Where each component of a receiving model stands in a source model, by name.
+struct Correspondence {
+  std::vector<Eigen::Index> in_source;  ///< for each component of the receiver; −1 if the source lacks it
+  bool nested;                          ///< one model's components are the leading ones of the other's
+
+  Correspondence(const std::vector<std::string>& receiver, const std::vector<std::string>& source) : nested(true) {
+    for (std::size_t i = 0; i < receiver.size(); ++i) {
+      const auto found = std::find(source.begin(), source.end(), receiver[i]);
+      in_source.push_back(found == source.end() ? -1 : found - source.begin());
+      nested = nested && in_source.back() == (i < source.size() ? static_cast<Eigen::Index>(i) : -1);
+    }
+  }
+};
+
+/// An estimate read in the components of another model: dropped, lifted, or as it is. A view: nothing is copied.
+template <int N, int MaxN, int SourceN, int MaxSourceN>
+class Lifted {
+ public:
+  using Receiver = Gaussian<N, MaxN>;
+  using Source = Gaussian<SourceN, MaxSourceN>;
+
+  Lifted(const Receiver& receiver, const Source& source, const Correspondence& map, Lift rule)
+      : receiver_(receiver), source_(source), map_(map), rule_(rule) {}
+
+  Vector<N, MaxN> mean() const {
+    Vector<N, MaxN> mean(size());
+    if (map_.nested) {
+      mean.head(shared()) = source_.mean.head(shared());
+      if (rule_ == Lift::unbiased)
+        mean.tail(missing()) = receiver_.mean.tail(missing());
+      else
+        mean.tail(missing()).setZero();
+    } else {
+      for (Eigen::Index i = 0; i < size(); ++i)
+        mean(i) = in_source(i) >= 0 ? source_.mean(in_source(i)) : rule_ == Lift::unbiased ? receiver_.mean(i) : 0.0;
+    }
+    return mean;
+  }
+
+  /// covariance += weight · the lifted covariance.
+  void add_covariance(double weight, SquareMatrix<N, MaxN>& covariance) const {
+    if (map_.nested) {
+      covariance.topLeftCorner(shared(), shared()) += weight * source_.covariance.topLeftCorner(shared(), shared());
+      const auto& own = receiver_.covariance;
+      if (rule_ == Lift::unbiased)
+        covariance.bottomRightCorner(missing(), missing()) += weight * own.bottomRightCorner(missing(), missing());
+      else if (rule_ == Lift::borrowed_variance)
+        covariance.diagonal().tail(missing()) += weight * own.diagonal().tail(missing());
+    } else {
+      for (Eigen::Index i = 0; i < size(); ++i)
+        for (Eigen::Index k = 0; k < size(); ++k) covariance(i, k) += weight * entry(i, k);
+    }
+  }
+
+ private:
+  static constexpr bool fixed = N != Eigen::Dynamic && SourceN != Eigen::Dynamic;
+  static constexpr int fixed_shared = fixed ? std::min(N, SourceN) : Eigen::Dynamic;
+  static constexpr int fixed_missing = fixed ? N - std::min(N, SourceN) : Eigen::Dynamic;
+
+  Eigen::Index size() const { return receiver_.size(); }
+  Eigen::Index in_source(Eigen::Index i) const { return map_.in_source[static_cast<std::size_t>(i)]; }
+  auto shared() const { return extent<fixed_shared>(std::min(size(), source_.size())); }
+  auto missing() const { return extent<fixed_missing>(size() - std::min(size(), source_.size())); }
+
+  double entry(Eigen::Index i, Eigen::Index k) const {
+    const Eigen::Index row = in_source(i);
+    const Eigen::Index column = in_source(k);
+    if (row >= 0 && column >= 0) return source_.covariance(row, column);
+    if (row >= 0 || column >= 0 || rule_ == Lift::zero) return 0.0;
+    return rule_ == Lift::unbiased || i == k ? receiver_.covariance(i, k) : 0.0;
+  }
+
+  const Receiver& receiver_;
+  const Source& source_;
+  const Correspondence& map_;
+  Lift rule_;
+};
+
+}  // namespace sigmax
