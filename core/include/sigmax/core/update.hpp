@@ -70,23 +70,17 @@ void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inver
   Table& rows = result.relation.table(ByLaw{});
   result.unreachable.clear();
   for (std::size_t to = 0; to < relation.to().size(); ++to) {
-    // Scaled by the greatest prior that leads here, so that no reachable outcome is lost to underflow.
-    double greatest = log_zero;
-    for (std::size_t from = 0; from < n; ++from)
-      if (relation(from, to) > 0.0) greatest = std::max(greatest, prior.log(from));
+    // Through logarithms and scaled by the greatest, so that nothing that leads here is lost to underflow.
     const auto row = rows.row(to);
+    for (std::size_t from = 0; from < n; ++from) row[from] = prior.log(from) + std::log(relation(from, to));
+    const double greatest = row[index_of_greatest(row)];
+    if (greatest == log_zero) result.unreachable.push_back(to);
     double sum = Algebra::zero();
-    for (std::size_t from = 0; from < n; ++from) {
-      if (greatest == log_zero)
-        row[from] = 1.0;
-      else if (relation(from, to) > 0.0)
-        row[from] = Algebra::times(relation(from, to), std::exp(prior.log(from) - greatest));
-      else
-        row[from] = 0.0;
-      sum = Algebra::plus(sum, row[from]);
+    for (double& value : row) {
+      value = greatest == log_zero ? 1.0 : std::exp(value - greatest);
+      sum = Algebra::plus(sum, value);
     }
     for (double& value : row) value = Algebra::divide(value, sum);
-    if (greatest == log_zero) result.unreachable.push_back(to);
   }
 }
 

@@ -1,0 +1,277 @@
+#include "himm_demo/experiment.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+
+#include <sigmax/estimation/metrics.hpp>
+
+#include "himm_demo/tracker.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// One filter in one run, sample by sample; NaN where there is no estimate.
+struct Trace {
+  std::vector<std::array<double, 3>> squared_error;
+  std::vector<double> nees_position;
+  std::vector<double> nees_velocity;
+  std::vector<std::vector<double>> weights;
+
+  explicit Trace(std::size_t samples)
+      : squared_error(samples, {nan, nan, nan}), nees_position(samples, nan), nees_velocity(samples, nan),
+        weights(samples) {}
+};
+
+struct Run {
+  Trace measurement;
+  std::vector<Trace> filters;
+};
+
+std::array<double, 3> squares(const Vector<3>& error) {
+  return {error.x() * error.x(), error.y() * error.y(), error.z() * error.z()};
+}
+
+void record(const Tracker<3>& tracker, const Vector<6>& truth, std::size_t sample, Trace& trace) {
+  const auto estimate = tracker.estimate();
+  trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
+  const Vector<6> error = estimate.mean.head<6>() - truth;
+  trace.nees_position[sample] =
+      normalized_error_squared<3, 3>(error.head<3>(), estimate.covariance.topLeftCorner<3, 3>());
+  trace.nees_velocity[sample] = normalized_error_squared<6, 6>(error, estimate.covariance.topLeftCorner<6, 6>());
+  const std::size_t models = tracker.settings().models.size();
+  for (std::size_t j = 0; j < models; ++j) trace.weights[sample].push_back(tracker.weight(j));
+}
+
+Run run_once(const Experiment& experiment, std::uint64_t number) {
+  RandomStream random(experiment.seed, number);
+  const Recording recording = simulate(experiment.scenario, experiment.group.data, random);
+  const std::size_t samples = recording.truth.size();
+  Run result{Trace(samples), std::vector<Trace>(experiment.filters.size(), Trace(samples))};
+  const auto time_of = [&](std::size_t sample) { return experiment.scenario.step_s * static_cast<double>(sample); };
+
+  for (std::size_t k = 0; k < samples; ++k)
+    result.measurement.squared_error[k] =
+        squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
+
+  for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
+    Tracker<3> tracker(experiment.filters[f]);
+    for (std::size_t k = 0; k < samples; ++k) {
+      try {
+        const auto z = to_cartesian(recording.measured[k], tracker.settings().sigma_radar);
+        bool stepped_now = false;
+        tracker.take(time_of(k), z, [&](double time) {
+          stepped_now = true;
+          const auto sample = static_cast<std::size_t>(std::lround(time / experiment.scenario.step_s));
+          record(tracker, recording.truth[sample], sample, result.filters[f]);
+        });
+        if (tracker.running() && !stepped_now) record(tracker, recording.truth[k], k, result.filters[f]);  // the start
+      } catch (const std::exception& error) {
+        throw std::runtime_error(fmt::format("filter '{}', run {}, sample {}: {}", experiment.filters[f].name,
+                                             number + 1, k + 1, error.what()));
+      }
+    }
+  }
+  return result;
+}
+
+/// 97.5 % quantile of Student's t, for an interval from n values.
+double student(std::size_t n) {
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
+}
+
+Interval mean_interval(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0.0;
+  for (const double value : values) mean += value / n;
+  double square = 0.0;
+  for (const double value : values) square += (value - mean) * (value - mean);
+  if (values.size() < 2) return {mean, 0.0};
+  return {mean, student(values.size()) * std::sqrt(square / (n - 1.0) / n)};
+}
+
+/// The first upward crossing of `difference(sample)` after the onset, interpolated; samples are counted from one.
+template <class Difference>
+std::optional<double> first_crossing(int onset, int samples, const Difference& difference) {
+  for (int k = std::max(onset, 2); k <= samples; ++k) {
+    const double before = difference(k - 1);
+    const double now = difference(k);
+    if (before <= 0.0 && now > 0.0) return k - 1 + before / (before - now);
+  }
+  return std::nullopt;
+}
+
+/// The model that stands for the manoeuvre: the last of the highest order, if another is of a lower one.
+std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
+  const auto [lowest, highest] = std::minmax_element(filter.orders.begin(), filter.orders.end());
+  if (*lowest == *highest) return std::nullopt;
+  std::size_t model = 0;
+  for (std::size_t j = 0; j < filter.orders.size(); ++j)
+    if (filter.orders[j] == *highest) model = j;
+  return model;
+}
+
+double weight_difference(const std::vector<double>& weights, std::size_t model) {
+  if (weights.empty()) return 0.0;
+  double other = 0.0;
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    if (j != model) other = std::max(other, weights[j]);
+  return weights[model] - other;
+}
+
+/// Adds up runs, in their order.
+class Tally {
+ public:
+  Tally(const Experiment& experiment, const FilterSettings* filter) : experiment_(experiment), filter_(filter) {
+    const auto samples = static_cast<std::size_t>(experiment.scenario.samples);
+    squared_.assign(samples, {0.0, 0.0, 0.0});
+    nees_position_.assign(samples, 0.0);
+    nees_velocity_.assign(samples, 0.0);
+    weights_.assign(samples, {});
+  }
+
+  void add(const Trace& trace) {
+    for (std::size_t k = 0; k < squared_.size(); ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) squared_[k][axis] += trace.squared_error[k][axis];
+      nees_position_[k] += trace.nees_position[k];
+      nees_velocity_[k] += trace.nees_velocity[k];
+      weights_[k].resize(trace.weights[k].size(), 0.0);
+      for (std::size_t j = 0; j < trace.weights[k].size(); ++j) weights_[k][j] += trace.weights[k][j];
+    }
+    const auto& phases = experiment_.scenario.phases;
+    for (std::size_t p = 0; p < phases.size(); ++p)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        run_mean_squares_[p][axis].push_back(
+            phase_mean(phases[p], [&](std::size_t k) { return trace.squared_error[k][axis]; }));
+    if (filter_) {
+      if (const auto model = manoeuvre_model(*filter_)) {
+        const auto crossing =
+            first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
+              return weight_difference(trace.weights[static_cast<std::size_t>(k - 1)], *model);
+            });
+        if (crossing) crossings_.push_back(*crossing + experiment_.mode_sample_shift);
+      }
+    }
+  }
+
+  Performance performance() const {
+    const auto runs = static_cast<double>(experiment_.runs);
+    const auto& phases = experiment_.scenario.phases;
+    Performance result;
+    result.run_mean_squares = run_mean_squares_;
+    for (const auto& sums : squared_) {
+      auto& rmse = result.rmse.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) rmse[axis] = std::sqrt(sums[axis] / runs);
+    }
+    for (std::size_t p = 0; p < phases.size(); ++p) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        result.phase_rmse[p][axis] =
+            std::sqrt(phase_mean(phases[p], [&](std::size_t k) { return squared_[k][axis] / runs; }));
+        for (int k = phases[p].first; k <= phases[p].last; ++k)
+          result.peak[axis] = std::max(result.peak[axis], result.rmse[static_cast<std::size_t>(k - 1)][axis]);
+      }
+      result.nees_position[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_position_[k] / runs; });
+      result.nees_velocity[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_velocity_[k] / runs; });
+    }
+    result.weights = weights_;
+    for (auto& weights : result.weights)
+      for (double& weight : weights) weight /= runs;
+    result.cross_time.runs_crossed = crossings_.size();
+    if (!crossings_.empty()) result.cross_time.mean_of_runs = mean_interval(crossings_);
+    if (filter_) {
+      if (const auto model = manoeuvre_model(*filter_)) {
+        auto crossing = first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
+          return weight_difference(result.weights[static_cast<std::size_t>(k - 1)], *model);
+        });
+        if (crossing) result.cross_time.of_averaged_curves = *crossing + experiment_.mode_sample_shift;
+      }
+    }
+    return result;
+  }
+
+ private:
+  template <class Value>
+  static double phase_mean(const Phase& phase, const Value& value) {
+    double sum = 0.0;
+    for (int k = phase.first; k <= phase.last; ++k) sum += value(static_cast<std::size_t>(k - 1));
+    return sum / (phase.last - phase.first + 1);
+  }
+
+  const Experiment& experiment_;
+  const FilterSettings* filter_;
+  std::vector<std::array<double, 3>> squared_;
+  std::vector<double> nees_position_;
+  std::vector<double> nees_velocity_;
+  std::vector<std::vector<double>> weights_;
+  std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares_{};
+  std::vector<double> crossings_;
+};
+
+/// Runs first … first + count − 1 on all threads; rethrows the failure of the earliest run.
+std::vector<std::optional<Run>> run_block(const Experiment& experiment, int first, int count,
+                                          const std::function<void()>& advance) {
+  std::vector<std::optional<Run>> results(static_cast<std::size_t>(count));
+  std::vector<std::exception_ptr> failures(results.size());
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) {
+      const auto index = static_cast<std::size_t>(i);
+      try {
+        results[index] = run_once(experiment, static_cast<std::uint64_t>(first + i));
+      } catch (...) {
+        failures[index] = std::current_exception();
+      }
+      advance();
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int t = 1; t < std::min(experiment.threads, count); ++t) workers.emplace_back(work);
+    work();
+  }
+  for (const auto& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace
+
+Outcome run(const Experiment& experiment, const std::function<void()>& advance) {
+  constexpr int block = 64;  // bounds the memory; the sums are taken in the order of the runs, whoever ran them
+  Tally measurement(experiment, nullptr);
+  std::vector<Tally> filters;
+  for (const auto& filter : experiment.filters) filters.emplace_back(experiment, &filter);
+  for (int first = 0; first < experiment.runs; first += block) {
+    const int count = std::min(block, experiment.runs - first);
+    for (const auto& result : run_block(experiment, first, count, advance)) {
+      measurement.add(result->measurement);
+      for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result->filters[f]);
+    }
+  }
+  Outcome outcome{measurement.performance(), {}};
+  for (const auto& filter : filters) outcome.filters.push_back(filter.performance());
+  return outcome;
+}
+
+Interval paired_difference(const Performance& a, const Performance& b, std::size_t phase, std::size_t axis) {
+  // RMSE = √mean(m) over the runs' mean squares m; its first-order change with one run's m is m / (2 RMSE n).
+  const double rmse_a = a.phase_rmse[phase][axis];
+  const double rmse_b = b.phase_rmse[phase][axis];
+  const auto& squares_a = a.run_mean_squares[phase][axis];
+  const auto& squares_b = b.run_mean_squares[phase][axis];
+  std::vector<double> influence(squares_a.size());
+  for (std::size_t s = 0; s < influence.size(); ++s)
+    influence[s] = squares_a[s] / (2.0 * rmse_a) - squares_b[s] / (2.0 * rmse_b);
+  return {rmse_a - rmse_b, mean_interval(influence).half_width};
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/scenario.hpp"
+
+namespace sigmax::apps {
+
+/// A difference with its 95 % confidence interval, estimate ± half_width.
+struct Interval {
+  double estimate = 0.0;
+  double half_width = 0.0;
+  bool below_zero() const { return estimate + half_width < 0.0; }
+  bool above_zero() const { return estimate - half_width > 0.0; }
+};
+
+/// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples.
+struct CrossTime {
+  std::optional<Interval> mean_of_runs;        ///< over the runs that crossed
+  std::size_t runs_crossed = 0;
+  std::optional<double> of_averaged_curves;
+};
+
+/// What the runs say of one filter, or of the raw measurement.
+struct Performance {
+  std::vector<std::array<double, 3>> rmse;             ///< per sample and axis; NaN before the first estimate
+  std::array<std::array<double, 3>, 3> phase_rmse{};   ///< by phase and axis: root mean square over its samples
+  std::array<double, 3> peak{};                        ///< greatest RMSE of a sample of any phase
+  std::array<double, 3> nees_position{};               ///< mean by phase; 3 if consistent
+  std::array<double, 3> nees_velocity{};               ///< of position and velocity; 6 if consistent
+  std::vector<std::vector<double>> weights;            ///< mean per sample and model; empty before the first estimate
+  CrossTime cross_time;
+  /// By phase, axis and run: mean square error.
+  std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares{};
+};
+
+/// The experiment of section VI.
+struct Experiment {
+  Scenario scenario;
+  Group group;
+  std::vector<FilterSettings> filters;
+  int runs;
+  std::uint64_t seed;
+  int threads;
+  int mode_sample_shift;  ///< added to the sample of mode curves: −1 in the released program, else 0
+};
+
+/// Performance of the measurement, and of each filter.
+struct Outcome {
+  Performance measurement;
+  std::vector<Performance> filters;
+};
+
+/// Runs the experiment; `advance` is called after each run, by any thread. The outcome does not depend on the number of
+/// threads. Throws what a filter throws, naming filter, run and sample.
+Outcome run(const Experiment& experiment, const std::function<void()>& advance);
+
+/// RMSE of `a` minus RMSE of `b` in one phase and axis, paired by run (delta method).
+Interval paired_difference(const Performance& a, const Performance& b, std::size_t phase, std::size_t axis);
+
+}  // namespace sigmax::apps

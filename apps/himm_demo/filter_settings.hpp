@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sigmax/estimation/radar.hpp>
+#include <sigmax/hybrid/collapse.hpp>
+#include <sigmax/hybrid/lift.hpp>
+
+#include "himm_demo/scenario.hpp"
+#include "support/settings.hpp"
+
+namespace sigmax::apps {
+
+/// How a filter gets its first estimates.
+enum class Start {
+  points,    ///< from the first three measurements, each model by as many as it needs
+  released,  ///< from the first three as the authors' program does
+  given      ///< from start_mean and start_covariance_diagonal
+};
+
+/// Everything that one filter is made of.
+struct FilterSettings {
+  std::string name;
+  bool fuzzy = false;  ///< HIMM rather than IMM
+  std::vector<std::string> models;
+  std::vector<int> orders;  ///< of the models: 2 for dwna, 3 for dwpa
+  std::vector<double> sigma_w;
+  std::vector<std::vector<double>> transition;
+  MixedCovariance mixed_covariance = MixedCovariance::selected;
+  MixingWeights imm_mixing = MixingWeights::correct;
+  Lift lift = Lift::zero;
+  Tie mixing_tie = Tie::stay;
+  Tie output_tie = Tie::stay;
+  bool most_likely_output = false;
+  Start start = Start::points;
+  std::vector<double> start_mean;
+  std::vector<double> start_covariance_diagonal;
+  std::optional<double> start_time_s;
+  Polar sigma_radar{};  ///< m and rad
+  std::vector<double> sigma_position_m;
+};
+
+/// What the keys have as defaults: the paper's, one of its presets', or the library's.
+struct FilterDefaults {
+  double sigma_w = 3.0;
+  double possibility = 0.5;  ///< of leaving a mode
+  MixedCovariance mixed_covariance = MixedCovariance::selected;
+  MixingWeights imm_mixing = MixingWeights::correct;
+  Lift lift = Lift::zero;
+  Tie mixing_tie = Tie::stay;
+  Tie output_tie = Tie::stay;
+  Start start = Start::points;
+  Polar sigma_radar{};
+  std::vector<std::string> filters = {"imm", "himm"};
+
+  static FilterDefaults of(Preset preset);
+};
+
+/// The filters that the settings name, in order. Throws InputError, with the key, for what cannot be.
+std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
+
+/// The settings of all filters in TOML: what is in force. It reads back as the same.
+std::string as_toml(const std::vector<FilterSettings>& filters);
+
+}  // namespace sigmax::apps

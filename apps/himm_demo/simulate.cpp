@@ -1,0 +1,350 @@
+#include "himm_demo/simulate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "himm_demo/experiment.hpp"
+#include "support/output.hpp"
+#include "support/progress.hpp"
+#include "support/table.hpp"
+#include "version.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+
+/// What section VI says of HIMM against IMM in a phase.
+enum class Claim { better, worse, competitive };
+
+std::string_view word(Claim claim) {
+  return claim == Claim::better ? "better" : claim == Claim::worse ? "worse" : "competitive";
+}
+
+/// By scenario, group and phase.
+constexpr Claim B = Claim::better, W = Claim::worse, C = Claim::competitive;
+constexpr Claim claims[2][4][3] = {{{B, B, B}, {B, C, B}, {B, W, B}, {C, C, C}},
+                                   {{B, W, B}, {B, W, C}, {B, W, C}, {W, B, C}}};
+
+/// IMM and HIMM, by scenario, in group 1.
+constexpr std::array<std::array<double, 2>, 2> paper_cross_times = {{{85.92, 83.77}, {32.28, 31.88}}};
+
+/// A difference of less than a tenth of the reference on every axis is called competitive here.
+constexpr double competitive_fraction = 0.1;
+
+struct Comparison {
+  std::size_t filter;
+  std::size_t reference;
+  std::array<std::array<Interval, 3>, 3> difference;  ///< by phase and axis
+};
+
+struct Report {
+  const SimulateOptions& options;
+  const Experiment& experiment;
+  const Outcome& outcome;
+  std::vector<Comparison> comparisons;
+
+  const FilterSettings& filter(std::size_t f) const { return experiment.filters[f]; }
+};
+
+/// Every HIMM against every IMM; without both, every filter against the first.
+std::vector<Comparison> compare(const Experiment& experiment, const Outcome& outcome) {
+  std::vector<Comparison> comparisons;
+  const auto add = [&](std::size_t filter, std::size_t reference) {
+    Comparison comparison{filter, reference, {}};
+    for (std::size_t p = 0; p < 3; ++p)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        comparison.difference[p][axis] =
+            paired_difference(outcome.filters[filter], outcome.filters[reference], p, axis);
+    comparisons.push_back(comparison);
+  };
+  const auto& filters = experiment.filters;
+  for (std::size_t f = 0; f < filters.size(); ++f)
+    for (std::size_t r = 0; r < filters.size(); ++r)
+      if (filters[f].fuzzy && !filters[r].fuzzy) add(f, r);
+  if (comparisons.empty())
+    for (std::size_t f = 1; f < filters.size(); ++f) add(f, 0);
+  return comparisons;
+}
+
+std::string fixed(double value) { return fmt::format("{:.2f}", value); }
+std::string fixed(const Interval& interval) {
+  return fmt::format("{:+.2f} ± {:.2f}", interval.estimate, interval.half_width);
+}
+
+void print_rmse(const Report& report) {
+  const auto& phases = report.experiment.scenario.phases;
+  std::vector<TextTable::Column> columns = {{"position RMSE, m", Align::left}};
+  for (const auto& phase : phases)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      columns.push_back({axis == 0 ? fmt::format("{} x", phase.name) : axes[axis]});
+  for (const char* axis : axes) columns.push_back({axis[0] == 'x' ? "peak x" : axis});
+  TextTable table(columns);
+  const auto row = [&](const std::string& name, const Performance& performance) {
+    std::vector<std::string> cells = {name};
+    for (const auto& phase : performance.phase_rmse)
+      for (const double value : phase) cells.push_back(fixed(value));
+    for (const double value : performance.peak) cells.push_back(fixed(value));
+    table.row(cells);
+  };
+  row("measurement", report.outcome.measurement);
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f)
+    row(report.filter(f).name, report.outcome.filters[f]);
+  table.print();
+}
+
+void print_nees(const Report& report) {
+  const auto& phases = report.experiment.scenario.phases;
+  std::vector<TextTable::Column> columns = {{"mean NEES", Align::left}};
+  for (const char* what : {"position", "position and velocity"})
+    for (const auto& phase : phases)
+      columns.push_back({&phase == &phases.front() ? fmt::format("{}: {}", what, phase.name) : std::string(phase.name)});
+  TextTable table(columns);
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f) {
+    const auto& performance = report.outcome.filters[f];
+    std::vector<std::string> cells = {report.filter(f).name};
+    for (const double value : performance.nees_position) cells.push_back(fixed(value));
+    for (const double value : performance.nees_velocity) cells.push_back(fixed(value));
+    table.row(cells);
+  }
+  table.row({"if consistent", "3", "3", "3", "6", "6", "6"});
+  table.print();
+}
+
+std::optional<double> paper_cross_time(const Report& report, const FilterSettings& filter) {
+  if (report.options.group != 1) return std::nullopt;
+  return paper_cross_times[static_cast<std::size_t>(report.options.scenario - 1)][filter.fuzzy ? 1 : 0];
+}
+
+void print_cross_times(const Report& report) {
+  TextTable table({{"cross-time, sample", Align::left},
+                   {"mean of runs"},
+                   {"runs that crossed"},
+                   {"of the averaged curves"},
+                   {"paper"}});
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f) {
+    const auto& time = report.outcome.filters[f].cross_time;
+    const auto paper = paper_cross_time(report, report.filter(f));
+    table.row({report.filter(f).name,
+               time.mean_of_runs
+                   ? fmt::format("{:.2f} ± {:.2f}", time.mean_of_runs->estimate, time.mean_of_runs->half_width)
+                   : "–",
+               fmt::format("{} of {}", time.runs_crossed, report.experiment.runs),
+               time.of_averaged_curves ? fixed(*time.of_averaged_curves) : "–", paper ? fixed(*paper) : "–"});
+  }
+  table.print();
+}
+
+/// Whether the paper's claim about a phase is what the runs show.
+std::string verdict(Claim claim, const std::array<Interval, 3>& difference, const std::array<double, 3>& reference) {
+  const auto count = [&](auto holds) { return std::count_if(difference.begin(), difference.end(), holds); };
+  long axes_that_hold = 0;
+  if (claim == Claim::better) axes_that_hold = count([](const Interval& d) { return d.below_zero(); });
+  if (claim == Claim::worse) axes_that_hold = count([](const Interval& d) { return d.above_zero(); });
+  if (claim == Claim::competitive)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::abs(difference[axis].estimate) <= competitive_fraction * reference[axis]) ++axes_that_hold;
+  return axes_that_hold == 3 ? "holds" : axes_that_hold == 0 ? "does NOT hold" : fmt::format("holds on {} of 3 axes", axes_that_hold);
+}
+
+void print_comparisons(const Report& report) {
+  const auto& phases = report.experiment.scenario.phases;
+  for (const auto& comparison : report.comparisons) {
+    const auto& filter = report.filter(comparison.filter);
+    const auto& reference = report.filter(comparison.reference);
+    const bool judged = filter.fuzzy && !reference.fuzzy;
+    std::vector<TextTable::Column> columns = {{fmt::format("{} − {}, m", filter.name, reference.name), Align::left},
+                                              {"x"},
+                                              {"y"},
+                                              {"z"}};
+    if (judged) {
+      columns.push_back({"the paper says", Align::left});
+      columns.push_back({reference.imm_mixing == MixingWeights::correct ? "against the correct IMM that"
+                                                                        : "against the released IMM that",
+                         Align::left});
+    }
+    TextTable table(columns);
+    for (std::size_t p = 0; p < 3; ++p) {
+      std::vector<std::string> cells = {std::string(phases[p].name)};
+      for (const auto& difference : comparison.difference[p]) cells.push_back(fixed(difference));
+      if (judged) {
+        const Claim claim = claims[report.options.scenario - 1][report.options.group - 1][p];
+        cells.emplace_back(word(claim));
+        cells.push_back(verdict(claim, comparison.difference[p],
+                                report.outcome.filters[comparison.reference].phase_rmse[p]));
+      }
+      table.row(cells);
+    }
+    fmt::print("\n");
+    table.print();
+  }
+}
+
+void print(const Report& report) {
+  const auto& experiment = report.experiment;
+  const auto& phases = experiment.scenario.phases;
+  fmt::print("Scenario {}, group {}, preset {}: {} runs, seed {}\n", report.options.scenario, report.options.group,
+             report.options.preset == Preset::released ? "released" : "paper_text", experiment.runs, experiment.seed);
+  fmt::print("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}\n\n", phases[0].name, phases[0].first, phases[0].last,
+             phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
+  print_rmse(report);
+  print_comparisons(report);
+  if (!report.comparisons.empty())
+    fmt::print("(RMSE differences ± 95 % by paired runs; negative is better. \"Competitive\": within {:.0f} %.)\n",
+               100.0 * competitive_fraction);
+  fmt::print("\n");
+  print_nees(report);
+  fmt::print("\n");
+  print_cross_times(report);
+  if (experiment.mode_sample_shift != 0)
+    fmt::print("(As in the released program, mode weights are counted one sample early.)\n");
+}
+
+Json json(const Interval& interval) { return {{"estimate", interval.estimate}, {"half_width", interval.half_width}}; }
+
+Json json(const Performance& performance, const Experiment& experiment, bool filter) {
+  Json by_phase;
+  for (std::size_t p = 0; p < 3; ++p) {
+    Json phase;
+    for (std::size_t axis = 0; axis < 3; ++axis) phase["rmse_m"][axes[axis]] = performance.phase_rmse[p][axis];
+    if (filter) {
+      phase["nees_position"] = performance.nees_position[p];
+      phase["nees_position_velocity"] = performance.nees_velocity[p];
+    }
+    by_phase[std::string(experiment.scenario.phases[p].name)] = phase;
+  }
+  Json result = {{"phases", by_phase}};
+  for (std::size_t axis = 0; axis < 3; ++axis) result["peak_rmse_m"][axes[axis]] = performance.peak[axis];
+  if (filter) {
+    const auto& time = performance.cross_time;
+    result["cross_time"] = {{"mean_of_runs", time.mean_of_runs ? json(*time.mean_of_runs) : Json(nullptr)},
+                            {"runs_crossed", time.runs_crossed},
+                            {"of_averaged_curves", time.of_averaged_curves ? Json(*time.of_averaged_curves) : Json(nullptr)}};
+  }
+  return result;
+}
+
+void write_summary(const Report& report, const OutputDirectory& directory) {
+  const auto& experiment = report.experiment;
+  Json summary = {{"version", version},
+                  {"command", report.options.command},
+                  {"scenario", report.options.scenario},
+                  {"group", report.options.group},
+                  {"preset", report.options.preset == Preset::released ? "released" : "paper_text"},
+                  {"runs", experiment.runs},
+                  {"seed", experiment.seed},
+                  {"settings_toml", as_toml(experiment.filters)}};
+  summary["results"]["measurement"] = json(report.outcome.measurement, experiment, false);
+  for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
+    Json result = json(report.outcome.filters[f], experiment, true);
+    if (const auto paper = paper_cross_time(report, report.filter(f))) result["cross_time"]["paper"] = *paper;
+    summary["results"][report.filter(f).name] = result;
+  }
+  for (const auto& comparison : report.comparisons) {
+    Json entry = {{"filter", report.filter(comparison.filter).name},
+                  {"minus", report.filter(comparison.reference).name}};
+    for (std::size_t p = 0; p < 3; ++p)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        entry["rmse_difference_m"][std::string(experiment.scenario.phases[p].name)][axes[axis]] =
+            json(comparison.difference[p][axis]);
+    summary["comparisons"].push_back(entry);
+  }
+  AtomicFile file = directory.file("summary.json");
+  file.write(summary.dump(2) + "\n");
+  file.commit();
+}
+
+void write_rmse(const Report& report, const OutputDirectory& directory) {
+  AtomicFile file = directory.file("rmse.csv");
+  file.write("sample,filter,axis,rmse_m\n");
+  const auto rows = [&](std::string_view name, const Performance& performance) {
+    for (std::size_t k = 0; k < performance.rmse.size(); ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double value = performance.rmse[k][axis];
+        file.print("{},{},{},{}\n", k + 1, name, axes[axis], std::isnan(value) ? "" : shortest(value));
+      }
+  };
+  rows("measurement", report.outcome.measurement);
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f)
+    rows(report.filter(f).name, report.outcome.filters[f]);
+  file.commit();
+}
+
+void write_weights(const Report& report, const OutputDirectory& directory) {
+  const auto& filters = report.experiment.filters;
+  std::vector<std::string> models;  // of all filters, in order
+  for (const auto& filter : filters)
+    for (const auto& model : filter.models)
+      if (std::find(models.begin(), models.end(), model) == models.end()) models.push_back(model);
+  AtomicFile file = directory.file("weights.csv");
+  file.write("sample,filter");
+  for (const auto& model : models) file.print(",weight_{}", model);
+  file.write("\n");
+  for (std::size_t f = 0; f < filters.size(); ++f) {
+    const auto& weights = report.outcome.filters[f].weights;
+    const auto samples = static_cast<int>(weights.size());
+    for (int k = 1; k <= samples; ++k) {
+      file.print("{},{}", k, filters[f].name);
+      const int source = k - report.experiment.mode_sample_shift;
+      for (const auto& model : models) {
+        const auto own = std::find(filters[f].models.begin(), filters[f].models.end(), model);
+        const auto j = static_cast<std::size_t>(own - filters[f].models.begin());
+        const bool known = source >= 1 && source <= samples && own != filters[f].models.end() &&
+                           !weights[static_cast<std::size_t>(source - 1)].empty();
+        file.print(",{}", known ? shortest(weights[static_cast<std::size_t>(source - 1)][j]) : "");
+      }
+      file.write("\n");
+    }
+  }
+  file.commit();
+}
+
+}  // namespace
+
+void simulate_and_report(const SimulateOptions& options) {
+  const Settings settings = Settings::read(options.config, options.sets);
+  const Group parameters = group(options.group, options.scenario);
+  FilterDefaults defaults = FilterDefaults::of(options.preset);
+  defaults.sigma_w = parameters.sigma_w;
+  defaults.sigma_radar = parameters.model;
+  const auto filters = read_filters(settings, defaults);
+  settings.refuse_unknown();
+  if (options.print_config) {
+    fmt::print("{}", as_toml(filters));
+    return;
+  }
+  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
+  if (!options.out.empty()) directory.emplace(options.out);
+
+  const bool released = options.preset == Preset::released;
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const Experiment experiment{scenario(options.scenario, options.preset),
+                              parameters,
+                              filters,
+                              options.runs.value_or(released ? 50 : 100),
+                              options.seed,
+                              threads,
+                              released ? -1 : 0};
+  Progress progress("runs", static_cast<std::uint64_t>(experiment.runs), options.quiet);
+  const Outcome outcome = run(experiment, [&] { progress.advance(); });
+  progress.finish();
+
+  const Report report{options, experiment, outcome, compare(experiment, outcome)};
+  print(report);
+  if (directory) {
+    write_rmse(report, *directory);
+    write_weights(report, *directory);
+    write_summary(report, *directory);
+    fmt::print("\nWrote rmse.csv, weights.csv and summary.json to {}\n", options.out);
+  }
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "himm_demo/scenario.hpp"
+
+namespace sigmax::apps {
+
+/// The options of `himm_demo simulate`.
+struct SimulateOptions {
+  int scenario = 1;
+  int group = 1;
+  Preset preset = Preset::paper_text;
+  std::optional<int> runs;
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: as many as the machine has
+  std::string config;
+  std::vector<std::string> sets;
+  std::string out;
+  bool quiet = false;
+  bool print_config = false;
+  std::string command;  ///< as typed, for the record
+};
+
+/// Section VI: simulated targets through every filter, and what came of it.
+void simulate_and_report(const SimulateOptions& options);
+
+}  // namespace sigmax::apps

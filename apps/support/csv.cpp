@@ -1,0 +1,217 @@
+#include "support/csv.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <fstream>
+#include <istream>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "support/input.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 16;
+
+// A record beyond this is not data: a quote was left open, or the file is no CSV.
+constexpr std::size_t longest_record = std::size_t{1} << 20;
+
+bool is_blank(std::string_view text) { return trimmed(text).empty(); }
+
+}  // namespace
+
+std::string_view CsvRow::operator[](std::size_t column) const {
+  assert(column < ends_.size());
+  const std::size_t begin = column == 0 ? 0 : ends_[column - 1];
+  return std::string_view{text_}.substr(begin, ends_[column] - begin);
+}
+
+double CsvRow::number(std::size_t column) const {
+  if (const auto value = parse_number((*this)[column])) return *value;
+  throw error(column, "a finite number with a decimal point");
+}
+
+std::optional<double> CsvRow::optional_number(std::size_t column) const {
+  if (is_blank((*this)[column])) return std::nullopt;
+  if (const auto value = parse_number((*this)[column])) return value;
+  throw error(column, "a finite number with a decimal point", "leave the cell empty where there is none");
+}
+
+InputError CsvRow::error(std::size_t column, std::string_view expected, std::string_view remedy) const {
+  const std::string_view field = (*this)[column];
+  return InputError(message({.where = fmt::format("{}:{}", header_->file, line_),
+                             .what = fmt::format("column {}", in_quotes(header_->names[column])),
+                             .found = is_blank(field) ? "an empty cell" : in_quotes(field),
+                             .expected = expected,
+                             .remedy = remedy}));
+}
+
+CsvReader::CsvReader(const std::filesystem::path& path)
+    : owned_(std::make_unique<std::ifstream>(open_input(path))),
+      stream_(owned_.get()),
+      header_(std::make_shared<CsvHeader>(CsvHeader{path.string(), {}})),
+      buffer_(buffer_size) {
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(path, unknown)) {
+    const auto size = std::filesystem::file_size(path, unknown);
+    if (!unknown) bytes_total_ = size;
+  }
+  read_header();
+}
+
+CsvReader::CsvReader(std::istream& stream, std::string name)
+    : stream_(&stream), header_(std::make_shared<CsvHeader>(CsvHeader{std::move(name), {}})), buffer_(buffer_size) {
+  read_header();
+}
+
+CsvReader::CsvReader(CsvReader&&) noexcept = default;
+CsvReader& CsvReader::operator=(CsvReader&&) noexcept = default;
+CsvReader::~CsvReader() = default;
+
+std::optional<std::size_t> CsvReader::find(std::string_view name) const {
+  const auto& names = header_->names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (name.empty() || found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::size_t CsvReader::column(std::string_view name) const {
+  if (const auto index = find(name)) return *index;
+  const auto& names = header_->names;
+  const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
+  throw InputError(
+      message({.where = file(),
+               .what = fmt::format("there is no column {}", in_quotes(name)),
+               .remedy = other_separator ? "the fields seem to be separated by ';' or tabs: separate them by commas"
+                                         : fmt::format("the columns are {}", fmt::join(names, ", "))}));
+}
+
+void CsvReader::read_header() {
+  fill();
+  const std::string_view start{buffer_.data(), filled_};
+  if (start.starts_with("\xEF\xBB\xBF")) position_ = 3;
+  if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
+    throw InputError(message({.where = file(), .found = "UTF-16 text", .expected = "UTF-8", .remedy = "convert it"}));
+
+  CsvRow row;
+  if (!read_record(row))
+    throw InputError(
+        message({.where = file(), .what = "is empty", .expected = "a line with the names of the columns"}));
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const std::string_view name = trimmed(row[i]);
+    // Unnamed columns, as a trailing comma makes them, cannot be asked for and so are not ambiguous.
+    if (!name.empty() && !seen.insert(name).second)
+      throw error(row.line(),
+                  {.what = fmt::format("two columns are named {}", in_quotes(name)), .remedy = "rename one of them"});
+    header_->names.emplace_back(name);
+  }
+}
+
+bool CsvReader::next(CsvRow& row) {
+  if (!read_record(row)) return false;
+  if (row.header_ != header_) row.header_ = header_;
+  if (row.size() != header_->names.size())
+    throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
+                             .expected = fmt::format("{} as in the header", header_->names.size())});
+  return true;
+}
+
+bool CsvReader::read_record(CsvRow& row) {
+  bool had_quotes = false;
+  do {
+    row.text_.clear();
+    row.ends_.clear();
+    row.line_ = line_;
+    if (peek() == end_of_file) return false;
+    for (bool in_record = true; in_record;) {
+      const std::size_t begin = row.ends_.empty() ? 0 : row.ends_.back();
+      int byte = get();
+      for (; byte != ',' && byte != '\n' && byte != '\r' && byte != end_of_file; byte = get()) {
+        if (byte == '"' && is_blank(std::string_view{row.text_}.substr(begin))) {
+          row.text_.resize(begin);
+          had_quotes = true;
+          read_quoted(row);
+          while (peek() == ' ' || peek() == '\t') get();
+          if (const int after = peek(); after != ',' && after != '\n' && after != '\r' && after != end_of_file)
+            throw error(line_, {.found = in_quotes({&buffer_[position_], 1}) + " after a closing quote",
+                                .expected = "a comma or the end of the line",
+                                .remedy = "write a quote inside quotes twice"});
+        } else {
+          append(row, byte);
+        }
+      }
+      row.ends_.push_back(row.text_.size());
+      refuse_endless(row);
+      in_record = byte == ',';
+      if (!in_record) end_line(byte);
+    }
+  } while (row.ends_.size() == 1 && !had_quotes && is_blank(row.text_));
+  return true;
+}
+
+void CsvReader::read_quoted(CsvRow& row) {
+  const std::size_t opened = line_;
+  for (int byte = get();; byte = get()) {
+    if (byte == end_of_file)
+      throw error(opened, {.what = "the quote opened here is not closed at the end of the file"});
+    if (byte == '"') {
+      if (peek() != '"') return;
+      get();
+    }
+    append(row, byte);
+    if (byte == '\n' || (byte == '\r' && peek() != '\n')) ++line_;
+  }
+}
+
+void CsvReader::end_line(int byte) {
+  if (byte == '\r' && peek() == '\n') get();
+  if (byte != end_of_file) ++line_;
+}
+
+void CsvReader::append(CsvRow& row, int byte) const {
+  if (byte == '\0') throw error(line_, {.found = "a zero byte", .expected = "UTF-8 text"});
+  row.text_.push_back(static_cast<char>(byte));
+  refuse_endless(row);
+}
+
+void CsvReader::refuse_endless(const CsvRow& row) const {
+  if (row.text_.size() + row.ends_.size() > longest_record)
+    throw error(row.line_, {.what = "the record that starts here is longer than 1 MiB",
+                            .remedy = "look for a quote that is left open"});
+}
+
+int CsvReader::peek() {
+  if (position_ == filled_ && !fill()) return end_of_file;
+  return static_cast<unsigned char>(buffer_[position_]);
+}
+
+int CsvReader::get() {
+  const int byte = peek();
+  if (byte != end_of_file) ++position_;
+  return byte;
+}
+
+bool CsvReader::fill() {
+  bytes_before_ += position_;
+  position_ = 0;
+  filled_ = 0;
+  errno = 0;
+  stream_->read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  if (stream_->bad()) throw InputError(message({.where = file(), .what = "cannot be read: " + reason(errno)}));
+  filled_ = static_cast<std::size_t>(stream_->gcount());
+  return filled_ > 0;
+}
+
+InputError CsvReader::error(std::size_t line, Complaint complaint) const {
+  const std::string where = fmt::format("{}:{}", file(), line);
+  complaint.where = where;
+  return InputError(message(complaint));
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace sigmax::apps {
+
+/// Bad data, a bad setting or an output that cannot be written; the program exits with 3.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A command line that means nothing; the program exits with 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The parts of a message to the user; empty parts are left out.
+struct Complaint {
+  std::string_view where{};     ///< "flight.csv:12"
+  std::string_view what{};      ///< "column 'x_m'"
+  std::string_view found{};     ///< "'abc'", see `in_quotes`
+  std::string_view expected{};  ///< "a number"
+  std::string_view remedy{};    ///< "correct the cell"
+};
+
+/// Reads "flight.csv:12: column 'x_m': found 'abc', expected a number; correct the cell".
+std::string message(const Complaint& complaint);
+
+/// Text from a file as a message may show it: in quotes, control characters as \xNN, long text cut with an ellipsis.
+std::string in_quotes(std::string_view text);
+
+/// The words of the operating system for an error number.
+std::string reason(int error_number);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,40 @@
+#include "support/input.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "support/error.hpp"
+
+namespace sigmax::apps {
+
+std::ifstream open_input(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown))
+    throw InputError(message({.where = path.native(), .found = "a directory", .expected = "a file"}));
+  errno = 0;
+  std::ifstream stream{path, std::ios::binary};
+  if (!stream) throw InputError(message({.where = path.native(), .what = "cannot be read: " + reason(errno)}));
+  return stream;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  text = trimmed(text);
+  // std::from_chars takes no '+', and after one it must not be offered a '-'.
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace sigmax::apps {
+
+/// A bar on a terminal that shows how much of the work is done, drawn at most ten times a second; its line is wiped at
+/// the end. Silent when asked, and where the output is no terminal.
+class Progress {
+ public:
+  Progress(std::string label, std::uint64_t total, bool quiet, int terminal = STDERR_FILENO);
+
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { finish(); }
+
+  /// Adds to the work done; any thread may call it.
+  void advance(std::uint64_t work = 1);
+
+  /// Wipes the line; nothing is drawn afterwards.
+  void finish();
+
+  std::uint64_t done() const { return done_.load(std::memory_order_relaxed); }
+
+  /// One line of at most `width` columns: "runs [#####.....]  50 %, 7 s left".
+  static std::string line(std::string_view label, std::uint64_t done, std::uint64_t total,
+                          std::chrono::duration<double> elapsed, std::size_t width);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw(Clock::time_point now);
+  void put(std::string_view text) const;
+
+  const std::string label_;
+  const std::uint64_t total_;
+  const int terminal_;
+  const bool silent_;
+  const Clock::time_point start_;
+  std::atomic<std::uint64_t> done_ = 0;
+  std::atomic<Clock::time_point> next_;
+  std::mutex drawing_;
+  std::size_t shown_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace sigmax::apps

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+#include <Random123/philox.h>
+
+namespace sigmax::apps {
+
+/// Random numbers that depend on the seed and the number of the stream alone, never on threads or on what other streams
+/// drew: Philox4x64-10 (Salmon et al., SC 2011) with the key (seed, 0) and the counter (block, stream, 0, 0).
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : key_{{seed, 0}}, counter_{{0, stream, 0, 0}} {}
+
+  /// Uniform over the multiples of 2⁻⁵³ inside (0, 1).
+  double uniform() {
+    for (;;)
+      if (const std::uint64_t bits = next() >> 11U; bits != 0) return static_cast<double>(bits) * 0x1p-53;
+  }
+
+  /// Standard normal, by Box and Muller's transform: the cosine of a pair of uniforms first, then its sine. Our own,
+  /// since the transforms of <random> differ between standard libraries.
+  double normal() {
+    if (has_spare_) {
+      has_spare_ = false;
+      return spare_;
+    }
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    const double angle = 2.0 * std::numbers::pi * uniform();
+    spare_ = radius * std::sin(angle);
+    has_spare_ = true;
+    return radius * std::cos(angle);
+  }
+
+ private:
+  std::uint64_t next() {
+    if (used_ == block_.size()) {
+      block_ = r123::Philox4x64{}(counter_, key_);
+      ++counter_[0];
+      used_ = 0;
+    }
+    return block_[used_++];
+  }
+
+  r123::Philox4x64::key_type key_;
+  r123::Philox4x64::ctr_type counter_;
+  r123::Philox4x64::ctr_type block_{};
+  std::size_t used_ = r123::Philox4x64::ctr_type::static_size;
+  double spare_ = 0.0;
+  bool has_spare_ = false;
+};
+
+}  // namespace sigmax::apps

@@ -1,0 +1,364 @@
+#include "support/settings.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "support/input.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using Numbers = std::vector<double>;
+using Matrix = std::vector<Numbers>;
+using Strings = std::vector<std::string>;
+
+/// A file, or one `--set key=value`, whose single line needs no numbers.
+struct Origin {
+  std::string name;
+  bool is_file = true;
+
+  std::string place(const toml::source_region& region) const {
+    if (!is_file || region.begin.line == 0) return name;
+    return fmt::format("{}:{}:{}", name, region.begin.line, region.begin.column);
+  }
+};
+
+std::string key_name(std::string_view key) { return "key " + in_quotes(key); }
+
+std::string described(const toml::node& node) {
+  if (const auto* string = node.as_string()) return "the string " + in_quotes(string->get());
+  if (node.is_table()) return "a table";
+  std::ostringstream text;
+  text << toml::toml_formatter{node};
+  return (node.is_array() ? "the array " : "") + in_quotes(text.str());
+}
+
+/// Converts one value and says where it stands if it cannot be.
+struct Reader {
+  const Origin& origin;
+  std::string key;
+
+  InputError error(const toml::node& node, std::string_view expected, std::string_view remedy = {}) const {
+    return InputError(message({.where = origin.place(node.source()),
+                               .what = key_name(key),
+                               .found = described(node),
+                               .expected = expected,
+                               .remedy = remedy}));
+  }
+
+  void read(const toml::node& node, double& value) const {
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!number || !std::isfinite(*number)) throw error(node, node.is_number() ? "a finite number" : "a number");
+    value = *number;
+  }
+
+  void read(const toml::node& node, std::int64_t& value) const {
+    // toml++ converts a number only where nothing is lost, so that 1e3 is an integer and 0.5 is none.
+    const auto integer = node.is_number() ? node.value<std::int64_t>() : std::nullopt;
+    if (!integer) throw error(node, "an integer");
+    value = *integer;
+  }
+
+  void read(const toml::node& node, bool& value) const {
+    const auto* boolean = node.as_boolean();
+    if (!boolean) throw error(node, "true or false");
+    value = boolean->get();
+  }
+
+  void read(const toml::node& node, std::string& value) const {
+    const auto* string = node.as_string();
+    if (!string) throw error(node, "a string");
+    value = string->get();
+  }
+
+  void read(const toml::node& node, Strings& values) const { read_array(node, values, "an array of strings"); }
+
+  void read(const toml::node& node, Numbers& values) const {
+    if (node.is_number())
+      read(node, values.emplace_back());
+    else
+      read_array(node, values, "a number or an array of numbers");
+  }
+
+  void read(const toml::node& node, Matrix& rows) const {
+    const auto* array = node.as_array();
+    if (!array) throw error(node, "an array of rows, each an array of numbers");
+    for (const auto& row : *array) {
+      read_array(row, rows.emplace_back(), "a row, which is an array of numbers");
+      if (rows.back().size() != rows.front().size())
+        throw error(row, fmt::format("a row of {} numbers as the first", rows.front().size()));
+    }
+  }
+
+  template <class Value>
+  void read_array(const toml::node& node, std::vector<Value>& values, std::string_view expected) const {
+    const auto* array = node.as_array();
+    if (!array) throw error(node, expected);
+    for (const auto& element : *array) read(element, values.emplace_back());
+  }
+};
+
+std::string written(double value) { return shortest(value); }
+std::string written(std::int64_t value) { return std::to_string(value); }
+std::string written(bool value) { return value ? "true" : "false"; }
+
+std::string written(const std::string& value) {
+  std::string text = "\"";
+  for (const char byte : value) {
+    const auto code = static_cast<unsigned char>(byte);
+    if (byte == '"' || byte == '\\')
+      text.append({'\\', byte});
+    else if (code < 0x20U || code == 0x7FU)
+      text += fmt::format("\\u{:04X}", code);
+    else
+      text += byte;
+  }
+  return text += '"';
+}
+
+template <class Value>
+std::string written(const std::vector<Value>& values) {
+  std::string text = "[";
+  for (const auto& value : values) text.append(text.size() > 1 ? ", " : "").append(written(value));
+  return text += ']';
+}
+
+std::size_t levenshtein(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0U : 1U);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// "did you mean …" where a known word is near, else all of them.
+template <class Words>
+std::string suggestion(std::string_view word, const Words& known, std::string_view prefix = {}) {
+  std::string_view nearest;
+  std::size_t least = (word.size() + 2) / 3 + 1;
+  for (const std::string_view candidate : known)
+    if (const std::size_t distance = levenshtein(word, candidate); distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  if (!nearest.empty()) return fmt::format("did you mean {}?", in_quotes(fmt::format("{}{}", prefix, nearest)));
+  return known.empty() ? "" : fmt::format("the known ones are {}", fmt::join(known, ", "));
+}
+
+toml::table parsed(std::istream& text, const Origin& origin) {
+  try {
+    return toml::parse(text, origin.name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        message({.where = origin.place(error.source()), .what = "is not TOML", .remedy = error.description()}));
+  }
+}
+
+/// Puts words into quotes where TOML would have none, so that a shell need not carry them.
+std::string with_quoted_words(std::string_view value) {
+  const auto starts_word = [](char byte) {
+    const auto code = static_cast<unsigned char>(byte);
+    return std::isalpha(code) != 0 || byte == '_' || code >= 0x80U;
+  };
+  const auto continues_token = [&](char byte) {
+    return starts_word(byte) || std::isdigit(static_cast<unsigned char>(byte)) != 0 ||
+           std::string_view{"+-.:"}.find(byte) != std::string_view::npos;
+  };
+  std::string text;
+  while (!value.empty()) {
+    std::size_t size = 1;
+    bool word = false;
+    if (const char first = value[0]; first == '"' || first == '\'') {
+      while (size < value.size() && value[size] != first) size += first == '"' && value[size] == '\\' ? 2U : 1U;
+      size = std::min(size + 1, value.size());
+    } else if (first == '#') {
+      size = value.size();
+    } else if (continues_token(first)) {
+      while (size < value.size() && continues_token(value[size])) ++size;
+      const std::string_view token = value.substr(0, size);
+      // A word before '=' is a key of an inline table.
+      word = starts_word(first) && token != "true" && token != "false" && token != "inf" && token != "nan" &&
+             !trimmed(value.substr(size)).starts_with('=');
+    }
+    text.append(word ? "\"" : "").append(value.substr(0, size)).append(word ? "\"" : "");
+    value.remove_prefix(size);
+  }
+  return text;
+}
+
+}  // namespace
+
+/// One table of one origin. The keys asked for are kept here, since every view of the table adds to them.
+struct Settings::Layer {
+  Origin origin;
+  std::shared_ptr<const toml::table> document;
+  const toml::table* table = nullptr;
+  std::string prefix;
+  std::set<std::string, std::less<>> asked;
+  std::map<std::string, std::shared_ptr<Layer>, std::less<>> children;
+
+  static std::shared_ptr<Layer> of(Origin origin, std::istream& text) {
+    auto layer = std::make_shared<Layer>();
+    layer->document = std::make_shared<const toml::table>(parsed(text, origin));
+    layer->table = layer->document.get();
+    layer->origin = std::move(origin);
+    return layer;
+  }
+
+  std::shared_ptr<Layer> child(std::string_view key) {
+    const auto* node = table->get(key);
+    if (!node) return nullptr;
+    if (!node->is_table()) throw reader(key).error(*node, "a table");
+    auto& known = children[std::string{key}];
+    if (!known) {
+      known = std::make_shared<Layer>();
+      known->origin = origin;
+      known->document = document;
+      known->table = node->as_table();
+      known->prefix = fmt::format("{}{}.", prefix, key);
+    }
+    return known;
+  }
+
+  Reader reader(std::string_view key) const { return {origin, fmt::format("{}{}", prefix, key)}; }
+
+  void refuse_unknown() const {
+    for (const auto& [key, node] : *table)
+      if (!asked.contains(key.str()))
+        throw InputError(message({.where = origin.place(key.source()),
+                                  .what = "unknown " + key_name(fmt::format("{}{}", prefix, key.str())),
+                                  .remedy = suggestion(key.str(), asked, prefix)}));
+    for (const auto& [key, layer] : children) layer->refuse_unknown();
+  }
+};
+
+Settings Settings::read(const std::filesystem::path& file, std::span<const std::string> sets) {
+  Settings settings;
+  if (!file.empty()) {
+    auto stream = open_input(file);
+    settings.layers_.push_back(Layer::of({file.string()}, stream));
+  }
+  for (const std::string& set : sets) {
+    const auto equals = set.find('=');
+    const std::string_view key = trimmed(std::string_view{set}.substr(0, equals));
+    const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{set}.substr(equals + 1));
+    if (key.empty() || value.empty())
+      throw UsageError(message({.where = "--set", .found = in_quotes(set), .expected = "key=value"}));
+    std::istringstream text{fmt::format("{} = {}", key, with_quoted_words(value))};
+    settings.layers_.push_back(Layer::of({"--set " + set, false}, text));
+  }
+  return settings;
+}
+
+const Settings::Layer* Settings::find(std::string_view key) const {
+  const Layer* found = nullptr;
+  for (const auto& layer : layers_) {
+    layer->asked.emplace(key);
+    if (layer->table->contains(key)) found = layer.get();
+  }
+  return found;
+}
+
+bool Settings::has(std::string_view key) const { return find(key) != nullptr; }
+
+void Settings::record(std::string_view key, std::string value) const {
+  const auto known =
+      std::find_if(in_force_.begin(), in_force_.end(), [key](const auto& entry) { return entry.first == key; });
+  if (known == in_force_.end())
+    in_force_.emplace_back(key, std::move(value));
+  else
+    known->second = std::move(value);
+}
+
+template <class Value>
+std::optional<Value> Settings::get(std::string_view key) const {
+  const Layer* const layer = find(key);
+  if (!layer) return std::nullopt;
+  Value value{};
+  layer->reader(key).read(*layer->table->get(key), value);
+  record(key, written(value));
+  return value;
+}
+
+template <class Value>
+Value Settings::get(std::string_view key, Value otherwise) const {
+  if (auto value = get<Value>(key)) return *std::move(value);
+  record(key, written(otherwise));
+  return otherwise;
+}
+
+std::optional<double> Settings::number(std::string_view key) const { return get<double>(key); }
+std::optional<std::int64_t> Settings::integer(std::string_view key) const { return get<std::int64_t>(key); }
+std::optional<bool> Settings::boolean(std::string_view key) const { return get<bool>(key); }
+std::optional<std::string> Settings::string(std::string_view key) const { return get<std::string>(key); }
+std::optional<Strings> Settings::strings(std::string_view key) const { return get<Strings>(key); }
+std::optional<Numbers> Settings::numbers(std::string_view key) const { return get<Numbers>(key); }
+std::optional<Matrix> Settings::matrix(std::string_view key) const { return get<Matrix>(key); }
+
+double Settings::number(std::string_view key, double otherwise) const { return get(key, otherwise); }
+std::int64_t Settings::integer(std::string_view key, std::int64_t otherwise) const { return get(key, otherwise); }
+bool Settings::boolean(std::string_view key, bool otherwise) const { return get(key, otherwise); }
+std::string Settings::string(std::string_view key, std::string_view otherwise) const {
+  return get(key, std::string{otherwise});
+}
+Strings Settings::strings(std::string_view key, Strings otherwise) const { return get(key, std::move(otherwise)); }
+Numbers Settings::numbers(std::string_view key, Numbers otherwise) const { return get(key, std::move(otherwise)); }
+Matrix Settings::matrix(std::string_view key, Matrix otherwise) const { return get(key, std::move(otherwise)); }
+
+std::string Settings::choice(std::string_view key, std::span<const std::string_view> names,
+                             std::string_view otherwise) const {
+  std::string chosen = string(key, otherwise);
+  if (chosen != otherwise && std::find(names.begin(), names.end(), chosen) == names.end())
+    throw error(key, fmt::format("one of {}", fmt::join(names, ", ")));
+  return chosen;
+}
+
+Settings Settings::sub(std::string_view key) const {
+  find(key);
+  Settings settings;
+  for (const auto& layer : layers_)
+    if (auto child = layer->child(key)) settings.layers_.push_back(std::move(child));
+  return settings;
+}
+
+std::vector<std::string> Settings::names() const {
+  std::set<std::string> names;
+  for (const auto& layer : layers_)
+    for (const auto& [key, node] : *layer->table) names.emplace(key.str());
+  return {names.begin(), names.end()};
+}
+
+Settings Settings::overlaid_by(const Settings& own) const {
+  Settings settings;
+  settings.layers_ = layers_;
+  settings.layers_.insert(settings.layers_.end(), own.layers_.begin(), own.layers_.end());
+  return settings;
+}
+
+void Settings::refuse_unknown() const {
+  for (const auto& layer : layers_) layer->refuse_unknown();
+}
+
+InputError Settings::error(std::string_view key, std::string_view expected, std::string_view remedy) const {
+  if (const Layer* const layer = find(key)) return layer->reader(key).error(*layer->table->get(key), expected, remedy);
+  const auto known =
+      std::find_if(in_force_.begin(), in_force_.end(), [key](const auto& entry) { return entry.first == key; });
+  const std::string found = known == in_force_.end() ? "nothing" : "the default " + in_quotes(known->second);
+  return InputError(message({.what = key_name(key), .found = found, .expected = expected, .remedy = remedy}));
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "support/error.hpp"
+
+namespace sigmax::apps {
+
+/// The keys of a TOML file, overridden by `--set key=value` in their order, read by name and type.
+///
+///     const Settings settings = Settings::read("himm.toml", {"sigma_w=5", "filter.imm.sigma_w=3", "lift=zero"});
+///     const double sigma_w = settings.number("sigma_w", 3.0);
+///     const Settings filters = settings.sub("filter");
+///     for (const auto& name : filters.names()) make(settings.overlaid_by(filters.sub(name)));
+///     settings.refuse_unknown();
+///
+/// A value of `--set` is TOML in which words may stand without quotes. Each value comes back empty, or as the default,
+/// if the key is absent; one of another type throws InputError with its place, the key, what was found and expected.
+class Settings {
+ public:
+  /// No keys at all: everything has its default.
+  Settings() = default;
+
+  /// An empty path stands for no file. Throws InputError for what is not TOML, UsageError for a set without "key=".
+  static Settings read(const std::filesystem::path& file, std::span<const std::string> sets = {});
+
+  bool has(std::string_view key) const;
+
+  std::optional<double> number(std::string_view key) const;
+  std::optional<std::int64_t> integer(std::string_view key) const;
+  std::optional<bool> boolean(std::string_view key) const;
+  std::optional<std::string> string(std::string_view key) const;
+  std::optional<std::vector<std::string>> strings(std::string_view key) const;
+
+  /// One number stands for a list of one.
+  std::optional<std::vector<double>> numbers(std::string_view key) const;
+
+  /// Rows of equal length.
+  std::optional<std::vector<std::vector<double>>> matrix(std::string_view key) const;
+
+  double number(std::string_view key, double otherwise) const;
+  std::int64_t integer(std::string_view key, std::int64_t otherwise) const;
+  bool boolean(std::string_view key, bool otherwise) const;
+  std::string string(std::string_view key, std::string_view otherwise) const;
+  std::vector<std::string> strings(std::string_view key, std::vector<std::string> otherwise) const;
+  std::vector<double> numbers(std::string_view key, std::vector<double> otherwise) const;
+  std::vector<std::vector<double>> matrix(std::string_view key, std::vector<std::vector<double>> otherwise) const;
+
+  /// One of the names.
+  std::string choice(std::string_view key, std::span<const std::string_view> names, std::string_view otherwise) const;
+  std::string choice(std::string_view key, std::initializer_list<std::string_view> names,
+                     std::string_view otherwise) const {
+    return choice(key, std::span{names.begin(), names.size()}, otherwise);
+  }
+
+  /// What one of the names stands for: choice("lift", {{"zero", Lift::zero}, {"unbiased", Lift::unbiased}},
+  /// Lift::zero).
+  template <class Value>
+  Value choice(std::string_view key,
+               std::initializer_list<std::pair<std::string_view, std::type_identity_t<Value>>> meanings,
+               Value otherwise) const {
+    std::vector<std::string_view> names;
+    std::string_view name_otherwise;
+    for (const auto& [name, value] : meanings) {
+      names.push_back(name);
+      if (value == otherwise) name_otherwise = name;
+    }
+    const std::string chosen = choice(key, names, name_otherwise);
+    for (const auto& [name, value] : meanings)
+      if (name == chosen) return value;
+    return otherwise;
+  }
+
+  /// The keys of a table, which has none if it is absent.
+  Settings sub(std::string_view key) const;
+
+  /// The keys that are set, sorted.
+  std::vector<std::string> names() const;
+
+  /// These settings where `own` says nothing else.
+  Settings overlaid_by(const Settings& own) const;
+
+  /// Throws InputError for a key, here or in a table taken by `sub`, that was never asked for; suggests the nearest one
+  /// that was. To be called when everything has been read.
+  void refuse_unknown() const;
+
+  /// What was read from this object, in order, with values in a notation common to TOML and JSON.
+  const std::vector<std::pair<std::string, std::string>>& in_force() const { return in_force_; }
+
+  /// An error about one key, for rules that only the caller knows.
+  InputError error(std::string_view key, std::string_view expected, std::string_view remedy = {}) const;
+
+ private:
+  struct Layer;
+
+  template <class Value>
+  std::optional<Value> get(std::string_view key) const;
+  template <class Value>
+  Value get(std::string_view key, Value otherwise) const;
+
+  /// The last layer that holds the key, or null; the key counts as asked for.
+  const Layer* find(std::string_view key) const;
+
+  void record(std::string_view key, std::string value) const;
+
+  std::vector<std::shared_ptr<Layer>> layers_;
+  mutable std::vector<std::pair<std::string, std::string>> in_force_;
+};
+
+}  // namespace sigmax::apps

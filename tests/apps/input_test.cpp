@@ -1,0 +1,68 @@
+#include "support/input.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "apps/temporary_directory.hpp"
+#include "support/error.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+TEST(ParseNumber, TakesDecimalNumbersWithSignAndBlanks) {
+  EXPECT_EQ(parse_number("12.5"), 12.5);
+  EXPECT_EQ(parse_number(" \t-0.25\t "), -0.25);
+  EXPECT_EQ(parse_number("+3"), 3.0);
+  EXPECT_EQ(parse_number("1e-3"), 1e-3);
+  EXPECT_EQ(parse_number(".5"), 0.5);
+  EXPECT_EQ(parse_number("5."), 5.0);
+  EXPECT_EQ(parse_number("5e-324"), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(parse_number("0.1000000000000000055511151231257827"), 0.1);
+}
+
+TEST(ParseNumber, TakesNothingElse) {
+  for (const std::string_view text :
+       {"",     " ",   "abc",  "1x",  "1 2",  "1,5",      "+",     "-",  "+-1", "-+1",   "++1", "+ 1",
+        "0x10", "nan", "-nan", "inf", "+inf", "Infinity", "1e999", "1e", "--1", "1_000", "½"})
+    EXPECT_EQ(parse_number(text), std::nullopt) << text;
+}
+
+TEST(Trimmed, TakesBlanksOffBothEnds) {
+  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+  EXPECT_EQ(trimmed(" \t "), "");
+  EXPECT_EQ(trimmed(""), "");
+}
+
+TEST(OpenInput, ReadsBytesAsTheyAre) {
+  const TemporaryDirectory directory;
+  std::ostringstream text;
+  text << open_input(directory.write("a", "1\r\n2")).rdbuf();
+  EXPECT_EQ(text.str(), "1\r\n2");
+}
+
+TEST(OpenInput, SaysWhyAFileCannotBeRead) {
+  const TemporaryDirectory directory;
+  const std::string missing = directory.path() / "missing.csv";
+  EXPECT_EQ(message_of<InputError>([&] { open_input(missing); }),
+            missing + ": cannot be read: No such file or directory");
+  EXPECT_EQ(message_of<InputError>([&] { open_input(directory.path()); }),
+            directory.path().string() + ": found a directory, expected a file");
+}
+
+TEST(OpenInput, SaysThatPermissionIsMissing) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read every file";
+  const TemporaryDirectory directory;
+  const auto secret = directory.write("secret", "1");
+  std::filesystem::permissions(secret, std::filesystem::perms::none);
+  EXPECT_EQ(message_of<InputError>([&] { open_input(secret); }),
+            secret.string() + ": cannot be read: Permission denied");
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,193 @@
+#include "support/output.hpp"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <bit>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "apps/temporary_directory.hpp"
+#include "support/error.hpp"
+#include "support/random.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+auto count_files(const fs::path& directory) { return std::distance(fs::directory_iterator{directory}, {}); }
+
+TEST(AtomicFile, AppearsWholeOnCommit) {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "a.csv";
+  const std::string large(200'000, 'x');
+  AtomicFile file{path};
+  file.write("a,");
+  file.print("{},{}\n", 0.1, 5);
+  file.write(large);
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_EQ(file.path(), path);
+  file.commit();
+  EXPECT_EQ(contents(path), "a,0.1,5\n" + large);
+  EXPECT_EQ(count_files(directory.path()), 1);
+}
+
+TEST(AtomicFile, LeavesNothingWithoutACommit) {
+  const TemporaryDirectory directory;
+  {
+    AtomicFile file{directory.path() / "a.csv"};
+    file.write("half");
+    EXPECT_EQ(count_files(directory.path()), 1);
+  }
+  EXPECT_EQ(count_files(directory.path()), 0);
+}
+
+TEST(AtomicFile, ReplacesAnOlderFileOnlyOnCommit) {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.write("a.csv", "old");
+  { AtomicFile{path}.write("half"); }
+  EXPECT_EQ(contents(path), "old");
+  AtomicFile file{path};
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(contents(path), "new");
+}
+
+TEST(AtomicFile, TwoWritersOfOneFileDoNotMix) {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "a";
+  AtomicFile first{path};
+  AtomicFile second{path};
+  first.write("first");
+  second.write("second");
+  first.commit();
+  EXPECT_EQ(contents(path), "first");
+  second.commit();
+  EXPECT_EQ(contents(path), "second");
+  EXPECT_EQ(count_files(directory.path()), 1);
+}
+
+TEST(AtomicFile, HasThePermissionsOfAnyNewFile) {
+  const TemporaryDirectory directory;
+  AtomicFile file{directory.path() / "a"};
+  file.commit();
+  directory.write("b", "");
+  EXPECT_EQ(fs::status(directory.path() / "a").permissions(), fs::status(directory.path() / "b").permissions());
+}
+
+TEST(AtomicFile, IsFinishedByItsCommit) {
+  const TemporaryDirectory directory;
+  AtomicFile file{directory.path() / "a"};
+  file.commit();
+  EXPECT_THROW(file.write("more"), std::logic_error);
+  EXPECT_THROW(file.commit(), std::logic_error);
+}
+
+TEST(AtomicFile, CanBeMoved) {
+  const TemporaryDirectory directory;
+  AtomicFile first{directory.path() / "a"};
+  first.write("1");
+  AtomicFile second = std::move(first);
+  second.write("2");
+  AtomicFile third{directory.path() / "b"};
+  third = std::move(second);
+  third.commit();
+  EXPECT_EQ(contents(directory.path() / "a"), "12");
+  EXPECT_EQ(count_files(directory.path()), 1);
+}
+
+TEST(AtomicFile, NamesPathAndReasonOfAFailure) {
+  const TemporaryDirectory directory;
+  const std::string lost = directory.path() / "none" / "a.csv";
+  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{lost}; }), lost + ": cannot be written: No such file or directory");
+
+  const fs::path taken = directory.path() / "taken";
+  fs::create_directory(taken);
+  AtomicFile file{taken};
+  EXPECT_EQ(message_of<InputError>([&] { file.commit(); }), taken.string() + ": cannot be written: Is a directory");
+  EXPECT_EQ(count_files(directory.path()), 1);
+}
+
+TEST(AtomicFile, ReportsAFullDevice) {
+  // A limit on the size of files fails write(2) as a full disk does, half-way through a file.
+  const TemporaryDirectory directory;
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string refusal;
+  {
+    AtomicFile file{directory.path() / "a"};
+    refusal = message_of<InputError>([&] {
+      file.write(std::string(100'000, 'x'));
+      file.commit();
+    });
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(refusal, (directory.path() / "a").string() + ": cannot be written: File too large");
+  EXPECT_EQ(count_files(directory.path()), 0);
+}
+
+TEST(AtomicFile, ReportsMissingPermission) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryDirectory directory;
+  fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  const std::string path = directory.path() / "a";
+  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{path}; }), path + ": cannot be written: Permission denied");
+  fs::permissions(directory.path(), fs::perms::owner_all);
+}
+
+TEST(OutputDirectory, IsCreatedWithItsParents) {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "a" / "b";
+  const OutputDirectory output{path};
+  EXPECT_EQ(output.path(), path);
+  AtomicFile file = output.file("c.csv");
+  file.write("1");
+  file.commit();
+  EXPECT_EQ(contents(path / "c.csv"), "1");
+  EXPECT_EQ((OutputDirectory{path}.path()), path);
+  EXPECT_EQ(contents(path / "c.csv"), "1");
+}
+
+TEST(OutputDirectory, TakesATrailingSlash) {
+  const TemporaryDirectory directory;
+  const OutputDirectory output{directory.path() / "a" / ""};
+  EXPECT_TRUE(fs::is_directory(directory.path() / "a"));
+}
+
+TEST(OutputDirectory, SaysWhyItCannotBe) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.write("file", "");
+  for (const fs::path& path : {file, file / "below"})
+    EXPECT_EQ(message_of<InputError>([&] { OutputDirectory{path}; }),
+              path.string() + ": the directory cannot be created: Not a directory");
+}
+
+TEST(Shortest, ReadsBackAsTheSameDouble) {
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(5.0), "5");
+  EXPECT_EQ(shortest(-1e-300), "-1e-300");
+  EXPECT_EQ(shortest(1.0 / 3.0), "0.3333333333333333");
+  RandomStream random{1, 0};
+  for (int i = 0; i < 10'000; ++i) {
+    const double value = std::ldexp(random.normal(), static_cast<int>(2000.0 * (random.uniform() - 0.5)));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(std::strtod(shortest(value).c_str(), nullptr)),
+              std::bit_cast<std::uint64_t>(value));
+  }
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,81 @@
+#include <sigmax/estimation/chi_square.hpp>
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <limits>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+const std::initializer_list<double> all_degrees{0.5, 1, 2, 3, 6, 9, 30, 100, 600, 1200, 57600};
+
+TEST(ChiSquare, TheQuantilesAreThoseOfTheTextbooks) {
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.95, 1), 3.841458820694124, 1e-12);
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.99, 2), 9.21034037197618, 1e-12);
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.95, 3), 7.814727903251179, 1e-12);
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.95, 6), 12.591587243743977, 1e-12);
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.025, 100), 74.2219274749237, 1e-12);
+  EXPECT_PRED_FORMAT3(near, chi_square_quantile(0.975, 100), 129.56119718583666, 1e-12);
+}
+
+TEST(ChiSquare, WithTwoDegreesItIsTheExponentialDistribution) {
+  for (const double x : {1e-6, 0.1, 1.0, 5.0, 40.0})
+    EXPECT_PRED_FORMAT3(near, chi_square_cdf(x, 2), -std::expm1(-0.5 * x), 1e-14);
+}
+
+TEST(ChiSquare, TheCdfIsThatOfBoost) {
+  for (const double degrees : all_degrees) {
+    const boost::math::chi_squared_distribution<double> reference(degrees);
+    for (const double factor : {1e-3, 0.1, 0.5, 0.9, 0.99, 1.0, 1.01, 1.1, 2.0, 5.0})
+      EXPECT_PRED_FORMAT3(near, chi_square_cdf(factor * degrees, degrees), cdf(reference, factor * degrees), 1e-11)
+          << degrees << " degrees, " << factor;
+  }
+}
+
+TEST(ChiSquare, TheQuantileIsThatOfBoost) {
+  for (const double degrees : all_degrees) {
+    const boost::math::chi_squared_distribution<double> reference(degrees);
+    for (const double probability : {1e-6, 0.005, 0.025, 0.05, 0.5, 0.9, 0.975, 0.995, 1.0 - 1e-6}) {
+      const double expected = quantile(reference, probability);
+      EXPECT_PRED_FORMAT3(near, chi_square_quantile(probability, degrees) / expected, 1.0, 1e-10)
+          << degrees << " degrees, " << probability;
+    }
+  }
+}
+
+TEST(ChiSquare, TheEndsAreExact) {
+  EXPECT_EQ(chi_square_cdf(0.0, 3), 0.0);
+  EXPECT_EQ(chi_square_cdf(std::numeric_limits<double>::infinity(), 3), 1.0);
+}
+
+TEST(ChiSquare, TheBandOfAMeanIsThatOfTheSumDivided) {
+  // 50 runs of 2 states: 100 degrees of freedom (Bar-Shalom, Li, Kirubarajan 2001, 5.4).
+  const Band band = chi_square_band(2, 50);
+  EXPECT_PRED_FORMAT3(near, band.lower, 74.2219274749237 / 50, 1e-12);
+  EXPECT_PRED_FORMAT3(near, band.upper, 129.56119718583666 / 50, 1e-12);
+  const Band narrow = chi_square_band(3, 1, 0.5);
+  EXPECT_PRED_FORMAT3(near, narrow.lower, chi_square_quantile(0.25, 3), 1e-12);
+  EXPECT_PRED_FORMAT3(near, narrow.upper, chi_square_quantile(0.75, 3), 1e-12);
+}
+
+TEST(ChiSquare, RefusesWhatHasNoAnswer) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double degrees : {0.0, -1.0, nan}) {
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { chi_square_cdf(1.0, degrees); }, {"chi_square_cdf"}));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { chi_square_quantile(0.5, degrees); }, {"chi_square_quantile"}));
+  }
+  for (const double x : {-1e-9, nan})
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { chi_square_cdf(x, 3); }, {"chi_square_cdf"}));
+  for (const double probability : {0.0, 1.0, -0.1, 1.1, nan})
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { chi_square_quantile(probability, 3); }, {"chi_square_quantile"}));
+}
+
+}  // namespace
+}  // namespace sigmax
