@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <sigmax/estimation/metrics.hpp>
 
@@ -28,7 +28,9 @@ struct Trace {
   std::vector<std::vector<double>> weights;
 
   explicit Trace(std::size_t samples)
-      : squared_error(samples, {nan, nan, nan}), nees_position(samples, nan), nees_velocity(samples, nan),
+      : squared_error(samples, {nan, nan, nan}),
+        nees_position(samples, nan),
+        nees_velocity(samples, nan),
         weights(samples) {}
 };
 
@@ -60,8 +62,7 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
   const auto time_of = [&](std::size_t sample) { return experiment.scenario.step_s * static_cast<double>(sample); };
 
   for (std::size_t k = 0; k < samples; ++k)
-    result.measurement.squared_error[k] =
-        squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
+    result.measurement.squared_error[k] = squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
 
   for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
     Tracker<3> tracker(experiment.filters[f]);
@@ -154,10 +155,9 @@ class Tally {
             phase_mean(phases[p], [&](std::size_t k) { return trace.squared_error[k][axis]; }));
     if (filter_) {
       if (const auto model = manoeuvre_model(*filter_)) {
-        const auto crossing =
-            first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
-              return weight_difference(trace.weights[static_cast<std::size_t>(k - 1)], *model);
-            });
+        const auto crossing = first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
+          return weight_difference(trace.weights[static_cast<std::size_t>(k - 1)], *model);
+        });
         if (crossing) crossings_.push_back(*crossing + experiment_.mode_sample_shift);
       }
     }

@@ -21,19 +21,19 @@ struct Interval {
 
 /// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples.
 struct CrossTime {
-  std::optional<Interval> mean_of_runs;        ///< over the runs that crossed
+  std::optional<Interval> mean_of_runs;  ///< over the runs that crossed
   std::size_t runs_crossed = 0;
   std::optional<double> of_averaged_curves;
 };
 
 /// What the runs say of one filter, or of the raw measurement.
 struct Performance {
-  std::vector<std::array<double, 3>> rmse;             ///< per sample and axis; NaN before the first estimate
-  std::array<std::array<double, 3>, 3> phase_rmse{};   ///< by phase and axis: root mean square over its samples
-  std::array<double, 3> peak{};                        ///< greatest RMSE of a sample of any phase
-  std::array<double, 3> nees_position{};               ///< mean by phase; 3 if consistent
-  std::array<double, 3> nees_velocity{};               ///< of position and velocity; 6 if consistent
-  std::vector<std::vector<double>> weights;            ///< mean per sample and model; empty before the first estimate
+  std::vector<std::array<double, 3>> rmse;            ///< per sample and axis; NaN before the first estimate
+  std::array<std::array<double, 3>, 3> phase_rmse{};  ///< by phase and axis: root mean square over its samples
+  std::array<double, 3> peak{};                       ///< greatest RMSE of a sample of any phase
+  std::array<double, 3> nees_position{};              ///< mean by phase; 3 if consistent
+  std::array<double, 3> nees_velocity{};              ///< of position and velocity; 6 if consistent
+  std::vector<std::vector<double>> weights;           ///< mean per sample and model; empty before the first estimate
   CrossTime cross_time;
   /// By phase, axis and run: mean square error.
   std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares{};

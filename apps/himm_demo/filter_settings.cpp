@@ -18,11 +18,11 @@ template <class Value>
 using Names = std::initializer_list<std::pair<std::string_view, Value>>;
 
 const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
-                                                      {"own", MixedCovariance::own},
-                                                      {"own_recentred", MixedCovariance::own_recentred},
-                                                      {"released", MixedCovariance::released}};
+                                                  {"own", MixedCovariance::own},
+                                                  {"own_recentred", MixedCovariance::own_recentred},
+                                                  {"released", MixedCovariance::released}};
 const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
-                                                 {"released", MixingWeights::released}};
+                                             {"released", MixingWeights::released}};
 const Names<Lift> lifts = {
     {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
 const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
@@ -71,9 +71,9 @@ void refuse_bad_transition(const Settings& settings, const char* key, const Filt
       total = filter.fuzzy ? std::max(total, value) : total + value;
     }
     if (!(std::abs(total - 1.0) <= 1e-9))
-      throw settings.error(key,
-                           fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}",
-                                       filter.fuzzy ? "maximum" : "sum", i + 1, filter.models[i], shortest(total)));
+      throw settings.error(
+          key, fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", filter.fuzzy ? "maximum" : "sum",
+                           i + 1, filter.models[i], shortest(total)));
   }
 }
 
@@ -101,8 +101,7 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   const double leaves = modes > 1 ? 0.05 / static_cast<double>(modes - 1) : 0.0;
   const auto probability =
       settings.matrix("transition_probability", transition_of(modes, modes > 1 ? 0.95 : 1.0, leaves));
-  const auto possibility =
-      settings.matrix("transition_possibility", transition_of(modes, 1.0, defaults.possibility));
+  const auto possibility = settings.matrix("transition_possibility", transition_of(modes, 1.0, defaults.possibility));
   filter.transition = fuzzy ? possibility : probability;
   refuse_bad_transition(settings, fuzzy ? "transition_possibility" : "transition_probability", filter);
 
@@ -158,6 +157,7 @@ FilterDefaults FilterDefaults::of(Preset preset) {
   FilterDefaults defaults;
   if (preset == Preset::paper_text) {
     defaults.mixed_covariance = MixedCovariance::own;
+    defaults.lift = Lift::zero;
   } else {
     defaults.possibility = 0.2;
     defaults.mixed_covariance = MixedCovariance::released;
@@ -175,15 +175,19 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
   const auto names = settings.strings("filters", defaults.filters);
   if (names.empty()) throw settings.error("filters", "the name of at least one filter");
   const Settings tables = settings.sub("filter");
-  std::vector<FilterSettings> filters;
-  for (const auto& name : names) {
-    if (std::count(names.begin(), names.end(), name) > 1) throw settings.error("filters", "each name once");
-    if (name == "measurement") throw settings.error("filters", "names other than measurement, which is the raw one's");
+  const auto read = [&](const std::string& name) {
     const Settings table = tables.sub(name);
     const bool fuzzy = table.has("kind") ? table.choice("kind", kinds, false) : default_kind(settings, name);
     FilterDefaults own = defaults;
     if (name == "imm_correct") own.imm_mixing = MixingWeights::correct;
-    filters.push_back(read_filter(settings.overlaid_by(table), name, fuzzy, own));
+    return read_filter(settings.overlaid_by(table), name, fuzzy, own);
+  };
+  for (const auto& name : tables.names()) read(name);  // also what is not run must be right
+  std::vector<FilterSettings> filters;
+  for (const auto& name : names) {
+    if (std::count(names.begin(), names.end(), name) > 1) throw settings.error("filters", "each name once");
+    if (name == "measurement") throw settings.error("filters", "names other than measurement, which is the raw one's");
+    filters.push_back(read(name));
   }
   return filters;
 }

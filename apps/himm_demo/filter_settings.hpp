@@ -48,7 +48,7 @@ struct FilterDefaults {
   double possibility = 0.5;  ///< of leaving a mode
   MixedCovariance mixed_covariance = MixedCovariance::selected;
   MixingWeights imm_mixing = MixingWeights::correct;
-  Lift lift = Lift::zero;
+  Lift lift = Lift::borrowed_variance;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
   Start start = Start::points;

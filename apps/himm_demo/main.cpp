@@ -32,8 +32,9 @@ int main(int argc, char** argv) {
   std::string command = "himm_demo";
   for (int i = 1; i < argc; ++i) command += fmt::format(" {}", argv[i]);
 
-  CLI::App app{"Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a "
-               "fuzzy mode (HIMM)."};
+  CLI::App app{
+      "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a "
+      "fuzzy mode (HIMM)."};
   app.set_version_flag("--version", fmt::format("himm_demo {}", version));
   app.require_subcommand(1);
 
@@ -49,17 +50,19 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({1, 2, 3, 4}))
       ->capture_default_str();
   simulate_app
-      .add_option("--preset", simulate.preset, "The experiment as printed (paper_text) or as the authors' program has it (released)")
+      .add_option("--preset", simulate.preset,
+                  "The experiment as printed (paper_text) or as the authors' program has it (released)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Preset>{{"paper_text", Preset::paper_text}, {"released", Preset::released}}))
       ->option_text("paper_text|released [paper_text]");
-  CLI::Option* runs_option =
-      simulate_app.add_option("--runs", runs, "Monte Carlo runs [100, or 50 for released]")->check(CLI::Range(2, 100000000));
+  CLI::Option* runs_option = simulate_app.add_option("--runs", runs, "Monte Carlo runs [100, or 50 for released]")
+                                 ->check(CLI::Range(2, 100000000));
   simulate_app.add_option("--threads", simulate.threads, "Threads; the results do not depend on it [all]")
       ->check(CLI::Range(1, 4096));
-  simulate_app.footer("Examples:\n"
-                      "  himm_demo simulate --scenario 2 --group 3 --out results\n"
-                      "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
+  simulate_app.footer(
+      "Examples:\n"
+      "  himm_demo simulate --scenario 2 --group 3 --out results\n"
+      "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
 
   TrackOptions track;
   track.command = command;
@@ -80,10 +83,12 @@ int main(int argc, char** argv) {
                  "Take the recording as the truth and measure it by a simulated radar with these standard deviations",
                  "RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");
   CLI::Option* radar_at_option =
-      add_triple(track_app, "--radar-at", radar_at, "Where that radar stands, in m [0,0,0]", "E,N,U")->needs(radar_option);
-  track_app.footer("Examples:\n"
-                   "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-                   "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --columns time_s=t");
+      add_triple(track_app, "--radar-at", radar_at, "Where that radar stands, in m [0,0,0]", "E,N,U")
+          ->needs(radar_option);
+  track_app.footer(
+      "Examples:\n"
+      "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
+      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --columns time_s=t");
 
   const auto add_common = [](CLI::App& subcommand, auto& options) {
     subcommand.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();

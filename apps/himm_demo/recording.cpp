@@ -13,9 +13,9 @@ namespace sigmax::apps {
 namespace {
 
 constexpr double foot = 0.3048;
-constexpr std::array<std::string_view, 10> known = {
-    "time_s",        "x_m",        "y_m",              "z_m",         "latitude_deg",
-    "longitude_deg", "altitude_m", "altitude_gnss_ft", "altitude_ft", "roll_deg"};
+constexpr std::array<std::string_view, 10> known = {"time_s",       "x_m",           "y_m",        "z_m",
+                                                    "latitude_deg", "longitude_deg", "altitude_m", "altitude_gnss_ft",
+                                                    "altitude_ft",  "roll_deg"};
 
 using Mapping = std::map<std::string, std::string, std::less<>>;
 
@@ -57,7 +57,9 @@ RecordingReader::RecordingReader(const std::string& file, const std::vector<std:
   const bool cartesian = x_ && y_;
   const bool geodetic = latitude_ && longitude_ && altitude_;
   if (!time || cartesian == geodetic) {
-    std::string what = !time ? "there is no column time_s" : cartesian ? "there are columns of both kinds" : "its columns are of neither kind";
+    std::string what = !time       ? "there is no column time_s"
+                       : cartesian ? "there are columns of both kinds"
+                                   : "its columns are of neither kind";
     throw InputError(message({.where = csv_.file() + ":1",
                               .what = what,
                               .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
@@ -102,8 +104,10 @@ bool RecordingReader::next(Fix& fix) {
     if (!columns[i]) continue;
     ++wanted;
     cells[i] = row_.optional_number(*columns[i]);
-    if (cells[i]) ++filled;
-    else empty = *columns[i];
+    if (cells[i])
+      ++filled;
+    else
+      empty = *columns[i];
   }
   if (filled == 0) return true;  // a missed measurement
   if (filled != wanted)

@@ -26,11 +26,11 @@ struct Scenario {
   int samples;
   Vector<3> position;
   Vector<3> velocity;
-  Vector<3> acceleration;          ///< while it manoeuvres
-  int first_accelerated;           ///< the transition k → k + 1 uses the acceleration for k from here …
-  int last_accelerated;            ///< … to here
-  std::array<Phase, 3> phases;     ///< before, during and after the manoeuvre
-  bool noise_on_velocity;          ///< process noise acts on position and velocity, or on position only
+  Vector<3> acceleration;       ///< while it manoeuvres
+  int first_accelerated;        ///< the transition k → k + 1 uses the acceleration for k from here …
+  int last_accelerated;         ///< … to here
+  std::array<Phase, 3> phases;  ///< before, during and after the manoeuvre
+  bool noise_on_velocity;       ///< process noise acts on position and velocity, or on position only
 };
 
 /// Accuracies of the radar: as the data are made, and as the filters believe them (Table I, section VI.C).
@@ -48,7 +48,7 @@ Group group(int number, int scenario_number);
 
 /// One target and what the radar saw of it.
 struct Recording {
-  std::vector<Vector<6>> truth;   ///< position and velocity at every sample
+  std::vector<Vector<6>> truth;  ///< position and velocity at every sample
   std::vector<Polar> measured;
 };
 

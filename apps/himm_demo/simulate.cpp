@@ -106,7 +106,8 @@ void print_nees(const Report& report) {
   std::vector<TextTable::Column> columns = {{"mean NEES", Align::left}};
   for (const char* what : {"position", "position and velocity"})
     for (const auto& phase : phases)
-      columns.push_back({&phase == &phases.front() ? fmt::format("{}: {}", what, phase.name) : std::string(phase.name)});
+      columns.push_back(
+          {&phase == &phases.front() ? fmt::format("{}: {}", what, phase.name) : std::string(phase.name)});
   TextTable table(columns);
   for (std::size_t f = 0; f < report.experiment.filters.size(); ++f) {
     const auto& performance = report.outcome.filters[f];
@@ -152,7 +153,9 @@ std::string verdict(Claim claim, const std::array<Interval, 3>& difference, cons
   if (claim == Claim::competitive)
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (std::abs(difference[axis].estimate) <= competitive_fraction * reference[axis]) ++axes_that_hold;
-  return axes_that_hold == 3 ? "holds" : axes_that_hold == 0 ? "does NOT hold" : fmt::format("holds on {} of 3 axes", axes_that_hold);
+  return axes_that_hold == 3   ? "holds"
+         : axes_that_hold == 0 ? "does NOT hold"
+                               : fmt::format("holds on {} of 3 axes", axes_that_hold);
 }
 
 void print_comparisons(const Report& report) {
@@ -161,10 +164,8 @@ void print_comparisons(const Report& report) {
     const auto& filter = report.filter(comparison.filter);
     const auto& reference = report.filter(comparison.reference);
     const bool judged = filter.fuzzy && !reference.fuzzy;
-    std::vector<TextTable::Column> columns = {{fmt::format("{} − {}, m", filter.name, reference.name), Align::left},
-                                              {"x"},
-                                              {"y"},
-                                              {"z"}};
+    std::vector<TextTable::Column> columns = {
+        {fmt::format("{} − {}, m", filter.name, reference.name), Align::left}, {"x"}, {"y"}, {"z"}};
     if (judged) {
       columns.push_back({"the paper says", Align::left});
       columns.push_back({reference.imm_mixing == MixingWeights::correct ? "against the correct IMM that"
@@ -178,8 +179,8 @@ void print_comparisons(const Report& report) {
       if (judged) {
         const Claim claim = claims[report.options.scenario - 1][report.options.group - 1][p];
         cells.emplace_back(word(claim));
-        cells.push_back(verdict(claim, comparison.difference[p],
-                                report.outcome.filters[comparison.reference].phase_rmse[p]));
+        cells.push_back(
+            verdict(claim, comparison.difference[p], report.outcome.filters[comparison.reference].phase_rmse[p]));
       }
       table.row(cells);
     }
@@ -225,9 +226,10 @@ Json json(const Performance& performance, const Experiment& experiment, bool fil
   for (std::size_t axis = 0; axis < 3; ++axis) result["peak_rmse_m"][axes[axis]] = performance.peak[axis];
   if (filter) {
     const auto& time = performance.cross_time;
-    result["cross_time"] = {{"mean_of_runs", time.mean_of_runs ? json(*time.mean_of_runs) : Json(nullptr)},
-                            {"runs_crossed", time.runs_crossed},
-                            {"of_averaged_curves", time.of_averaged_curves ? Json(*time.of_averaged_curves) : Json(nullptr)}};
+    result["cross_time"] = {
+        {"mean_of_runs", time.mean_of_runs ? json(*time.mean_of_runs) : Json(nullptr)},
+        {"runs_crossed", time.runs_crossed},
+        {"of_averaged_curves", time.of_averaged_curves ? Json(*time.of_averaged_curves) : Json(nullptr)}};
   }
   return result;
 }
@@ -325,7 +327,8 @@ void simulate_and_report(const SimulateOptions& options) {
   if (!options.out.empty()) directory.emplace(options.out);
 
   const bool released = options.preset == Preset::released;
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const Experiment experiment{scenario(options.scenario, options.preset),
                               parameters,
                               filters,

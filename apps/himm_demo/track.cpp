@@ -89,8 +89,8 @@ class EstimatesFile {
     }
     file_.print(",{}", settings.models[tracker.most_likely_mode()]);
     if (geodetic_) {
-      const Geodetic point = recording.frame().to_geodetic(
-          EastNorthUp{estimate.mean(0), estimate.mean(1), estimate.mean(Axes - 1)});
+      const Geodetic point =
+          recording.frame().to_geodetic(EastNorthUp{estimate.mean(0), estimate.mean(1), estimate.mean(Axes - 1)});
       cell(point.latitude_deg());
       cell(point.longitude_deg());
       cell(point.altitude);
@@ -159,7 +159,9 @@ class TrackRun {
     ++rows_;
     if (fix.position) ++measurements_;
     const auto seen = fix.position && truth_known() ? std::optional(radar_sees(fix)) : std::nullopt;
-    if (seen) add_by_part(raw_, fix.roll_deg, [&](Sums& sums) { add_error(sums, radar_at() + to_cartesian(*seen) - *fix.position); });
+    if (seen)
+      add_by_part(raw_, fix.roll_deg,
+                  [&](Sums& sums) { add_error(sums, radar_at() + to_cartesian(*seen) - *fix.position); });
     before_ = std::exchange(now_, fix);
     for (std::size_t f = 0; f < trackers_.size(); ++f) {
       auto& tracker = trackers_[f];
@@ -253,12 +255,15 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
   Json summary = {{"version", version}, {"command", options.command}, {"file", options.file}};
   summary["seed"] = options.seed;
   if (options.radar) {
-    summary["radar"] = {{"sigma_range_m", (*options.radar)[0]}, {"sigma_azimuth_deg", (*options.radar)[1]},
-                        {"sigma_elevation_deg", (*options.radar)[2]}, {"at_m", options.radar_at}};
+    summary["radar"] = {{"sigma_range_m", (*options.radar)[0]},
+                        {"sigma_azimuth_deg", (*options.radar)[1]},
+                        {"sigma_elevation_deg", (*options.radar)[2]},
+                        {"at_m", options.radar_at}};
   }
   if (recording.geodetic()) {
     const Geodetic& origin = recording.frame().origin();
-    summary["origin"] = {{"latitude_deg", origin.latitude_deg()}, {"longitude_deg", origin.longitude_deg()},
+    summary["origin"] = {{"latitude_deg", origin.latitude_deg()},
+                         {"longitude_deg", origin.longitude_deg()},
                          {"altitude_m", origin.altitude}};
   }
   summary["rows"] = run.rows();
@@ -268,17 +273,19 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
   fmt::print("{}: {} rows, {} measurements, {} axes{}\n", options.file, run.rows(), run.measurements(), Axes,
              recording.geodetic() ? ", geodetic to local east-north-up" : "");
   if (options.radar)
-    fmt::print("The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed {}\n",
-               shortest((*options.radar)[0]), shortest((*options.radar)[1]), shortest((*options.radar)[2]),
-               shortest(options.radar_at[0]), shortest(options.radar_at[1]), shortest(options.radar_at[2]),
-               options.seed);
+    fmt::print(
+        "The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed "
+        "{}\n",
+        shortest((*options.radar)[0]), shortest((*options.radar)[1]), shortest((*options.radar)[2]),
+        shortest(options.radar_at[0]), shortest(options.radar_at[1]), shortest(options.radar_at[2]), options.seed);
 
   const std::size_t part_count = recording.has_roll() ? parts.size() : 1;
   for (std::size_t p = 0; p < part_count; ++p) {
     std::vector<TextTable::Column> columns = {{std::string(parts[p].name), Align::left}, {"rows"}};
     if (run.truth_known())
       for (int axis = 0; axis < Axes; ++axis)
-        columns.push_back({fmt::format("{}{}", axis == 0 ? "RMSE, m: " : "", axis_names[static_cast<std::size_t>(axis)])});
+        columns.push_back(
+            {fmt::format("{}{}", axis == 0 ? "RMSE, m: " : "", axis_names[static_cast<std::size_t>(axis)])});
     columns.push_back({"mean NIS"});
     columns.push_back({"mean weights", Align::left});
     TextTable table(columns);
@@ -303,7 +310,8 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
           result["mean_weight"][filter->models[j]] = weight;
         }
       }
-      cells.push_back(filter && sums.nis_count > 0 ? fmt::format("{:.2f}", sums.nis / static_cast<double>(sums.nis_count)) : "");
+      cells.push_back(
+          filter && sums.nis_count > 0 ? fmt::format("{:.2f}", sums.nis / static_cast<double>(sums.nis_count)) : "");
       cells.push_back(weights);
       table.row(cells);
       part[name] = result;

@@ -11,7 +11,7 @@ namespace sigmax::apps {
 /// The options of `himm_demo track`.
 struct TrackOptions {
   std::string file;
-  std::vector<std::string> columns;            ///< NAME=HEADER
+  std::vector<std::string> columns;             ///< NAME=HEADER
   std::optional<std::array<double, 3>> origin;  ///< latitude and longitude in degrees, altitude in m
   std::optional<std::array<double, 3>> radar;   ///< standard deviations: m, degrees, degrees
   std::array<double, 3> radar_at = {0.0, 0.0, 0.0};

@@ -72,8 +72,8 @@ class Tracker {
   }
   /// The normalised innovation squared of the last step, if it had a measurement.
   std::optional<double> nis() const {
-    return std::visit(
-        [](const auto& filter) { return filter.measured() ? std::optional(filter.nis()) : std::nullopt; }, *filter_);
+    return std::visit([](const auto& filter) { return filter.measured() ? std::optional(filter.nis()) : std::nullopt; },
+                      *filter_);
   }
 
  private:
@@ -131,8 +131,8 @@ class Tracker {
   void start(double time, const Starts& starts) {
     time_ = time;
     if (settings_.fuzzy) {
-      Interaction<Fuzzy> interaction{settings_.lift, {settings_.mixed_covariance, settings_.mixing_tie},
-                                     settings_.output_tie};
+      Interaction<Fuzzy> interaction{
+          settings_.lift, {settings_.mixed_covariance, settings_.mixing_tie}, settings_.output_tie};
       filter_.emplace(Filter<Fuzzy>(models_, transition<Fuzzy>(), starts, interaction));
     } else {
       Interaction<Random> interaction{settings_.lift, {settings_.imm_mixing}, settings_.output_tie};

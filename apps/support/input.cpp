@@ -1,5 +1,6 @@
 #include "support/input.hpp"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -17,6 +18,17 @@ std::ifstream open_input(const std::filesystem::path& path) {
   std::ifstream stream{path, std::ios::binary};
   if (!stream) throw InputError(message({.where = path.native(), .what = "cannot be read: " + reason(errno)}));
   return stream;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  auto stream = open_input(path);
+  std::string text;
+  std::array<char, 1 << 14> block{};
+  errno = 0;
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) throw InputError(message({.where = path.native(), .what = "cannot be read: " + reason(errno)}));
+  return text;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -159,7 +159,45 @@ std::string suggestion(std::string_view word, const Words& known, std::string_vi
   return known.empty() ? "" : fmt::format("the known ones are {}", fmt::join(known, ", "));
 }
 
-toml::table parsed(std::istream& text, const Origin& origin) {
+/// Refuses characters beyond ASCII except in comments and in strings of one line. Elsewhere they are no TOML or, in
+/// strings of many lines, no use to settings, and toml++ may run into undefined behaviour (its issues 190 and 295).
+void refuse_beyond_ascii(std::string_view text, const Origin& origin) {
+  std::string_view closing;  // what ends the comment or the string; empty outside both
+  std::size_t step = 1;
+  for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); i += step) {
+    const std::string_view rest = text.substr(i);
+    step = 1;
+    if (static_cast<unsigned char>(rest[0]) >= 0x80U && closing.size() != 1) {
+      const std::string_view before = text.substr(0, i);
+      const std::string_view line = before.substr(before.rfind('\n') + 1);
+      const auto starts_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; };
+      toml::source_region region;
+      region.begin.line = static_cast<toml::source_index>(1 + std::count(before.begin(), before.end(), '\n'));
+      region.begin.column =
+          static_cast<toml::source_index>(1 + std::count_if(line.begin(), line.end(), starts_character));
+      throw InputError(message(
+          {.where = origin.place(region), .what = "is not TOML", .remedy = "put characters beyond ASCII into quotes"}));
+    }
+    if (closing.empty()) {
+      if (rest[0] == '#') closing = "\n";
+      for (const std::string_view quote : {"'", "\"", "'''", "\"\"\""})
+        if (rest.starts_with(quote)) {
+          closing = quote;
+          step = quote.size();
+        }
+    } else if (closing[0] == '"' && rest[0] == '\\') {
+      step = 2;
+    } else if (rest.starts_with(closing)) {
+      step = closing.size();
+      // The last quotes of five close, and the others belong to the string.
+      while (step > 1 && step < 5 && step < rest.size() && rest[step] == closing[0]) ++step;
+      closing = {};
+    }
+  }
+}
+
+toml::table parsed(std::string_view text, const Origin& origin) {
+  refuse_beyond_ascii(text, origin);
   try {
     return toml::parse(text, origin.name);
   } catch (const toml::parse_error& error) {
@@ -211,7 +249,7 @@ struct Settings::Layer {
   std::set<std::string, std::less<>> asked;
   std::map<std::string, std::shared_ptr<Layer>, std::less<>> children;
 
-  static std::shared_ptr<Layer> of(Origin origin, std::istream& text) {
+  static std::shared_ptr<Layer> of(Origin origin, std::string_view text) {
     auto layer = std::make_shared<Layer>();
     layer->document = std::make_shared<const toml::table>(parsed(text, origin));
     layer->table = layer->document.get();
@@ -249,8 +287,7 @@ struct Settings::Layer {
 Settings Settings::read(const std::filesystem::path& file, std::span<const std::string> sets) {
   Settings settings;
   if (!file.empty()) {
-    auto stream = open_input(file);
-    settings.layers_.push_back(Layer::of({file.string()}, stream));
+    settings.layers_.push_back(Layer::of({file.string()}, read_text(file)));
   }
   for (const std::string& set : sets) {
     const auto equals = set.find('=');
@@ -258,7 +295,7 @@ Settings Settings::read(const std::filesystem::path& file, std::span<const std::
     const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{set}.substr(equals + 1));
     if (key.empty() || value.empty())
       throw UsageError(message({.where = "--set", .found = in_quotes(set), .expected = "key=value"}));
-    std::istringstream text{fmt::format("{} = {}", key, with_quoted_words(value))};
+    const std::string text = fmt::format("{} = {}", key, with_quoted_words(value));
     settings.layers_.push_back(Layer::of({"--set " + set, false}, text));
   }
   return settings;

@@ -46,6 +46,19 @@ TEST(OpenInput, ReadsBytesAsTheyAre) {
   EXPECT_EQ(text.str(), "1\r\n2");
 }
 
+TEST(ReadText, ReadsTheWholeFile) {
+  const TemporaryDirectory directory;
+  const std::string text = "1\r\n" + std::string(40'000, 'x') + std::string{"\0y", 2};
+  EXPECT_EQ(read_text(directory.write("a", text)), text);
+  EXPECT_EQ(read_text(directory.write("b", "")), "");
+}
+
+TEST(ReadText, SaysThatReadingFailed) {
+  // Every process may open its memory, but nothing is mapped at its beginning.
+  EXPECT_EQ(message_of<InputError>([] { read_text("/proc/self/mem"); }),
+            "/proc/self/mem: cannot be read: Input/output error");
+}
+
 TEST(OpenInput, SaysWhyAFileCannotBeRead) {
   const TemporaryDirectory directory;
   const std::string missing = directory.path() / "missing.csv";

@@ -164,6 +164,21 @@ TEST(Settings, MalformedTomlIsPlaced) {
   EXPECT_TRUE(twice.starts_with("c.toml:2:")) << twice;
 }
 
+TEST(Settings, CharactersBeyondAsciiStandInCommentsAndQuotes) {
+  const Settings settings =
+      from_file("\xEF\xBB\xBF# σ in m/s², it's\na = \"é \\\" Ψ\" # 目標\nb = 'ü\\' # σ\n\"σ\" = 5\nc=''\n");
+  EXPECT_EQ(settings.string("a"), "é \" Ψ");
+  EXPECT_EQ(settings.string("b"), "ü\\");
+  EXPECT_EQ(settings.number("σ"), 5.0);
+
+  const std::string told = ": is not TOML; put characters beyond ASCII into quotes";
+  EXPECT_EQ(refusal([] { from_file("a = 1\nσ = 5\n"); }), "c.toml:2:1" + told);
+  EXPECT_EQ(refusal([] { from_file("a = [\"é\", Ψ]\n"); }), "c.toml:1:11" + told);
+  EXPECT_EQ(refusal([] { from_file("a = \"\"\"x\\\n§\"\"\"\n"); }), "c.toml:2:1" + told);
+  EXPECT_EQ(refusal([] { from_file("a = '''x''''' # σ\nb = 5σ\n"); }), "c.toml:2:6" + told);
+  EXPECT_EQ(refusal([] { from_sets({"σ=5"}); }), "--set σ=5" + told);
+}
+
 TEST(Settings, SetsThatAreNoneAreBadUsage) {
   EXPECT_EQ(refusal<UsageError>([] { from_sets({"sigma_w"}); }), "--set: found 'sigma_w', expected key=value");
   EXPECT_EQ(refusal<UsageError>([] { from_sets({"sigma_w= "}); }), "--set: found 'sigma_w= ', expected key=value");

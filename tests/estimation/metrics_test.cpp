@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "support/matrices.hpp"
+#include "support/restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
+using support::entries;
 using support::generated_gaussian;
 using support::generated_matrix;
 using support::holds;
@@ -39,8 +39,9 @@ TEST(Metrics, TheNormalizedErrorIsThatOfTheInverse) {
   holds([] {
     const auto estimate = generated_gaussian<4>();
     const Vector<4> truth = generated_matrix<4, 1>();
-    const Vector<4> error = estimate.mean - truth;
-    require_near(nees(estimate, truth), error.dot(estimate.covariance.inverse() * error), 1e-9);
+    const auto error = entries(estimate.mean - truth);
+    const auto inverse = restatement::inverse({4, 4, entries(estimate.covariance)}).matrix;
+    require_near(nees(estimate, truth), restatement::dot(error, restatement::product(inverse, error)), 1e-9);
   });
 }
 

@@ -12,9 +12,11 @@
 
 namespace sigmax::support {
 
+/// Any matrix, seen without its type: one instantiation of what follows serves all.
+using AnyMatrix = Eigen::Ref<const Eigen::MatrixXd>;
+
 /// The entries of a matrix row by row, for `near`.
-template <class Derived>
-std::vector<double> entries(const Eigen::MatrixBase<Derived>& matrix) {
+inline std::vector<double> entries(const AnyMatrix& matrix) {
   std::vector<double> result;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) result.push_back(matrix(i, j));
@@ -22,18 +24,15 @@ std::vector<double> entries(const Eigen::MatrixBase<Derived>& matrix) {
 }
 
 /// EXPECT_PRED_FORMAT3(near_matrix, found, expected, tolerance): of one shape, and near entry by entry.
-template <class A, class B>
-testing::AssertionResult near_matrix(const char* a_text, const char* b_text, const char* tolerance_text,
-                                     const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b, double tolerance) {
+inline testing::AssertionResult near_matrix(const char* a_text, const char* b_text, const char* tolerance_text,
+                                            const AnyMatrix& a, const AnyMatrix& b, double tolerance) {
   if (a.rows() != b.rows() || a.cols() != b.cols())
     return testing::AssertionFailure() << a_text << " and " << b_text << " are not of one shape";
   return near(a_text, b_text, tolerance_text, entries(a), entries(b), tolerance);
 }
 
 /// Fails the current case of a property unless the matrices are of one shape and near entry by entry.
-template <class A, class B>
-void require_near_matrix(const Eigen::MatrixBase<A>& found, const Eigen::MatrixBase<B>& expected,
-                         double tolerance = 1e-9) {
+inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expected, double tolerance = 1e-9) {
   if (const auto result = near_matrix("found", "expected", "", found, expected, tolerance); !result)
     RC_FAIL(std::string(result.message()));
 }

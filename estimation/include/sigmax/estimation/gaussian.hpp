@@ -14,6 +14,12 @@ using Vector = Eigen::Matrix<double, N, 1, 0, MaxN, 1>;
 template <int N, int MaxN = N>
 using SquareMatrix = Eigen::Matrix<double, N, N, 0, MaxN, MaxN>;
 
+/// A matrix of any shape; Eigen wants a single row to be stored as one.
+template <int Rows, int Columns, int MaxRows = Rows, int MaxColumns = Columns>
+using RectangularMatrix =
+    Eigen::Matrix<double, Rows, Columns, MaxRows == 1 && MaxColumns != 1 ? Eigen::RowMajor : Eigen::ColMajor, MaxRows,
+                  MaxColumns>;
+
 /// A Gaussian N(x; mean, covariance): an estimate with its uncertainty, or a measurement with its R.
 template <int N, int MaxN = N>
 struct Gaussian {

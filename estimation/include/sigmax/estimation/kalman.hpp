@@ -41,7 +41,7 @@ Innovation<Model::measurement_size> update(const Model& model, const EstimateOf<
   constexpr int N = Model::state_size;
   constexpr int max_N = Model::max_state_size;
   constexpr int M = Model::measurement_size;
-  using Gain = Eigen::Matrix<double, N, M, 0, max_N, M>;
+  using Gain = RectangularMatrix<N, M, max_N, M>;
   const auto& P = prior.covariance;
   const auto& R = measurement.covariance;
 

@@ -93,8 +93,8 @@ class KinematicModel {
     add_known_input(dt, u);
     return u;
   }
-  Eigen::Matrix<double, Axes, state_size, 0, Axes, max_state_size> measurement_matrix() const {
-    return Eigen::Matrix<double, Axes, state_size, 0, Axes, max_state_size>::Identity(Axes, size());
+  RectangularMatrix<Axes, state_size, Axes, max_state_size> measurement_matrix() const {
+    return RectangularMatrix<Axes, state_size, Axes, max_state_size>::Identity(Axes, size());
   }
 
   void add_process_covariance(double dt, Matrix& covariance) const {

@@ -22,7 +22,7 @@ namespace sigmax {
 /// The choices that the paper leaves open; the defaults are argued in docs/readings.md.
 template <Uncertainty Kind>
 struct Interaction {
-  Lift lift = Lift::zero;
+  Lift lift = Lift::borrowed_variance;
   Collapse<Kind> collapse = {};
   Tie output_tie = Tie::stay;
 };

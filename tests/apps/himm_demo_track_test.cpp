@@ -1,0 +1,388 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/temporary_directory.hpp"
+#include "support/near.hpp"
+#include "support/program.hpp"
+#include "support/restatement.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using support::near;
+
+struct Point {
+  double time;
+  std::vector<double> z;
+};
+
+/// A target on two or three axes that flies straight, turns hard and flies on, seen to 10 m at irregular times.
+std::vector<Point> recording(std::size_t axes) {
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> noise(0.0, 10.0);
+  std::uniform_real_distribution<double> step(0.1, 0.4);
+  std::vector<double> x = {1200.0, 800.0, 300.0};
+  std::vector<double> v = {-100.0, -80.0, 0.0};
+  std::vector<Point> points;
+  double time = 3.0;
+  for (int k = 0; k < 220; ++k) {
+    const std::vector<double> a = k >= 80 && k < 130 ? std::vector{-30.0, -50.0, 4.0} : std::vector{0.0, 0.0, 0.0};
+    const double dt = step(engine);
+    time += dt;
+    Point point{time, {}};
+    for (std::size_t i = 0; i < axes; ++i) {
+      x[i] += dt * v[i] + 0.5 * dt * dt * a[i];
+      v[i] += dt * a[i];
+      point.z.push_back(x[i] + noise(engine));
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::string csv(const std::vector<Point>& points) {
+  std::ostringstream text;
+  text.precision(17);
+  text << (points.front().z.size() == 3 ? "time_s,x_m,y_m,z_m\n" : "time_s,x_m,y_m\n");
+  for (const auto& point : points) {
+    text << point.time;
+    for (const double z : point.z) text << ',' << z;
+    text << '\n';
+  }
+  return text.str();
+}
+
+/// The rows of a CSV file, each by the names of its columns.
+std::vector<std::map<std::string, std::string>> rows(const std::string& text) {
+  std::istringstream lines(text);
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, std::string>> result;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::string cell;
+    for (const char letter : line + ",") {
+      if (letter == ',')
+        cells.push_back(std::exchange(cell, ""));
+      else
+        cell += letter;
+    }
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    auto& row = result.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells.at(i);
+  }
+  return result;
+}
+
+struct Case {
+  std::string name;
+  std::vector<std::string> sets;  // beside those that all cases share
+  restatement::Options options;
+  std::string start = "given";
+  std::size_t axes = 3;
+};
+
+std::vector<Case> cases() {
+  using namespace restatement;
+  std::vector<Case> result;
+  const std::map<std::string, Lift> lifts = {
+      {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
+  const std::map<std::string, Weights> weights = {{"correct", Weights::correct}, {"released", Weights::released}};
+  const std::map<std::string, MixedCovariance> readings = {{"selected", MixedCovariance::selected},
+                                                           {"own", MixedCovariance::own},
+                                                           {"own_recentred", MixedCovariance::own_recentred},
+                                                           {"released", MixedCovariance::released}};
+  for (const auto& [lift, lift_value] : lifts) {
+    for (const auto& [name, value] : weights) {
+      Options options;
+      options.mixing_weights = value;
+      options.lift = lift_value;
+      result.push_back(
+          {"imm_" + name + "_" + lift, {"filters=[\"imm\"]", "imm_mixing=" + name, "lift=" + lift}, options});
+    }
+    for (const auto& [name, value] : readings) {
+      Options options;
+      options.kind = Kind::himm;
+      options.mixed_covariance = value;
+      options.lift = lift_value;
+      result.push_back(
+          {"himm_" + name + "_" + lift, {"filters=[\"himm\"]", "mixed_covariance=" + name, "lift=" + lift}, options});
+    }
+  }
+  Options ties;
+  ties.kind = Kind::himm;
+  ties.lift = Lift::zero;
+  ties.mixing_tie = Tie::last;
+  ties.output_tie = Tie::first;
+  result.push_back(
+      {"himm_ties_as_released", {"filters=[\"himm\"]", "mixing_tie=last", "output_tie=first", "lift=zero"}, ties});
+  for (const std::string start : {"points", "released"}) {
+    for (const std::size_t axes : {2U, 3U}) {
+      Options imm;
+      imm.lift = Lift::borrowed_variance;
+      Options himm = imm;
+      himm.kind = Kind::himm;
+      const std::string suffix = "_" + start + "_" + std::to_string(axes);
+      result.push_back({"imm" + suffix, {"filters=[\"imm\"]"}, imm, start, axes});
+      result.push_back({"himm" + suffix, {"filters=[\"himm\"]"}, himm, start, axes});
+    }
+  }
+  return result;
+}
+
+const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
+const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
+constexpr double start_time = 2.5;
+
+class Track : public testing::TestWithParam<Case> {};
+
+TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
+  const Case& c = GetParam();
+  const auto points = recording(c.axes);
+  const TemporaryDirectory directory;
+  const auto input = directory.write("recording.csv", csv(points));
+  const auto out = directory.path() / "out";
+  std::vector<std::string> arguments = {"track", input, "--quiet", "--out", out};
+  std::vector<std::string> sets = {
+      "start=" + c.start,
+      "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
+      "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]",
+      "start_time_s=2.5",
+      "sigma_w=[3,4]",
+      "sigma_position_m=10",
+      "transition_probability=[[0.95,0.05],[0.1,0.9]]",
+      "transition_possibility=[[1,0.5],[0.25,1]]",
+  };
+  sets.insert(sets.end(), c.sets.begin(), c.sets.end());
+  for (const auto& set : sets) {
+    arguments.push_back("--set");
+    arguments.push_back(set);
+  }
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(out / "estimates.csv"));
+
+  using restatement::Index;
+  restatement::Matrix R(c.axes, c.axes);
+  for (Index i = 0; i < c.axes; ++i) R(i, i) = 100.0;
+  std::vector<restatement::State> states;
+  std::size_t first = 0;
+  double time = start_time;
+  if (c.start == "given") {
+    for (const Index orders : {2U, 3U}) {
+      const Index n = c.axes * orders;
+      restatement::State state{restatement::Vector(n), restatement::Matrix(n, n)};
+      for (Index i = 0; i < n; ++i) {
+        state.mean[i] = start_mean[i];
+        state.covariance(i, i) = start_variance[i];
+      }
+      states.push_back(state);
+    }
+  } else {
+    const auto at = [&](std::size_t i) { return restatement::Position{points[i].z, R}; };
+    const double T12 = points[1].time - points[0].time;
+    const double T23 = points[2].time - points[1].time;
+    if (c.start == "points") {
+      states = {restatement::two_point_start(at(1), at(2), T23),
+                restatement::three_point_start(at(0), at(1), at(2), T12, T23)};
+    } else {
+      const auto start = restatement::released_start(at(0), at(1), at(2), T23);
+      states = {restatement::leading(start, 2 * c.axes), start};
+    }
+    first = 3;
+    time = points[2].time;
+  }
+  const bool himm = c.options.kind == restatement::Kind::himm;
+  restatement::Filter filter(
+      {restatement::dwna(c.axes, 3.0), restatement::dwpa(c.axes, 4.0)},
+      himm ? restatement::Matrix(2, 2, {1, 0.5, 0.25, 1}) : restatement::Matrix(2, 2, {0.95, 0.05, 0.1, 0.9}), states,
+      {1.0, 1.0}, c.options);
+
+  ASSERT_EQ(found.size(), points.size() - first);
+  const std::vector<std::string> means = {"x_m",    "y_m",     "z_m",     "vx_mps", "vy_mps",
+                                          "vz_mps", "ax_mps2", "ay_mps2", "az_mps2"};
+  const std::vector<std::string> sigmas = {"sigma_x_m",    "sigma_y_m",    "sigma_z_m",
+                                           "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps"};
+  for (std::size_t k = first; k < points.size(); ++k) {
+    filter.step(points[k].time - time, points[k].z, R);
+    time = points[k].time;
+    const auto& row = found[k - first];
+    const auto estimate = filter.estimate();
+    SCOPED_TRACE("step " + std::to_string(k));
+    ASSERT_EQ(std::stod(row.at("time_s")), points[k].time);
+    for (Index order = 0; order < 3; ++order)
+      for (Index axis = 0; axis < 3; ++axis) {
+        const auto& cell = row.at(means[order * 3 + axis]);
+        if (axis >= c.axes) {
+          ASSERT_EQ(cell, "");
+          continue;
+        }
+        const Index i = order * c.axes + axis;
+        ASSERT_PRED_FORMAT3(near, std::stod(cell), estimate.mean[i], 1e-9);
+        if (order < 2) {
+          ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[order * 3 + axis])), std::sqrt(estimate.covariance(i, i)),
+                              1e-9);
+        }
+      }
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), *filter.nis(), 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
+    ASSERT_EQ(row.at("most_likely"), filter.winner() == 0 ? "dwna" : "dwpa");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HimmDemo, Track, testing::ValuesIn(cases()), [](const auto& test) { return test.param.name; });
+
+/// Runs `track` on a file of that text.
+program::Ending track(const TemporaryDirectory& directory, std::string_view text, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments = {"track", directory.write("input.csv", text)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return program::run(SIGMAX_HIMM_DEMO, arguments);
+}
+
+TEST(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
+  // Due north along a meridian at constant height: the estimate's latitude follows the input's.
+  std::string text = "t,lat,lon,altitude_ft,junk\n";
+  for (int k = 0; k < 60; ++k) text += std::to_string(k) + "," + std::to_string(52.0 + 0.001 * k) + ",4.5,1000,x\n";
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  const auto ending = track(directory, text,
+                            {"--columns", "time_s=t,latitude_deg=lat,longitude_deg=lon", "--origin", "52,4.5,0",
+                             "--out", out, "--set", "sigma_position_m=1"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(out / "estimates.csv"));
+  ASSERT_EQ(found.size(), 2U * 57U);
+  for (const auto& row : found) {
+    // A metre is 9e-6 of a degree; the input has six decimals.
+    EXPECT_NEAR(std::stod(row.at("latitude_deg")), 52.0 + 0.001 * std::stod(row.at("time_s")), 9e-6);
+    EXPECT_NEAR(std::stod(row.at("longitude_deg")), 4.5, 1e-5);
+    EXPECT_NEAR(std::stod(row.at("altitude_m")), 304.8, 1.0);
+    EXPECT_NEAR(std::stod(row.at("vy_mps")), 111.26, 0.5);  // a thousandth of a degree of latitude at 52° a second
+  }
+}
+
+TEST(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
+  const auto text = csv(recording(3));
+  const TemporaryDirectory directory;
+  const auto run = [&](const std::string& out, const std::string& seed) {
+    const auto ending =
+        track(directory, text,
+              {"--radar", "10,0.1,0.1", "--radar-at=-5000,-4000,0", "--seed", seed, "--out", directory.path() / out});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    EXPECT_NE(ending.output.find("RMSE"), std::string::npos) << ending.output;
+    return contents(directory.path() / out / "estimates.csv");
+  };
+  const auto first = run("a", "3");
+  EXPECT_EQ(first, run("b", "3"));
+  EXPECT_NE(first, run("c", "4"));
+}
+
+TEST(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  const auto ending = track(directory, "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,,\n4,4,8\n", {"--out", out});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(out / "estimates.csv"));
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0].at("nis"), "");
+  EXPECT_NEAR(std::stod(found[0].at("x_m")), 3.0, 1e-9);  // the points lie on a line
+  EXPECT_NE(found[2].at("nis"), "");
+}
+
+TEST(HimmDemoTrack, BadInputExitsWith3AndNamesFileLineColumnAndValue) {
+  const TemporaryDirectory directory;
+  const auto message = [&](std::string_view text, std::vector<std::string> more = {}) {
+    const auto ending = track(directory, text, std::move(more));
+    EXPECT_EQ(ending.status, 3) << ending.output;
+    return ending.output;
+  };
+  const auto contains = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  contains(message("time_s,x_m,y_m\n0,1,2\n1,one,3\n"), "input.csv:3: column 'x_m': found 'one'");
+  contains(message("time_s,x_m,y_m\n0,1,2\n1,3\n"), "input.csv:3");
+  contains(message("time_s,x_m,y_m\n0,1,2\n0,3,4\n"), "input.csv:3: column 'time_s': found '0'");
+  contains(message("time_s,x_m,y_m\n0,1,2\n1,3,\n"), "column 'y_m'");
+  contains(message("time_s,x_m\n0,1\n"), "expected time_s,x_m,y_m");
+  contains(message("time_s,x_m,y_m\n0,1,2\n1,2,3\n"), "never started");
+  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "lft=zero"}), "did you mean 'lift'");
+  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "transition_possibility=[[1,0.5],[0.5,0.9]]"}),
+           "row 2 (from dwpa) is 0.9");
+  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "transition_probability=[[1,0.5],[0.5,0.5]]"}),
+           "row 1 (from dwna) is 1.5");
+  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "start=given"}), "start_mean");
+  contains(message("time_s,latitude_deg,longitude_deg,altitude_m\n0,91,4,0\n"), "latitude_deg");
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"track", directory.path() / "absent.csv"}).status, 3);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"track", directory.path()}).status, 3);
+}
+
+TEST(HimmDemoTrack, BadUsageExitsWith2) {
+  const TemporaryDirectory directory;
+  const std::string good = "time_s,x_m,y_m\n0,1,2\n";
+  EXPECT_EQ(track(directory, good, {"--radar", "1,2"}).status, 2);
+  EXPECT_EQ(track(directory, good, {"--radar", "1,2,3"}).status, 2);  // two axes only
+  EXPECT_EQ(track(directory, good, {"--columns", "what=x_m"}).status, 2);
+  EXPECT_EQ(track(directory, good, {"--origin", "52,4,0"}).status, 2);
+  EXPECT_EQ(track(directory, good, {"--unheard-of"}).status, 2);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {}).status, 2);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"--help"}).status, 0);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"--version"}).status, 0);
+}
+
+TEST(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
+  const TemporaryDirectory directory;
+  const std::string good = "time_s,x_m,y_m\n0,1,2\n";
+  const auto first =
+      track(directory, good, {"--print-config", "--set", "filter.himm.sigma_w=5", "--set", "lift=unbiased"});
+  ASSERT_EQ(first.status, 0) << first.output;
+  const auto file = directory.write("settings.toml", first.output);
+  const auto second = track(directory, good, {"--print-config", "--config", file});
+  EXPECT_EQ(second.output, first.output);
+  EXPECT_NE(first.output.find("sigma_w = [5.0, 5.0]"), std::string::npos) << first.output;
+}
+
+/// Recorded data outside the project, or nothing.
+std::string recorded(const std::string& name) {
+  const auto path = std::filesystem::path(SIGMAX_DATA) / "tracking" / name;
+  return std::filesystem::exists(path) ? path.string() : "";
+}
+
+TEST(HimmDemoTrack, ARecordedJetIsTrackedBetterThanItIsMeasured) {
+  const std::string file = recorded("c550_phlab_20170320_08.csv");
+  if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
+  const TemporaryDirectory directory;
+  const auto ending = program::run(
+      SIGMAX_HIMM_DEMO,
+      {"track", file, "--radar", "50,0.1,0.1", "--radar-at=-20000,-10000,0", "--quiet", "--out", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.output.find("|roll| > 15°"), std::string::npos);
+  const auto found = rows(contents(directory.path() / "estimates.csv"));
+  ASSERT_EQ(found.size(), 2U * (5470U - 3U));
+  for (const auto& row : found) {
+    const double weight = std::stod(row.at("weight_dwna"));
+    const double other = std::stod(row.at("weight_dwpa"));
+    ASSERT_NEAR(row.at("filter") == "imm" ? weight + other : std::max(weight, other), 1.0, 1e-12);
+  }
+}
+
+TEST(HimmDemoTrack, ARecordedMultirotorIsTrackedThroughMappedColumns) {
+  const std::string file = recorded("uav_rot.csv");
+  if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
+  const auto ending = program::run(
+      SIGMAX_HIMM_DEMO, {"track", file, "--columns",
+                         "time_s=timestamp,latitude_deg=latitude,longitude_deg=longitude,altitude_m=altitude (m)"});
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.output.find("964 measurements"), std::string::npos) << ending.output;
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include <sigmax/core/compose.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "support/allocations.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::allocations_of;
+
+/// The verbs that write into an existing result, for tables stored inline and on the heap.
+class InPlace : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Sizes, InPlace, testing::Values(1U, 2U, 4U, 5U, 40U));
+
+TEST(Allocations, AreCounted) {
+  EXPECT_EQ(allocations_of([] { const std::vector<double> some(100); }), 1U);
+  EXPECT_EQ(allocations_of([] { const Table small(4, 4); }), 0U);
+  EXPECT_EQ(allocations_of([] { const Table large(5, 4); }), 1U);
+}
+
+TEST_P(InPlace, VerbsAllocateNothing) {
+  const std::size_t n = GetParam();
+  const FuzzyVariable mode{"mode", n};
+  const Relation<Fuzzy, Fuzzy> transition{mode, mode, std::vector(n, std::vector<double>(n, 1.0))};
+  const Belief prior{uninformative(mode)};
+  const Likelihood likelihood{mode, std::vector<double>(n, 0.5)};
+  Relation<Fuzzy, Fuzzy> composed = transition;
+  Belief predicted = prior, posterior = prior;
+  auto inverse = invert(transition, prior);
+
+  EXPECT_EQ(allocations_of([&] { compose(transition, transition, composed); }), 0U);
+  EXPECT_EQ(allocations_of([&] { compose(transition, prior, predicted); }), 0U);
+  EXPECT_EQ(allocations_of([&] { update(prior, likelihood, posterior); }), 0U);
+  EXPECT_EQ(allocations_of([&] { update(posterior, likelihood, posterior); }), 0U);
+  EXPECT_EQ(allocations_of([&] { invert(transition, prior, inverse); }), 0U);
+}
+
+}  // namespace
+}  // namespace sigmax

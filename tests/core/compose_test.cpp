@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <concepts>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/compose.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+template <class To, class From>
+using R = Relation<To, From>;
+template <class To, class From>
+using I = Induced<Relation<To, From>>;
+template <class Kind>
+using D = Distribution<Kind>;
+
+template <class Left, class Right>
+using Composed = decltype(compose(std::declval<const Left&>(), std::declval<const Right&>()));
+
+// The kind of the result is the kind eliminated: a Relation. If not: only Induced.
+static_assert(std::same_as<Composed<R<Random, Random>, R<Random, Random>>, R<Random, Random>>);
+static_assert(std::same_as<Composed<R<Random, Random>, R<Random, Fuzzy>>, R<Random, Fuzzy>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Fuzzy>, R<Fuzzy, Fuzzy>>, R<Fuzzy, Fuzzy>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Fuzzy>, R<Fuzzy, Random>>, R<Fuzzy, Random>>);
+static_assert(std::same_as<Composed<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>>, I<Random, Fuzzy>>);  // (17)
+static_assert(std::same_as<Composed<R<Random, Fuzzy>, R<Fuzzy, Random>>, I<Random, Random>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Random>, R<Random, Random>>, I<Fuzzy, Random>>);  // (18)
+static_assert(std::same_as<Composed<R<Fuzzy, Random>, R<Random, Fuzzy>>, I<Fuzzy, Fuzzy>>);
+
+// Induced is closed, on either side.
+static_assert(std::same_as<Composed<R<Random, Random>, I<Random, Fuzzy>>, I<Random, Fuzzy>>);
+static_assert(std::same_as<Composed<I<Random, Fuzzy>, R<Fuzzy, Fuzzy>>, I<Random, Fuzzy>>);
+static_assert(std::same_as<Composed<I<Random, Fuzzy>, I<Fuzzy, Random>>, I<Random, Random>>);
+
+// With a distribution: a distribution, or induced.
+static_assert(std::same_as<Composed<R<Random, Random>, D<Random>>, D<Random>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Fuzzy>, D<Fuzzy>>, D<Fuzzy>>);
+static_assert(std::same_as<Composed<R<Random, Fuzzy>, D<Fuzzy>>, Induced<D<Random>>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Random>, D<Random>>, Induced<D<Fuzzy>>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Fuzzy>, Induced<D<Fuzzy>>>, Induced<D<Fuzzy>>>);
+static_assert(std::same_as<Composed<I<Random, Fuzzy>, D<Fuzzy>>, Induced<D<Random>>>);
+static_assert(std::same_as<Composed<R<Fuzzy, Fuzzy>, Belief<Fuzzy>>, Belief<Fuzzy>>);
+static_assert(std::same_as<Composed<Likelihood<Fuzzy>, R<Fuzzy, Random>>, Likelihood<Random>>);
+
+// A wrong kind does not compile.
+template <class Left, class Right>
+concept Composes = requires(const Left& left, const Right& right) {
+  compose(left, right);
+};
+static_assert(Composes<R<Random, Fuzzy>, R<Fuzzy, Random>>);
+static_assert(!Composes<R<Random, Fuzzy>, R<Random, Fuzzy>>);
+static_assert(!Composes<R<Random, Random>, R<Fuzzy, Random>>);
+static_assert(!Composes<R<Random, Fuzzy>, D<Random>>);
+static_assert(!Composes<R<Random, Random>, D<Fuzzy>>);
+static_assert(!Composes<R<Random, Fuzzy>, Induced<D<Random>>>);
+static_assert(!Composes<R<Random, Fuzzy>, Belief<Fuzzy>>);  // would be induced, and a belief is not
+static_assert(!Composes<R<Random, Random>, Belief<Fuzzy>>);
+static_assert(!Composes<Likelihood<Random>, R<Fuzzy, Random>>);
+static_assert(!Composes<D<Random>, R<Random, Random>>);
+
+// Nor does a relation take what is only induced.
+template <class Left, class Right, class Result>
+concept ComposesInto = requires(const Left& left, const Right& right, Result& result) {
+  compose(left, right, result);
+};
+static_assert(ComposesInto<R<Fuzzy, Fuzzy>, R<Fuzzy, Random>, R<Fuzzy, Random>>);
+static_assert(ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, I<Random, Fuzzy>>);
+static_assert(!ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, R<Random, Fuzzy>>);
+static_assert(!ComposesInto<R<Fuzzy, Fuzzy>, R<Fuzzy, Random>, I<Fuzzy, Random>>);
+
+const FuzzyVariable age{"age", {"young", "middle", "old"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+const RandomVariable speed{"speed", {"slow", "fast"}};
+const R<Fuzzy, Fuzzy> mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
+const R<Random, Fuzzy> speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
+
+TEST(Compose, EliminatesARandomVariableByTheSum) {  // (7)
+  const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
+  const Relation a_given_b{a, b, {{0.9, 0.1}, {0.3, 0.7}}};
+  const Relation b_given_c{b, c, {{0.5, 0.5}, {0.2, 0.8}}};
+  const Relation composed = compose(a_given_b, b_given_c);
+  EXPECT_EQ(composed.to(), a);
+  EXPECT_EQ(composed.from(), c);
+  EXPECT_PRED_FORMAT3(near, composed.table().values(), (std::vector{0.6, 0.4, 0.42, 0.58}), 1e-15);
+}
+
+TEST(Compose, EliminatesAFuzzyVariableByTheMaximum) {  // (6)
+  const FuzzyVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
+  const Relation a_given_b{a, b, {{1.0, 0.1}, {0.3, 1.0}}};
+  const Relation b_given_c{b, c, {{1.0, 0.5}, {0.2, 1.0}}};
+  EXPECT_PRED_FORMAT3(near, compose(a_given_b, b_given_c).table().values(), (std::vector{1.0, 0.5, 0.3, 1.0}), 1e-15);
+}
+
+TEST(Compose, OfARandomRelationOverAFuzzyOneIsInducedByTheMaximum) {  // (17)
+  const Induced speed_given_age = compose(speed_given_mood, mood_given_age);
+  EXPECT_PRED_FORMAT3(near, speed_given_age.table().values(), (std::vector{0.3, 0.7, 0.9, 0.42, 0.9, 0.14}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, speed_given_age.betas(), (std::vector{1.0, 1.32, 1.04}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, speed_given_age.normalized().given("middle")["fast"], 0.42 / 1.32, 1e-15);
+}
+
+TEST(Compose, OfAFuzzyRelationOverARandomOneIsInducedByTheSum) {  // (18)
+  const RandomVariable a{"a", 2};
+  const Relation speed_given_a{speed, a, {{0.5, 0.5}, {0.25, 0.75}}};
+  const Relation mood_given_speed{mood, speed, {{1.0, 0.2}, {0.4, 1.0}}};
+  const Induced mood_given_a = compose(mood_given_speed, speed_given_a);
+  EXPECT_PRED_FORMAT3(near, mood_given_a.table().values(), (std::vector{0.7, 0.6, 0.55, 0.8}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, mood_given_a.betas(), (std::vector{0.7, 0.8}), 1e-15);
+}
+
+TEST(Compose, OfProbabilitiesAndAPossibilityIsTheSmallWorldOfTheReadings) {  // (15), (16)
+  const RandomVariable x{"x", 3};
+  const FuzzyVariable y{"y", 2};
+  const Relation x_given_y{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}};
+  const Induced x_induced = compose(x_given_y, Distribution{y, {1.0, 0.5}});
+  EXPECT_PRED_FORMAT3(near, x_induced.values(), (std::vector{0.6, 0.3, 0.3}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, x_induced.beta(), 1.2, 1e-15);
+  EXPECT_PRED_FORMAT3(near, x_induced.normalized().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
+}
+
+TEST(Compose, OfPossibilitiesAndAProbabilityIsTheSmallWorldOfTheReadings) {  // (18) with one condition
+  const FuzzyVariable y{"y", 2};
+  const RandomVariable x{"x", 3};
+  const Relation y_given_x{y, x, {{1.0, 0.4}, {0.5, 1.0}, {0.3, 1.0}}};
+  const Induced y_induced = compose(y_given_x, Distribution{x, {0.5, 0.3, 0.2}});
+  EXPECT_PRED_FORMAT3(near, y_induced.values(), (std::vector{0.71, 0.70}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, y_induced.beta(), 0.71, 1e-15);
+}
+
+TEST(Compose, OfSingleOutcomesIsCertain) {
+  const FuzzyVariable one{"one", 1};
+  const Relation certain{one, one, {{1.0}}};
+  EXPECT_EQ(compose(certain, certain)(0, 0), 1.0);
+  EXPECT_EQ(compose(certain, uninformative(one))[0], 1.0);
+}
+
+TEST(Compose, RefusesAnotherVariableInTheMiddleByBothNames) {
+  const FuzzyVariable temper{"temper", {"calm", "wild"}};
+  const Relation temper_given_age{temper, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(speed_given_mood, temper_given_age); },
+                                            {"compose", "'mood'", "'temper'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(speed_given_mood, uninformative(temper)); },
+                                            {"compose", "'mood'", "'temper'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(mood_given_age, Belief{uninformative(mood)}); },
+                                            {"compose", "'age'", "'mood'"}));
+  EXPECT_TRUE(
+      throws<std::invalid_argument>([&] { compose(Likelihood{age}, mood_given_age); }, {"compose", "'age'", "'mood'"}));
+  const FuzzyVariable finer_mood{"mood", {"calm", "wild", "odd"}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(speed_given_mood, uninformative(finer_mood)); },
+                                            {"'mood'", "'mood'", "other outcomes"}));
+}
+
+TEST(Compose, IntoAResultIsTheSameAsTheValue) {
+  for (const std::size_t n : {1U, 3U, 5U, 30U}) {  // inline and on the heap
+    const RandomVariable cell{"cell", n};
+    std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.0));
+    for (std::size_t i = 0; i < n; ++i) {
+      rows[i][i] += 0.75;
+      rows[i][(i + 1) % n] += 0.25;
+    }
+    const R<Random, Random> step{cell, cell, rows};
+    R<Random, Random> result = step;
+    compose(step, step, result);
+    EXPECT_PRED_FORMAT3(near, result.table().values(), compose(step, step).table().values(), 0.0);
+    if (n > 2) {
+      EXPECT_PRED_FORMAT3(near, result(0, 1), 2 * 0.75 * 0.25, 1e-15);
+    }
+  }
+}
+
+TEST(Compose, RefusesAResultOfOtherVariablesAndLeavesItAlone) {
+  R<Fuzzy, Fuzzy> result{age, age, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  const R<Fuzzy, Fuzzy> mood_to_mood{mood, mood, {{1.0, 0.5}, {0.5, 1.0}}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(mood_to_mood, mood_given_age, result); },
+                                            {"compose", "'mood'", "'age'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(mood_to_mood, mood_to_mood, result); }, {"'mood'", "'age'"}));
+  EXPECT_EQ(result(2, 2), 1.0);
+}
+
+TEST(Compose, PredictsABeliefInTheLogDomain) {  // (51), (53)
+  const RandomVariable mode{"mode", 2};
+  const Relation transition{mode, mode, {{0.95, 0.05}, {0.1, 0.9}}};
+  const Belief prior{Distribution{mode, {0.25, 0.75}}};
+  EXPECT_PRED_FORMAT3(near, compose(transition, prior).distribution().values(), (std::vector{0.3125, 0.6875}), 1e-15);
+  Belief<Random> result{uninformative(mode)};
+  compose(transition, prior, result);
+  EXPECT_PRED_FORMAT3(near, result.distribution().values(), (std::vector{0.3125, 0.6875}), 1e-15);
+
+  Belief far = prior;  // e^−2000 is no number, but moving in from the other mode makes it one again
+  far.assign([](std::size_t i) { return i == 0 ? 0.0 : -2000.0; });
+  EXPECT_PRED_FORMAT3(near, compose(transition, far).distribution().values(), (std::vector{0.95, 0.05}), 1e-15);
+  const Relation stay{mode, mode, {{1.0, 0.0}, {0.0, 1.0}}};
+  EXPECT_EQ(compose(stay, far).log(1), -2000.0);
+}
+
+TEST(Compose, CarriesALikelihoodBack) {  // (42), (45)
+  const auto of_fuzzy = compose(Likelihood{mood, {0.5, 0.8}}, mood_given_age);
+  EXPECT_PRED_FORMAT3(near, of_fuzzy["young"], 0.8, 1e-15);
+  EXPECT_PRED_FORMAT3(near, of_fuzzy["middle"], 0.5, 1e-15);
+  EXPECT_PRED_FORMAT3(near, of_fuzzy["old"], 0.5, 1e-15);
+  const auto of_random = compose(Likelihood{speed, {0.5, 0.8}}, speed_given_mood);
+  EXPECT_PRED_FORMAT3(near, of_random["calm"], 0.53, 1e-15);
+  EXPECT_PRED_FORMAT3(near, of_random["wild"], 0.71, 1e-15);
+}
+
+TEST(Compose, CarriesAnExcludingLikelihoodBackAsExcluding) {
+  const Relation crisp{mood, age, {{1.0, 0.0}, {1.0, 0.5}, {0.0, 1.0}}};
+  const auto carried = compose(Likelihood{mood, {0.0, 0.5}}, crisp);
+  EXPECT_EQ(carried.log(0), log_zero);
+  EXPECT_PRED_FORMAT3(near, carried["middle"], 0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/distribution.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+constexpr double subnormal = std::numeric_limits<double>::denorm_min();
+constexpr double greatest_double = std::numeric_limits<double>::max();
+
+const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+
+static_assert(std::same_as<Distribution<Random>::kind, Random>);
+static_assert(!std::constructible_from<Distribution<Random>, FuzzyVariable, std::vector<double>>);
+static_assert(!std::convertible_to<Distribution<Random>, Distribution<Fuzzy>>);
+static_assert(std::copyable<Distribution<Random>>);
+
+TEST(Distribution, IsReadByIndexAndByLabel) {
+  const Distribution p{weather, {0.5, 0.25, 0.25}};
+  EXPECT_EQ(p[0], 0.5);
+  EXPECT_EQ(p["snow"], 0.25);
+  EXPECT_EQ(p.size(), 3U);
+  EXPECT_EQ(p.variable(), weather);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { p["hail"]; }, {"'weather'", "'hail'"}));
+}
+
+TEST(Distribution, ToleratesATotalWithinOneBillionthAndStoresTheValuesUnchanged) {
+  for (const double off : {-0.9e-9, 0.9e-9}) {
+    const Distribution p{weather, {0.5, 0.25, 0.25 + off}};
+    EXPECT_EQ(p["snow"], 0.25 + off);
+    EXPECT_EQ(p["dry"], 0.5);
+    const Distribution pi{mood, {1.0 + off, 0.5}};
+    EXPECT_EQ(pi["calm"], 1.0 + off);
+  }
+  for (const double off : {-1.1e-9, 1.1e-9}) {
+    EXPECT_TRUE(throws<std::invalid_argument>(
+        [&] {
+          Distribution(weather, {0.5, 0.25, 0.25 + off});
+        },
+        {"sum", "'weather'", off < 0 ? "0.9999999989" : "1.0000000011"}));
+    EXPECT_TRUE(throws<std::invalid_argument>(
+        [&] {
+          Distribution(mood, {1.0 + off, 0.5});
+        },
+        {"'mood'", off < 0 ? "0.9999999989" : "1.0000000011"}));
+  }
+}
+
+TEST(Distribution, TakesAsManyValuesAsThereAreOutcomes) {
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Distribution(mood, {1.0, 1.0, 1.0});
+      },
+      {"'mood'", "2 outcomes", "3 values"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Distribution(mood, std::vector<double>{}); },
+                                            {"'mood'", "2 outcomes", "0 values"}));
+}
+
+TEST(Distribution, OfASingleOutcomeIsCertain) {
+  const Distribution p{RandomVariable{"single", {"only"}}, {1.0}};
+  EXPECT_EQ(p["only"], 1.0);
+  EXPECT_EQ(most_likely(p), "only");
+}
+
+TEST(Distribution, OfAHundredThousandOutcomesIsHeldAndCopied) {
+  const RandomVariable cell{"cell", 100000};
+  std::vector<double> values(cell.size(), 0.0);
+  values[99999] = 1.0;
+  const Distribution p{cell, values};
+  const Distribution<Random> copy = p;
+  EXPECT_EQ(copy["99999"], 1.0);
+  EXPECT_EQ(copy[0], 0.0);
+  EXPECT_EQ(most_likely(copy), "99999");
+}
+
+TEST(Distribution, CanBeAssignedAndMoved) {
+  Distribution p{weather, {0.5, 0.25, 0.25}};
+  p = Distribution{weather, {0.0, 0.0, 1.0}};
+  EXPECT_EQ(p["snow"], 1.0);
+  const Distribution<Random> moved = std::move(p);
+  EXPECT_EQ(moved["snow"], 1.0);
+  EXPECT_EQ(moved.variable().name(), "weather");
+}
+
+TEST(Uninformative, IsUniformForRandomAndOneForFuzzy) {
+  for (const double value : uninformative(weather).values()) EXPECT_PRED_FORMAT3(near, value, 1.0 / 3.0, 1e-15);
+  for (const double value : uninformative(mood).values()) EXPECT_EQ(value, 1.0);
+  EXPECT_EQ(uninformative(RandomVariable("single", 1))[0], 1.0);
+  const auto cell = uninformative(RandomVariable("cell", 100000));
+  EXPECT_PRED_FORMAT3(near, cell[99999], 1e-5, 1e-15);
+  EXPECT_PRED_FORMAT3(near, total<Random>(cell.values()), 1.0, 1e-9);
+}
+
+TEST(Normalized, DividesByTheTotalOfTheKind) {
+  const std::vector<double> three{1.0, 2.0, 5.0};
+  EXPECT_PRED_FORMAT3(near, normalized(weather, three).values(), (std::vector{0.125, 0.25, 0.625}), 1e-15);
+  const std::vector<double> two{4.0, 1.0};
+  EXPECT_PRED_FORMAT3(near, normalized(mood, two).values(), (std::vector{1.0, 0.25}), 1e-15);
+}
+
+TEST(Normalized, NeitherOverflowsNorUnderflows) {
+  const std::vector<double> huge{greatest_double, greatest_double, 0.0};
+  EXPECT_PRED_FORMAT3(near, normalized(weather, huge).values(), (std::vector{0.5, 0.5, 0.0}), 1e-15);
+  const std::vector<double> tiny{subnormal, subnormal, 0.0};
+  EXPECT_PRED_FORMAT3(near, normalized(weather, tiny).values(), (std::vector{0.5, 0.5, 0.0}), 1e-15);
+  const std::vector<double> lone{subnormal, 0.0};
+  EXPECT_EQ(normalized(mood, lone)["calm"], 1.0);
+}
+
+TEST(Normalized, RefusesWhatHasNoProportion) {
+  const std::vector<double> zero{0.0, 0.0}, negative{1.0, -1.0}, short_of_one{1.0};
+  const std::vector<double> nan{1.0, std::numeric_limits<double>::quiet_NaN()};
+  const std::vector<double> infinite{std::numeric_limits<double>::infinity(), 1.0};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, zero); }, {"'mood'", "zero"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, negative); }, {"'mood'", "'wild'", "-1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, short_of_one); }, {"'mood'", "1 values"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, nan); }, {"'mood'", "'wild'", "nan", "finite"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, infinite); }, {"'mood'", "'calm'", "inf"}));
+}
+
+TEST(MostLikely, IsTheFirstDeclaredOnATie) {
+  EXPECT_EQ(most_likely(Distribution{weather, {0.25, 0.5, 0.25}}), "wet");
+  EXPECT_EQ(most_likely(Distribution{weather, {0.25, 0.375, 0.375}}), "wet");
+  EXPECT_EQ(most_likely(uninformative(mood)), "calm");
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include <sigmax/core/belief.hpp>
+#include <sigmax/core/induced.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+using InducedRelation = Induced<Relation<Random, Fuzzy>>;
+using InducedDistribution = Induced<Distribution<Random>>;
+
+// Never silently a distribution.
+static_assert(!std::convertible_to<InducedRelation, Relation<Random, Fuzzy>>);
+static_assert(!std::constructible_from<Relation<Random, Fuzzy>, InducedRelation>);
+static_assert(!std::convertible_to<InducedDistribution, Distribution<Random>>);
+static_assert(!std::constructible_from<Distribution<Random>, InducedDistribution>);
+static_assert(!std::constructible_from<Belief<Random>, InducedDistribution>);
+static_assert(!std::convertible_to<Relation<Random, Fuzzy>, InducedRelation>);
+static_assert(is_induced<InducedRelation> && is_induced<InducedDistribution>);
+static_assert(!is_induced<Relation<Random, Fuzzy>> && !is_induced<Distribution<Random>>);
+
+template <class T>
+concept HasGiven = requires(const T& t) {
+  t.given(0U);
+};
+static_assert(HasGiven<Relation<Random, Fuzzy>> && !HasGiven<InducedRelation>);
+
+const RandomVariable speed{"speed", {"slow", "fast"}};
+const FuzzyVariable age{"age", {"young", "old"}};
+
+Table table(std::size_t rows, std::size_t columns, const std::vector<double>& values) {
+  Table result(rows, columns);
+  std::copy(values.begin(), values.end(), result.data());
+  return result;
+}
+
+TEST(InducedRelation, HasABetaForEveryConditionThatNormalizingDividesBy) {
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), ByLaw{}};
+  EXPECT_PRED_FORMAT3(near, induced.beta(1), 1.04, 1e-15);
+  EXPECT_PRED_FORMAT3(near, induced.betas(), (std::vector{1.0, 1.04}), 1e-15);
+  const Relation<Random, Fuzzy> normalized = induced.normalized();
+  EXPECT_PRED_FORMAT3(near, normalized.given("old")["fast"], 0.14 / 1.04, 1e-15);
+  EXPECT_PRED_FORMAT3(near, normalized.given("young")["fast"], 0.7, 1e-15);
+}
+
+TEST(InducedRelation, ReadAsALikelihoodIsNotDividedByBeta) {
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), ByLaw{}};
+  const Likelihood<Fuzzy> likelihood = induced.likelihood("fast");
+  EXPECT_PRED_FORMAT3(near, likelihood["young"], 0.7, 1e-15);
+  EXPECT_PRED_FORMAT3(near, likelihood["old"], 0.14, 1e-15);
+}
+
+TEST(InducedRelation, OfAFuzzyVariableHasTheMaximumAsBeta) {
+  const Induced<Relation<Fuzzy, Random>> induced{age, speed, table(2, 2, {0.25, 0.5, 0.8, 0.4}), ByLaw{}};
+  EXPECT_PRED_FORMAT3(near, induced.betas(), (std::vector{0.5, 0.8}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, induced.normalized().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 1e-15);
+}
+
+TEST(InducedRelation, WithAnEmptyRowHasNoDistributionReading) {
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.0, 0.0}), ByLaw{}};
+  EXPECT_TRUE(throws<std::domain_error>([&] { induced.normalized(); }, {"'speed'", "age", "'old'"}));
+}
+
+TEST(InducedRelation, OfSubnormalNumbersIsNormalizedAsWell) {
+  const double subnormal = std::numeric_limits<double>::denorm_min();
+  const InducedRelation induced{speed, age, table(2, 2, {subnormal, subnormal, 1.0, 0.0}), ByLaw{}};
+  EXPECT_PRED_FORMAT3(near, induced.normalized().row(0), (std::vector{0.5, 0.5}), 1e-15);
+}
+
+TEST(InducedDistribution, HasABetaThatNormalizingDividesBy) {
+  const InducedDistribution induced{speed, table(1, 2, {0.9, 0.6}), ByLaw{}};
+  EXPECT_EQ(induced["fast"], 0.6);
+  EXPECT_EQ(induced[0], 0.9);
+  EXPECT_PRED_FORMAT3(near, induced.beta(), 1.5, 1e-15);
+  EXPECT_PRED_FORMAT3(near, induced.normalized().values(), (std::vector{0.6, 0.4}), 1e-15);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { induced["medium"]; }, {"'speed'", "'medium'"}));
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/relation.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+using Rows = std::vector<std::vector<double>>;
+
+const FuzzyVariable age{"age", {"young", "middle", "old"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+const RandomVariable speed{"speed", {"slow", "fast"}};
+
+static_assert(!std::convertible_to<Relation<Random, Fuzzy>, Relation<Fuzzy, Fuzzy>>);
+static_assert(!std::constructible_from<Relation<Random, Fuzzy>, FuzzyVariable, FuzzyVariable, Rows>);
+static_assert(std::copyable<Relation<Random, Fuzzy>>);
+
+Relation<Fuzzy, Fuzzy> mood_given_age() { return {mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}}; }
+
+TEST(Relation, HasARowForEveryOutcomeOfItsCondition) {
+  const Relation relation{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
+  static_assert(std::same_as<decltype(relation), const Relation<Fuzzy, Fuzzy>>);
+  EXPECT_EQ(relation.to(), mood);
+  EXPECT_EQ(relation.from(), age);
+  EXPECT_EQ(relation(0, 1), 1.0);  // from first
+  EXPECT_EQ(relation(2, 1), 0.2);
+  EXPECT_EQ(relation.row(1)[1], 0.6);
+  EXPECT_EQ(relation.given("young")["calm"], 0.3);
+  EXPECT_EQ(relation.given(2)["wild"], 0.2);
+}
+
+TEST(Relation, GivesDistributionsOfItsOwnKind) {
+  const Relation speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
+  static_assert(std::same_as<decltype(speed_given_mood.given("calm")), Distribution<Random>>);
+  static_assert(std::same_as<decltype(speed_given_mood.likelihood("fast")), Likelihood<Fuzzy>>);
+  EXPECT_EQ(speed_given_mood.given("wild")["fast"], 0.7);
+}
+
+TEST(Relation, ReadByColumnIsALikelihoodOfItsCondition) {
+  const auto likelihood = mood_given_age().likelihood("wild");
+  EXPECT_EQ(likelihood.variable(), age);
+  EXPECT_PRED_FORMAT3(near, likelihood["young"], 1.0, 1e-15);
+  EXPECT_PRED_FORMAT3(near, likelihood["middle"], 0.6, 1e-15);
+  EXPECT_PRED_FORMAT3(near, likelihood["old"], 0.2, 1e-15);
+  EXPECT_PRED_FORMAT3(near, mood_given_age().likelihood(0)["young"], 0.3, 1e-15);
+}
+
+TEST(Relation, OfAnExcludedOutcomeHasALikelihoodOfZero) {
+  const Relation relation{speed, mood, {{1.0, 0.0}, {0.5, 0.5}}};
+  EXPECT_EQ(relation.likelihood("fast").log(0), log_zero);
+  EXPECT_EQ(relation.likelihood("fast")["calm"], 0.0);
+}
+
+TEST(Relation, RefusesABadRowByVariableRowAndValue) {
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(mood, age, {{0.3, 1.0}, {0.9, 0.6}, {1.0, 0.2}});
+      },
+      {"maximum", "'mood'", "age", "'middle'", "0.9"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(speed, mood, {{0.9, 0.1}, {0.3, 0.8}});
+      },
+      {"sum", "'speed'", "mood", "'wild'", "1.1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(speed, mood, {{1.5, -0.5}, {0.3, 0.7}});
+      },
+      {"'speed'", "mood", "'calm'", "'slow'", "1.5"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(speed, mood, {{1.0, std::numeric_limits<double>::quiet_NaN()}, {0.3, 0.7}});
+      },
+      {"'speed'", "mood", "'calm'", "'fast'", "nan"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(speed, mood, {{0.9, 0.1}, {1.0}});
+      },
+      {"'speed'", "mood", "'wild'", "2 outcomes", "1 values"}));
+}
+
+TEST(Relation, RefusesAWrongNumberOfRows) {
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(mood, age, {{0.3, 1.0}, {1.0, 0.6}});
+      },
+      {"'mood'", "'age'", "3 rows", "2"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Relation<Fuzzy, Fuzzy>(mood, age, Rows{}); }, {"3 rows", "0"}));
+}
+
+TEST(Relation, StoresRowsWithinToleranceUnchanged) {
+  const Relation relation{speed, mood, {{0.9, 0.1 + 0.9e-9}, {0.3, 0.7 - 0.9e-9}}};
+  EXPECT_EQ(relation(0, 1), 0.1 + 0.9e-9);
+  EXPECT_EQ(relation(1, 1), 0.7 - 0.9e-9);
+  EXPECT_THROW(Relation(speed, mood, {{0.9, 0.1 + 1.1e-9}, {0.3, 0.7}}), std::invalid_argument);
+  EXPECT_THROW(Relation(speed, mood, {{0.9, 0.1}, {0.3, 0.7 - 1.1e-9}}), std::invalid_argument);
+}
+
+TEST(Relation, RefusesOutcomesThatItDoesNotHave) {
+  const auto relation = mood_given_age();
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { relation.given("ancient"); }, {"'age'", "'ancient'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { relation.given(3); }, {"'age'", "3"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { relation.likelihood("sad"); }, {"'mood'", "'sad'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { relation.likelihood(2); }, {"'mood'", "2"}));
+}
+
+TEST(Relation, OfSingleOutcomesIsCertain) {
+  const RandomVariable one{"one", 1};
+  const Relation relation{one, one, {{1.0}}};
+  EXPECT_EQ(relation(0, 0), 1.0);
+  EXPECT_EQ(relation.given("0")["0"], 1.0);
+}
+
+TEST(Relation, MayLeadFromAVariableToItself) {
+  const Relation transition{mood, mood, {{1.0, 0.5}, {0.5, 1.0}}};
+  EXPECT_EQ(transition.to(), transition.from());
+  EXPECT_EQ(transition.given("calm")["wild"], 0.5);
+}
+
+TEST(Relation, LargerThanWhatIsStoredInlineIsCopiedAndMoved) {
+  const RandomVariable cell{"cell", 5};
+  const Rows rows(5, {0.5, 0.125, 0.125, 0.125, 0.125});
+  Relation<Random, Random> original{cell, cell, rows};
+  const Relation<Random, Random> copy = original;
+  const Relation<Random, Random> moved = std::move(original);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_PRED_FORMAT3(near, copy.row(i), rows[i], 0.0);
+    EXPECT_PRED_FORMAT3(near, moved.row(i), rows[i], 0.0);
+  }
+}
+
+TEST(Relation, NormalizedIsItself) {
+  const auto relation = mood_given_age();
+  EXPECT_EQ(&relation.normalized(), &relation);
+  const auto& outlives = mood_given_age().normalized();  // of a temporary it is a value
+  EXPECT_EQ(outlives(2, 1), 0.2);
+}
+
+}  // namespace
+}  // namespace sigmax

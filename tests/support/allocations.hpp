@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+/// Replaces the allocation functions of a test program by ones that count. Include it in one file of the program only.
+namespace sigmax::support {
+
+inline std::size_t allocations = 0;
+
+/// How many allocations the action makes.
+template <class Action>
+std::size_t allocations_of(const Action& action) {
+  const std::size_t before = allocations;
+  action();
+  return allocations - before;
+}
+
+}  // namespace sigmax::support
+
+void* operator new(std::size_t size) {
+  ++sigmax::support::allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc{};
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++sigmax::support::allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+  throw std::bad_alloc{};
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace program {
+
+/// What a program printed, on both streams, and how it ended.
+struct Ending {
+  std::string output;
+  int status = -1;
+};
+
+/// One word as a shell reads it back.
+inline std::string quoted(const std::string& word) {
+  std::string result = "'";
+  for (const char letter : word) result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return result + "'";
+}
+
+/// Runs a program and waits for it.
+inline Ending run(const std::string& path, const std::vector<std::string>& arguments) {
+  std::string command = quoted(path);
+  for (const auto& argument : arguments) command += " " + quoted(argument);
+  std::FILE* const pipe = popen((command + " 2>&1 </dev/null").c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
+  Ending ending;
+  std::array<char, 4096> buffer;
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    ending.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  ending.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return ending;
+}
+
+}  // namespace program
