@@ -126,15 +126,15 @@ double necessity(const Distribution<Kind>& distribution, const Event<Kind>& even
 ///
 /// Throws std::domain_error, naming the event, if its measure is zero.
 template <Uncertainty Kind>
-  requires ScalingAlgebra<AlgebraOf<Kind>> Distribution<Kind> given(const Distribution<Kind>& distribution,
-                                                                    const Event<Kind>& event) {
-    if (measure(distribution, event) == 0.0)
-      throw std::domain_error("the event " + event.description() + " has " + std::string(Kind::measure) +
-                              " 0 and cannot be a condition");
-    Table left(1, distribution.size());
-    for (std::size_t i = 0; i < left.size(); ++i) left(0, i) = event.contains(i) ? distribution[i] : 0.0;
-    return normalized(distribution.variable(), left.values());
-  }
+  requires(ScalingAlgebra<AlgebraOf<Kind>>)
+Distribution<Kind> given(const Distribution<Kind>& distribution, const Event<Kind>& event) {
+  if (measure(distribution, event) == 0.0)
+    throw std::domain_error("the event " + event.description() + " has " + std::string(Kind::measure) +
+                            " 0 and cannot be a condition");
+  Table left(1, distribution.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left(0, i) = event.contains(i) ? distribution[i] : 0.0;
+  return normalized(distribution.variable(), left.values());
+}
 
 /// Compatibility (1) of graded features, degree(f_X ⊆ f_x) = Σ μ min(f_X, f_x) / Σ μ f_X: `object` and `outcome` hold
 /// to which degree X and the concept x have each feature, `measure` what the feature weighs.

@@ -142,11 +142,10 @@ class InteractingMultipleModel {
   /// measurement.
   double nis() const {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
-    const auto prior_log = [this](std::size_t j) { return prior_.log(j); };
     Measurement predicted;
     collapse(
-        interaction_.collapse, Residuals{innovations_}, [this](std::size_t j) { return prior_[j]; },
-        select(modes(), prior_log, winner_, interaction_.output_tie), predicted);
+        interaction_.collapse, Residuals{innovations_}, [this](std::size_t j) { return prior_[j]; }, predicted_mode_,
+        predicted);
     const Eigen::LLT<SquareMatrix<measurement_size>> S(predicted.covariance);
     return S.matrixL().solve(predicted.mean).squaredNorm();
   }
@@ -222,7 +221,12 @@ class InteractingMultipleModel {
     });
   }
 
-  void choose() { winner_ = select(modes(), log_weight(), winner_, interaction_.output_tie); }
+  /// The winner before the measurement, for `nis`, and after it, (64).
+  void choose() {
+    const auto prior = [this](std::size_t j) { return prior_.log(j); };
+    predicted_mode_ = select(modes(), prior, winner_, interaction_.output_tie);
+    winner_ = select(modes(), log_weight(), winner_, interaction_.output_tie);
+  }
 
   /// For each component the value and variance of the most likely model that has it: what a lift of the output borrows.
   Estimate carried() const {
@@ -328,6 +332,7 @@ class InteractingMultipleModel {
   std::vector<std::string> components_;
   std::vector<Correspondence> mixing_maps_;  ///< of source l in receiver j, at j · modes + l
   std::vector<Correspondence> output_maps_;  ///< of source l in components_
+  std::size_t predicted_mode_ = 0;
   std::size_t winner_ = 0;
   bool measured_ = false;
 };
