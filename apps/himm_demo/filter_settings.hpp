@@ -28,7 +28,7 @@ struct FilterSettings {
   std::vector<int> orders;  ///< of the models: 2 for dwna, 3 for dwpa
   std::vector<double> sigma_w;
   std::vector<std::vector<double>> transition;
-  MixedCovariance mixed_covariance = MixedCovariance::selected;
+  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
   Lift lift = Lift::zero;
   Tie mixing_tie = Tie::stay;
@@ -46,7 +46,7 @@ struct FilterSettings {
 struct FilterDefaults {
   double sigma_w = 3.0;
   double possibility = 0.5;  ///< of leaving a mode
-  MixedCovariance mixed_covariance = MixedCovariance::selected;
+  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
   Lift lift = Lift::borrowed_variance;
   Tie mixing_tie = Tie::stay;

@@ -318,7 +318,8 @@ class Filter {
   /// Step 1, (51)–(59).
   void interact() {
     const Index M = models_.size();
-    // move_in[j][l] is the log weight of r_{k−1} = l given r_k = j; an unreachable mode comes from itself.
+    // move_in[j][l] is the log weight of r_{k−1} = l given r_k = j; an unreachable mode comes from itself
+    // and keeps its state.
     Vector predicted(M);
     std::vector<Vector> move_in(M, Vector(M));
     for (Index j = 0; j < M; ++j) {
@@ -333,8 +334,12 @@ class Filter {
     }
 
     std::vector<State> mixed;
-    for (Index j = 0; j < M; ++j)
-      mixed.push_back(options_.kind == Kind::imm ? averaged(j, move_in) : selected(j, move_in[j]));
+    for (Index j = 0; j < M; ++j) {
+      if (predicted[j] == nothing)
+        mixed.push_back(states_[j]);
+      else
+        mixed.push_back(options_.kind == Kind::imm ? averaged(j, move_in) : selected(j, move_in[j]));
+    }
     states_ = mixed;
     log_weights_ = predicted;
     const double total = log_total(log_weights_, options_.kind);

@@ -51,7 +51,7 @@ enum class MixingWeights {
 
 /// One Gaussian for a max-mixture is the one selected, (55)–(57), (64)–(66): max is selective.
 struct Selection {
-  MixedCovariance mixed_covariance = MixedCovariance::selected;
+  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   Tie mixing_tie = Tie::stay;
 };
 

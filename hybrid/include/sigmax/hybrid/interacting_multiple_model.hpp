@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -57,6 +58,9 @@ class InteractingMultipleModel {
         prior_(belief_),
         move_in_(invert(system_.transition(), belief_)),
         likelihood_(system_.mode_variable()) {
+    if (mode_count(estimates_) != modes())
+      throw std::invalid_argument("there are " + std::to_string(modes()) + " models, but " +
+                                  std::to_string(mode_count(estimates_)) + " starts");
     move_in_.unreachable.reserve(modes());
     for_each_mode(system_.models(), [&](auto j) { require_start(mode(system_.models(), j), mode(estimates_, j)); });
     relate_components();
@@ -235,12 +239,11 @@ class InteractingMultipleModel {
                     SquareMatrix<Eigen::Dynamic, Bank<Models>::max_components>::Zero(n, n)};
     if (interaction_.lift == Lift::zero) return result;
     const auto carrier = [&](Eigen::Index i) {
-      std::size_t best = modes();
-      for (std::size_t l = 0; l < modes(); ++l)
-        if (output_maps_[l].in_source[static_cast<std::size_t>(i)] >= 0 &&
-            (best == modes() || belief_.log(l) > belief_.log(best) + tie_tolerance))
-          best = l;
-      return best;
+      const auto log_weight_if_it_has_it = [&](std::size_t l) {
+        const bool has_it = output_maps_[l].in_source[static_cast<std::size_t>(i)] >= 0;
+        return has_it ? std::max(belief_.log(l), std::numeric_limits<double>::lowest()) : log_zero;
+      };
+      return select(modes(), log_weight_if_it_has_it, winner_, interaction_.output_tie);
     };
     for_each_mode(estimates_, [&](auto l) {
       const auto& estimate = mode(estimates_, l);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <iosfwd>
+#include <string_view>
+
+#include <sigmax/core/network.hpp>
+
+namespace sigmax {
+
+/// How far from one the printed sum of a row of a BIF file may lie.
+inline constexpr double bif_tolerance = 1e-3;
+
+/// Reads a network of random variables in the Bayesian Interchange Format, version 0.15. Variables may be declared in
+/// any order; in the network they stand parents first and else in the order of the file.
+///
+/// Printed probabilities are rounded: a row whose sum is within `bif_tolerance` of one is divided by it. A `table` of a
+/// variable with parents lists the outcomes of the variable slowest and those of the last parent fastest, and a row
+/// that is not listed is the `default`. Properties are skipped.
+///
+/// Throws std::invalid_argument that gives file (by `name`), line, what was found and what was expected.
+RelationNetwork read_bif(std::istream& in, std::string_view name);
+
+}  // namespace sigmax

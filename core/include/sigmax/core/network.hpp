@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/core/network/variable.hpp>
+#include <sigmax/core/relation.hpp>
+
+namespace sigmax {
+
+/// Variables of either kind, each with a table of itself given any number of variables declared before it.
+///
+///     RelationNetwork network;
+///     network.declare(uninformative(age));
+///     network.declare(mood_given_age);                               // one parent: a Relation
+///     network.declare(speed, {age, mood}, {{0.9, 0.1}, …});          // a row per age and mood, the last fastest
+///
+/// What it means: the product of all tables, from which the variables are eliminated innermost first, each by the ⊕ of
+/// its own kind, in the reverse order of declaration. Every table is normalised, so that without evidence the total is
+/// one. Among variables of different kinds that order is part of the meaning, as in (10) and (11).
+class RelationNetwork {
+ public:
+  struct Vertex {
+    NetworkVariable variable;
+    std::vector<std::size_t> parents;  ///< indices of vertices, all lower than its own
+    Table rows;                        ///< a row per outcome of the parents, of which the last varies fastest
+  };
+
+  /// A variable without parents. Throws std::invalid_argument if one of its name was declared.
+  template <NetworkKind Kind>
+  void declare(const Distribution<Kind>& distribution) {
+    append(distribution.variable(), {}, distribution.table());
+  }
+
+  /// A variable with one parent, `relation.from()`. Throws std::invalid_argument if that was not declared.
+  template <NetworkKind To, NetworkKind From>
+  void declare(const Relation<To, From>& relation) {
+    append(relation.to(), {relation.from()}, relation.table());
+  }
+
+  /// A variable with any number of parents. Throws std::invalid_argument, naming variable, row and value, if a parent
+  /// was not declared before it (so no cycle can be made), if the sizes do not fit, or if a row is no distribution.
+  void declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
+               const std::vector<std::vector<double>>& rows);
+
+  std::size_t size() const { return vertices_.size(); }
+  std::span<const Vertex> vertices() const { return vertices_; }
+  const Vertex& operator[](std::size_t index) const { return vertices_[index]; }
+
+  /// Throws std::invalid_argument if no such variable was declared.
+  std::size_t index_of(std::string_view name) const;
+  std::size_t index_of(const NetworkVariable& variable) const;
+
+ private:
+  void append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, Table rows);
+
+  std::vector<Vertex> vertices_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+};
+
+}  // namespace sigmax

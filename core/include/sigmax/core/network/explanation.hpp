@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/core/network.hpp>
+#include <sigmax/core/network/evidence.hpp>
+
+namespace sigmax {
+
+/// One outcome for every variable of a network, and what the network says of them all together.
+struct Explanation {
+  std::vector<NetworkVariable> variables;  ///< as they were declared
+  std::vector<std::size_t> outcomes;       ///< the index of the outcome of each
+  double log_value;                        ///< logarithm of the product of all tables and the evidence there
+
+  /// The label of a variable's outcome; throws std::invalid_argument if there is no such variable.
+  std::string operator[](std::string_view variable) const;
+};
+
+/// The outcomes of all variables together that the tables and the evidence favour most. *Every* variable is eliminated
+/// by the maximum, on the tables as they are, whatever its kind: the one exception to "the kind chooses ⊕", since what
+/// is asked for is a single outcome of everything. On a tie it is one of the best, the same in every run.
+///
+/// Throws std::invalid_argument if the evidence is about what the network has not, std::domain_error, naming the
+/// evidence, if that excludes every outcome.
+Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence = {});
+
+}  // namespace sigmax

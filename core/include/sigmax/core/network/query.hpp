@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/network.hpp>
+#include <sigmax/core/network/evidence.hpp>
+#include <sigmax/core/network/scaled_number.hpp>
+
+namespace sigmax {
+
+/// In which order a query eliminated, and what that cost.
+struct Elimination {
+  std::vector<std::string> order;           ///< the variables in the order in which they were eliminated
+  double greatest_table = 1.0;              ///< the most outcomes that one elimination or the answer ranged over
+  bool forced = false;                      ///< whether the kinds ever forbade the choice of the least fill
+  double greatest_table_if_one_kind = 1.0;  ///< what it would have been had all variables been of one kind
+};
+
+/// The numbers of a query, one for each outcome of its variables together: not normalised, and never silently so.
+class NetworkAnswer {
+ public:
+  NetworkAnswer(std::vector<NetworkVariable> variables, std::vector<ScaledNumber> values, ScaledNumber total,
+                bool induced, Elimination elimination)
+      : variables_(std::move(variables)),
+        values_(std::move(values)),
+        total_(total),
+        induced_(induced),
+        elimination_(std::move(elimination)) {}
+
+  std::span<const NetworkVariable> variables() const { return variables_; }
+  std::span<const ScaledNumber> values() const { return values_; }  ///< the last variable varies fastest
+
+  /// The number of one outcome, a label per variable. Throws std::invalid_argument if there is no such outcome.
+  ScaledNumber operator[](std::initializer_list<std::string_view> labels) const { return values_[index_of(labels)]; }
+
+  /// The ⊕ of all numbers over the variables asked for, again innermost first: β times the evidence.
+  ScaledNumber total() const { return total_; }
+
+  /// Whether a variable of another kind had to be eliminated before one that was declared within it. If not, the total
+  /// provably is the evidence, query(network, {}, evidence), and one if there is none. If so, it is only (15)–(18).
+  bool induced() const { return induced_; }
+
+  /// All numbers divided by their total: the distribution reading.
+  std::vector<double> normalized() const;
+
+  /// The distribution reading of the one variable asked for. Throws std::invalid_argument if it is of the other kind,
+  /// or not the only one.
+  template <NetworkKind Kind>
+  Distribution<Kind> normalized() const {
+    return sigmax::normalized(only<Kind>(), std::span<const double>(normalized()));
+  }
+
+  /// The likelihood reading of the one variable asked for.
+  template <NetworkKind Kind>
+  Likelihood<Kind> likelihood() const {
+    Likelihood<Kind> result{only<Kind>()};
+    for (std::size_t i = 0; i < values_.size(); ++i) result.set_log(i, values_[i].log());
+    return result;
+  }
+
+  const Elimination& elimination() const { return elimination_; }
+
+ private:
+  std::size_t index_of(std::initializer_list<std::string_view> labels) const;
+  const NetworkVariable& only() const;
+  template <NetworkKind Kind>
+  const Variable<Kind>& only() const {
+    return only().template as<Kind>();
+  }
+
+  std::vector<NetworkVariable> variables_;
+  std::vector<ScaledNumber> values_;
+  ScaledNumber total_;
+  bool induced_;
+  Elimination elimination_;
+};
+
+/// The numbers of `variables` under the evidence: all others eliminated innermost first, those asked for held fixed.
+/// The order in which it is done is one of those that provably give the same value, docs/networks.md.
+///
+/// Throws std::invalid_argument if a variable or an outcome is not the network's or a variable is asked for twice,
+/// std::domain_error, naming the evidence, if that excludes every outcome.
+NetworkAnswer query(const RelationNetwork& network, const std::vector<std::string>& variables,
+                    const Evidence& evidence = {});
+
+}  // namespace sigmax

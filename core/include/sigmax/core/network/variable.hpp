@@ -1,0 +1,62 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include <sigmax/core/variable.hpp>
+
+namespace sigmax {
+
+/// The kinds that can meet in one network.
+template <class Kind>
+concept NetworkKind = std::same_as<Kind, Random> || std::same_as<Kind, Fuzzy>;
+
+/// A variable whose kind is known only when the program runs.
+class NetworkVariable {
+ public:
+  template <NetworkKind Kind>
+  NetworkVariable(Variable<Kind> variable) : variable_(std::move(variable)) {}
+
+  /// Calls `action` with the Variable<Kind> that it is: the one place where a network asks for a kind.
+  template <class Action>
+  decltype(auto) visit(const Action& action) const {
+    return std::visit(action, variable_);
+  }
+
+  template <NetworkKind Kind>
+  bool is() const {
+    return std::holds_alternative<Variable<Kind>>(variable_);
+  }
+
+  /// Throws std::invalid_argument if the variable is of the other kind.
+  template <NetworkKind Kind>
+  const Variable<Kind>& as() const {
+    if (const auto* const variable = std::get_if<Variable<Kind>>(&variable_)) return *variable;
+    throw std::invalid_argument("variable '" + name() + "' is " + std::string(kind_name()) + ", not " +
+                                std::string(Kind::name));
+  }
+
+  /// "random" or "fuzzy".
+  std::string_view kind_name() const {
+    return visit([]<class Kind>(const Variable<Kind>&) { return Kind::name; });
+  }
+  const Outcomes& outcomes() const {
+    return visit([](const Outcomes& outcomes) -> const Outcomes& { return outcomes; });
+  }
+  const std::string& name() const { return outcomes().name(); }
+  std::size_t size() const { return outcomes().size(); }
+  std::string label(std::size_t index) const { return outcomes().label(index); }
+  std::size_t index_of(std::string_view label) const { return outcomes().index_of(label); }
+
+  friend bool operator==(const NetworkVariable& a, const NetworkVariable& b) { return a.variable_ == b.variable_; }
+
+ private:
+  std::variant<RandomVariable, FuzzyVariable> variable_;
+};
+
+}  // namespace sigmax

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "factor.hpp"
+
+namespace sigmax::elimination {
+
+/// What becomes of a variable in a query.
+enum class Role {
+  absent,      ///< it is in no factor: not relevant, or its outcome is known
+  fixed,       ///< held fixed while all others are eliminated, as if declared first
+  kept,        ///< held fixed where it was declared: eliminations do not pass it unless they provably may
+  eliminated,  ///< eliminated
+};
+
+/// The problem of ordering: by index of the vertex, which is its rank in the order of declaration.
+struct OrderProblem {
+  std::vector<std::size_t> sizes;
+  std::vector<bool> fuzzy;
+  std::vector<Role> roles;
+  std::vector<std::vector<Vertex>> scopes;  ///< of the factors
+};
+
+struct Order {
+  std::vector<Vertex> vertices;
+  double greatest_table = 1.0;  ///< the most outcomes that one elimination, or what is left in the end, ranges over
+  bool forced = false;          ///< whether the kinds ever forbade a vertex of less fill than the one chosen
+  bool complete = true;         ///< whether all that should be eliminated could be; false only if some are kept
+};
+
+/// An order of elimination that provably gives the value of the reverse order of declaration; by the least fill.
+///
+/// Eliminations of the same kind that follow each other may be exchanged. So may those of different kinds if no chain
+/// of factors joins them through variables that are eliminated within both: the product then falls into two, and each ⊕
+/// passes by the half that does not have its variable. A variable is free to be eliminated next if such exchanges bring
+/// it innermost. One that is free stays so, so that the greedy choice never closes a way.
+Order order_of_elimination(const OrderProblem& problem);
+
+/// The vertices with parents before children, as early as their index allows. Calls `on_cycle(child, parent)`, which
+/// throws, for a parent that descends from its child.
+std::vector<Vertex> parents_first(const std::vector<std::vector<Vertex>>& parents,
+                                  const std::function<void(Vertex child, Vertex parent)>& on_cycle);
+
+}  // namespace sigmax::elimination

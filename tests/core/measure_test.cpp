@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/measure.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+const FuzzyVariable age{"age", {"child", "young", "middle", "old"}};
+const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+const Distribution belief{age, {0.2, 1.0, 0.7, 0.1}};
+const Distribution forecast{weather, {0.5, 0.3, 0.2}};
+
+// Each measure is of its own kind.
+template <class Kind>
+concept HasProbability = requires(const Distribution<Kind>& d, const Event<Kind>& e) {
+  probability(d, e);
+};
+template <class Kind>
+concept HasPossibility = requires(const Distribution<Kind>& d, const Event<Kind>& e) {
+  possibility(d, e);
+  necessity(d, e);
+};
+static_assert(HasProbability<Random> && !HasProbability<Fuzzy>);
+static_assert(HasPossibility<Fuzzy> && !HasPossibility<Random>);
+
+TEST(Event, IsWrittenByLabelsOrByIndices) {
+  const Event by_labels{age, {"young", "middle"}};
+  const std::vector<std::size_t> indices{2, 1, 2};
+  EXPECT_EQ(by_labels, (Event{age, {1, 2}}));
+  EXPECT_EQ(by_labels, (Event{age, indices}));
+  EXPECT_TRUE(by_labels.contains("young") && by_labels.contains(2));
+  EXPECT_FALSE(by_labels.contains("child") || by_labels.contains(3));
+  EXPECT_EQ(by_labels.variable(), age);
+}
+
+TEST(Event, OfOneOutcomeMayBeTheFirst) { EXPECT_EQ((Event{age, {0}}), (Event{age, {"child"}})); }
+
+TEST(Event, IsUnitedIntersectedAndComplemented) {
+  const Event a{age, {"child", "young"}}, b{age, {"young", "old"}};
+  EXPECT_EQ(a | b, (Event{age, {"child", "young", "old"}}));
+  EXPECT_EQ(a & b, (Event{age, {"young"}}));
+  EXPECT_EQ(~a, (Event{age, {"middle", "old"}}));
+  EXPECT_EQ(a & ~a, empty_event(age));
+  EXPECT_EQ(a | ~a, whole_event(age));
+  EXPECT_NE(a, b);
+}
+
+TEST(Event, OfAnotherVariableIsAnotherEvent) {
+  const FuzzyVariable years{"years", {"child", "young", "middle", "old"}};
+  EXPECT_NE(whole_event(age), whole_event(years));
+}
+
+TEST(Event, DescribesItself) {
+  EXPECT_EQ((Event{age, {"old", "child"}}.description()), "age in {child, old}");
+  EXPECT_EQ(empty_event(weather).description(), "weather in {}");
+}
+
+TEST(Event, RefusesAnOutcomeThatTheVariableDoesNotHave) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Event{age, {"young", "ancient"}}; }, {"'age'", "'ancient'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Event{age, {1, 4}}; }, {"'age'", "4"}));
+}
+
+TEST(Event, RefusesOperationsWithEventsOfAnotherVariable) {
+  const FuzzyVariable mood{"mood", {"calm", "wild"}};
+  EXPECT_TRUE(
+      throws<std::invalid_argument>([&] { whole_event(age) | whole_event(mood); }, {"union", "'age'", "'mood'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { whole_event(age) & whole_event(mood); },
+                                            {"intersection", "'age'", "'mood'"}));
+  EXPECT_TRUE(
+      throws<std::invalid_argument>([&] { possibility(belief, whole_event(mood)); }, {"measure", "'age'", "'mood'"}));
+}
+
+TEST(Measure, PossibilityIsTheGreatestOfItsOutcomes) {  // Definition 2.4
+  EXPECT_EQ(possibility(belief, Event{age, {"child", "middle", "old"}}), 0.7);
+  EXPECT_EQ(possibility(belief, empty_event(age)), 0.0);
+  EXPECT_EQ(possibility(belief, whole_event(age)), 1.0);
+}
+
+TEST(Measure, NecessityIsWhatTheComplementLeaves) {
+  EXPECT_PRED_FORMAT3(near, necessity(belief, Event{age, {"young", "middle"}}), 0.8, 1e-15);
+  EXPECT_PRED_FORMAT3(near, necessity(belief, Event{age, {"young"}}), 0.3, 1e-15);
+  EXPECT_EQ(necessity(belief, Event{age, {"middle", "old"}}), 0.0);
+  EXPECT_EQ(necessity(belief, whole_event(age)), 1.0);
+  EXPECT_EQ(necessity(belief, empty_event(age)), 0.0);
+}
+
+TEST(Measure, ProbabilityIsTheSumOfItsOutcomes) {
+  EXPECT_PRED_FORMAT3(near, probability(forecast, Event{weather, {"wet", "snow"}}), 0.5, 1e-15);
+  EXPECT_EQ(probability(forecast, empty_event(weather)), 0.0);
+  EXPECT_EQ(probability(forecast, whole_event(weather)), 1.0);
+}
+
+TEST(Measure, OfGenericCodeIsThatOfTheKind) {
+  EXPECT_EQ(measure(belief, Event{age, {"child", "middle"}}), 0.7);
+  EXPECT_PRED_FORMAT3(near, measure(forecast, Event{weather, {"dry", "snow"}}), 0.7, 1e-15);
+}
+
+TEST(Measure, OfASingleOutcomeIsCertain) {
+  const FuzzyVariable one{"one", 1};
+  EXPECT_EQ(possibility(uninformative(one), whole_event(one)), 1.0);
+  EXPECT_EQ(necessity(uninformative(one), whole_event(one)), 1.0);
+}
+
+TEST(Measure, OfRepeatedMaximaIsNotNecessary) {
+  const Distribution unsure{age, {1.0, 1.0, 0.0, 0.0}};
+  EXPECT_EQ(possibility(unsure, Event{age, {"child"}}), 1.0);
+  EXPECT_EQ(necessity(unsure, Event{age, {"child"}}), 0.0);
+  EXPECT_EQ(necessity(unsure, Event{age, {"child", "young"}}), 1.0);
+}
+
+TEST(Given, ConditionsAPossibilityByDivision) {
+  const Event grown{age, {"middle", "old"}}, old{age, {"old"}};
+  EXPECT_PRED_FORMAT3(near, given(belief, grown).values(), (std::vector{0.0, 0.0, 1.0, 1.0 / 7.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, possibility(given(belief, grown), old), 1.0 / 7.0, 1e-15);
+  EXPECT_PRED_FORMAT3(near, necessity(given(belief, grown), ~old), 6.0 / 7.0, 1e-15);
+  EXPECT_EQ(necessity(given(belief, grown), old), 0.0);
+}
+
+TEST(Given, ConditionsAProbabilityByDivision) {
+  const Event precipitation{weather, {"wet", "snow"}};
+  EXPECT_PRED_FORMAT3(near, probability(given(forecast, precipitation), Event{weather, {"dry", "snow"}}), 0.4, 1e-15);
+}
+
+TEST(Given, IsTheUpdateByCrispEvidence) {
+  const Event grown{age, {"middle", "old"}};
+  EXPECT_PRED_FORMAT3(near, given(belief, grown).values(),
+                      update(belief, Likelihood{age, {0.0, 0.0, 1.0, 1.0}}).values(), 1e-14);
+}
+
+TEST(Given, IsExactForEventsOfSubnormalMeasure) {
+  const double subnormal = std::numeric_limits<double>::denorm_min();
+  const Distribution rare{weather, {1.0, subnormal, 3 * subnormal}};
+  EXPECT_EQ(probability(given(rare, Event{weather, {"wet", "snow"}}), Event{weather, {"snow"}}), 0.75);
+}
+
+TEST(Given, RefusesAConditionOfMeasureZeroByItsName) {
+  const Distribution dry{weather, {1.0, 0.0, 0.0}};
+  const Distribution young{age, {0.0, 1.0, 0.0, 0.0}};
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        given(dry, Event{weather, {"wet", "snow"}});
+      },
+      {"weather in {wet, snow}", "probability 0"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { given(young, Event{age, {"old"}}); }, {"age in {old}", "possibility 0"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { given(young, empty_event(age)); }, {"age in {}"}));
+}
+
+using Features = std::set<std::string>;
+const Features man{"dark hair", "reading glasses", "runs daily", "two children"};
+const Features young_features{"dark hair", "runs daily", "student"};
+
+TEST(Compatibility, IsTheShareOfFeaturesThatTheConceptHas) {  // (1)
+  EXPECT_EQ(compatibility(man, young_features), 0.5);
+  EXPECT_EQ(compatibility(man, man), 1.0);
+  EXPECT_EQ(compatibility(man, Features{}), 0.0);
+  EXPECT_EQ(compatibility(Features{"student"}, young_features), 1.0);  // a degree of inclusion, hence not symmetric
+  EXPECT_PRED_FORMAT3(near, compatibility(young_features, Features{"student"}), 1.0 / 3.0, 1e-15);
+}
+
+TEST(Compatibility, WeighsFeaturesByTheirMeasure) {
+  const auto weight = [](const std::string& feature) { return feature == "two children" ? 5.0 : 1.0; };
+  EXPECT_EQ(compatibility(man, young_features, weight), 0.25);
+}
+
+TEST(Compatibility, OfGradedFeaturesIntersectsByTheMinimum) {
+  const std::vector<double> object{1.0, 0.5, 0.5}, outcome{0.5, 1.0, 0.25}, ones{1.0, 1.0, 1.0};
+  EXPECT_EQ(compatibility(object, outcome, ones), 0.625);
+  EXPECT_EQ(compatibility(object, outcome, std::vector{1.0, 0.0, 2.0}), 0.5);
+}
+
+TEST(Compatibility, IsRawAndNormalizingIsAStepOfItsOwn) {
+  const FuzzyVariable group{"group", {"young", "middle aged"}};
+  const std::vector degrees{compatibility(man, young_features),
+                            compatibility(man, Features{"reading glasses", "two children", "runs daily"})};
+  EXPECT_EQ(degrees, (std::vector{0.5, 0.75}));
+  EXPECT_THROW((Distribution{group, degrees}), std::invalid_argument);
+  EXPECT_PRED_FORMAT3(near, normalized(group, degrees).values(), (std::vector{2.0 / 3.0, 1.0}), 1e-15);
+}
+
+TEST(Compatibility, RefusesAnObjectWithoutFeatures) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { compatibility(Features{}, young_features); }, {"positive", "0"}));
+  EXPECT_THROW(compatibility(man, young_features, [](const std::string&) { return 0.0; }), std::invalid_argument);
+}
+
+TEST(Compatibility, RefusesWhatIsNoDegreeOrNoMeasure) {
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> one{1.0}, two{1.0, 1.0};
+  const auto refused = [](const std::vector<double>& object, const std::vector<double>& outcome,
+                          const std::vector<double>& weights, std::string_view word) {
+    return throws<std::invalid_argument>([&] { compatibility(object, outcome, weights); }, {"compatibility", word});
+  };
+  EXPECT_TRUE(refused({1.5}, one, one, "object's degree of feature 0 is 1.5"));
+  EXPECT_TRUE(refused(one, {-0.5}, one, "outcome's degree of feature 0 is -0.5"));
+  EXPECT_TRUE(refused({nan}, one, one, "object's degree"));
+  EXPECT_TRUE(refused(two, two, {1.0, -1.0}, "measure of feature 1 is -1"));
+  EXPECT_TRUE(refused(one, one, {nan}, "measure"));
+  EXPECT_TRUE(refused(one, one, {infinity}, "finite"));
+  EXPECT_TRUE(refused(two, one, two, "2, 1 and 2"));
+}
+
+}  // namespace
+}  // namespace sigmax

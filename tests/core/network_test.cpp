@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/network.hpp>
+#include <sigmax/core/network/graphviz.hpp>
+#include <sigmax/core/network/transform.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+const FuzzyVariable age{"age", {"young", "old"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+const RandomVariable speed{"speed", {"slow", "fast", "mad"}};
+const Relation<Fuzzy, Fuzzy> mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}}};
+const std::vector<std::vector<double>> speed_rows{{0.9, 0.1, 0.0}, {0.2, 0.5, 0.3}, {0.8, 0.2, 0.0}, {0.3, 0.6, 0.1}};
+
+static_assert(std::copyable<RelationNetwork>);
+static_assert(!std::constructible_from<NetworkVariable, Outcomes>);
+
+RelationNetwork three() {
+  RelationNetwork network;
+  network.declare(uninformative(age));
+  network.declare(mood_given_age);
+  network.declare(speed, {age, mood}, speed_rows);
+  return network;
+}
+
+TEST(RelationNetwork, HoldsDistributionsRelationsAndTablesAsTheyWereDeclared) {
+  const RelationNetwork network = three();
+  ASSERT_EQ(network.size(), 3U);
+  EXPECT_EQ(network[1].variable, NetworkVariable{mood});
+  EXPECT_EQ(network[1].parents, std::vector<std::size_t>{0});
+  EXPECT_EQ(network[1].rows(1, 1), 0.6);
+  EXPECT_EQ(network[2].parents, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(network[2].rows.rows(), 4U);
+  EXPECT_EQ(network[2].rows(1, 2), 0.3);  // young and wild
+  EXPECT_EQ(network.index_of("speed"), 2U);
+  EXPECT_EQ(network.index_of(mood), 1U);
+}
+
+TEST(RelationNetwork, KnowsTheKindsOfItsVariables) {
+  const RelationNetwork network = three();
+  EXPECT_TRUE(network[0].variable.is<Fuzzy>());
+  EXPECT_FALSE(network[0].variable.is<Random>());
+  EXPECT_EQ(network[2].variable.kind_name(), "random");
+  EXPECT_EQ(network[2].variable.as<Random>(), speed);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network[2].variable.as<Fuzzy>(); }, {"'speed'", "random", "fuzzy"}));
+}
+
+TEST(RelationNetwork, RefusesWhatItDoesNotHold) {
+  const RelationNetwork network = three();
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of("sped"); }, {"no variable 'sped'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of(RandomVariable{"mood", {"calm", "wild"}}); },
+                                            {"'mood'", "fuzzy", "random"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of(FuzzyVariable{"mood", {"calm", "odd"}}); },
+                                            {"'mood'", "other outcomes"}));
+}
+
+TEST(RelationNetwork, RefusesAParentThatIsNotDeclaredBefore) {
+  RelationNetwork network;
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(mood_given_age); }, {"'mood'", "'age'", "before"}));
+  EXPECT_EQ(network.size(), 0U);
+}
+
+TEST(RelationNetwork, CannotBeGivenACycle) {
+  RelationNetwork network;
+  const Relation itself{age, age, {{1.0, 0.5}, {0.5, 1.0}}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(itself); }, {"'age'", "'age'", "before"}));
+  network.declare(uninformative(age));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(itself); }, {"'age'", "twice"}));
+  network.declare(mood_given_age);
+  const Relation back{age, mood, {{1.0, 0.5}, {0.5, 1.0}}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(back); }, {"'age'", "twice"}));
+  EXPECT_EQ(network.size(), 2U);
+}
+
+TEST(RelationNetwork, RefusesAParentTwiceOrOfAnotherKindOrWithOtherOutcomes) {
+  RelationNetwork network;
+  network.declare(uninformative(age));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(speed, {age, age}, speed_rows); },
+                                            {"'speed'", "'age'", "twice"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.declare(mood, {RandomVariable{"age", {"young", "old"}}}, {{1.0, 0.5}, {0.5, 1.0}});
+      },
+      {"'age'", "fuzzy", "random"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.declare(mood, {FuzzyVariable{"age", {"young", "grey"}}}, {{1.0, 0.5}, {0.5, 1.0}});
+      },
+      {"'age'", "other outcomes"}));
+}
+
+TEST(RelationNetwork, NamesVariableRowAndValueOfABadTable) {
+  RelationNetwork network = three();
+  const RandomVariable lamp{"lamp", {"off", "on"}};
+  const std::vector<NetworkVariable> parents{mood, age};
+  const auto declare = [&](std::vector<std::vector<double>> rows) {
+    return [&network, &lamp, &parents, rows] { network.declare(lamp, parents, rows); };
+  };
+  EXPECT_TRUE(throws<std::invalid_argument>(declare({{1.0, 0.0}}), {"'lamp'", "4 rows", "1 "}));
+  EXPECT_TRUE(throws<std::invalid_argument>(declare({{1.0, 0.0}, {1.0, 0.0}, {0.5, 0.4}, {1.0, 0.0}}),
+                                            {"sum", "'lamp'", "(mood, age)", "(wild, young)", "0.9"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(declare({{1.0, 0.0}, {1.5, -0.5}, {0.5, 0.5}, {1.0, 0.0}}),
+                                            {"'lamp'", "(mood, age)", "(calm, old)", "'off'", "1.5"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(declare({{1.0, 0.0}, {1.0, 0.0}, {0.5, 0.5}, {1.0, 0.0, 0.0}}),
+                                            {"'lamp'", "(wild, old)", "2 outcomes", "3 values"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(lamp, {mood}, {{1.0, 0.0}, {0.5, 0.6}}); },
+                                            {"sum", "'lamp'", "mood = 'wild'", "1.1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(lamp, {}, {{0.5, 0.4}}); }, {"'lamp'", "0.9"}));
+  const FuzzyVariable glow{"glow", {"off", "on"}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(glow, {}, {{0.5, 0.4}}); }, {"maximum", "'glow'", "0.5"}));
+  EXPECT_EQ(network.size(), 3U);
+}
+
+TEST(RelationNetwork, IsMadeFuzzyRowByRow) {
+  const RandomVariable a{"a", 2}, b{"b", {"x", "y"}};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.2, 0.8}});
+  network.declare(Relation{b, a, {{0.5, 0.5}, {0.9, 0.1}}});
+  const RelationNetwork fuzzy = as_fuzzy(network, RatioScale{});
+  EXPECT_EQ(fuzzy[0].variable, NetworkVariable(FuzzyVariable{"a", 2}));
+  EXPECT_EQ(fuzzy[1].variable, NetworkVariable(FuzzyVariable{"b", {"x", "y"}}));
+  EXPECT_EQ(fuzzy[1].parents, std::vector<std::size_t>{0});
+  EXPECT_PRED_FORMAT3(near, fuzzy[0].rows.values(), (std::vector{0.25, 1.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, fuzzy[1].rows.values(), (std::vector{1.0, 1.0, 1.0, 1.0 / 9.0}), 1e-15);
+}
+
+TEST(RelationNetwork, IsMadeFuzzyWhereNamedAndByAnyTransform) {
+  const RandomVariable a{"a", 2}, b{"b", 2};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.2, 0.8}});
+  network.declare(Relation{b, a, {{0.5, 0.5}, {0.9, 0.1}}});
+  const RowTransform halves = [](std::span<const double> row) { return std::vector<double>(row.size(), 0.5); };
+  const RelationNetwork mixed = as_fuzzy(network, halves, {"b"});
+  EXPECT_EQ(mixed[0].variable, NetworkVariable{a});
+  EXPECT_PRED_FORMAT3(near, mixed[0].rows.values(), (std::vector{0.2, 0.8}), 0.0);
+  EXPECT_TRUE(mixed[1].variable.is<Fuzzy>());
+  EXPECT_PRED_FORMAT3(near, mixed[1].rows.values(), (std::vector{1.0, 1.0, 1.0, 1.0}), 0.0);
+  EXPECT_EQ(as_fuzzy(mixed, halves)[1].variable, mixed[1].variable);  // fuzzy ones stay as they are
+
+  const RowTransform nothing = [](std::span<const double> row) { return std::vector<double>(row.size(), 0.0); };
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { as_fuzzy(network, nothing); }, {"'a'", "zero"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { as_fuzzy(network, halves, {"c"}); }, {"'c'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { as_fuzzy(mixed, halves, {"b"}); }, {"'b'", "fuzzy", "random"}));
+}
+
+TEST(RelationNetwork, IsDrawnByGraphviz) {
+  RelationNetwork network = three();
+  network.declare(Distribution{RandomVariable{"odd \"name\"", 1}, {1.0}});
+  std::ostringstream out;
+  write_graphviz(out, network);
+  EXPECT_EQ(out.str(),
+            "digraph G {\n"
+            "0[label=age, shape=box];\n"
+            "1[label=mood, shape=box];\n"
+            "2[label=speed, shape=ellipse];\n"
+            "3[label=\"odd \\\"name\\\"\", shape=ellipse];\n"
+            "0->1 ;\n"
+            "0->2 ;\n"
+            "1->2 ;\n"
+            "}\n");
+}
+
+}  // namespace
+}  // namespace sigmax

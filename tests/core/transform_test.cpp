@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/measure.hpp>
+#include <sigmax/core/transform.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+static_assert(PossibilityTransform<RatioScale> && ProbabilityTransform<RatioScale>);
+static_assert(PossibilityTransform<DuboisPrade> && !ProbabilityTransform<DuboisPrade>);
+static_assert(PossibilityTransform<DuboisPradeSandri> && ProbabilityTransform<DuboisPradeSandri>);
+
+const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+const Distribution forecast{weather, {0.5, 0.3, 0.2}};
+
+TEST(AsFuzzy, KeepsNameAndOutcomes) {
+  const FuzzyVariable fuzzy = as_fuzzy(weather);
+  EXPECT_EQ(fuzzy.name(), "weather");
+  EXPECT_EQ(fuzzy.label(2), "snow");
+  EXPECT_EQ(fuzzy, (FuzzyVariable{"weather", {"dry", "wet", "snow"}}));
+  EXPECT_EQ(as_random(fuzzy), weather);
+  EXPECT_EQ(as_fuzzy(fuzzy), fuzzy);
+}
+
+TEST(AsFuzzy, OfAVariableWithoutLabelsHasNone) {
+  EXPECT_EQ(as_fuzzy(RandomVariable("cell", 100000)), FuzzyVariable("cell", 100000));
+}
+
+TEST(RatioScale, DividesByTheGreatestAndByTheSum) {  // (34), (35)
+  const Distribution<Fuzzy> possible = to_possibility(forecast, RatioScale{});
+  EXPECT_EQ(possible.variable(), as_fuzzy(weather));
+  EXPECT_PRED_FORMAT3(near, possible.values(), (std::vector{1.0, 0.6, 0.4}), 1e-15);
+  const Distribution<Random> back = to_probability(possible, RatioScale{});
+  EXPECT_EQ(back.variable(), weather);
+  EXPECT_PRED_FORMAT3(near, back.values(), forecast.values(), 1e-15);
+}
+
+TEST(RatioScale, RaisesToItsExponent) {
+  const RatioScale root{.exponent = 0.5};
+  const Distribution p{weather, {0.64, 0.36, 0.0}};
+  EXPECT_PRED_FORMAT3(near, to_possibility(p, root).values(), (std::vector{1.0, 0.75, 0.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, to_probability(to_possibility(p, root), root).values(), p.values(), 1e-15);
+  EXPECT_PRED_FORMAT3(near, to_possibility(p, RatioScale{2.0}).values(), (std::vector{1.0, 0.31640625, 0.0}), 1e-15);
+}
+
+TEST(RatioScale, RefusesAnExponentThatIsNotPositive) {
+  for (const double exponent : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { to_possibility(forecast, RatioScale{exponent}); },
+                                              {"RatioScale", "exponent", std::to_string(exponent)}));
+    EXPECT_THROW(to_probability(uninformative(as_fuzzy(weather)), RatioScale{exponent}), std::invalid_argument);
+  }
+}
+
+TEST(RatioScale, DoesNotDominate) {
+  const Distribution p{weather, {0.6, 0.2, 0.2}};
+  const Distribution possible = to_possibility(p, RatioScale{});
+  EXPECT_PRED_FORMAT3(near, probability(p, Event{weather, {"wet", "snow"}}), 0.4, 1e-15);
+  EXPECT_PRED_FORMAT3(near, possibility(possible, Event{as_fuzzy(weather), {"wet", "snow"}}), 1.0 / 3.0, 1e-15);
+}
+
+TEST(RatioScale, CommutesWithUpdate) {
+  const std::vector likelihood{0.1, 0.4, 0.2};
+  EXPECT_PRED_FORMAT3(
+      near, to_possibility(update(forecast, Likelihood{weather, likelihood}), RatioScale{}).values(),
+      update(to_possibility(forecast, RatioScale{}), Likelihood{as_fuzzy(weather), likelihood}).values(), 1e-14);
+}
+
+TEST(DuboisPrade, AddsWhatIsAsProbableOrLess) {
+  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, DuboisPrade{}).values(), (std::vector{1.0, 0.5, 0.2}), 1e-15);
+}
+
+TEST(DuboisPrade, GivesTiesOnePossibility) {
+  const RandomVariable four{"four", 4};
+  EXPECT_PRED_FORMAT3(near, to_possibility(Distribution{four, {0.2, 0.3, 0.2, 0.3}}, DuboisPrade{}).values(),
+                      (std::vector{0.4, 1.0, 0.4, 1.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, to_possibility(uninformative(four), DuboisPrade{}).values(),
+                      (std::vector{1.0, 1.0, 1.0, 1.0}), 0.0);
+}
+
+TEST(DuboisPradeSandri, AddsTheSmallerOfEachPair) {
+  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, DuboisPradeSandri{}).values(), (std::vector{1.0, 0.8, 0.6}),
+                      1e-15);
+}
+
+TEST(DuboisPradeSandri, GoesBackByThePignisticProbability) {
+  const FuzzyVariable mood{"mood", {"calm", "tense", "wild"}};
+  // Cuts: three outcomes share .2, two share the next .4, one takes the last .4.
+  EXPECT_PRED_FORMAT3(near, to_probability(Distribution{mood, {0.6, 1.0, 0.2}}, DuboisPradeSandri{}).values(),
+                      (std::vector{0.2 / 3 + 0.2, 0.2 / 3 + 0.2 + 0.4, 0.2 / 3}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, to_probability(Distribution{mood, {1.0, 1.0, 0.0}}, DuboisPradeSandri{}).values(),
+                      (std::vector{0.5, 0.5, 0.0}), 0.0);
+  EXPECT_PRED_FORMAT3(near, to_probability(to_possibility(forecast, DuboisPradeSandri{}), DuboisPradeSandri{}).values(),
+                      forecast.values(), 1e-15);
+}
+
+TEST(Transform, OfASingleOutcomeIsCertain) {
+  const RandomVariable one{"one", 1};
+  EXPECT_EQ(to_possibility(uninformative(one), RatioScale{})[0], 1.0);
+  EXPECT_EQ(to_possibility(uninformative(one), DuboisPrade{})[0], 1.0);
+  EXPECT_EQ(to_possibility(uninformative(one), DuboisPradeSandri{})[0], 1.0);
+  EXPECT_EQ(to_probability(uninformative(as_fuzzy(one)), DuboisPradeSandri{})[0], 1.0);
+}
+
+TEST(Transform, KeepsSubnormalProbabilitiesApart) {
+  const double subnormal = std::numeric_limits<double>::denorm_min();
+  const Distribution rare{weather, {1.0, subnormal, 3 * subnormal}};
+  EXPECT_PRED_FORMAT3(near, to_possibility(rare, DuboisPrade{}).values(), (std::vector{1.0, subnormal, 4 * subnormal}),
+                      0.0);
+  EXPECT_EQ(to_possibility(rare, DuboisPrade{})[2], 4 * subnormal);
+  EXPECT_EQ(to_possibility(rare, RatioScale{})[1], subnormal);
+  EXPECT_EQ(to_possibility(rare, DuboisPradeSandri{})[1], 3 * subnormal);
+}
+
+TEST(Transform, OfARelationIsThatOfItsRows) {
+  const FuzzyVariable season{"season", {"summer", "winter"}};
+  const Relation weather_given_season{weather, season, {{0.5, 0.5, 0.0}, {0.2, 0.3, 0.5}}};
+  const Relation<Fuzzy, Fuzzy> possible = to_possibility(weather_given_season, DuboisPrade{});
+  EXPECT_EQ(possible.to(), as_fuzzy(weather));
+  EXPECT_EQ(possible.from(), season);
+  EXPECT_PRED_FORMAT3(near, possible.table().values(), (std::vector{1.0, 1.0, 0.0, 0.2, 0.5, 1.0}), 1e-15);
+  const Relation<Random, Fuzzy> pignistic = to_probability(possible, DuboisPradeSandri{});
+  EXPECT_EQ(pignistic.to(), weather);
+  EXPECT_PRED_FORMAT3(near, pignistic.row(1), (std::vector{0.2 / 3, 0.2 / 3 + 0.15, 0.2 / 3 + 0.65}), 1e-15);
+}
+
+TEST(Transform, OfATransitionTakesItsConditionAlong) {  // (49) as (50)
+  const RandomVariable mode{"mode", {"straight", "turn"}};
+  const Relation transition{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}};
+  const Relation<Fuzzy, Fuzzy> possible = with_fuzzy_condition(to_possibility(transition, RatioScale{}));
+  EXPECT_EQ(possible.to(), possible.from());
+  EXPECT_PRED_FORMAT3(near, possible.table().values(), (std::vector{1.0, 1.0 / 19.0, 1.0 / 19.0, 1.0}), 1e-15);
+  const Relation<Random, Random> back = with_random_condition(to_probability(possible, RatioScale{}));
+  EXPECT_EQ(back.from(), mode);
+  EXPECT_PRED_FORMAT3(near, back.table().values(), transition.table().values(), 1e-15);
+}
+
+/// A transform of one's own: only the most probable outcomes are possible.
+struct Winners {
+  std::vector<double> possibilities(std::span<const double> p) const {
+    std::vector<double> result;
+    for (const double value : p) result.push_back(value == *std::max_element(p.begin(), p.end()) ? 1.0 : 0.0);
+    return result;
+  }
+};
+
+TEST(Transform, MayBeOnesOwn) {
+  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, Winners{}).values(), (std::vector{1.0, 0.0, 0.0}), 0.0);
+}
+
+}  // namespace
+}  // namespace sigmax

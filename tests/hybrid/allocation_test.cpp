@@ -1,0 +1,117 @@
+// `step` allocates nothing: every operator new of this program is counted.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "hybrid/banks.hpp"
+
+namespace {
+
+std::size_t allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  if (void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded)) return memory;
+  throw std::bad_alloc{};
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace sigmax {
+namespace {
+
+/// How many allocations an action makes.
+template <class Action>
+std::size_t allocations_of(const Action& action) {
+  const std::size_t before = allocations;
+  action();
+  return allocations - before;
+}
+
+TEST(Allocation, TheCounterCounts) {
+  EXPECT_EQ(allocations_of([] {}), 0U);
+  EXPECT_EQ(allocations_of([] { std::make_unique<int>(1); }), 1U);
+  EXPECT_EQ(allocations_of([] { std::vector<double>(100).resize(200); }), 2U);
+  struct alignas(64) Aligned {
+    char bytes[64];
+  };
+  EXPECT_EQ(allocations_of([] { std::make_unique<Aligned>(); }), 1U);
+}
+
+template <Uncertainty Kind>
+Relation<Kind, Kind> transition() {
+  const Variable<Kind> motion{"motion", 3};
+  return std::is_same_v<Kind, Random>
+             ? Relation<Kind, Kind>{motion, motion, {{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}}}
+             : Relation<Kind, Kind>{motion, motion, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
+}
+
+template <Uncertainty Kind, class Models>
+void nothing_is_allocated(const Models& models, const Interaction<Kind>& interaction) {
+  const Gaussian<6> start{Vector<6>{12000, 8000, -100, -100, 0, 0}, 100.0 * SquareMatrix<6>::Identity()};
+  InteractingMultipleModel<Models, Kind> filter{models, transition<Kind>(), start, interaction};
+  std::size_t measured = 0, missed = 0;
+  for (const auto& scan : support::manoeuvring_target(40)) {
+    if (scan.z) {
+      ++measured;
+      ASSERT_EQ(allocations_of([&] { filter.step(scan.dt, *scan.z); }), 0U);
+      ASSERT_EQ(allocations_of([&] { filter.nis(); }), 0U);
+    } else {
+      ++missed;
+      ASSERT_EQ(allocations_of([&] { filter.step(scan.dt); }), 0U);
+    }
+    ASSERT_EQ(allocations_of([&] { filter.estimate(); }), 0U);
+    ASSERT_EQ(allocations_of([&] { filter.most_likely_estimate(); }), 0U);
+  }
+  EXPECT_GT(measured, 0U);
+  EXPECT_GT(missed, 0U);
+}
+
+const VectorBank vector_bank{Planar{dwna<2>(1.0)}, Planar{dwna<2>(5.0)}, Planar{dwpa<2>(4.0)}};
+const TupleBank tuple_bank{dwna<2>(1.0), dwna<2>(5.0), dwpa<2>(4.0)};
+
+TEST(Allocation, AnImmAllocatesNothing) {
+  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
+    nothing_is_allocated<Random>(vector_bank, {lift, {}, Tie::stay});
+    nothing_is_allocated<Random>(tuple_bank, {lift, {}, Tie::stay});
+  }
+}
+
+TEST(Allocation, AHimmAllocatesNothing) {
+  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
+    nothing_is_allocated<Fuzzy>(vector_bank, {lift, {}, Tie::stay});
+    nothing_is_allocated<Fuzzy>(tuple_bank, {lift, {MixedCovariance::own_recentred, Tie::first}, Tie::last});
+  }
+}
+
+TEST(Allocation, AnUnreachableModeAllocatesNothing) {
+  const FuzzyVariable motion{"motion", 3};
+  const Relation only_the_first{motion, motion, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
+  const Gaussian<6> start{Vector<6>{12000, 8000, -100, -100, 0, 0}, 100.0 * SquareMatrix<6>::Identity()};
+  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, only_the_first, start};
+  for (int k = 0; k < 3; ++k) ASSERT_EQ(allocations_of([&] { filter.step(0.2); }), 0U);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,56 @@
+#include <sigmax/hybrid/bank.hpp>
+
+#include <gtest/gtest.h>
+
+#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/kinematic_model.hpp>
+
+namespace sigmax {
+namespace {
+
+using Dwna = KinematicModel<3, 2>;
+using Dwpa = KinematicModel<3, 3>;
+using RunTime = KinematicModel<3, Eigen::Dynamic>;
+
+static_assert(Bank<std::tuple<Dwna, Dwpa>>::measurement_size == 3);
+static_assert(Bank<std::tuple<Dwna, Dwpa>>::max_components == 15);
+static_assert(std::is_same_v<Bank<std::tuple<Dwna, Dwpa>>::Estimates, std::tuple<Gaussian<6>, Gaussian<9>>>);
+static_assert(Bank<std::tuple<FixedStepModel<4, 2>>>::measurement_size == 2);
+
+static_assert(Bank<std::vector<RunTime>>::measurement_size == 3);
+static_assert(Bank<std::vector<RunTime>>::max_components == 9);
+static_assert(std::is_same_v<Bank<std::vector<RunTime>>::Estimates, std::vector<Gaussian<Eigen::Dynamic, 9>>>);
+
+TEST(Bank, CountsItsModes) {
+  static_assert(mode_count(std::tuple{1, 2.0, 'c'}) == 3);
+  EXPECT_EQ(mode_count(std::vector{1, 2}), 2U);
+  EXPECT_EQ(mode_count(std::vector<int>{}), 0U);
+}
+
+TEST(Bank, VisitsEveryModeInOrder) {
+  std::vector<std::size_t> visited;
+  for_each_mode(std::tuple{'a', 2, 3.0}, [&](auto j) { visited.push_back(j); });
+  for_each_mode(std::vector{5, 6}, [&](auto j) { visited.push_back(j); });
+  EXPECT_EQ(visited, (std::vector<std::size_t>{0, 1, 2, 0, 1}));
+}
+
+TEST(Bank, GivesTheEntryOfEachMode) {
+  std::tuple<int, double> different{1, 2.5};
+  std::vector<int> alike{7, 8};
+  double sum = 0.0;
+  for_each_mode(different, [&](auto j) { sum += static_cast<double>(mode(different, j)); });
+  for_each_mode(alike, [&](auto j) { mode(alike, j) += 10; });
+  EXPECT_EQ(sum, 3.5);
+  EXPECT_EQ(alike, (std::vector{17, 18}));
+  const auto& constant = different;
+  EXPECT_EQ(mode(constant, std::integral_constant<std::size_t, 1>{}), 2.5);
+}
+
+TEST(Bank, MakesRoomForOneEstimateOfEachModel) {
+  static_assert(std::is_same_v<decltype(estimates_for(std::declval<const std::tuple<Dwna, Dwpa>&>())),
+                               std::tuple<Gaussian<6>, Gaussian<9>>>);
+  EXPECT_EQ(estimates_for(std::vector{RunTime{Dwna{1.0}}, RunTime{Dwpa{1.0}}}).size(), 2U);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,58 @@
+#include <sigmax/hybrid/jump_markov_system.hpp>
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include <sigmax/estimation/kinematic_model.hpp>
+
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::throws;
+
+const FuzzyVariable mode_now{"mode", {"straight", "turn"}};
+const Relation persistent{mode_now, mode_now, {{1.0, 0.5}, {0.5, 1.0}}};
+
+TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
+  const JumpMarkovSystem system{std::tuple{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};
+  EXPECT_EQ(system.mode_variable().name(), "mode");
+  EXPECT_EQ(system.transition()(0, 1), 0.5);
+  EXPECT_EQ(std::get<1>(system.models()).sigma_w(), 2.0);
+}
+
+TEST(JumpMarkovSystem, NeedsOneOutcomeForEachModel) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent); },
+                                            {"'mode'", "2 outcomes", "1 models"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] { JumpMarkovSystem(std::vector<KinematicModel<3, Eigen::Dynamic>>{}, persistent); },
+      {"'mode'", "2 outcomes", "0 models"}));
+}
+
+TEST(JumpMarkovSystem, NeedsATransitionFromTheModeToItself) {
+  const FuzzyVariable weather{"weather", {"fair", "foul"}};
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        JumpMarkovSystem(std::tuple{dwna<3>(1.0), dwpa<3>(1.0)}, Relation{mode_now, weather, {{1.0, 0.5}, {0.5, 1.0}}});
+      },
+      {"JumpMarkovSystem", "weather", "mode"}));
+}
+
+TEST(JumpMarkovSystem, ARowThatIsNoDistributionIsRefusedByTheRelation) {
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [] {
+        Relation(mode_now, mode_now, {{1.0, 0.5}, {0.5, 0.9}});
+      },
+      {"mode", "turn"}));
+  const RandomVariable random_mode{"mode", {"straight", "turn"}};
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        Relation(random_mode, random_mode, {{0.9, 0.2}, {0.5, 0.5}});
+      },
+      {"mode", "straight"}));
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,117 @@
+#include <sigmax/hybrid/lift.hpp>
+
+#include <gtest/gtest.h>
+
+#include "support/matrices.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::generated_gaussian;
+using support::holds;
+using Names = std::vector<std::string>;
+
+constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
+
+/// The estimate of `source` in the receiver's components.
+template <int N, int SourceN>
+Gaussian<N> lifted(const Gaussian<N>& receiver, const Names& receivers, const Gaussian<SourceN>& source,
+                   const Names& sources, Lift rule) {
+  const Correspondence map(receivers, sources);
+  const Lifted view(receiver, source, map, rule);
+  Gaussian<N> result{view.mean(), SquareMatrix<N>::Zero()};
+  view.add_covariance(1.0, result.covariance);
+  return result;
+}
+
+// A source {x, vx} in a receiver {x, vx, ax, jx}, by hand.
+const Gaussian<4> receiver{Vector<4>{1, 2, 3, 4},
+                           SquareMatrix<4>{{10, 1, 2, 3}, {1, 20, 4, 5}, {2, 4, 30, 6}, {3, 5, 6, 40}}};
+const Gaussian<2> source{Vector<2>{-1, -2}, SquareMatrix<2>{{7, 0.5}, {0.5, 8}}};
+
+TEST(Lift, FindsEachComponentByItsName) {
+  EXPECT_EQ((Correspondence{{"x", "vx", "ax"}, {"x", "vx"}}.in_source), (std::vector<Eigen::Index>{0, 1, -1}));
+  EXPECT_EQ((Correspondence{{"x", "vx"}, {"ax", "vx", "x"}}.in_source), (std::vector<Eigen::Index>{2, 1}));
+}
+
+TEST(Lift, ComponentsAreNestedIfOneModelsAreTheLeadingOnesOfTheOthers) {
+  EXPECT_TRUE((Correspondence{{"x", "vx", "ax"}, {"x", "vx"}}.nested));
+  EXPECT_TRUE((Correspondence{{"x", "vx"}, {"x", "vx", "ax"}}.nested));
+  EXPECT_TRUE((Correspondence{{"x", "vx"}, {"x", "vx"}}.nested));
+  EXPECT_FALSE((Correspondence{{"x", "vx"}, {"vx", "x"}}.nested));
+  EXPECT_FALSE((Correspondence{{"x", "vx", "turn_rate"}, {"x", "vx", "ax"}}.nested));
+  EXPECT_FALSE((Correspondence{{"x", "ax"}, {"x", "vx", "ax"}}.nested));
+}
+
+TEST(Lift, ZeroKnowsTheLackingComponentsToBeZero) {
+  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::zero);
+  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
+  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}));
+}
+
+TEST(Lift, BorrowedVarianceBorrowsTheDiagonalOnly) {
+  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::borrowed_variance);
+  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
+  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
+}
+
+TEST(Lift, UnbiasedTakesValueAndCovarianceOfTheReceiver) {
+  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::unbiased);
+  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 3, 4}));
+  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 6}, {0, 0, 6, 40}}));
+}
+
+TEST(Lift, ComponentsThatAreNotNestedFollowTheSameRules) {
+  const Names receivers{"ax", "x", "jx", "vx"};
+  const auto at = [&](Lift rule) { return lifted(receiver, receivers, source, {"vx", "x"}, rule); };
+  EXPECT_EQ(at(Lift::zero).mean, (Vector<4>{0, -2, 0, -1}));
+  EXPECT_EQ(at(Lift::zero).covariance, (SquareMatrix<4>{{0, 0, 0, 0}, {0, 8, 0, 0.5}, {0, 0, 0, 0}, {0, 0.5, 0, 7}}));
+  EXPECT_EQ(at(Lift::borrowed_variance).mean, (Vector<4>{0, -2, 0, -1}));
+  EXPECT_EQ(at(Lift::borrowed_variance).covariance,
+            (SquareMatrix<4>{{10, 0, 0, 0}, {0, 8, 0, 0.5}, {0, 0, 30, 0}, {0, 0.5, 0, 7}}));
+  EXPECT_EQ(at(Lift::unbiased).mean, (Vector<4>{1, -2, 3, -1}));
+  EXPECT_EQ(at(Lift::unbiased).covariance,
+            (SquareMatrix<4>{{10, 0, 2, 0}, {0, 8, 0, 0.5}, {2, 0, 30, 0}, {0, 0.5, 0, 7}}));
+}
+
+TEST(Lift, GoingDownDropsComponents) {
+  for (const Lift rule : lifts) {
+    const auto found = lifted(source, {"x", "vx"}, receiver, {"x", "vx", "ax", "jx"}, rule);
+    EXPECT_EQ(found.mean, (Vector<2>{1, 2}));
+    EXPECT_EQ(found.covariance, (SquareMatrix<2>{{10, 1}, {1, 20}}));
+  }
+}
+
+TEST(Lift, LiftedAndDroppedAgainNothingHasChanged) {
+  const std::vector<std::pair<Names, Names>> banks{{{"x", "vx", "ax", "jx"}, {"x", "vx"}},
+                                                   {{"ax", "x", "jx", "vx"}, {"vx", "x"}}};
+  holds([&] {
+    const auto large = generated_gaussian<4>();
+    const auto small = generated_gaussian<2>();
+    for (const auto& [many, few] : banks)
+      for (const Lift rule : lifts) {
+        const auto again = lifted(small, few, lifted(large, many, small, few, rule), many, rule);
+        RC_ASSERT(again.mean == small.mean);
+        RC_ASSERT(again.covariance == small.covariance);
+      }
+  });
+}
+
+TEST(Lift, ItsOwnEstimateIsUnchanged) {
+  for (const Lift rule : lifts) {
+    const auto found = lifted(receiver, {"a", "b", "c", "d"}, receiver, {"a", "b", "c", "d"}, rule);
+    EXPECT_EQ(found.mean, receiver.mean);
+    EXPECT_EQ(found.covariance, receiver.covariance);
+  }
+}
+
+TEST(Lift, CovariancesAreAddedByTheirWeight) {
+  const Correspondence map({"x", "vx", "ax", "jx"}, {"x", "vx"});
+  const Lifted view(receiver, source, map, Lift::unbiased);
+  SquareMatrix<4> sum = SquareMatrix<4>::Ones();
+  view.add_covariance(2.0, sum);
+  EXPECT_EQ(sum, (SquareMatrix<4>{{15, 2, 1, 1}, {2, 17, 1, 1}, {1, 1, 61, 13}, {1, 1, 13, 81}}));
+}
+
+}  // namespace
+}  // namespace sigmax
