@@ -30,8 +30,7 @@ std::string shown(const Token& token) {
 /// The text of a file as tokens. Between tokens the format ignores "," and "|" as it does blanks and comments.
 class Tokens {
  public:
-  Tokens(std::istream& in, std::string_view file)
-      : text_(contents(in)), file_(file), next_() {
+  Tokens(std::istream& in, std::string_view file) : text_(contents(in)), file_(file), next_() {
     if (in.bad() || (text_.empty() && in.fail())) fail(1, "expected a network, found that nothing can be read");
     take();
   }

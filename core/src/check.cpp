@@ -50,4 +50,8 @@ void same(const Outcomes& expected, const Outcomes& found, std::string_view wher
   throw std::invalid_argument(message);
 }
 
+void excluded(const Outcomes& variable) {
+  throw std::domain_error("the evidence excludes every outcome of variable '" + variable.name() + "'");
+}
+
 }  // namespace sigmax::check

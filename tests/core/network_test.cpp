@@ -61,10 +61,16 @@ TEST(RelationNetwork, KnowsTheKindsOfItsVariables) {
 TEST(RelationNetwork, RefusesWhatItDoesNotHold) {
   const RelationNetwork network = three();
   EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of("sped"); }, {"no variable 'sped'"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of(RandomVariable{"mood", {"calm", "wild"}}); },
-                                            {"'mood'", "fuzzy", "random"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.index_of(FuzzyVariable{"mood", {"calm", "odd"}}); },
-                                            {"'mood'", "other outcomes"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.index_of(RandomVariable{"mood", {"calm", "wild"}});
+      },
+      {"'mood'", "fuzzy", "random"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.index_of(FuzzyVariable{"mood", {"calm", "odd"}});
+      },
+      {"'mood'", "other outcomes"}));
 }
 
 TEST(RelationNetwork, RefusesAParentThatIsNotDeclaredBefore) {
@@ -88,8 +94,11 @@ TEST(RelationNetwork, CannotBeGivenACycle) {
 TEST(RelationNetwork, RefusesAParentTwiceOrOfAnotherKindOrWithOtherOutcomes) {
   RelationNetwork network;
   network.declare(uninformative(age));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(speed, {age, age}, speed_rows); },
-                                            {"'speed'", "'age'", "twice"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.declare(speed, {age, age}, speed_rows);
+      },
+      {"'speed'", "'age'", "twice"}));
   EXPECT_TRUE(throws<std::invalid_argument>(
       [&] {
         network.declare(mood, {RandomVariable{"age", {"young", "old"}}}, {{1.0, 0.5}, {0.5, 1.0}});
@@ -116,11 +125,18 @@ TEST(RelationNetwork, NamesVariableRowAndValueOfABadTable) {
                                             {"'lamp'", "(mood, age)", "(calm, old)", "'off'", "1.5"}));
   EXPECT_TRUE(throws<std::invalid_argument>(declare({{1.0, 0.0}, {1.0, 0.0}, {0.5, 0.5}, {1.0, 0.0, 0.0}}),
                                             {"'lamp'", "(wild, old)", "2 outcomes", "3 values"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(lamp, {mood}, {{1.0, 0.0}, {0.5, 0.6}}); },
-                                            {"sum", "'lamp'", "mood = 'wild'", "1.1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.declare(lamp, {mood}, {{1.0, 0.0}, {0.5, 0.6}});
+      },
+      {"sum", "'lamp'", "mood = 'wild'", "1.1"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(lamp, {}, {{0.5, 0.4}}); }, {"'lamp'", "0.9"}));
   const FuzzyVariable glow{"glow", {"off", "on"}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.declare(glow, {}, {{0.5, 0.4}}); }, {"maximum", "'glow'", "0.5"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        network.declare(glow, {}, {{0.5, 0.4}});
+      },
+      {"maximum", "'glow'", "0.5"}));
   EXPECT_EQ(network.size(), 3U);
 }
 

@@ -84,11 +84,11 @@ TEST(DuboisPrade, AddsWhatIsAsProbableOrLess) {
 }
 
 TEST(DuboisPrade, GivesTiesOnePossibility) {
-  const RandomVariable four{"four", 4};
-  EXPECT_PRED_FORMAT3(near, to_possibility(Distribution{four, {0.2, 0.3, 0.2, 0.3}}, DuboisPrade{}).values(),
-                      (std::vector{0.4, 1.0, 0.4, 1.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, to_possibility(uninformative(four), DuboisPrade{}).values(),
-                      (std::vector{1.0, 1.0, 1.0, 1.0}), 0.0);
+  const RandomVariable five{"five", 5};
+  EXPECT_PRED_FORMAT3(near, to_possibility(Distribution{five, {0.1, 0.35, 0.1, 0.35, 0.1}}, DuboisPrade{}).values(),
+                      (std::vector{0.3, 1.0, 0.3, 1.0, 0.3}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, to_possibility(uninformative(five), DuboisPrade{}).values(),
+                      (std::vector{1.0, 1.0, 1.0, 1.0, 1.0}), 0.0);
 }
 
 TEST(DuboisPradeSandri, AddsTheSmallerOfEachPair) {

@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "support/matrices.hpp"
-#include "support/restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::entries;
+using support::dense;
+using support::fixed;
+using support::generated;
 using support::generated_gaussian;
-using support::generated_matrix;
 using support::holds;
 using support::near;
 using support::require_near;
@@ -37,22 +37,24 @@ TEST(Metrics, TheNormalizedErrorByHand) {
 
 TEST(Metrics, TheNormalizedErrorIsThatOfTheInverse) {
   holds([] {
-    const auto estimate = generated_gaussian<4>();
-    const Vector<4> truth = generated_matrix<4, 1>();
-    const auto error = entries(estimate.mean - truth);
-    const auto inverse = restatement::inverse({4, 4, entries(estimate.covariance)}).matrix;
-    require_near(nees(estimate, truth), restatement::dot(error, restatement::product(inverse, error)), 1e-9);
+    const auto estimate = generated_gaussian<3>();
+    const auto truth = generated(3, 1);
+    const auto error = dense(estimate.mean) - truth;
+    const auto inverse = restatement::inverse(dense(estimate.covariance)).matrix;
+    require_near(nees(estimate, Vector<3>{fixed<3, 1>(truth)}),
+                 (restatement::transposed(error) * inverse * error)(0, 0), 1e-9);
   });
 }
 
 TEST(Metrics, TheNormalizedErrorKnowsNoUnits) {
   holds([] {
     const auto estimate = generated_gaussian<3>();
-    const Vector<3> truth = generated_matrix<3, 1>();
-    const Vector<3> units{1000.0, 0.01, 57.3};
-    const Gaussian<3> converted{units.cwiseProduct(estimate.mean),
-                                units.asDiagonal() * estimate.covariance * units.asDiagonal()};
-    require_near(nees(converted, Vector<3>{units.cwiseProduct(truth)}), nees(estimate, truth), 1e-10);
+    const auto truth = generated(3, 1);
+    const restatement::Matrix units(3, 3, {1000.0, 0, 0, 0, 0.01, 0, 0, 0, 57.3});
+    const Gaussian<3> converted{fixed<3, 1>(units * dense(estimate.mean)),
+                                fixed<3, 3>(units * dense(estimate.covariance) * units)};
+    require_near(nees(converted, Vector<3>{fixed<3, 1>(units * truth)}), nees(estimate, Vector<3>{fixed<3, 1>(truth)}),
+                 1e-10);
   });
 }
 

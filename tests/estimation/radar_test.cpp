@@ -6,12 +6,13 @@
 #include <numbers>
 
 #include "support/matrices.hpp"
-#include "support/restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
+using support::dense;
+using support::fixed;
 using support::holds;
 using support::near;
 using support::near_matrix;
@@ -50,8 +51,7 @@ TEST(Radar, ItsCovarianceIsThePrintedOneElementByElement) {
     require_near(support::entries(found.mean), printed.z, 1e-9);
     // Entries cancel, so the largest of them sets the scale.
     const double scale = std::max(1.0, found.covariance.cwiseAbs().maxCoeff());
-    require_near_matrix(found.covariance / scale, Eigen::Map<const Eigen::Matrix3d>(printed.R.values.data()) / scale,
-                        1e-12);
+    require_near_matrix(found.covariance / scale, (1.0 / scale) * printed.R, 1e-12);
     RC_ASSERT(found.covariance == found.covariance.transpose());
   });
 }
@@ -67,10 +67,11 @@ TEST(Radar, TurningTheTargetTurnsTheCovariance) {
   const Polar sigma{10.0, 0.002, 0.003};
   const auto here = to_cartesian(Polar{5000.0, 0.2, 0.4}, sigma);
   const auto there = to_cartesian(Polar{5000.0, 0.2 + turn, 0.4}, sigma);
-  SquareMatrix<3> rotation;
-  rotation << std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1;
-  EXPECT_PRED_FORMAT3(near_matrix, there.mean, rotation * here.mean, 1e-12);
-  EXPECT_PRED_FORMAT3(near_matrix, there.covariance, rotation * here.covariance * rotation.transpose(), 1e-12);
+  const double c = std::cos(turn), s = std::sin(turn);
+  const restatement::Matrix rotation(3, 3, {c, -s, 0, s, c, 0, 0, 0, 1});
+  EXPECT_PRED_FORMAT3(near_matrix, there.mean, (fixed<3, 1>(rotation * dense(here.mean))), 1e-12);
+  EXPECT_PRED_FORMAT3(near_matrix, there.covariance,
+                      (fixed<3, 3>(rotation * dense(here.covariance) * restatement::transposed(rotation))), 1e-12);
 }
 
 TEST(Radar, TheValidityOfTheConversionIsThatOfTheScenarios) {

@@ -3,100 +3,107 @@
 #include <gtest/gtest.h>
 
 #include "support/matrices.hpp"
-#include "support/restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
+using support::dense;
 using support::entries;
 using support::generated_gaussian;
 using support::holds;
-using support::near_matrix;
+using support::near;
 using support::number_between;
 using support::require_near;
 using support::require_near_matrix;
 using support::throws;
 
-template <int M>
-restatement::Position position(const Gaussian<M>& z) {
-  return {entries(z.mean), restatement::Matrix(M, M, entries(z.covariance))};
+restatement::Position position(const Gaussian<2>& z) { return {entries(z.mean), dense(z.covariance)}; }
+
+/// A measurement in the plane whose axes are alike, but for the sign.
+TimedMeasurement<2> at(double time, double z, double R) {
+  return {time, {Vector<2>{z, -z}, SquareMatrix<2>{{R, 0.0}, {0.0, R}}}};
 }
 
-Gaussian<1> scalar(double z, double R) { return {Vector<1>{z}, SquareMatrix<1>{R}}; }
+template <int N>
+void is(const Gaussian<2 * N>& found, const Vector<N>& mean, const SquareMatrix<N>& covariance) {
+  for (Eigen::Index a = 0; a < N; ++a) {
+    EXPECT_PRED_FORMAT3(near, found.mean(2 * a), mean(a), 1e-13);
+    EXPECT_PRED_FORMAT3(near, found.mean(2 * a + 1), -mean(a), 1e-13);
+    for (Eigen::Index b = 0; b < N; ++b) {
+      EXPECT_PRED_FORMAT3(near, found.covariance(2 * a, 2 * b), covariance(a, b), 1e-13);
+      EXPECT_PRED_FORMAT3(near, found.covariance(2 * a + 1, 2 * b + 1), covariance(a, b), 1e-13);
+      EXPECT_EQ(found.covariance(2 * a, 2 * b + 1), 0.0);
+    }
+  }
+}
 
 TEST(Start, TwoPointsByHand) {
-  const auto start = two_point_start<1>({3.0, scalar(10.0, 4.0)}, {5.0, scalar(16.0, 9.0)});
-  EXPECT_EQ(start.mean, (Vector<2>{16.0, 3.0}));
-  EXPECT_EQ(start.covariance, (SquareMatrix<2>{{9.0, 4.5}, {4.5, 3.25}}));
+  is<2>(two_point_start<2>(at(3.0, 10.0, 4.0), at(5.0, 16.0, 9.0)), {16.0, 3.0},
+        SquareMatrix<2>{{9.0, 4.5}, {4.5, 3.25}});
 }
 
 TEST(Start, ThreePointsByHand) {
   // v = (3·16 − 4·10 + 6)/4, a = (16 − 20 + 6)/4; weights [1/4, −1, 3/4] and [1/4, −1/2, 1/4] on R = 16, 4, 8.
-  const auto start = three_point_start<1>({1.0, scalar(6.0, 16.0)}, {3.0, scalar(10.0, 4.0)}, {5.0, scalar(16.0, 8.0)});
-  EXPECT_PRED_FORMAT3(near_matrix, start.mean, (Vector<3>{16.0, 3.5, 0.5}), 1e-15);
-  EXPECT_PRED_FORMAT3(near_matrix, start.covariance,
-                      (SquareMatrix<3>{{8.0, 6.0, 2.0}, {6.0, 9.5, 4.5}, {2.0, 4.5, 2.5}}), 1e-15);
+  is<3>(three_point_start<2>(at(1.0, 6.0, 16.0), at(3.0, 10.0, 4.0), at(5.0, 16.0, 8.0)), {16.0, 3.5, 0.5},
+        SquareMatrix<3>{{8.0, 6.0, 2.0}, {6.0, 9.5, 4.5}, {2.0, 4.5, 2.5}});
 }
 
 TEST(Start, TheReleasedOneHasThePrintedCovariance) {
-  const double T = 0.2;
-  const auto start = released_start<1>({0.0, scalar(6.0, 16.0)}, {T, scalar(10.0, 4.0)}, {2 * T, scalar(16.0, 1.0)});
-  EXPECT_PRED_FORMAT3(near_matrix, start.mean, (Vector<3>{16.0, 30.0, 50.0}), 1e-12);
-  EXPECT_PRED_FORMAT3(near_matrix, start.covariance,
-                      (SquareMatrix<3>{{1.0, 5.0, 25.0}, {5.0, 50.0, 375.0}, {25.0, 375.0, 3750.0}}), 1e-12);
+  const double T = 0.25;
+  is<3>(released_start<2>(at(0.0, 6.0, 16.0), at(T, 10.0, 4.0), at(2 * T, 16.0, 1.0)), {16.0, 24.0, 32.0},
+        SquareMatrix<3>{{1.0, 4.0, 16.0}, {4.0, 32.0, 192.0}, {16.0, 192.0, 1536.0}});
 }
 
 TEST(Start, AllThreeEqualTheRestatement) {
   holds([] {
-    const auto z1 = generated_gaussian<3>(), z2 = generated_gaussian<3>(), z3 = generated_gaussian<3>();
+    const auto z1 = generated_gaussian<2>(), z2 = generated_gaussian<2>(), z3 = generated_gaussian<2>();
     const double t = number_between(-100.0, 100.0);
     const double T = number_between(0.1, 3.0);
     const double U = number_between(0.1, 3.0);
     const auto same = [](const auto& found, const restatement::State& expected) {
       require_near(entries(found.mean), expected.mean, 1e-9);
-      require_near(entries(found.covariance), expected.covariance.values, 1e-9);
+      require_near_matrix(found.covariance, expected.covariance, 1e-9);
       RC_ASSERT(found.covariance == found.covariance.transpose());
     };
-    same(two_point_start<3>({t, z1}, {t + T, z2}), restatement::two_point_start(position(z1), position(z2), T));
-    same(three_point_start<3>({t, z1}, {t + T, z2}, {t + T + U, z3}),
+    same(two_point_start<2>({t, z1}, {t + T, z2}), restatement::two_point_start(position(z1), position(z2), T));
+    same(three_point_start<2>({t, z1}, {t + T, z2}, {t + T + U, z3}),
          restatement::three_point_start(position(z1), position(z2), position(z3), T, U));
-    same(released_start<3>({t, z1}, {t + T, z2}, {t + 2 * T, z3}),
+    same(released_start<2>({t, z1}, {t + T, z2}, {t + 2 * T, z3}),
          restatement::released_start(position(z1), position(z2), position(z3), T));
   });
 }
 
 TEST(Start, ThreePointsAreExactOnAParabolaWithUnequalSteps) {
   holds([] {
-    const Vector<2> x{number_between(-5, 5), 1.0}, v{number_between(-5, 5), -2.0}, a{number_between(-5, 5), 3.0};
+    const double x = number_between(-5, 5), v = number_between(-5, 5), a = number_between(-5, 5);
     const double T = number_between(0.1, 3.0), U = number_between(0.1, 3.0);
-    const auto at = [&](double t) {  // seconds from the third point
-      return TimedMeasurement<2>{7.0 + t, {x + t * v + 0.5 * t * t * a, SquareMatrix<2>::Identity()}};
-    };
-    const auto start = three_point_start<2>(at(-T - U), at(-U), at(0.0));
-    Vector<6> expected;
-    expected << x, v, a;
-    require_near_matrix(start.mean, expected, 1e-9);
+    const auto seen = [&](double t) {
+      return at(7.0 + t, x + t * v + 0.5 * t * t * a, 1.0);
+    };  // t from the third point
+    const auto start = three_point_start<2>(seen(-T - U), seen(-U), seen(0.0));
+    require_near(entries(start.mean), std::vector<double>{x, -x, v, -v, a, -a}, 1e-9);
   });
 }
 
 TEST(Start, TheReleasedVelocityLagsByHalfAStepOfAcceleration) {
-  const auto at = [](double t) { return TimedMeasurement<1>{t, scalar(3.0 * t + 2.0 * t * t, 1.0)}; };  // a = 4
-  const auto unbiased = three_point_start<1>(at(0.0), at(0.5), at(1.0));
-  const auto released = released_start<1>(at(0.0), at(0.5), at(1.0));
-  EXPECT_PRED_FORMAT3(near_matrix, unbiased.mean, (Vector<3>{5.0, 7.0, 4.0}), 1e-13);
-  EXPECT_PRED_FORMAT3(near_matrix, released.mean, (Vector<3>{5.0, 7.0 - 0.5 * 0.5 * 4.0, 4.0}), 1e-13);
+  const auto seen = [](double t) { return at(t, 3.0 * t + 2.0 * t * t, 1.0); };  // a = 4
+  const auto unbiased = three_point_start<2>(seen(0.0), seen(0.5), seen(1.0));
+  const auto released = released_start<2>(seen(0.0), seen(0.5), seen(1.0));
+  EXPECT_PRED_FORMAT3(near, unbiased.mean(2), 7.0, 1e-13);
+  EXPECT_PRED_FORMAT3(near, released.mean(2), 7.0 - 0.5 * 0.5 * 4.0, 1e-13);
+  EXPECT_PRED_FORMAT3(near, released.mean(4), unbiased.mean(4), 1e-13);
 }
 
 TEST(Start, NeedsIncreasingTimes) {
-  const auto at = [](double t) { return TimedMeasurement<1>{t, scalar(1.0, 1.0)}; };
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { two_point_start<1>(at(1.0), at(1.0)); }, {"increasing times"}));
+  const auto seen = [](double t) { return at(t, 1.0, 1.0); };
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { two_point_start<2>(seen(1.0), seen(1.0)); }, {"increasing times"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { three_point_start<2>(seen(1.0), seen(0.0), seen(2.0)); },
+                                            {"increasing times"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { three_point_start<2>(seen(0.0), seen(1.0), seen(1.0)); },
+                                            {"increasing times"}));
   EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { three_point_start<1>(at(1.0), at(0.0), at(2.0)); }, {"increasing times"}));
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { three_point_start<1>(at(0.0), at(1.0), at(1.0)); }, {"increasing times"}));
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { released_start<1>(at(0.0), at(2.0), at(1.0)); }, {"increasing times"}));
+      throws<std::invalid_argument>([&] { released_start<2>(seen(0.0), seen(2.0), seen(1.0)); }, {"increasing times"}));
 }
 
 }  // namespace

@@ -67,10 +67,23 @@ Relation<Kind, Kind> transition() {
              : Relation<Kind, Kind>{motion, motion, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
 }
 
+template <class Models>
+auto starts_of(const Models& models) {
+  auto starts = estimates_for(models);
+  for_each_mode(models, [&](auto j) {
+    auto& start = mode(starts, j);
+    const auto n = mode(models, j).size();
+    start.mean.setZero(n);
+    start.mean.template head<4>() << 12000, 8000, -100, -100;
+    start.covariance.setZero(n, n);
+    start.covariance.diagonal().setConstant(100.0);
+  });
+  return starts;
+}
+
 template <Uncertainty Kind, class Models>
 void nothing_is_allocated(const Models& models, const Interaction<Kind>& interaction) {
-  const Gaussian<6> start{Vector<6>{12000, 8000, -100, -100, 0, 0}, 100.0 * SquareMatrix<6>::Identity()};
-  InteractingMultipleModel<Models, Kind> filter{models, transition<Kind>(), start, interaction};
+  InteractingMultipleModel<Models, Kind> filter{models, transition<Kind>(), starts_of(models), interaction};
   std::size_t measured = 0, missed = 0;
   for (const auto& scan : support::manoeuvring_target(40)) {
     if (scan.z) {
@@ -108,8 +121,7 @@ TEST(Allocation, AHimmAllocatesNothing) {
 TEST(Allocation, AnUnreachableModeAllocatesNothing) {
   const FuzzyVariable motion{"motion", 3};
   const Relation only_the_first{motion, motion, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
-  const Gaussian<6> start{Vector<6>{12000, 8000, -100, -100, 0, 0}, 100.0 * SquareMatrix<6>::Identity()};
-  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, only_the_first, start};
+  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, only_the_first, starts_of(vector_bank)};
   for (int k = 0; k < 3; ++k) ASSERT_EQ(allocations_of([&] { filter.step(0.2); }), 0U);
 }
 

@@ -85,10 +85,6 @@ restatement::Options restate(const Interaction<Kind>& interaction) {
   return options;
 }
 
-inline restatement::Matrix dense(const AnyMatrix& matrix) {
-  return {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols()), entries(matrix)};
-}
-
 template <int N, int MaxN>
 restatement::State restate(const Gaussian<N, MaxN>& estimate) {
   return {entries(estimate.mean), dense(estimate.covariance)};

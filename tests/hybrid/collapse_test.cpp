@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <sigmax/core/logarithm.hpp>
+
 #include "support/matrices.hpp"
 
 namespace sigmax {

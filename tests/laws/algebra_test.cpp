@@ -11,7 +11,7 @@ namespace {
 /// The laws that the concepts of algebra.hpp promise; a new algebra is added to the list.
 template <class A>
 class AlgebraLaws : public testing::Test {};
-using Algebras = testing::Types<Sigma, Max>;
+using Algebras = testing::Types<Sigma, Max, MaxMin>;
 TYPED_TEST_SUITE(AlgebraLaws, Algebras);
 
 template <class A>
@@ -21,6 +21,7 @@ TYPED_TEST_SUITE(ScalingAlgebraLaws, ScalingAlgebras);
 
 static_assert(Algebra<Sigma> && ScalingAlgebra<Sigma> && !SelectiveAlgebra<Sigma>);
 static_assert(Algebra<Max> && ScalingAlgebra<Max> && SelectiveAlgebra<Max>);
+static_assert(Algebra<MaxMin> && !ScalingAlgebra<MaxMin> && SelectiveAlgebra<MaxMin>);
 
 TYPED_TEST(AlgebraLaws, PlusIsAssociative) {
   using A = TypeParam;

@@ -9,6 +9,7 @@
 
 #include "support/near.hpp"
 #include "support/property.hpp"
+#include "support/restatement.hpp"
 
 namespace sigmax::support {
 
@@ -20,6 +21,21 @@ inline std::vector<double> entries(const AnyMatrix& matrix) {
   std::vector<double> result;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) result.push_back(matrix(i, j));
+  return result;
+}
+
+/// The same matrix in the restatement's terms, where laws are written out without Eigen.
+inline restatement::Matrix dense(const AnyMatrix& matrix) {
+  return {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols()), entries(matrix)};
+}
+
+/// And back.
+template <int Rows, int Columns>
+RectangularMatrix<Rows, Columns> fixed(const restatement::Matrix& matrix) {
+  RectangularMatrix<Rows, Columns> result;
+  for (Eigen::Index i = 0; i < Rows; ++i)
+    for (Eigen::Index j = 0; j < Columns; ++j)
+      result(i, j) = matrix(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   return result;
 }
 
@@ -36,6 +52,15 @@ inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expecte
   if (const auto result = near_matrix("found", "expected", "", found, expected, tolerance); !result)
     RC_FAIL(std::string(result.message()));
 }
+inline void require_near_matrix(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
+  require_near_matrix(found,
+                      Eigen::MatrixXd::NullaryExpr(
+                          static_cast<Eigen::Index>(expected.rows), static_cast<Eigen::Index>(expected.columns),
+                          [&](Eigen::Index i, Eigen::Index j) {
+                            return expected(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+                          }),
+                      tolerance);
+}
 
 /// A generated number between two, in steps fine enough to be generic.
 inline double number_between(double low, double high) {
@@ -43,27 +68,25 @@ inline double number_between(double low, double high) {
 }
 
 /// A generated matrix with entries in [−1, 1].
-template <int Rows, int Columns>
-Eigen::Matrix<double, Rows, Columns> generated_matrix() {
-  Eigen::Matrix<double, Rows, Columns> result;
-  for (Eigen::Index i = 0; i < Rows; ++i)
-    for (Eigen::Index j = 0; j < Columns; ++j) result(i, j) = number_between(-1.0, 1.0);
+inline restatement::Matrix generated(std::size_t rows, std::size_t columns) {
+  restatement::Matrix result(rows, columns);
+  for (double& value : result.values) value = number_between(-1.0, 1.0);
   return result;
 }
+template <int Rows, int Columns>
+RectangularMatrix<Rows, Columns> generated_matrix() {
+  return fixed<Rows, Columns>(generated(Rows, Columns));
+}
 
-/// A generated covariance with eigenvalues between 0.5 and 0.5 + N².
-template <int N>
-SquareMatrix<N> generated_covariance() {
-  const SquareMatrix<N> A = generated_matrix<N, N>();
-  SquareMatrix<N> result = A * A.transpose() + 0.5 * SquareMatrix<N>::Identity();
-  mirror_lower(result);
-  return result;
+/// A generated covariance with eigenvalues between 0.5 and 0.5 + n².
+inline restatement::Matrix generated_covariance(std::size_t n) {
+  const auto A = generated(n, n);
+  return restatement::symmetrised(A * restatement::transposed(A) + 0.5 * restatement::identity(n));
 }
 
 template <int N>
 Gaussian<N> generated_gaussian() {
-  const Vector<N> mean = 10.0 * generated_matrix<N, 1>();
-  return {mean, generated_covariance<N>()};
+  return {fixed<N, 1>(10.0 * generated(N, 1)), fixed<N, N>(generated_covariance(N))};
 }
 
 }  // namespace sigmax::support

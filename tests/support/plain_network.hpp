@@ -35,8 +35,7 @@ inline long double joint(const Network& network, const Weights& weights, const s
   long double product = 1;
   for (std::size_t v = 0; v < network.nodes.size(); ++v) {
     std::size_t row = 0;
-    for (const std::size_t parent : network.nodes[v].parents)
-      row = row * network.nodes[parent].size + outcomes[parent];
+    for (const std::size_t parent : network.nodes[v].parents) row = row * network.nodes[parent].size + outcomes[parent];
     product *= static_cast<long double>(network.nodes[v].rows[row][outcomes[v]]) * weights[v][outcomes[v]];
   }
   return product;
@@ -57,15 +56,11 @@ inline long double enumerate(const Network& network, const Weights& weights, con
 template <class Action>
 void for_each_outcome(const Network& network, const std::vector<std::size_t>& asked, const Action& action) {
   std::vector<std::size_t> outcomes(network.nodes.size(), 0);
-  std::size_t count = 1;
-  for (const std::size_t v : asked) count *= network.nodes[v].size;
-  for (std::size_t index = 0; index < count; ++index) {
-    std::size_t rest = index;
-    for (std::size_t a = asked.size(); a-- > 0;) {
-      outcomes[asked[a]] = rest % network.nodes[asked[a]].size;
-      rest /= network.nodes[asked[a]].size;
-    }
+  while (true) {
     action(outcomes);
+    std::size_t left = asked.size();
+    while (left > 0 && ++outcomes[asked[left - 1]] == network.nodes[asked[left - 1]].size) outcomes[asked[--left]] = 0;
+    if (left == 0) return;
   }
 }
 
@@ -96,6 +91,7 @@ inline std::vector<long double> product(const Network& network, const std::vecto
       std::size_t index = 0;
       for (const std::size_t v : function.scope) index = index * network.nodes[v].size + outcomes[v];
       value *= function.values[index];
+      if (value == 0) break;
     }
     result.push_back(value);
   });

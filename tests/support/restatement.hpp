@@ -46,7 +46,7 @@ inline Matrix identity(Index n) {
   return result;
 }
 
-inline Matrix product(const Matrix& a, const Matrix& b) {
+inline Matrix operator*(const Matrix& a, const Matrix& b) {
   Matrix result(a.rows, b.columns);
   for (Index i = 0; i < a.rows; ++i)
     for (Index j = 0; j < b.columns; ++j)
@@ -54,7 +54,7 @@ inline Matrix product(const Matrix& a, const Matrix& b) {
   return result;
 }
 
-inline Vector product(const Matrix& a, const Vector& x) {
+inline Vector operator*(const Matrix& a, const Vector& x) {
   Vector result(a.rows, 0.0);
   for (Index i = 0; i < a.rows; ++i)
     for (Index k = 0; k < a.columns; ++k) result[i] += a(i, k) * x[k];
@@ -68,10 +68,19 @@ inline Matrix transposed(const Matrix& a) {
   return result;
 }
 
-inline Matrix sum(const Matrix& a, const Matrix& b, double factor = 1.0) {
-  Matrix result = a;
-  for (Index i = 0; i < a.values.size(); ++i) result.values[i] += factor * b.values[i];
-  return result;
+inline Matrix operator*(double factor, Matrix a) {
+  for (double& value : a.values) value *= factor;
+  return a;
+}
+
+inline Matrix operator+(Matrix a, const Matrix& b) {
+  for (Index i = 0; i < a.values.size(); ++i) a.values[i] += b.values[i];
+  return a;
+}
+
+inline Matrix operator-(Matrix a, const Matrix& b) {
+  for (Index i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+  return a;
 }
 
 inline Vector difference(const Vector& a, const Vector& b) {
@@ -171,9 +180,8 @@ inline Model dwna(Index axes, double sigma_w) {
             return kronecker(Matrix(2, 2, {1, T, 0, 1}), identity(axes));
           },
           [axes, sigma_w](double T) {
-            Matrix Q = outer({T * T / 2, T});
-            for (double& value : Q.values) value *= sigma_w * sigma_w;
-            return kronecker(Q, identity(axes));
+            const Matrix Q = outer({T * T / 2, T});
+            return kronecker(sigma_w * sigma_w * Q, identity(axes));
           },
           kronecker(Matrix(1, 2, {1, 0}), identity(axes))};
 }
@@ -185,9 +193,8 @@ inline Model dwpa(Index axes, double sigma_w) {
             return kronecker(Matrix(3, 3, {1, T, T * T / 2, 0, 1, T, 0, 0, 1}), identity(axes));
           },
           [axes, sigma_w](double T) {
-            Matrix Q = outer({T * T / 2, T, 1});
-            for (double& value : Q.values) value *= sigma_w * sigma_w;
-            return kronecker(Q, identity(axes));
+            const Matrix Q = outer({T * T / 2, T, 1});
+            return kronecker(sigma_w * sigma_w * Q, identity(axes));
           },
           kronecker(Matrix(1, 3, {1, 0, 0}), identity(axes))};
 }
@@ -266,16 +273,16 @@ class Filter {
     std::vector<Matrix> innovation_covariances;
     for (Index j = 0; j < models_.size(); ++j) {
       const Matrix& H = models_[j].H;
-      const Vector nu = difference(z, product(H, states_[j].mean));
-      const Matrix S = symmetrised(sum(product(product(H, states_[j].covariance), transposed(H)), R));  // (31)
+      const Vector nu = difference(z, H * states_[j].mean);
+      const Matrix S = symmetrised(H * states_[j].covariance * transposed(H) + R);  // (31)
       const Inverse S_inverse = inverse(S);
-      const Matrix W = product(product(states_[j].covariance, transposed(H)), S_inverse.matrix);  // (32)
-      const Vector correction = product(W, nu);
+      const Matrix W = states_[j].covariance * transposed(H) * S_inverse.matrix;  // (32)
+      const Vector correction = W * nu;
       for (Index i = 0; i < correction.size(); ++i) states_[j].mean[i] += correction[i];  // (29)
-      const Matrix kept = sum(identity(correction.size()), product(W, H), -1.0);
-      states_[j].covariance = symmetrised(sum(product(product(kept, states_[j].covariance), transposed(kept)),  // (30)
-                                              product(product(W, R), transposed(W))));
-      log_weights_[j] += -0.5 * (dot(nu, product(S_inverse.matrix, nu)) + S_inverse.log_determinant +
+      const Matrix kept = identity(correction.size()) - W * H;
+      states_[j].covariance = symmetrised(kept * states_[j].covariance * transposed(kept) +  // (30)
+                                          W * R * transposed(W));
+      log_weights_[j] += -0.5 * (dot(nu, S_inverse.matrix * nu) + S_inverse.log_determinant +
                                  static_cast<double>(z.size()) * std::log(2.0 * std::numbers::pi));  // (62), (63)
       innovations.push_back(nu);
       innovation_covariances.push_back(S);
@@ -371,9 +378,9 @@ class Filter {
       case MixedCovariance::own:
         return {winner.mean, own};
       case MixedCovariance::own_recentred:
-        return {winner.mean, sum(own, outer(difference(winner.mean, states_[j].mean)))};
+        return {winner.mean, own + outer(difference(winner.mean, states_[j].mean))};
       case MixedCovariance::released:
-        return {winner.mean, sum(own, outer(difference(winner.mean, received(0, j).mean)))};
+        return {winner.mean, own + outer(difference(winner.mean, received(0, j).mean))};
     }
     throw std::logic_error{"no such reading"};
   }
@@ -384,9 +391,8 @@ class Filter {
     for (Index l = 0; l < states.size(); ++l)
       for (Index i = 0; i < n; ++i) result.mean[i] += mean_weights[l] * states[l].mean[i];
     for (Index l = 0; l < states.size(); ++l)
-      result.covariance =
-          sum(result.covariance, sum(states[l].covariance, outer(difference(result.mean, states[l].mean))),
-              covariance_weights[l]);
+      result.covariance = result.covariance + covariance_weights[l] * (states[l].covariance +
+                                                                       outer(difference(result.mean, states[l].mean)));
     return result;
   }
 
@@ -445,9 +451,8 @@ class Filter {
   void predict(double dt) {
     for (Index j = 0; j < models_.size(); ++j) {
       const Matrix F = models_[j].F(dt);
-      states_[j].mean = product(F, states_[j].mean);
-      states_[j].covariance =
-          symmetrised(sum(product(product(F, states_[j].covariance), transposed(F)), models_[j].Q(dt)));
+      states_[j].mean = F * states_[j].mean;
+      states_[j].covariance = symmetrised(F * states_[j].covariance * transposed(F) + models_[j].Q(dt));
     }
   }
 
@@ -461,7 +466,7 @@ class Filter {
     }
     const State one = options_.kind == Kind::imm ? moments(modes, weights, weights)
                                                  : modes[largest(log_weights, options_.output_tie, winner_)];
-    return dot(one.mean, product(inverse(one.covariance).matrix, one.mean));
+    return dot(one.mean, inverse(one.covariance).matrix * one.mean);
   }
 
   std::vector<Model> models_;

@@ -72,7 +72,7 @@ NetworkAnswer query(const RelationNetwork& network, const std::vector<std::strin
   std::vector<Vertex> innermost_first = asked;
   std::sort(innermost_first.rbegin(), innermost_first.rend());
   std::vector<elimination::Factor> total{joint};
-  for (const Vertex v : innermost_first) total = {elimination::eliminate_by_kind(network, total, v)};
+  for (const Vertex v : innermost_first) total = {elimination::eliminate_by_kind(network, total, v, problem.sizes)};
   const ScaledNumber sum = total.front().values.front();
   if (sum.is_zero()) elimination::refuse(findings);
   return {std::move(answered), std::move(joint.values), sum, induced, std::move(done)};

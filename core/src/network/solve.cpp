@@ -100,17 +100,18 @@ OrderProblem order_problem(const RelationNetwork& network, const Factors& factor
   return problem;
 }
 
-Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex) {
-  return network[vertex].variable.visit([&]<class Kind>(const Variable<Kind>&) {
-    return eliminate<AlgebraOf<Kind>>(factors, vertex, sizes_of(network));
-  });
+Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
+                         const std::vector<std::size_t>& sizes) {
+  return network[vertex].variable.visit(
+      [&]<class Kind>(const Variable<Kind>&) { return eliminate<AlgebraOf<Kind>>(factors, vertex, sizes); });
 }
 
 Factor joint(const RelationNetwork& network, Factors factors, const Order& order, const std::vector<Vertex>& asked) {
-  const auto left =
-      eliminated(std::move(factors.all), order.vertices,
-                 [&](const std::vector<Factor>& bucket, Vertex v) { return eliminate_by_kind(network, bucket, v); });
-  return product(left, asked, sizes_of(network));
+  const std::vector<std::size_t> sizes = sizes_of(network);
+  const auto left = eliminated(
+      std::move(factors.all), order.vertices,
+      [&](const std::vector<Factor>& bucket, Vertex v) { return eliminate_by_kind(network, bucket, v, sizes); });
+  return product(left, asked, sizes);
 }
 
 }  // namespace sigmax::elimination

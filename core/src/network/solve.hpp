@@ -62,7 +62,8 @@ std::vector<Factor> eliminated(std::vector<Factor> factors, const std::vector<Ve
 }
 
 /// ⊕ over one variable by its own kind: the only place where a network's kind chooses the algebra.
-Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex);
+Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
+                         const std::vector<std::size_t>& sizes);
 
 /// The joint of `asked`, all others eliminated by their kinds in the order given.
 Factor joint(const RelationNetwork& network, Factors factors, const Order& order, const std::vector<Vertex>& asked);

@@ -50,4 +50,14 @@ struct Max {
   static constexpr double divide(double a, double b) { return a / b; }
 };
 
+/// The algebra of qualitative possibility and of max-min composition: only the order of the numbers counts. A semiring
+/// that does not scale, because min has no inverse; both operations select, so nothing is ever rounded.
+struct MaxMin {
+  static constexpr bool selective = true;
+  static constexpr double zero() { return 0.0; }
+  static constexpr double one() { return 1.0; }
+  static constexpr double plus(double a, double b) { return std::max(a, b); }
+  static constexpr double times(double a, double b) { return std::min(a, b); }
+};
+
 }  // namespace sigmax

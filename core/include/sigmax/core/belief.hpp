@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <sigmax/core/distribution.hpp>
@@ -46,8 +46,7 @@ class Belief {
   double assign(const LogWeight& log_weight) {
     std::size_t left = 0;
     while (left < size() && log_weight(left) == log_zero) ++left;
-    if (left == size())
-      throw std::domain_error("the evidence excludes every outcome of variable '" + variable_.name() + "'");
+    if (left == size()) check::excluded(variable_);
     for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
     // Shifted by the greatest first: far from zero, the logarithm of the ⊕ is too coarse a number to normalise by.
     const double greatest = log(index_of_greatest(logs()));

@@ -21,7 +21,7 @@ constexpr double total(std::span<const double> values) {
   return sum;
 }
 
-/// The failures of the constructors, with the variable, the row and the value in the message. All throw
+/// The failures of the constructors, with the variable, the row and the value in the message. All but `excluded` throw
 /// std::invalid_argument.
 namespace check {
 
@@ -42,6 +42,9 @@ void total(const Outcomes& variable, Row row, double total, std::string_view nam
 
 /// Both are the same variable; `where` says who asks.
 void same(const Outcomes& expected, const Outcomes& found, std::string_view where);
+
+/// Throws std::domain_error: evidence excludes every outcome of the variable.
+[[noreturn]] void excluded(const Outcomes& variable);
 
 }  // namespace check
 

@@ -93,12 +93,12 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
 template <Uncertainty Middle, Uncertainty From>
 Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
   check::same(left.variable(), right.to(), "compose");
-  Likelihood<From> result{right.from()};
-  for (std::size_t from = 0; from < result.size(); ++from)
-    result.set_log(from, log_combine<AlgebraOf<Middle>>(
-                             left.size(), [&](std::size_t middle) { return left.log(middle); },
-                             [&](std::size_t middle) { return right(from, middle); }));
-  return result;
+  Table weights(1, right.from().size());
+  for (std::size_t from = 0; from < weights.size(); ++from)
+    weights(0, from) = Weight<AlgebraOf<Middle>>::combine(
+        left.size(), [&](std::size_t middle) { return left.weight(middle); },
+        [&](std::size_t middle) { return right(from, middle); });
+  return {right.from(), std::move(weights), ByLaw{}};
 }
 
 }  // namespace sigmax

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -13,13 +12,12 @@
 #include <vector>
 
 #include <sigmax/core/check.hpp>
+#include <sigmax/core/condition.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/core/variable.hpp>
+#include <sigmax/core/weight.hpp>
 
 namespace sigmax {
-
-/// Says that a law, not a check, makes a table normalised; only the verbs of core construct by it. Debug builds check.
-struct ByLaw {};
 
 /// A normalised distribution of one variable: p with Σ p = 1, (3), or π with max π = 1, (2).
 ///
@@ -58,29 +56,26 @@ class Distribution {
   Table table_;
 };
 
-/// Divides by their ⊕ values that are finite, not negative and not all zero: the distribution in proportion to them.
-/// Throws std::invalid_argument otherwise.
+/// The conditional of weights that are finite, not negative and not all zero: for a random or fuzzy variable the
+/// distribution in proportion to them. Those of an ordinal one are at most one. Throws std::invalid_argument otherwise.
 template <Uncertainty Kind>
-  requires ScalingAlgebra<AlgebraOf<Kind>> Distribution<Kind> normalized(Variable<Kind> variable,
-                                                                         std::span<const double> weights) {
-    check::size(variable, {}, weights.size());
-    check::values(variable, {}, weights, std::numeric_limits<double>::max());
-    const double greatest = total<Fuzzy>(weights);
-    if (greatest == 0.0) throw std::invalid_argument("every weight of variable '" + variable.name() + "' is zero");
-    Table table(1, weights.size());
-    // Divided by the greatest first, so that their ⊕ neither overflows nor rounds a lone weight away from one.
-    for (std::size_t i = 0; i < weights.size(); ++i) table(0, i) = weights[i] / greatest;
-    const double sum = total<Kind>(table.values());
-    for (double& value : table.values()) value = AlgebraOf<Kind>::divide(value, sum);
-    return {std::move(variable), std::move(table), ByLaw{}};
-  }
+Distribution<Kind> normalized(Variable<Kind> variable, std::span<const double> weights) {
+  check::size(variable, {}, weights.size());
+  check::values(variable, {}, weights, Weight<AlgebraOf<Kind>>::greatest_value);
+  if (total<Fuzzy>(weights) == 0.0)
+    throw std::invalid_argument("every weight of variable '" + variable.name() + "' is zero");
+  Table table(1, weights.size());
+  std::copy(weights.begin(), weights.end(), table.data());
+  condition<AlgebraOf<Kind>>(table.values());
+  return {std::move(variable), std::move(table), ByLaw{}};
+}
 
-/// What is known of a variable before anything is known: 1/n each for a random, one each for a fuzzy variable.
+/// What is known of a variable before anything is known: 1/n each for a random, one each for any other variable.
 template <Uncertainty Kind>
-  requires ScalingAlgebra<AlgebraOf<Kind>> Distribution<Kind> uninformative(Variable<Kind> variable) {
-    const Table ones(1, variable.size(), 1.0);
-    return normalized(std::move(variable), ones.values());
-  }
+Distribution<Kind> uninformative(Variable<Kind> variable) {
+  const Table ones(1, variable.size(), 1.0);
+  return normalized(std::move(variable), ones.values());
+}
 
 /// Index of the greatest value, the lowest on a tie.
 inline std::size_t index_of_greatest(std::span<const double> values) {

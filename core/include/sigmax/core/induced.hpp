@@ -60,11 +60,10 @@ class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
   Relation<To, From> normalized() const {
     Table rows = this->table_;
     for (std::size_t i = 0; i < rows.rows(); ++i) {
-      const double divisor = beta(i);
-      if (divisor == 0.0)
+      if (beta(i) == 0.0)
         throw std::domain_error("'" + this->to_.name() + "' given " + this->from_.name() + " = '" +
                                 this->from_.label(i) + "' has no outcome left to normalise");
-      for (double& value : rows.row(i)) value = AlgebraOf<To>::divide(value, divisor);
+      condition<AlgebraOf<To>>(rows.row(i));
     }
     return {this->to_, this->from_, std::move(rows), ByLaw{}};
   }

@@ -17,6 +17,7 @@ namespace sigmax {
 
 /// The numbers p(to|from) or π(to|from), one row per outcome of `from`: what Relation and Induced<Relation> share.
 template <Uncertainty To, Uncertainty From>
+  requires Mixable<To, From>
 class ConditionalTable {
  public:
   using to_kind = To;
@@ -58,6 +59,7 @@ class ConditionalTable {
 /// The constructor proves each row (⊕ = 1 to within 1e-9, values in [0, 1]) and stores the values unchanged. `to` and
 /// `from` may be the same variable: a transition, (49), (50).
 template <Uncertainty To, Uncertainty From>
+  requires Mixable<To, From>
 class Relation : public ConditionalTable<To, From> {
  public:
   using Rows = std::initializer_list<std::initializer_list<double>>;

@@ -9,6 +9,9 @@
 
 namespace sigmax {
 
+/// Says that a law, not a check, makes a table normalised; only the verbs of core construct by it. Debug builds check.
+struct ByLaw {};
+
 /// A dense rows × columns table of numbers, row by row; up to 16 of them are stored without allocation.
 class Table {
  public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <string_view>
 
 #include <sigmax/core/algebra.hpp>
@@ -33,5 +34,18 @@ struct Fuzzy {
   static constexpr std::string_view measure = "possibility";
   static constexpr std::string_view total = "maximum";
 };
+
+/// An ordinal variable is a fuzzy one of whose possibilities only the order is known: they combine by their minimum.
+struct Ordinal {
+  using Algebra = MaxMin;
+  static constexpr std::string_view name = "ordinal";
+  static constexpr std::string_view measure = "possibility";
+  static constexpr std::string_view total = "maximum";
+};
+
+/// Kinds that may meet in one relation: the same, or both measured on a ratio scale. So `Ordinal` meets only itself.
+template <class A, class B>
+concept Mixable = Uncertainty<A> && Uncertainty<B> &&
+    (std::same_as<A, B> || (ScalingAlgebra<AlgebraOf<A>> && ScalingAlgebra<AlgebraOf<B>>));
 
 }  // namespace sigmax

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <sigmax/core/belief.hpp>
@@ -32,7 +32,14 @@ Belief<Kind> update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihoo
 ///     update(uninformative(age), speed_given_age.likelihood("fast"))
 template <Uncertainty Kind>
 Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind>& likelihood) {
-  return update(Belief<Kind>{prior}, likelihood).distribution();
+  using Scale = Weight<AlgebraOf<Kind>>;
+  check::same(prior.variable(), likelihood.variable(), "update");
+  Table row(1, prior.size());
+  for (std::size_t i = 0; i < row.size(); ++i) row(0, i) = Scale::times(Scale::of(prior[i]), likelihood.weight(i));
+  if (row(0, index_of_greatest(row.values())) == Scale::excluded) check::excluded(prior.variable());
+  Scale::to_values(row.values());
+  condition<AlgebraOf<Kind>>(row.values());
+  return {prior.variable(), std::move(row), ByLaw{}};
 }
 
 /// What `invert` gives: "from given to", and the outcomes of `to` that nothing reaches.
@@ -42,6 +49,35 @@ struct Inverse {
   std::vector<std::size_t> unreachable;  ///< their rows in `relation` are uninformative
 };
 
+/// An inverse of the right shape, not yet computed.
+template <Uncertainty To, Uncertainty From>
+Inverse<From, To> inverse_of(const Relation<To, From>& relation) {
+  return {{relation.from(), relation.to(), Table(relation.to().size(), relation.from().size()), ByLaw{}}, {}};
+}
+
+/// What every `invert` does; `prior_weight(i)` is on the scale of Weight<AlgebraOf<From>>.
+template <Uncertainty To, Uncertainty From, class PriorWeight>
+void invert_by_weights(const Relation<To, From>& relation, const Variable<From>& prior, const PriorWeight& prior_weight,
+                       Inverse<From, To>& result) {
+  using Scale = Weight<AlgebraOf<From>>;
+  check::same(relation.from(), prior, "invert");
+  check::same(relation.from(), result.relation.to(), "invert");
+  check::same(relation.to(), result.relation.from(), "invert");
+  Table& rows = result.relation.table(ByLaw{});
+  result.unreachable.clear();
+  for (std::size_t to = 0; to < rows.rows(); ++to) {
+    const auto row = rows.row(to);
+    for (std::size_t from = 0; from < row.size(); ++from)
+      row[from] = Scale::times(prior_weight(from), Scale::of(relation(from, to)));
+    if (row[index_of_greatest(row)] == Scale::excluded) {
+      result.unreachable.push_back(to);
+      std::fill(row.begin(), row.end(), Scale::of(1.0));
+    }
+    Scale::to_values(row);
+    condition<AlgebraOf<From>>(row);
+  }
+}
+
 /// The relation read backwards under a prior of its condition, each row an update: (43), (46), (52), (54).
 ///
 ///     from given to  =  relation(to|from) ⊗ prior(from) / ⊕ over from of the same
@@ -49,39 +85,23 @@ struct Inverse {
 /// An outcome of `to` that no possible `from` reaches gets the uninformative row and is listed.
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Belief<From>& prior) {
-  Inverse<From, To> result{
-      {relation.from(), relation.to(), Table(relation.to().size(), relation.from().size()), ByLaw{}}, {}};
+  auto result = inverse_of(relation);
   invert(relation, prior, result);
   return result;
 }
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Distribution<From>& prior) {
-  return invert(relation, Belief<From>{prior});
+  auto result = inverse_of(relation);
+  invert_by_weights(
+      relation, prior.variable(), [&](std::size_t i) { return Weight<AlgebraOf<From>>::of(prior[i]); }, result);
+  return result;
 }
 
 /// The same, written into an existing `result` of the same variables.
 template <Uncertainty To, Uncertainty From>
 void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inverse<From, To>& result) {
-  using Algebra = AlgebraOf<From>;
-  check::same(relation.from(), prior.variable(), "invert");
-  check::same(relation.from(), result.relation.to(), "invert");
-  check::same(relation.to(), result.relation.from(), "invert");
-  const std::size_t n = prior.size();
-  Table& rows = result.relation.table(ByLaw{});
-  result.unreachable.clear();
-  for (std::size_t to = 0; to < relation.to().size(); ++to) {
-    // Through logarithms and scaled by the greatest, so that nothing that leads here is lost to underflow.
-    const auto row = rows.row(to);
-    for (std::size_t from = 0; from < n; ++from) row[from] = prior.log(from) + std::log(relation(from, to));
-    const double greatest = row[index_of_greatest(row)];
-    if (greatest == log_zero) result.unreachable.push_back(to);
-    double sum = Algebra::zero();
-    for (double& value : row) {
-      value = greatest == log_zero ? 1.0 : std::exp(value - greatest);
-      sum = Algebra::plus(sum, value);
-    }
-    for (double& value : row) value = Algebra::divide(value, sum);
-  }
+  invert_by_weights(
+      relation, prior.variable(), [&](std::size_t i) { return prior.log(i); }, result);
 }
 
 }  // namespace sigmax

@@ -20,5 +20,6 @@ class Variable : public Outcomes {
 
 using RandomVariable = Variable<Random>;
 using FuzzyVariable = Variable<Fuzzy>;
+using OrdinalVariable = Variable<Ordinal>;
 
 }  // namespace sigmax

@@ -1,0 +1,371 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <sigmax/core/compose.hpp>
+#include <sigmax/core/network/compose.hpp>
+#include <sigmax/core/network/explanation.hpp>
+#include <sigmax/core/network/measure.hpp>
+#include <sigmax/core/network/query.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+const FuzzyVariable age{"age", {"young", "middle", "old"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+const RandomVariable speed{"speed", {"slow", "fast"}};
+const Relation<Fuzzy, Fuzzy> mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
+const Relation<Random, Fuzzy> speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
+
+RelationNetwork chain() {
+  RelationNetwork network;
+  network.declare(Distribution{age, {1.0, 1.0, 0.5}});
+  network.declare(mood_given_age);
+  network.declare(speed_given_mood);
+  return network;
+}
+
+std::vector<double> numbers(const NetworkAnswer& answer) {
+  std::vector<double> result;
+  for (const ScaledNumber value : answer.values()) result.push_back(value.value());
+  return result;
+}
+
+TEST(NetworkQuery, OfEverythingIsTheProductOfTheTables) {
+  const NetworkAnswer answer = query(chain(), {"age", "mood", "speed"});
+  EXPECT_PRED_FORMAT3(near, numbers(answer),
+                      (std::vector{0.27, 0.03, 0.3, 0.7, 0.9, 0.1, 0.18, 0.42, 0.45, 0.05, 0.03, 0.07}), 1e-15);
+  EXPECT_EQ((answer[{"middle", "wild", "fast"}].value()), 0.6 * 0.7);
+  EXPECT_PRED_FORMAT3(near, answer.total().value(), 1.0, 1e-15);
+  EXPECT_FALSE(answer.induced());
+}
+
+TEST(NetworkQuery, AnswersInTheOrderAskedFor) {
+  const auto forwards = query(chain(), {"mood", "speed"}), backwards = query(chain(), {"speed", "mood"});
+  EXPECT_EQ((forwards[{"wild", "slow"}]), (backwards[{"slow", "wild"}]));
+  EXPECT_EQ((forwards[{"calm", "fast"}]), (backwards[{"fast", "calm"}]));
+  EXPECT_EQ(forwards.total(), backwards.total());
+}
+
+TEST(NetworkQuery, OfNothingIsTheEvidenceAndOneWithoutAny) {
+  EXPECT_EQ(query(chain(), {}).total().value(), 1.0);
+  const auto fast = query(chain(), {}, {{"speed", "fast"}});
+  EXPECT_PRED_FORMAT3(near, fast.total().value(), 0.7, 1e-15);  // the young are wild, and the wild fast
+  EXPECT_EQ(fast.values().size(), 1U);
+  EXPECT_FALSE(fast.induced());
+}
+
+TEST(NetworkQuery, OfAnInnerVariableOfAnotherKindIsInduced) {  // (15), the small world of the readings
+  const FuzzyVariable y{"y", 2};
+  const RandomVariable x{"x", 3};
+  RelationNetwork network;
+  network.declare(Distribution{y, {1.0, 0.5}});
+  network.declare(Relation{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}});
+  const NetworkAnswer answer = query(network, {"x"});
+  EXPECT_TRUE(answer.induced());
+  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.6, 0.3, 0.3}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, answer.total().value(), 1.2, 1e-15);  // β
+  EXPECT_PRED_FORMAT3(near, answer.normalized<Random>().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, answer.likelihood<Random>()["1"], 0.3, 1e-15);
+
+  const NetworkAnswer outer = query(network, {"y"});
+  EXPECT_FALSE(outer.induced());
+  EXPECT_PRED_FORMAT3(near, numbers(outer), (std::vector{1.0, 0.5}), 1e-15);
+  // π(y|x) of (14): the evidence is the induced number, and dividing by it is the normalisation.
+  const NetworkAnswer given = query(network, {"y"}, {{"x", "2"}});
+  EXPECT_FALSE(given.induced());
+  EXPECT_PRED_FORMAT3(near, given.total().value(), 0.3, 1e-15);
+  EXPECT_PRED_FORMAT3(near, given.normalized<Fuzzy>().values(), (std::vector{1.0 / 3.0, 1.0}), 1e-15);
+}
+
+TEST(NetworkQuery, EliminatesInnermostFirstWhereTheOrderMatters) {
+  // max over y of Σ over x, never the other way about: 0.6 · 1 + 0.1 · 0.5 and so on would add the induced numbers.
+  const FuzzyVariable y{"y", 2};
+  const RandomVariable x{"x", 2}, z{"z", 2};
+  RelationNetwork network;
+  network.declare(Distribution{y, {1.0, 0.75}});
+  network.declare(Relation{x, y, {{0.5, 0.5}, {0.25, 0.75}}});
+  network.declare(z, {y, x}, {{0.1, 0.9}, {0.2, 0.8}, {0.8, 0.2}, {0.4, 0.6}});
+  // max(0.5·0.9 + 0.5·0.8, 0.75 (0.25·0.2 + 0.75·0.6)) against Σ_x max_y = 0.5·0.9 + max(0.4, 0.3375)
+  EXPECT_PRED_FORMAT3(near, query(network, {}, {{"z", "1"}}).total().value(), 0.85, 1e-15);
+  // max(0.5·0.1 + 0.5·0.2, 0.75 (0.25·0.8 + 0.75·0.4)) = 0.375; the other order has max(0.05, 0.15) + max(0.1, 0.225)
+  EXPECT_PRED_FORMAT3(near, query(network, {}, {{"z", "0"}}).total().value(), 0.375, 1e-15);
+  const NetworkAnswer answer = query(network, {"z"});
+  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.375, 0.85}), 1e-15);
+  EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"x", "y"}));
+  EXPECT_TRUE(answer.induced());
+}
+
+TEST(NetworkQuery, TakesLikelihoodsAsEvidenceAndMultipliesThoseOfOneVariable) {
+  const Likelihood twice{mood, {0.2, 0.8}};
+  const auto answer = query(chain(), {"mood"}, Evidence{}.observe(twice).observe(twice));
+  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.04, 0.64}), 1e-15);
+  const auto both = query(chain(), {"age"}, Evidence{{"speed", "fast"}}.observe(twice));
+  EXPECT_PRED_FORMAT3(near, numbers(both), (std::vector{0.56, 0.336, 0.056}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, both.normalized(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
+}
+
+TEST(NetworkQuery, OfAVariableWithEvidenceLeavesOnlyWhatWasSeen) {
+  const auto answer = query(chain(), {"mood"}, {{"mood", "wild"}});
+  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.0, 1.0}), 0.0);
+}
+
+TEST(NetworkQuery, NamesTheEvidenceThatExcludesEverything) {
+  const FuzzyVariable a{"a", 2}, b{"b", 2};
+  RelationNetwork network;
+  network.declare(uninformative(a));
+  network.declare(Relation{b, a, {{1.0, 0.0}, {0.0, 1.0}}});
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        query(network, {"a"}, {{"a", "0"}, {"b", "1"}});
+      },
+      {"a = '0'", "b = '1'"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { query(network, {}, {{"a", "0"}, {"a", "1"}}); }, {"a = '0'", "a = '1'"}));
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        query(network, {}, Evidence{}.observe(Likelihood{b, {0.0, 0.0}}));
+      },
+      {"likelihood of b"}));
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        most_likely_explanation(network, {{"a", "0"}, {"b", "1"}});
+      },
+      {"a = '0'", "b = '1'"}));
+}
+
+TEST(NetworkQuery, DoesNotTakeWhatIsTooSmallForADoubleForExcluded) {
+  constexpr double subnormal = std::numeric_limits<double>::denorm_min();
+  const FuzzyVariable a{"a", 2};
+  RelationNetwork network;
+  network.declare(uninformative(a));
+  Evidence evidence;
+  for (int i = 0; i < 5; ++i) {
+    const FuzzyVariable b{"b" + std::to_string(i), 2};
+    network.declare(Relation{b, a, {{1.0, 2 * subnormal}, {1.0, subnormal}}});
+    evidence.observe(b.name(), "1");
+  }
+  const auto answer = query(network, {"a"}, evidence);
+  EXPECT_PRED_FORMAT3(near, answer.normalized(), (std::vector{1.0, 1.0 / 32.0}), 0.0);
+  EXPECT_PRED_FORMAT3(near, answer.total().log(), 5 * -1073 * std::log(2.0), 1e-14);
+}
+
+TEST(NetworkQuery, RefusesWhatTheNetworkDoesNotHave) {
+  const auto network = chain();
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"sped"}); }, {"'sped'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"age", "mood", "age"}); }, {"'age'", "twice"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {}, {{"sped", "fast"}}); }, {"'sped'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {}, {{"speed", "fats"}}); }, {"'speed'", "'fats'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        query(network, {}, Evidence{}.observe(Likelihood{RandomVariable{"mood", {"calm", "wild"}}}));
+      },
+      {"'mood'", "fuzzy", "random"}));
+  const auto answer = query(network, {"age", "speed"});
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { answer[{"old"}]; }, {"2 variables", "1 outcomes"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { (answer[{"old", "fats"}]); }, {"'speed'", "'fats'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { answer.normalized<Fuzzy>(); }, {"2 variables"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"age"}).normalized<Random>(); },
+                                            {"'age'", "fuzzy", "random"}));
+}
+
+/// Leaves p, q and r, a separate fuzzy variable, and a hub that a sensor each joins to the leaves. All sensors were
+/// read.
+NetworkAnswer read_sensors_of_hub(const NetworkVariable& hub) {
+  RelationNetwork network;
+  std::vector<NetworkVariable> leaves;
+  for (const char* const name : {"p", "q", "r"}) {
+    leaves.emplace_back(RandomVariable{name, 4});
+    network.declare(leaves.back(), {}, {{0.25, 0.25, 0.25, 0.25}});
+  }
+  const FuzzyVariable apart{"apart", 2};
+  network.declare(Distribution{apart, {1.0, 0.5}});
+  network.declare(hub, {}, {hub.is<Fuzzy>() ? std::vector{1.0, 1.0} : std::vector{0.5, 0.5}});
+  Evidence evidence;
+  evidence.observe(Likelihood{apart, {0.25, 0.375}});
+  for (const auto& leaf : leaves) {
+    const RandomVariable sensor{"sensor of " + leaf.name(), 2};
+    network.declare(sensor, {leaf, hub}, std::vector<std::vector<double>>(8, {0.5, 0.5}));
+    evidence.observe(sensor.name(), "0");
+  }
+  return query(network, {}, evidence);
+}
+
+TEST(NetworkQuery, SaysWhatItsKindsCost) {
+  const auto answer = read_sensors_of_hub(FuzzyVariable{"hub", 2});
+  const Elimination& elimination = answer.elimination();
+  EXPECT_PRED_FORMAT3(near, answer.total().value(), 0.25 * 0.125, 1e-15);
+  // The leaves were declared outside the hub and are of another kind: it has to go first, and joins them all.
+  EXPECT_TRUE(elimination.forced);
+  EXPECT_LT(std::find(elimination.order.begin(), elimination.order.end(), "hub"),
+            std::find(elimination.order.begin(), elimination.order.end(), "r"));
+  EXPECT_EQ(elimination.greatest_table, 4.0 * 4.0 * 4.0 * 2.0);
+  EXPECT_EQ(elimination.greatest_table_if_one_kind, 4.0 * 2.0);
+}
+
+TEST(NetworkQuery, ExchangesEliminationsOfOneKindAndPassesWhatNothingJoins) {
+  const auto answer = read_sensors_of_hub(RandomVariable{"hub", 2});
+  const Elimination& elimination = answer.elimination();
+  EXPECT_PRED_FORMAT3(near, answer.total().value(), 0.25 * 0.125, 1e-15);
+  EXPECT_FALSE(elimination.forced);
+  EXPECT_EQ(elimination.greatest_table, 4.0 * 2.0);  // each leaf alone with the hub, past `apart`
+  EXPECT_EQ(elimination.greatest_table_if_one_kind, 4.0 * 2.0);
+}
+
+TEST(NetworkQuery, DoesNotPassAVariableThatIsJoinedOnlyFromWithin) {
+  // b and d are fuzzy, c is random; nothing has both b and c, but d, declared within both, meets either.
+  const FuzzyVariable b{"b", 2}, d{"d", 2};
+  const RandomVariable c{"c", 2};
+  const double bd[2][2] = {{1.0, 0.25}, {0.25, 1.0}}, cd[2][2] = {{0.75, 0.125}, {0.125, 0.75}};
+  RelationNetwork network;
+  network.declare(uninformative(b));
+  network.declare(uninformative(c));
+  network.declare(uninformative(d));
+  const FuzzyVariable seen_b{"seen b", 2}, seen_c{"seen c", 2};
+  network.declare(seen_b, {b, d}, {{1.0, bd[0][0]}, {1.0, bd[0][1]}, {1.0, bd[1][0]}, {1.0, bd[1][1]}});
+  network.declare(seen_c, {c, d}, {{1.0, cd[0][0]}, {1.0, cd[0][1]}, {1.0, cd[1][0]}, {1.0, cd[1][1]}});
+  double expected = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < 2; ++j) sum += 0.5 * std::max(bd[i][0] * cd[j][0], bd[i][1] * cd[j][1]);
+    expected = std::max(expected, sum);
+  }
+  const auto answer = query(network, {}, {{"seen b", "1"}, {"seen c", "1"}});
+  EXPECT_PRED_FORMAT3(near, answer.total().value(), expected, 1e-15);  // with b before c it would be 0.75
+  EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"d", "c", "b"}));
+}
+
+TEST(NetworkMeasure, OfAnEventOfOneVariable) {
+  const Evidence fast{{"speed", "fast"}};
+  // π(age | fast) in proportion to (0.7, 0.42, 0.07)
+  EXPECT_PRED_FORMAT3(near, possibility(chain(), Event{age, {"middle", "old"}}, fast), 0.6, 1e-15);
+  EXPECT_PRED_FORMAT3(near, necessity(chain(), Event{age, {"young"}}, fast), 0.4, 1e-15);
+  EXPECT_EQ(necessity(chain(), Event{age, {"middle", "old"}}, fast), 0.0);
+  EXPECT_PRED_FORMAT3(near, probability(chain(), Event{speed, {"fast"}}, {{"mood", "wild"}}), 0.7, 1e-15);
+}
+
+TEST(NetworkMeasure, OfAnEventOfVariablesTogether) {
+  const auto wild_or_old = [](std::span<const std::size_t> at) { return at[0] == 2 || at[1] == 1; };
+  const NetworkAnswer answer = query(chain(), {"age", "mood"}, {{"speed", "slow"}});
+  // joint in proportion to young (0.27, 0.3), middle (0.9, 0.18), old (0.45, 0.03)
+  EXPECT_PRED_FORMAT3(near, possibility(answer, wild_or_old), 0.5, 1e-15);
+  EXPECT_EQ(necessity(answer, wild_or_old), 0.0);
+  EXPECT_PRED_FORMAT3(near, necessity(answer, [](auto at) { return at[0] == 1; }), 0.5, 1e-15);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { probability(answer, wild_or_old); }, {"'age'", "fuzzy", "random"}));
+  const NetworkAnswer both = query(chain(), {"age", "speed"});
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { possibility(both, wild_or_old); }, {"'speed'", "random", "fuzzy"}));
+
+  const RandomVariable a{"a", 2}, b{"b", 2};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.25, 0.75}});
+  network.declare(Relation{b, a, {{0.5, 0.5}, {0.125, 0.875}}});
+  const auto same = [](std::span<const std::size_t> at) { return at[0] == at[1]; };
+  EXPECT_PRED_FORMAT3(near, probability(query(network, {"a", "b"}), same), 0.125 + 0.75 * 0.875, 1e-15);
+}
+
+TEST(NetworkCompose, AlongAPathIsTheCompositionOfItsRelations) {  // (17)
+  const ComposedRelation speed_given_age = compose(chain(), "age", "speed");
+  EXPECT_TRUE(speed_given_age.induced());
+  const auto relation = speed_given_age.relation<Random, Fuzzy>();
+  ASSERT_TRUE((std::holds_alternative<Induced<Relation<Random, Fuzzy>>>(relation)));
+  const auto expected = compose(speed_given_mood, mood_given_age);
+  const auto& induced = std::get<Induced<Relation<Random, Fuzzy>>>(relation);
+  EXPECT_PRED_FORMAT3(near, induced.table().values(), expected.table().values(), 1e-15);
+  EXPECT_PRED_FORMAT3(near, induced.betas(), expected.betas(), 1e-15);
+  EXPECT_EQ(induced.from(), age);
+  EXPECT_EQ(induced.to(), speed);
+}
+
+TEST(NetworkCompose, OfOneKindIsARelation) {
+  const ComposedRelation itself = compose(chain(), "age", "mood");
+  EXPECT_FALSE(itself.induced());
+  EXPECT_PRED_FORMAT3(near, itself.table().values(), mood_given_age.table().values(), 0.0);
+  EXPECT_TRUE((std::holds_alternative<Relation<Fuzzy, Fuzzy>>(itself.relation<Fuzzy, Fuzzy>())));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { itself.relation<Random, Fuzzy>(); }, {"'mood'", "fuzzy", "random"}));
+}
+
+TEST(NetworkCompose, DoesNotAskThePriorAlongAPath) {
+  const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
+  RelationNetwork network;
+  network.declare(Distribution{a, {1.0, 0.0}});
+  network.declare(Relation{b, a, {{0.5, 0.5}, {0.25, 0.75}}});
+  network.declare(Relation{c, b, {{1.0, 0.0}, {0.5, 0.5}}});
+  const auto relation = compose(network, "a", "c");
+  EXPECT_FALSE(relation.induced());
+  EXPECT_TRUE(relation.unreachable().empty());
+  EXPECT_PRED_FORMAT3(near, relation.table().values(), (std::vector{0.75, 0.25, 0.625, 0.375}), 1e-15);
+}
+
+TEST(NetworkCompose, BackwardsIsTheInverseUnderTheMarginal) {  // (43)
+  const RandomVariable a{"a", 2}, b{"b", 3};
+  const Relation b_given_a{b, a, {{0.5, 0.5, 0.0}, {0.25, 0.75, 0.0}}};
+  const Distribution prior{a, {0.25, 0.75}};
+  RelationNetwork network;
+  network.declare(prior);
+  network.declare(b_given_a);
+  const auto found = compose(network, "b", "a");
+  const auto expected = invert(b_given_a, prior);
+  EXPECT_FALSE(found.induced());
+  EXPECT_PRED_FORMAT3(near, found.table().values(), expected.relation.table().values(), 1e-15);
+  EXPECT_EQ(found.unreachable(), expected.unreachable);
+}
+
+TEST(NetworkCompose, ThroughACommonAncestorIsTheConditional) {
+  const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.5, 0.5}});
+  network.declare(Relation{b, a, {{0.75, 0.25}, {0.25, 0.75}}});
+  network.declare(c, {a, b}, {{1.0, 0.0}, {0.5, 0.5}, {0.5, 0.5}, {0.0, 1.0}});
+  const auto c_given_b = compose(network, "b", "c");
+  EXPECT_FALSE(c_given_b.induced());
+  // p(a|b₀) = (3/4, 1/4), p(a|b₁) = (1/4, 3/4)
+  EXPECT_PRED_FORMAT3(near, c_given_b.table().values(), (std::vector{0.875, 0.125, 0.125, 0.875}), 1e-15);
+}
+
+TEST(NetworkCompose, OfWhatHasNothingToDoWithEachOtherRepeatsTheMarginal) {
+  RelationNetwork network = chain();
+  network.declare(Distribution{FuzzyVariable{"moon", 2}, {1.0, 0.25}});
+  EXPECT_PRED_FORMAT3(near, compose(network, "age", "moon").table().values(),
+                      (std::vector{1.0, 0.25, 1.0, 0.25, 1.0, 0.25}), 0.0);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(network, "age", "age"); }, {"'age'", "twice"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(network, "age", "sun"); }, {"'sun'"}));
+}
+
+TEST(Explanation, EliminatesEveryKindByTheMaximum) {
+  const Explanation best = most_likely_explanation(chain());
+  // 0.9 of (middle, calm, slow) is the greatest number of all
+  EXPECT_EQ(best.outcomes, (std::vector<std::size_t>{1, 0, 0}));
+  EXPECT_EQ(best["age"], "middle");
+  EXPECT_EQ(best["speed"], "slow");
+  EXPECT_PRED_FORMAT3(near, best.log_value, std::log(0.9), 1e-15);
+  const Explanation fast = most_likely_explanation(chain(), {{"speed", "fast"}});
+  EXPECT_EQ(fast.outcomes, (std::vector<std::size_t>{0, 1, 1}));
+  EXPECT_PRED_FORMAT3(near, fast.log_value, std::log(0.7), 1e-15);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { fast["sped"]; }, {"'sped'"}));
+}
+
+TEST(Explanation, IsNotMadeOfTheMostLikelyOutcomeOfEachVariable) {
+  const RandomVariable a{"a", 2}, b{"b", 3};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.4, 0.6}});
+  network.declare(Relation{b, a, {{1.0, 0.0, 0.0}, {0.25, 0.375, 0.375}}});
+  EXPECT_EQ(query(network, {"a"}).normalized()[1], 0.6);
+  const Explanation best = most_likely_explanation(network);
+  EXPECT_EQ(best["a"], "0");
+  EXPECT_PRED_FORMAT3(near, best.log_value, std::log(0.4), 1e-15);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <stdexcept>
+#include <vector>
+
+#include <sigmax/core/compose.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+// Kind chooses the algebra, and an ordinal variable meets only its like: the compiler states these facts.
+static_assert(std::same_as<AlgebraOf<Ordinal>, MaxMin> && Uncertainty<Ordinal>);
+static_assert(SelectiveAlgebra<MaxMin> && !ScalingAlgebra<MaxMin>);
+static_assert(Mixable<Random, Fuzzy> && Mixable<Ordinal, Ordinal>);
+static_assert(!Mixable<Ordinal, Fuzzy> && !Mixable<Random, Ordinal>);
+
+template <class To, class From>
+concept Related = requires {
+  typename Relation<To, From>;
+};
+static_assert(Related<Ordinal, Ordinal> && Related<Random, Fuzzy>);
+static_assert(!Related<Ordinal, Random> && !Related<Ordinal, Fuzzy>);
+static_assert(!Related<Random, Ordinal> && !Related<Fuzzy, Ordinal>);
+
+template <class To, class From>
+concept RelatedByItsRows = requires(Variable<To> to, Variable<From> from) {
+  Relation{to, from, {{1.0, 0.5}}};
+};
+static_assert(RelatedByItsRows<Ordinal, Ordinal> && !RelatedByItsRows<Fuzzy, Ordinal>);
+
+template <class Left, class Right>
+concept Composes = requires(const Left& left, const Right& right) {
+  compose(left, right);
+};
+static_assert(Composes<Relation<Ordinal, Ordinal>, Relation<Ordinal, Ordinal>>);
+static_assert(Composes<Relation<Ordinal, Ordinal>, Distribution<Ordinal>>);
+static_assert(Composes<Likelihood<Ordinal>, Relation<Ordinal, Ordinal>>);
+static_assert(!Composes<Relation<Ordinal, Ordinal>, Distribution<Fuzzy>>);
+static_assert(!Composes<Relation<Fuzzy, Fuzzy>, Relation<Ordinal, Ordinal>>);
+static_assert(!Composes<Likelihood<Fuzzy>, Relation<Ordinal, Ordinal>>);
+
+template <class Prior, class Evidence>
+concept Updates = requires(const Prior& prior, const Evidence& evidence) {
+  update(prior, evidence);
+};
+static_assert(Updates<Distribution<Ordinal>, Likelihood<Ordinal>>);
+static_assert(!Updates<Distribution<Ordinal>, Likelihood<Fuzzy>> &&
+              !Updates<Distribution<Random>, Likelihood<Ordinal>>);
+
+// Logarithms are for what scales.
+template <class T>
+concept HasLogs = requires(const T& likelihood) {
+  likelihood.log(0);
+};
+template <class Kind>
+concept HasBelief = requires {
+  typename Belief<Kind>;
+};
+static_assert(HasLogs<Likelihood<Fuzzy>> && !HasLogs<Likelihood<Ordinal>>);
+static_assert(HasBelief<Fuzzy> && !HasBelief<Ordinal>);
+
+const OrdinalVariable risk{"risk", {"low", "high"}};
+const OrdinalVariable age{"age", {"young", "middle", "old"}};
+
+Relation<Ordinal, Ordinal> risk_given_age() { return {risk, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}}; }
+
+TEST(Ordinal, IsCalledByItsNames) {
+  EXPECT_EQ(Ordinal::name, "ordinal");
+  EXPECT_EQ(Ordinal::measure, "possibility");
+  EXPECT_EQ(Ordinal::total, "maximum");
+}
+
+TEST(Ordinal, DistributionsHaveMaximumOne) {
+  EXPECT_EQ((Distribution{age, {0.2, 1.0, 0.4}})["old"], 0.4);
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Distribution(age, {0.2, 0.9, 0.4}); }, {"maximum", "'age'", "0.9"}));
+  EXPECT_EQ(most_likely(Distribution{age, {0.2, 1.0, 1.0}}), "middle");
+}
+
+TEST(Ordinal, KnowingNothingIsOneEverywhere) {
+  EXPECT_PRED_FORMAT3(near, uninformative(age).values(), (std::vector{1.0, 1.0, 1.0}), 0.0);
+}
+
+TEST(Ordinal, NormalizesByResiduum) {  // only what is the maximum becomes one, the rest is left alone
+  EXPECT_PRED_FORMAT3(near, normalized(age, std::vector{0.25, 0.5, 0.5}).values(), (std::vector{0.25, 1.0, 1.0}), 0.0);
+  EXPECT_TRUE(throws<std::invalid_argument>([] { normalized(age, std::vector{0.0, 0.0, 0.0}); }, {"'age'", "zero"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { normalized(age, std::vector{0.0, 2.0, 0.0}); }, {"'middle'", "2"}));
+}
+
+TEST(Ordinal, ComposesByMaxMin) {
+  const OrdinalVariable price{"price", {"cheap", "dear"}};
+  const Relation price_given_risk{price, risk, {{1.0, 0.4}, {0.5, 1.0}}};
+  const Relation composed = compose(price_given_risk, risk_given_age());
+  static_assert(std::same_as<decltype(composed), const Relation<Ordinal, Ordinal>>);
+  EXPECT_PRED_FORMAT3(near, composed.table().values(), (std::vector{0.5, 1.0, 1.0, 0.6, 1.0, 0.4}), 0.0);
+  const Distribution prices = compose(composed, Distribution{age, {0.3, 0.7, 1.0}});
+  EXPECT_PRED_FORMAT3(near, prices.values(), (std::vector{1.0, 0.6}), 0.0);
+}
+
+TEST(Ordinal, UpdateCombinesByMinimumAndConditionsByResiduum) {
+  const Distribution prior{age, {0.5, 1.0, 0.8}};
+  const Distribution posterior = update(prior, Likelihood{age, {1.0, 0.3, 0.6}});
+  EXPECT_PRED_FORMAT3(near, posterior.values(), (std::vector{0.5, 0.3, 1.0}), 0.0);
+  const Distribution by_report = update(prior, risk_given_age().likelihood("high"));
+  EXPECT_PRED_FORMAT3(near, by_report.values(), (std::vector{0.5, 1.0, 0.2}), 0.0);
+}
+
+TEST(Ordinal, UpdateByEvidenceThatExcludesEverythingIsADomainError) {
+  EXPECT_TRUE(throws<std::domain_error>(
+      [] {
+        update(Distribution{age, {1.0, 0.0, 0.0}}, Likelihood{age, {0.0, 1.0, 1.0}});
+      },
+      {"evidence", "'age'"}));
+}
+
+TEST(Ordinal, LikelihoodsAreKeptUnrounded) {
+  const Likelihood likelihood{age, {0.1, 0.3, 1.0}};
+  EXPECT_EQ(likelihood[0], 0.1);
+  EXPECT_EQ(likelihood["middle"], 0.3);
+  EXPECT_EQ(likelihood.weight(1), 0.3);
+  EXPECT_EQ(Likelihood{age}[2], 1.0);
+  EXPECT_TRUE(throws<std::invalid_argument>([] { Likelihood(age, {0.1, 1.5, 0.2}); }, {"'age'", "'middle'", "1.5"}));
+}
+
+TEST(Ordinal, LikelihoodsAreCarriedBackByMaxMin) {
+  const Likelihood carried = compose(Likelihood{risk, {0.5, 0.7}}, risk_given_age());
+  static_assert(std::same_as<decltype(carried), const Likelihood<Ordinal>>);
+  EXPECT_EQ(carried["young"], 0.7);
+  EXPECT_EQ(carried["middle"], 0.6);
+  EXPECT_EQ(carried["old"], 0.5);
+}
+
+TEST(Ordinal, InvertsByResiduumPerColumn) {
+  const OrdinalVariable third{"third", {"a", "b", "c"}};
+  const Relation relation{third, age, {{0.3, 1.0, 0.0}, {1.0, 0.6, 0.0}, {1.0, 0.2, 0.0}}};
+  const auto inverse = invert(relation, Distribution{age, {1.0, 0.5, 0.8}});
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(0), (std::vector{0.3, 0.5, 1.0}), 0.0);
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(1), (std::vector{1.0, 0.5, 0.2}), 0.0);
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(2), (std::vector{1.0, 1.0, 1.0}), 0.0);  // nothing reaches c
+  EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{2}));
+}
+
+}  // namespace
+}  // namespace sigmax
