@@ -66,6 +66,9 @@ TEST(ScaledNumber, TurnsIntoALogarithmAndBack) {
     EXPECT_PRED_FORMAT3(near, ScaledNumber::exp(log).log(), log, 1e-14);
   }
   EXPECT_TRUE(ScaledNumber::exp(-infinity).is_zero());
+  EXPECT_FALSE(ScaledNumber::exp(-greatest).is_zero());
+  EXPECT_LT(ScaledNumber::exp(-greatest) * ScaledNumber::exp(-greatest), ScaledNumber::exp(-greatest));
+  EXPECT_LT(ScaledNumber{greatest}, ScaledNumber::exp(greatest));
   EXPECT_PRED_FORMAT3(near, ScaledNumber::exp(-3.0).value(), std::exp(-3.0), 1e-15);
 }
 

@@ -37,7 +37,9 @@
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/collapse.hpp>
+#include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
 #include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/recognition/classifier.hpp>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,8 +14,9 @@
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/hybrid/collapse.hpp>
+#include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/mixture.hpp>
 
 namespace sigmax {
 
@@ -43,7 +43,7 @@ class InteractingMultipleModel {
   using Measurement = Gaussian<measurement_size>;
   using Estimates = typename Bank<Models>::Estimates;
   /// An estimate in the components of all models together.
-  using Estimate = Gaussian<Eigen::Dynamic, Bank<Models>::max_components>;
+  using Estimate = typename Components<Models>::Estimate;
 
   /// Starts every model from its own estimate; nothing is known of the mode. Throws std::invalid_argument if the
   /// transition does not fit the models, or a start is not finite or of another size than its model.
@@ -57,13 +57,13 @@ class InteractingMultipleModel {
         belief_(uninformative(system_.mode_variable())),
         prior_(belief_),
         move_in_(invert(system_.transition(), belief_)),
-        likelihood_(system_.mode_variable()) {
+        likelihood_(system_.mode_variable()),
+        components_(system_.models()) {
     if (mode_count(estimates_) != modes())
       throw std::invalid_argument("there are " + std::to_string(modes()) + " models, but " +
                                   std::to_string(mode_count(estimates_)) + " starts");
     move_in_.unreachable.reserve(modes());
     for_each_mode(system_.models(), [&](auto j) { require_start(mode(system_.models(), j), mode(estimates_, j)); });
-    relate_components();
     winner_ = select(modes(), log_weight(), 0, Tie::first);
   }
 
@@ -71,7 +71,8 @@ class InteractingMultipleModel {
   template <int N, int MaxN>
   InteractingMultipleModel(Models models, Relation<Kind, Kind> transition, const Gaussian<N, MaxN>& start,
                            Interaction<Kind> interaction = {})
-      : InteractingMultipleModel(models, std::move(transition), starts_from(models, start), interaction) {}
+      : InteractingMultipleModel(models, std::move(transition), Components<Models>(models).shares(models, start),
+                                 interaction) {}
 
   /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z and its covariance R.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error if S is not positive
@@ -116,14 +117,14 @@ class InteractingMultipleModel {
   const Estimates& estimates() const { return estimates_; }
 
   /// The names of all components, those of the largest model first.
-  const std::vector<std::string>& components() const { return components_; }
+  const std::vector<std::string>& components() const { return components_.names(); }
 
   /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
   /// (67), (68) with the spread of the means that the print omits. In `components()`, lifted by the rule in force.
   Estimate estimate() const {
     const Estimate receiver = carried();
     Estimate result = receiver;
-    collapse(interaction_.collapse, mixture(receiver, output_maps_), weight(), winner_, result);
+    collapse(interaction_.collapse, mixture(receiver, components_.of_all()), weight(), winner_, result);
     return result;
   }
 
@@ -131,7 +132,7 @@ class InteractingMultipleModel {
   Estimate most_likely_estimate() const {
     const Estimate receiver = carried();
     Estimate result = receiver;
-    collapse(Selection{}, mixture(receiver, output_maps_), weight(), winner_, result);
+    collapse(Selection{}, mixture(receiver, components_.of_all()), weight(), winner_, result);
     return result;
   }
 
@@ -148,60 +149,18 @@ class InteractingMultipleModel {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
     Measurement predicted;
     collapse(
-        interaction_.collapse, Residuals{innovations_}, [this](std::size_t j) { return prior_[j]; }, predicted_mode_,
-        predicted);
+        interaction_.collapse, InnovationMixture<measurement_size>{innovations_},
+        [this](std::size_t j) { return prior_[j]; }, predicted_mode_, predicted);
     const Eigen::LLT<SquareMatrix<measurement_size>> S(predicted.covariance);
     return S.matrixL().solve(predicted.mean).squaredNorm();
   }
 
  private:
-  /// The models' estimates as parts of a mixture in the components of a receiver.
   template <class Receiver>
-  struct Mixture {
-    const Receiver& receiver;
-    const Estimates& estimates;
-    const Correspondence* maps;
-    Lift lift;
-
-    template <class Visit>
-    void visit_all(const Visit& visit) const {
-      for_each_mode(estimates,
-                    [&](auto l) { visit(std::size_t{l}, Lifted(receiver, mode(estimates, l), maps[l], lift)); });
-    }
-    template <class Visit>
-    void visit(std::size_t wanted, const Visit& visit) const {
-      for_each_mode(estimates, [&](auto l) {
-        if (l == wanted) visit(Lifted(receiver, mode(estimates, l), maps[l], lift));
-      });
-    }
-  };
-
-  /// The innovations as parts of a mixture.
-  struct Residuals {
-    struct Part {
-      const Innovation<measurement_size>& innovation;
-      const auto& mean() const { return innovation.residual; }
-      void add_covariance(double weight, SquareMatrix<measurement_size>& covariance) const {
-        covariance += weight * innovation.covariance;
-      }
-    };
-    const std::vector<Innovation<measurement_size>>& innovations;
-
-    template <class Visit>
-    void visit_all(const Visit& visit) const {
-      for (std::size_t l = 0; l < innovations.size(); ++l) visit(l, Part{innovations[l]});
-    }
-    template <class Visit>
-    void visit(std::size_t wanted, const Visit& visit) const {
-      visit(Part{innovations[wanted]});
-    }
-  };
-
-  template <class Receiver>
-  Mixture<Receiver> mixture(const Receiver& receiver, const std::vector<Correspondence>& maps,
-                            std::size_t first = 0) const {
-    return {receiver, estimates_, maps.data() + first, interaction_.lift};
+  LiftedMixture<Receiver, Estimates> mixture(const Receiver& receiver, const Correspondence* maps) const {
+    return {receiver, estimates_, maps, interaction_.lift};
   }
+  Estimate carried() const { return components_.carried(estimates_, log_weight(), tie_tolerance); }
 
   auto log_weight() const {
     return [this](std::size_t j) { return belief_.log(j); };
@@ -221,7 +180,7 @@ class InteractingMultipleModel {
       if (prior_.log(j) == log_zero)  // (52) is 0/0: nothing moves in, the filter keeps its state
         mixed = own;
       else
-        mix(interaction_.collapse, mixture(own, mixing_maps_, j * modes()), move_in, modes(), j, own, mixed);
+        mix(interaction_.collapse, mixture(own, components_.of_model(j)), move_in, modes(), j, own, mixed);
     });
   }
 
@@ -230,82 +189,6 @@ class InteractingMultipleModel {
     const auto prior = [this](std::size_t j) { return prior_.log(j); };
     predicted_mode_ = select(modes(), prior, winner_, interaction_.output_tie);
     winner_ = select(modes(), log_weight(), winner_, interaction_.output_tie);
-  }
-
-  /// For each component the value and variance of the most likely model that has it: what a lift of the output borrows.
-  Estimate carried() const {
-    const auto n = static_cast<Eigen::Index>(components_.size());
-    Estimate result{Vector<Eigen::Dynamic, Bank<Models>::max_components>::Zero(n),
-                    SquareMatrix<Eigen::Dynamic, Bank<Models>::max_components>::Zero(n, n)};
-    if (interaction_.lift == Lift::zero) return result;
-    const auto carrier = [&](Eigen::Index i) {
-      const auto log_weight_if_it_has_it = [&](std::size_t l) {
-        const bool has_it = output_maps_[l].in_source[static_cast<std::size_t>(i)] >= 0;
-        return has_it ? std::max(belief_.log(l), std::numeric_limits<double>::lowest()) : log_zero;
-      };
-      return select(modes(), log_weight_if_it_has_it, winner_, interaction_.output_tie);
-    };
-    for_each_mode(estimates_, [&](auto l) {
-      const auto& estimate = mode(estimates_, l);
-      const auto& from = output_maps_[l].in_source;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        if (carrier(i) != l) continue;
-        result.mean(i) = estimate.mean(from[static_cast<std::size_t>(i)]);
-        for (Eigen::Index k = 0; k < n; ++k)
-          if (carrier(k) == l)
-            result.covariance(i, k) =
-                estimate.covariance(from[static_cast<std::size_t>(i)], from[static_cast<std::size_t>(k)]);
-      }
-    });
-    return result;
-  }
-
-  /// All components of the models, those of the largest (the first of them on a tie) leading.
-  static std::vector<std::string> all_components(const Models& models) {
-    std::vector<std::string> all;
-    for_each_mode(models, [&](auto j) {
-      const auto own = std::vector<std::string>(mode(models, j).components());
-      if (own.size() > all.size()) all = own;
-    });
-    for_each_mode(models, [&](auto j) {
-      for (const auto& component : mode(models, j).components())
-        if (std::find(all.begin(), all.end(), component) == all.end()) all.push_back(component);
-    });
-    if (all.size() > static_cast<std::size_t>(Bank<Models>::max_components))
-      throw std::invalid_argument("the models have " + std::to_string(all.size()) +
-                                  " different components, but their type allows " +
-                                  std::to_string(Bank<Models>::max_components));
-    return all;
-  }
-
-  void relate_components() {
-    const Models& models = system_.models();
-    components_ = all_components(models);
-    for_each_mode(models, [&](auto j) {
-      output_maps_.emplace_back(components_, mode(models, j).components());
-      for_each_mode(models, [&](auto l) {
-        mixing_maps_.emplace_back(mode(models, j).components(), mode(models, l).components());
-      });
-    });
-  }
-
-  template <int N, int MaxN>
-  static Estimates starts_from(const Models& models, const Gaussian<N, MaxN>& start) {
-    const auto components = all_components(models);
-    if (static_cast<std::size_t>(start.size()) != components.size())
-      throw std::invalid_argument("the start has " + std::to_string(start.size()) +
-                                  " components, but the models have " + std::to_string(components.size()));
-    Estimates starts = estimates_for(models);
-    for_each_mode(models, [&](auto j) {
-      const Correspondence map(mode(models, j).components(), components);
-      auto& own = mode(starts, j);
-      own.mean.resize(mode(models, j).size());
-      own.covariance.setZero(own.mean.size(), own.mean.size());
-      const Lifted dropped(own, start, map, Lift::zero);
-      own.mean = dropped.mean();
-      dropped.add_covariance(1.0, own.covariance);
-    });
-    return starts;
   }
 
   template <class Model>
@@ -332,9 +215,7 @@ class InteractingMultipleModel {
   Belief<Kind> prior_;
   Inverse<Kind, Kind> move_in_;
   Likelihood<Kind> likelihood_;
-  std::vector<std::string> components_;
-  std::vector<Correspondence> mixing_maps_;  ///< of source l in receiver j, at j · modes + l
-  std::vector<Correspondence> output_maps_;  ///< of source l in components_
+  Components<Models> components_;
   std::size_t predicted_mode_ = 0;
   std::size_t winner_ = 0;
   bool measured_ = false;

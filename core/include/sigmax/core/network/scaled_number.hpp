@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -19,14 +20,15 @@ class ScaledNumber {
   /// `value` is finite and not negative; a subnormal one loses nothing.
   constexpr explicit ScaledNumber(double value) : ScaledNumber(value, 0) {}
 
-  /// The number with this logarithm, −∞ for zero.
+  /// The number with this logarithm, −∞ for zero; a finite one beyond ±10¹⁵ counts as that.
   static ScaledNumber exp(double log) {
     if (log == -std::numeric_limits<double>::infinity()) return {};
+    log = std::clamp(log, -1e15, 1e15);
     const double exponent = std::round(log / log_radix);
     return {std::exp(log - exponent * log_radix), static_cast<std::int64_t>(exponent)};
   }
 
-  double log() const { return is_zero() ? std::log(0.0) : std::log(significand_) + double_exponent() * log_radix; }
+  double log() const { return std::log(significand_) + (is_zero() ? 0.0 : static_cast<double>(exponent_) * log_radix); }
   constexpr bool is_zero() const { return significand_ == 0.0; }
 
   /// This number as a double: zero or infinity where a double cannot say better.
@@ -76,8 +78,6 @@ class ScaledNumber {
     for (; significand_ >= greatest_significand; ++exponent_) significand_ /= radix;
     for (; significand_ < 1.0 / greatest_significand; --exponent_) significand_ *= radix;
   }
-
-  double double_exponent() const { return static_cast<double>(exponent_); }
 
   double significand_ = 0.0;
   std::int64_t exponent_ = exponent_of_zero;

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/lift.hpp>
+
+namespace sigmax {
+
+/// The components of all models of a bank, by name, and where each model has them.
+template <class Models>
+class Components {
+ public:
+  static constexpr int max_size = Bank<Models>::max_components;
+  using Estimates = typename Bank<Models>::Estimates;
+  using Estimate = Gaussian<Eigen::Dynamic, max_size>;
+
+  /// Throws std::invalid_argument if the models have more different components than their type allows.
+  explicit Components(const Models& models) {
+    for_each_mode(models, [&](auto j) {
+      const std::vector<std::string> own = mode(models, j).components();
+      if (own.size() > names_.size()) names_ = own;
+    });
+    for_each_mode(models, [&](auto j) {
+      for (const auto& component : mode(models, j).components())
+        if (std::find(names_.begin(), names_.end(), component) == names_.end()) names_.push_back(component);
+    });
+    if (names_.size() > static_cast<std::size_t>(max_size))
+      throw std::invalid_argument("the models have " + std::to_string(names_.size()) +
+                                  " different components, but their type allows " + std::to_string(max_size));
+    for_each_mode(models, [&](auto j) {
+      output_.emplace_back(names_, mode(models, j).components());
+      for_each_mode(models,
+                    [&](auto l) { mixing_.emplace_back(mode(models, j).components(), mode(models, l).components()); });
+    });
+  }
+
+  /// Those of the largest model (the first of them on a tie) lead.
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// Where the components of model j stand in each model l.
+  const Correspondence* of_model(std::size_t j) const { return mixing_.data() + j * output_.size(); }
+
+  /// Where all components stand in each model.
+  const Correspondence* of_all() const { return output_.data(); }
+
+  /// For every component the value of the most likely model that has it, and the covariances within that model: what a
+  /// lift of the output borrows. `log_weight(l)` orders the models; the lowest index wins a tie.
+  template <class LogWeight>
+  Estimate carried(const Estimates& estimates, const LogWeight& log_weight, double tolerance) const {
+    const auto n = static_cast<Eigen::Index>(names_.size());
+    Estimate result{Vector<Eigen::Dynamic, max_size>::Zero(n), SquareMatrix<Eigen::Dynamic, max_size>::Zero(n, n)};
+    std::array<std::size_t, static_cast<std::size_t>(max_size)> carrier{};
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      std::size_t best = output_.size();
+      for (std::size_t l = 0; l < output_.size(); ++l)
+        if (output_[l].in_source[i] >= 0 && (best == output_.size() || log_weight(l) > log_weight(best) + tolerance))
+          best = l;
+      carrier[i] = best;
+    }
+    for_each_mode(estimates, [&](auto l) {
+      const auto& estimate = mode(estimates, l);
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (carrier[i] != l) continue;
+        const auto row = static_cast<Eigen::Index>(i);
+        result.mean(row) = estimate.mean(output_[l].in_source[i]);
+        for (std::size_t k = 0; k < names_.size(); ++k)
+          if (carrier[k] == l)
+            result.covariance(row, static_cast<Eigen::Index>(k)) =
+                estimate.covariance(output_[l].in_source[i], output_[l].in_source[k]);
+      }
+    });
+    return result;
+  }
+
+  /// What each model takes of one start, given in the order of `names()`. Throws std::invalid_argument for another
+  /// size.
+  template <int N, int MaxN>
+  Estimates shares(const Models& models, const Gaussian<N, MaxN>& start) const {
+    if (static_cast<std::size_t>(start.size()) != names_.size())
+      throw std::invalid_argument("the start has " + std::to_string(start.size()) +
+                                  " components, but the models have " + std::to_string(names_.size()));
+    Estimates shares = estimates_for(models);
+    for_each_mode(models, [&](auto j) {
+      const Correspondence map(mode(models, j).components(), names_);
+      auto& own = mode(shares, j);
+      own.mean.resize(mode(models, j).size());
+      own.covariance.setZero(own.mean.size(), own.mean.size());
+      const Lifted dropped(own, start, map, Lift::zero);
+      own.mean = dropped.mean();
+      dropped.add_covariance(1.0, own.covariance);
+    });
+    return shares;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<Correspondence> mixing_;  ///< of source l in receiver j, at j · modes + l
+  std::vector<Correspondence> output_;  ///< of source l in names_
+};
+
+}  // namespace sigmax

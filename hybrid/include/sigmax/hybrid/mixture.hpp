@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/lift.hpp>
+
+namespace sigmax {
+
+/// The models' estimates as the parts of a mixture, each read in the components of a receiver: what `collapse` and
+/// `mix` take. A view.
+template <class Receiver, class Estimates>
+struct LiftedMixture {
+  const Receiver& receiver;
+  const Estimates& estimates;
+  const Correspondence* maps;  ///< of the receiver's components in each model
+  Lift lift;
+
+  template <class Visit>
+  void visit_all(const Visit& visit) const {
+    for_each_mode(estimates,
+                  [&](auto l) { visit(std::size_t{l}, Lifted(receiver, mode(estimates, l), maps[l], lift)); });
+  }
+  template <class Visit>
+  void visit(std::size_t wanted, const Visit& visit) const {
+    for_each_mode(estimates, [&](auto l) {
+      if (l == wanted) visit(Lifted(receiver, mode(estimates, l), maps[l], lift));
+    });
+  }
+};
+
+/// The models' innovations as the parts of a mixture: the predicted measurement, about the one that came.
+template <int M>
+struct InnovationMixture {
+  struct Part {
+    const Innovation<M>& innovation;
+    const Vector<M>& mean() const { return innovation.residual; }
+    void add_covariance(double weight, SquareMatrix<M>& covariance) const {
+      covariance += weight * innovation.covariance;
+    }
+  };
+  const std::vector<Innovation<M>>& innovations;
+
+  template <class Visit>
+  void visit_all(const Visit& visit) const {
+    for (std::size_t l = 0; l < innovations.size(); ++l) visit(l, Part{innovations[l]});
+  }
+  template <class Visit>
+  void visit(std::size_t wanted, const Visit& visit) const {
+    visit(Part{innovations[wanted]});
+  }
+};
+
+}  // namespace sigmax
