@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
           std::map<std::string, Preset>{{"paper_text", Preset::paper_text}, {"released", Preset::released}}))
       ->option_text("paper_text|released [paper_text]");
   CLI::Option* runs_option = simulate_app.add_option("--runs", runs, "Monte Carlo runs [100, or 50 for released]")
-                                 ->check(CLI::Range(2, 100000000));
+                                 ->check(CLI::Range(1, 100000000));
   simulate_app.add_option("--threads", simulate.threads, "Threads; the results do not depend on it [all]")
       ->check(CLI::Range(1, 4096));
   simulate_app.footer(
