@@ -49,20 +49,15 @@ class Components {
   /// Where all components stand in each model.
   const Correspondence* of_all() const { return output_.data(); }
 
-  /// For every component the value of the most likely model that has it, and the covariances within that model: what a
-  /// lift of the output borrows. `log_weight(l)` orders the models; the lowest index wins a tie.
-  template <class LogWeight>
-  Estimate carried(const Estimates& estimates, const LogWeight& log_weight, double tolerance) const {
+  /// For every component the value of the one model among those that have it, and the covariances within that model:
+  /// what a lift of the output borrows. `choose(has)` gives the model, where has(l) says whether model l has it.
+  template <class Choose>
+  Estimate carried(const Estimates& estimates, const Choose& choose) const {
     const auto n = static_cast<Eigen::Index>(names_.size());
     Estimate result{Vector<Eigen::Dynamic, max_size>::Zero(n), SquareMatrix<Eigen::Dynamic, max_size>::Zero(n, n)};
     std::array<std::size_t, static_cast<std::size_t>(max_size)> carrier{};
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      std::size_t best = output_.size();
-      for (std::size_t l = 0; l < output_.size(); ++l)
-        if (output_[l].in_source[i] >= 0 && (best == output_.size() || log_weight(l) > log_weight(best) + tolerance))
-          best = l;
-      carrier[i] = best;
-    }
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      carrier[i] = choose([&](std::size_t l) { return output_[l].in_source[i] >= 0; });
     for_each_mode(estimates, [&](auto l) {
       const auto& estimate = mode(estimates, l);
       for (std::size_t i = 0; i < names_.size(); ++i) {

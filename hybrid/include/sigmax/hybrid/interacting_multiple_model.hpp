@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -160,7 +161,16 @@ class InteractingMultipleModel {
   LiftedMixture<Receiver, Estimates> mixture(const Receiver& receiver, const Correspondence* maps) const {
     return {receiver, estimates_, maps, interaction_.lift};
   }
-  Estimate carried() const { return components_.carried(estimates_, log_weight(), tie_tolerance); }
+
+  /// What a lift of the output borrows: for each component from the most likely model that has it.
+  Estimate carried() const {
+    return components_.carried(estimates_, [this](const auto& has) {
+      const auto log_weight_if_it_has_it = [&](std::size_t l) {
+        return has(l) ? std::max(belief_.log(l), std::numeric_limits<double>::lowest()) : log_zero;
+      };
+      return select(modes(), log_weight_if_it_has_it, winner_, interaction_.output_tie);
+    });
+  }
 
   auto log_weight() const {
     return [this](std::size_t j) { return belief_.log(j); };
