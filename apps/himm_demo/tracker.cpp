@@ -110,10 +110,10 @@ void Tracker<Axes>::start(double time, const Starts& starts) {
   if (settings_.fuzzy) {
     Interaction<Fuzzy> interaction{
         settings_.lift, {settings_.mixed_covariance, settings_.mixing_tie}, settings_.output_tie};
-    filter_.emplace(Filter<Fuzzy>(models_, this->template transition<Fuzzy>(), starts, interaction));
+    filter_.emplace(Himm(models_, this->template transition<Fuzzy>(), starts, interaction));
   } else {
     Interaction<Random> interaction{settings_.lift, {settings_.imm_mixing}, settings_.output_tie};
-    filter_.emplace(Filter<Random>(models_, this->template transition<Random>(), starts, interaction));
+    filter_.emplace(Imm(models_, this->template transition<Random>(), starts, interaction));
   }
 }
 

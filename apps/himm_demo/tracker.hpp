@@ -43,8 +43,8 @@ class Tracker {
   std::optional<double> nis() const;
 
  private:
-  template <Uncertainty Kind>
-  using Filter = InteractingMultipleModel<Models, Kind>;
+  using Imm = InteractingMultipleModel<Models, Random>;
+  using Himm = InteractingMultipleModel<Models, Fuzzy>;
   using Starts = typename Bank<Models>::Estimates;
 
   void step(double time, const std::optional<Measurement>& z);
@@ -58,7 +58,7 @@ class Tracker {
   Models models_;
   std::vector<TimedMeasurement<Axes>> points_;
   std::vector<std::pair<double, std::optional<Measurement>>> waiting_;
-  std::optional<std::variant<Filter<Random>, Filter<Fuzzy>>> filter_;
+  std::optional<std::variant<Imm, Himm>> filter_;
   double time_ = 0.0;
 };
 
