@@ -62,34 +62,39 @@ Innovation<Model::measurement_size> update(const Model& model, const EstimateOf<
   if (S.info() != Eigen::Success)
     throw std::domain_error("the innovation covariance of model '" + std::string(model.name()) +
                             "' is not positive definite");
-  const Vector<M> whitened = S.matrixL().solve(innovation.residual);
+  // L⁻¹ column by column: for vectors of this size Eigen's triangular solver is unrolled. S⁻¹ = L⁻ᵀ L⁻¹.
+  SquareMatrix<M> L_inverse;
+  for (int column = 0; column < M; ++column) L_inverse.col(column) = S.matrixL().solve(Vector<M>::Unit(column));
+  const Vector<M> whitened = L_inverse * innovation.residual;
   innovation.squared_distance = whitened.squaredNorm();
   innovation.log_likelihood = -0.5 * innovation.squared_distance - S.matrixLLT().diagonal().array().log().sum() -
                               0.5 * M * std::log(2.0 * std::numbers::pi);
-  const Gain W = S.solve(PHt.transpose()).transpose();
+  const SquareMatrix<M> S_inverse = L_inverse.transpose() * L_inverse;
+  const Gain W = PHt.lazyProduct(S_inverse);
 
   SquareMatrix<N, max_N> result;
   if constexpr (measures_leading_components<Model>) {
     // I − WH = [R S⁻¹ 0; −W₂ I], so that the zeros and ones cost nothing, and I − W₁ does not cancel.
-    const auto rest = extent < N == Eigen::Dynamic ? N : N - M > (model.size() - M);
-    const SquareMatrix<M> A = S.solve(R).transpose();
+    constexpr int rest_size = N == Eigen::Dynamic ? N : N - M;
+    const auto rest = extent<rest_size>(model.size() - M);
+    const SquareMatrix<M> A = R * S_inverse;
     const auto W2 = W.bottomRows(rest);
     SquareMatrix<N, max_N> AP(model.size(), model.size());
-    AP.template topRows<M>().noalias() = A * P.template topRows<M>();
+    AP.template topRows<M>() = A.lazyProduct(P.template topRows<M>());
     AP.bottomRows(rest) = P.bottomRows(rest);
-    AP.bottomRows(rest).noalias() -= W2 * P.template topRows<M>();
+    AP.bottomRows(rest) -= W2.lazyProduct(P.template topRows<M>());
     result.resizeLike(P);
-    result.template leftCols<M>().noalias() = AP.template leftCols<M>() * A.transpose();
+    result.template leftCols<M>() = AP.template leftCols<M>().lazyProduct(A.transpose());
     result.rightCols(rest) = AP.rightCols(rest);
-    result.rightCols(rest).noalias() -= AP.template leftCols<M>() * W2.transpose();
+    result.rightCols(rest) -= AP.template leftCols<M>().lazyProduct(W2.transpose());
   } else {
     const auto& H = model.measurement_matrix();
     const SquareMatrix<N, max_N> A = SquareMatrix<N, max_N>::Identity(model.size(), model.size()) - W * H;
     const SquareMatrix<N, max_N> AP = A * P;
     result.noalias() = AP * A.transpose();
   }
-  const Gain WR = W * R;
-  result.noalias() += WR * W.transpose();
+  const Gain WR = W.lazyProduct(R);
+  result += WR.lazyProduct(W.transpose());
   mirror_lower(result);
 
   posterior.mean = prior.mean + W * innovation.residual;

@@ -77,7 +77,7 @@ void match_moments(const Mixture& mixture, const Weight& weight, const Covarianc
     if (!(covariance_weight(l) > 0.0)) return;
     const Vector<N, MaxN> spread = part.mean() - result.mean;
     part.add_covariance(covariance_weight(l), result.covariance);
-    result.covariance.noalias() += (covariance_weight(l) * spread) * spread.transpose();
+    result.covariance += (covariance_weight(l) * spread).lazyProduct(spread.transpose());
   });
   mirror_lower(result.covariance);
 }
