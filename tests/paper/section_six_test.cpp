@@ -63,7 +63,7 @@ std::pair<double, double> difference(const Json& summary, const std::string& fil
 }
 
 TEST(SectionSix, HimmBeatsTheReleasedBaselineOnEveryAxisInEveryPhase) {
-  const Json summary = simulate({"--preset", "released", "--runs", "400"});
+  const Json summary = simulate({"--preset", "released", "--runs", "100"});
   for (const char* phase : phases)
     for (const char* axis : axes) {
       const auto [estimate, half_width] = difference(summary, "himm", "imm", phase, axis);
@@ -72,7 +72,7 @@ TEST(SectionSix, HimmBeatsTheReleasedBaselineOnEveryAxisInEveryPhase) {
 }
 
 TEST(SectionSix, AgainstTheCorrectImmHimmIsWorseWhileTheTargetManoeuvres) {
-  const Json summary = simulate({"--preset", "released", "--runs", "400"});
+  const Json summary = simulate({"--preset", "released", "--runs", "100"});
   for (const char* axis : axes) {
     const auto [estimate, half_width] = difference(summary, "himm", "imm_correct", "during", axis);
     EXPECT_GT(estimate - half_width, 0.0) << axis;
@@ -80,7 +80,7 @@ TEST(SectionSix, AgainstTheCorrectImmHimmIsWorseWhileTheTargetManoeuvres) {
 }
 
 TEST(SectionSix, AsPrintedHimmIsWorseThanTheCorrectImmBeforeAndAfterTheManoeuvre) {
-  const Json summary = simulate({"--preset", "paper_text", "--runs", "400"});
+  const Json summary = simulate({"--preset", "paper_text", "--runs", "100"});
   for (const char* phase : {"before", "after"})
     for (const char* axis : axes) {
       const auto [estimate, half_width] = difference(summary, "himm", "imm", phase, axis);
