@@ -39,18 +39,6 @@ constexpr std::array<Published, 3> published = {{
     {"himm", {{{5.923, 8.275, 4.475}, {7.922, 12.014, 5.809}, {8.969, 10.392, 4.760}}}},
 }};
 
-TEST(SectionSix, TheReleasedPresetReproducesThePublishedCurvesWithin10Percent) {
-  const Json summary = simulate({"--preset", "released", "--scenario", "1", "--group", "1", "--runs", "400"});
-  for (const auto& [filter, by_axis] : published)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t phase = 0; phase < 3; ++phase) {
-        const double found =
-            summary.at("results").at(filter).at("phases").at(phases[phase]).at("rmse_m").at(axes[axis]);
-        const double expected = by_axis[axis][phase];
-        EXPECT_NEAR(found, expected, 0.1 * expected) << filter << ", " << axes[axis] << " " << phases[phase];
-      }
-}
-
 /// RMSE of a filter minus that of another, with the half width of its interval.
 std::pair<double, double> difference(const Json& summary, const std::string& filter, const std::string& minus,
                                      const char* phase, const char* axis) {
@@ -62,8 +50,17 @@ std::pair<double, double> difference(const Json& summary, const std::string& fil
   throw std::out_of_range(filter + " − " + minus);
 }
 
-TEST(SectionSix, HimmBeatsTheReleasedBaselineOnEveryAxisInEveryPhase) {
-  const Json summary = simulate({"--preset", "released", "--runs", "100"});
+TEST(SectionSix, TheReleasedPresetReproducesThePublishedCurvesWithin10Percent) {
+  const Json summary = simulate({"--preset", "released", "--scenario", "1", "--group", "1", "--runs", "400"});
+  for (const auto& [filter, by_axis] : published)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t phase = 0; phase < 3; ++phase) {
+        const double found =
+            summary.at("results").at(filter).at("phases").at(phases[phase]).at("rmse_m").at(axes[axis]);
+        const double expected = by_axis[axis][phase];
+        EXPECT_NEAR(found, expected, 0.1 * expected) << filter << ", " << axes[axis] << " " << phases[phase];
+      }
+  // There, against the baseline with transposed weights, HIMM is better on every axis in every phase.
   for (const char* phase : phases)
     for (const char* axis : axes) {
       const auto [estimate, half_width] = difference(summary, "himm", "imm", phase, axis);
