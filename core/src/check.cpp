@@ -23,11 +23,23 @@ std::string named(const Outcomes& variable, Row row) {
 }  // namespace
 
 void values(const Outcomes& variable, Row row, std::span<const double> values, double greatest) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] >= 0.0 && values[i] <= greatest))
-      throw std::invalid_argument("the value of " + named(variable, row) + " at outcome '" + variable.label(i) +
-                                  "' is " + shown(values[i]) + "; expected a number " +
-                                  (greatest > 2.0 ? "that is finite and not negative" : "between 0 and 1"));
+  for (std::size_t i = 0; i < values.size(); ++i) value(variable, row, i, values[i], greatest);
+}
+
+void value(const Outcomes& variable, Row row, std::size_t index, double value, double greatest) {
+  if (!(value >= 0.0 && value <= greatest))
+    throw std::invalid_argument("the value of " + named(variable, row) + " at outcome '" + variable.label(index) +
+                                "' is " + shown(value) + "; expected a number " +
+                                (greatest > 2.0 ? "that is finite and not negative" : "between 0 and 1"));
+}
+
+void ascending(const Outcomes& variable, Row row, std::size_t next_allowed, std::size_t index) {
+  if (index >= variable.size())
+    throw std::invalid_argument(named(variable, row) + " has " + std::to_string(variable.size()) +
+                                " outcomes, but a value of outcome " + std::to_string(index) + " was given");
+  if (index < next_allowed)
+    throw std::invalid_argument("the values of " + named(variable, row) + " are not in ascending order: that of '" +
+                                variable.label(index) + "' follows that of '" + variable.label(next_allowed - 1) + "'");
 }
 
 void size(const Outcomes& variable, Row row, std::size_t size) {

@@ -3,8 +3,10 @@
 /// Everything of sigmax.
 
 #include <sigmax/core/algebra.hpp>
+#include <sigmax/core/banded_rows.hpp>
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/bif.hpp>
+#include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/distribution.hpp>
 #include <sigmax/core/hybrid_distribution.hpp>
@@ -22,10 +24,14 @@
 #include <sigmax/core/network/transform.hpp>
 #include <sigmax/core/network/variable.hpp>
 #include <sigmax/core/relation.hpp>
+#include <sigmax/core/route.hpp>
+#include <sigmax/core/rows.hpp>
+#include <sigmax/core/sparse_rows.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/uncertainty.hpp>
 #include <sigmax/core/update.hpp>
 #include <sigmax/core/variable.hpp>
+#include <sigmax/core/witness.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/fixed_step_model.hpp>
 #include <sigmax/estimation/gaussian.hpp>

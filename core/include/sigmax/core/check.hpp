@@ -34,6 +34,12 @@ struct Row {
 /// Every value is a finite number in [0, greatest].
 void values(const Outcomes& variable, Row row, std::span<const double> values, double greatest);
 
+/// The same of one of them.
+void value(const Outcomes& variable, Row row, std::size_t index, double value, double greatest);
+
+/// The stored values of a row are those of outcomes that the variable has, in ascending order.
+void ascending(const Outcomes& variable, Row row, std::size_t next_allowed, std::size_t index);
+
 /// There are as many values as the variable has outcomes.
 void size(const Outcomes& variable, Row row, std::size_t size);
 
@@ -54,6 +60,18 @@ void prove_normalized(const Outcomes& variable, check::Row row, std::span<const 
   check::size(variable, row, values.size());
   check::values(variable, row, values, 1.0 + normalization_tolerance);
   check::total(variable, row, total<Kind>(values), Kind::total);
+}
+
+/// The same of a row that stores only some of its values.
+template <Uncertainty Kind, class Entries>
+void prove_entries_normalized(const Outcomes& variable, check::Row row, const Entries& entries) {
+  double sum = AlgebraOf<Kind>::zero();
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    check::ascending(variable, row, k == 0 ? 0 : entries.index(k - 1) + 1, entries.index(k));
+    check::value(variable, row, entries.index(k), entries.value(k), 1.0 + normalization_tolerance);
+    sum = AlgebraOf<Kind>::plus(sum, entries.value(k));
+  }
+  check::total(variable, row, sum, Kind::total);
 }
 
 }  // namespace sigmax

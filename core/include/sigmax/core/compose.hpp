@@ -3,10 +3,13 @@
 #include <cassert>
 #include <concepts>
 #include <type_traits>
+#include <utility>
+#include <variant>
 
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/induced.hpp>
-#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/compose.hpp>
+#include <sigmax/core/kernels/transpose.hpp>
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/relation.hpp>
 
@@ -40,12 +43,14 @@ template <Conditional Left, Conditional Right>
   requires std::same_as<typename Left::from_kind, typename Right::to_kind>
 auto compose(const Left& left, const Right& right) {
   using Composed = InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>;
-  Composed result{left.to(), right.from(), Table(right.from().size(), left.to().size()), ByLaw{}};
-  compose(left, right, result);
-  return result;
+  check::same(left.from(), right.to(), "compose");
+  AnyRows rows = Table(0, 0);
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows);
+  return Composed{left.to(), right.from(), std::move(rows), ByLaw{}};
 }
 
-/// The same, written into an existing `result` of the same variables: nothing is allocated. `result` is neither part.
+/// The same, written into an existing `result` of the same variables: for dense parts nothing is allocated. `result` is
+/// neither part.
 template <Conditional Left, Conditional Right>
   requires std::same_as<typename Left::from_kind, typename Right::to_kind>
 void compose(const Left& left, const Right& right,
@@ -53,8 +58,8 @@ void compose(const Left& left, const Right& right,
   check::same(left.from(), right.to(), "compose");
   check::same(left.to(), result.to(), "compose");
   check::same(right.from(), result.from(), "compose");
-  assert(&left.table() != &result.table() && &right.table() != &result.table());
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.table(), right.table(), result.table(ByLaw{}));
+  assert(&left.rows() != &result.rows() && &right.rows() != &result.rows());
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), result.rows(ByLaw{}));
 }
 
 /// The distribution of `left.to()` when its condition has the distribution `right`: (5), (15), (16).
@@ -65,7 +70,7 @@ template <Conditional Left, Marginal Right>
 auto compose(const Left& left, const Right& right) {
   check::same(left.from(), right.variable(), "compose");
   Table table(1, left.to().size());
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.table(), right.table(), table);
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.table(), table);
   return InducedBy<Left, Right, Distribution<typename Left::to_kind>>{left.to(), std::move(table), ByLaw{}};
 }
 
@@ -81,11 +86,15 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
   check::same(left.from(), right.variable(), "compose");
   check::same(left.to(), result.variable(), "compose");
   assert(&right != &result);
-  result.assign([&](std::size_t to) {
-    return log_combine<AlgebraOf<Kind>>(
-        right.size(), [&](std::size_t from) { return right.log(from); },
-        [&](std::size_t from) { return left(from, to); });
-  });
+  const auto assign_from = [&](const auto& columns) {
+    result.assign([&](std::size_t to) {
+      const auto column = columns.entries(to);
+      return log_combine<AlgebraOf<Kind>>(
+          column.size(), [&](std::size_t k) { return right.log(column.index(k)); },
+          [&](std::size_t k) { return column.value(k); });
+    });
+  };
+  std::visit([&](const auto& rows) { assign_from(kernels::columns_of(rows)); }, left.rows());
 }
 
 /// How well each outcome of `right.from()` explains evidence about `right.to()`: (42), (45), and with a random sensor
@@ -94,10 +103,16 @@ template <Uncertainty Middle, Uncertainty From>
 Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
   check::same(left.variable(), right.to(), "compose");
   Table weights(1, right.from().size());
-  for (std::size_t from = 0; from < weights.size(); ++from)
-    weights(0, from) = Weight<AlgebraOf<Middle>>::combine(
-        left.size(), [&](std::size_t middle) { return left.weight(middle); },
-        [&](std::size_t middle) { return right(from, middle); });
+  std::visit(
+      [&](const auto& rows) {
+        for (std::size_t from = 0; from < weights.size(); ++from) {
+          const auto row = rows.entries(from);
+          weights(0, from) = Weight<AlgebraOf<Middle>>::combine(
+              row.size(), [&](std::size_t k) { return left.weight(row.index(k)); },
+              [&](std::size_t k) { return row.value(k); });
+        }
+      },
+      right.rows());
   return {right.from(), std::move(weights), ByLaw{}};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 
 #include <sigmax/core/algebra.hpp>
@@ -26,6 +27,17 @@ void condition(std::span<double> joint) {
       value = A::divide(value, sum);
     else
       value = value == sum ? A::one() : value;
+}
+
+/// Each of n equal numbers, conditioned: 1/n if they are added, else one.
+template <Algebra A>
+double equal_share(std::size_t n) {
+  double sum = A::zero();
+  for (std::size_t i = 0; i < n; ++i) sum = A::plus(sum, A::one());
+  if constexpr (ScalingAlgebra<A>)
+    return A::divide(A::one(), sum);
+  else
+    return A::one();
 }
 
 }  // namespace sigmax

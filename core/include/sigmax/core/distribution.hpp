@@ -73,8 +73,8 @@ Distribution<Kind> normalized(Variable<Kind> variable, std::span<const double> w
 /// What is known of a variable before anything is known: 1/n each for a random, one each for any other variable.
 template <Uncertainty Kind>
 Distribution<Kind> uninformative(Variable<Kind> variable) {
-  const Table ones(1, variable.size(), 1.0);
-  return normalized(std::move(variable), ones.values());
+  Table shares(1, variable.size(), equal_share<AlgebraOf<Kind>>(variable.size()));
+  return {std::move(variable), std::move(shares), ByLaw{}};
 }
 
 /// Index of the greatest value, the lowest on a tie.

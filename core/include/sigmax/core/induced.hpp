@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/relation.hpp>
@@ -45,11 +46,13 @@ class Induced<Distribution<Kind>> {
 template <Uncertainty To, Uncertainty From>
 class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
  public:
-  Induced(Variable<To> to, Variable<From> from, Table table, ByLaw)
-      : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(table)) {}
+  Induced(Variable<To> to, Variable<From> from, AnyRows rows, ByLaw)
+      : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {}
 
   /// The normalisation factors β, one for each outcome of `from`: they differ.
-  double beta(std::size_t from) const { return total<To>(this->row(from)); }
+  double beta(std::size_t from) const {
+    return std::visit([&](const auto& rows) { return total<To>(rows.entries(from).values); }, this->rows_);
+  }
   std::vector<double> betas() const {
     std::vector<double> all(this->from_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = beta(i);
@@ -58,14 +61,14 @@ class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
 
   /// The distribution reading of (17), (18): every row divided by its β. Throws std::domain_error if a row is all zero.
   Relation<To, From> normalized() const {
-    Table rows = this->table_;
-    for (std::size_t i = 0; i < rows.rows(); ++i) {
+    AnyRows all = this->rows_;
+    for (std::size_t i = 0; i < this->from_.size(); ++i) {
       if (beta(i) == 0.0)
         throw std::domain_error("'" + this->to_.name() + "' given " + this->from_.name() + " = '" +
                                 this->from_.label(i) + "' has no outcome left to normalise");
-      condition<AlgebraOf<To>>(rows.row(i));
+      std::visit([&](auto& rows) { condition<AlgebraOf<To>>(rows.values(i)); }, all);
     }
-    return {this->to_, this->from_, std::move(rows), ByLaw{}};
+    return {this->to_, this->from_, std::move(all), ByLaw{}};
   }
 };
 

@@ -8,10 +8,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/distribution.hpp>
 #include <sigmax/core/likelihood.hpp>
+#include <sigmax/core/rows.hpp>
 
 namespace sigmax {
 
@@ -25,31 +27,57 @@ class ConditionalTable {
 
   const Variable<To>& to() const { return to_; }
   const Variable<From>& from() const { return from_; }
-  const Table& table() const { return table_; }
 
-  /// The numbers, for a verb that writes its result here; it alone knows by which law they are right.
-  Table& table(ByLaw) { return table_; }
+  /// How the rows are stored: dense, sparse or banded, as they were given or as fits what they were computed from.
+  const AnyRows& rows() const { return rows_; }
+
+  /// The same, for a verb that writes its result here; it alone knows by which law the numbers are right.
+  AnyRows& rows(ByLaw) { return rows_; }
+
+  /// The table of a dense relation. Throws std::invalid_argument, naming it, if it is not: see `dense`, `for_each`.
+  const Table& table() const {
+    if (const Table* const table = std::get_if<Table>(&rows_)) return *table;
+    throw std::invalid_argument("'" + to_.name() + "' given '" + from_.name() + "' is stored sparsely, not as a table");
+  }
 
   /// p(to|from) by index: `from` first, as the table is written.
-  double operator()(std::size_t from, std::size_t to) const { return table_(from, to); }
-  std::span<const double> row(std::size_t from) const { return table_.row(from); }
+  double operator()(std::size_t from, std::size_t to) const {
+    if (const Table* const table = std::get_if<Table>(&rows_)) return (*table)(from, to);
+    return std::visit([&](const auto& rows) { return rows.at(from, to); }, rows_);
+  }
+
+  /// One row of a dense relation.
+  std::span<const double> row(std::size_t from) const { return table().row(from); }
+
+  /// action(to, value) for every number that row `from` stores, `to` ascending; what it does not store is zero.
+  ///
+  ///     cell_given_cell.for_each(17, [](std::size_t to, double p) { … });
+  template <class Action>
+  void for_each(std::size_t from, const Action& action) const {
+    std::visit(
+        [&](const auto& rows) {
+          const auto entries = rows.entries(from);
+          for (std::size_t k = 0; k < entries.size(); ++k) action(entries.index(k), entries.value(k));
+        },
+        rows_);
+  }
 
   /// The column of one outcome of `to`, read as a function of `from`: a likelihood, hence without normalisation.
   Likelihood<From> likelihood(std::string_view to) const { return likelihood(to_.index_of(to)); }
   Likelihood<From> likelihood(std::size_t to) const {
     to_.label(to);  // throws if there is no such outcome
     std::vector<double> column(from_.size());
-    for (std::size_t i = 0; i < column.size(); ++i) column[i] = table_(i, to);
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = (*this)(i, to);
     return {from_, column};
   }
 
  protected:
-  ConditionalTable(Variable<To> to, Variable<From> from, Table table)
-      : to_(std::move(to)), from_(std::move(from)), table_(std::move(table)) {}
+  ConditionalTable(Variable<To> to, Variable<From> from, AnyRows rows)
+      : to_(std::move(to)), from_(std::move(from)), rows_(std::move(rows)) {}
 
   Variable<To> to_;
   Variable<From> from_;
-  Table table_;
+  AnyRows rows_;
 };
 
 /// A normalised relation, read "to given from": every row is a distribution of `to`.
@@ -69,20 +97,32 @@ class Relation : public ConditionalTable<To, From> {
       : Relation(std::move(to), std::move(from), std::vector<std::vector<double>>(rows.begin(), rows.end())) {}
   Relation(Variable<To> to, Variable<From> from, const std::vector<std::vector<double>>& rows)
       : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
-    if (rows.size() != this->from_.size())
-      throw std::invalid_argument("the relation '" + this->to_.name() + "' given '" + this->from_.name() + "' needs " +
-                                  std::to_string(this->from_.size()) + " rows, but " + std::to_string(rows.size()) +
-                                  " were given");
-    this->table_ = Table(this->from_.size(), this->to_.size());
+    prove_number_of_rows(rows.size());
+    Table table(this->from_.size(), this->to_.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       prove_normalized<To>(this->to_, {&this->from_, i}, rows[i]);
-      std::copy(rows[i].begin(), rows[i].end(), this->table_.row(i).begin());
+      std::copy(rows[i].begin(), rows[i].end(), table.row(i).begin());
     }
+    this->rows_ = std::move(table);
   }
 
-  Relation(Variable<To> to, Variable<From> from, Table table, ByLaw)
-      : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(table)) {
-    assert(this->table_.rows() == this->from_.size() && this->table_.columns() == this->to_.size());
+  /// The same of rows that store only some of their numbers; what they do not is zero. It is used like any other.
+  ///
+  ///     Relation{cell, cell, SparseRows{{{0, 0.9}, {7, 0.1}}, …}}   // a row per condition: outcome, value
+  ///     Relation{cell, cell, BandedRows{{0, {0.9, 0.1}}, …}}        // a row per condition: from this outcome on
+  Relation(Variable<To> to, Variable<From> from, SparseRows rows)
+      : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
+    this->rows_ = proved(std::move(rows));
+  }
+  Relation(Variable<To> to, Variable<From> from, BandedRows rows)
+      : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
+    this->rows_ = proved(std::move(rows));
+  }
+
+  Relation(Variable<To> to, Variable<From> from, AnyRows rows, ByLaw)
+      : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {
+    assert(std::visit([](const auto& stored) { return stored.rows(); }, this->rows_) == this->from_.size());
+    assert(std::visit([](const auto& stored) { return stored.columns(); }, this->rows_) == this->to_.size());
   }
 
   /// The distribution of `to` when `from` has this outcome.
@@ -90,13 +130,36 @@ class Relation : public ConditionalTable<To, From> {
   Distribution<To> given(std::size_t from) const {
     this->from_.label(from);  // throws if there is no such outcome
     Table row(1, this->to_.size());
-    std::copy_n(this->row(from).begin(), row.size(), row.data());
+    this->for_each(from, [&](std::size_t to, double value) { row(0, to) = value; });
     return {this->to_, std::move(row), ByLaw{}};
   }
 
   /// Itself: generic code need not ask whether a composition was only induced.
   const Relation& normalized() const& { return *this; }
   Relation normalized() && { return std::move(*this); }
+
+  /// The same relation stored as a dense table.
+  Relation dense() const {
+    return {this->to_, this->from_, std::visit([](const auto& rows) { return dense_table(rows); }, this->rows_),
+            ByLaw{}};
+  }
+
+ private:
+  void prove_number_of_rows(std::size_t rows) const {
+    if (rows != this->from_.size())
+      throw std::invalid_argument("the relation '" + this->to_.name() + "' given '" + this->from_.name() + "' needs " +
+                                  std::to_string(this->from_.size()) + " rows, but " + std::to_string(rows) +
+                                  " were given");
+  }
+
+  template <class SomeRows>
+  SomeRows proved(SomeRows rows) const {
+    prove_number_of_rows(rows.rows());
+    for (std::size_t i = 0; i < rows.rows(); ++i)
+      prove_entries_normalized<To>(this->to_, {&this->from_, i}, rows.entries(i));
+    rows.widen(this->to_.size());
+    return rows;
+  }
 };
 
 template <Uncertainty To, Uncertainty From>

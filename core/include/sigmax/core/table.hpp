@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <sigmax/core/entries.hpp>
+
 namespace sigmax {
 
 /// Says that a law, not a check, makes a table normalised; only the verbs of core construct by it. Debug builds check.
@@ -38,6 +40,15 @@ class Table {
   std::span<const double> values() const { return {data(), size()}; }
   std::span<double> row(std::size_t r) { return {data() + r * columns_, columns_}; }
   std::span<const double> row(std::size_t r) const { return {data() + r * columns_, columns_}; }
+
+  /// The same as every way to store rows has it; see rows.hpp.
+  std::size_t offset(std::size_t r) const { return r * columns_; }
+  std::span<double> values(std::size_t r) { return row(r); }
+  void fill_rows(std::span<const std::size_t> rows, double value) {
+    for (const std::size_t r : rows) std::fill_n(row(r).data(), columns_, value);
+  }
+  double at(std::size_t r, std::size_t column) const { return (*this)(r, column); }
+  RunOfEntries entries(std::size_t r) const { return {0, row(r)}; }
 
   double& operator()(std::size_t r, std::size_t c) {
     assert(r < rows_ && c < columns_);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/belief.hpp>
+#include <sigmax/core/kernels/transpose.hpp>
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/relation.hpp>
 
@@ -49,33 +51,33 @@ struct Inverse {
   std::vector<std::size_t> unreachable;  ///< their rows in `relation` are uninformative
 };
 
-/// An inverse of the right shape, not yet computed.
-template <Uncertainty To, Uncertainty From>
-Inverse<From, To> inverse_of(const Relation<To, From>& relation) {
-  return {{relation.from(), relation.to(), Table(relation.to().size(), relation.from().size()), ByLaw{}}, {}};
-}
-
 /// What every `invert` does; `prior_weight(i)` is on the scale of Weight<AlgebraOf<From>>.
 template <Uncertainty To, Uncertainty From, class PriorWeight>
-void invert_by_weights(const Relation<To, From>& relation, const Variable<From>& prior, const PriorWeight& prior_weight,
-                       Inverse<From, To>& result) {
+void invert_into(const Relation<To, From>& relation, const Variable<From>& prior, const PriorWeight& prior_weight,
+                 AnyRows& result, std::vector<std::size_t>& unreachable) {
   using Scale = Weight<AlgebraOf<From>>;
   check::same(relation.from(), prior, "invert");
-  check::same(relation.from(), result.relation.to(), "invert");
-  check::same(relation.to(), result.relation.from(), "invert");
-  Table& rows = result.relation.table(ByLaw{});
-  result.unreachable.clear();
-  for (std::size_t to = 0; to < rows.rows(); ++to) {
-    const auto row = rows.row(to);
-    for (std::size_t from = 0; from < row.size(); ++from)
-      row[from] = Scale::times(prior_weight(from), Scale::of(relation(from, to)));
-    if (row[index_of_greatest(row)] == Scale::excluded) {
-      result.unreachable.push_back(to);
-      std::fill(row.begin(), row.end(), Scale::of(1.0));
+  kernels::transpose(relation.rows(), result);
+  unreachable.clear();
+  const auto invert_rows = [&](auto& rows) {
+    for (std::size_t to = 0; to < rows.rows(); ++to) {
+      const auto row = rows.entries(to);
+      const auto weights = rows.values(to);
+      bool reached = false;
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        weights[k] = Scale::times(prior_weight(row.index(k)), Scale::of(weights[k]));
+        reached = reached || weights[k] != Scale::excluded;
+      }
+      if (!reached) {
+        unreachable.push_back(to);
+        continue;
+      }
+      Scale::to_values(weights);
+      condition<AlgebraOf<From>>(weights);
     }
-    Scale::to_values(row);
-    condition<AlgebraOf<From>>(row);
-  }
+    rows.fill_rows(unreachable, equal_share<AlgebraOf<From>>(prior.size()));
+  };
+  std::visit(invert_rows, result);
 }
 
 /// The relation read backwards under a prior of its condition, each row an update: (43), (46), (52), (54).
@@ -85,23 +87,28 @@ void invert_by_weights(const Relation<To, From>& relation, const Variable<From>&
 /// An outcome of `to` that no possible `from` reaches gets the uninformative row and is listed.
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Belief<From>& prior) {
-  auto result = inverse_of(relation);
-  invert(relation, prior, result);
-  return result;
+  AnyRows rows = Table(0, 0);
+  std::vector<std::size_t> unreachable;
+  const auto weight = [&](std::size_t i) { return prior.log(i); };
+  invert_into(relation, prior.variable(), weight, rows, unreachable);
+  return {{relation.from(), relation.to(), std::move(rows), ByLaw{}}, std::move(unreachable)};
 }
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Distribution<From>& prior) {
-  auto result = inverse_of(relation);
-  invert_by_weights(
-      relation, prior.variable(), [&](std::size_t i) { return Weight<AlgebraOf<From>>::of(prior[i]); }, result);
-  return result;
+  AnyRows rows = Table(0, 0);
+  std::vector<std::size_t> unreachable;
+  const auto weight = [&](std::size_t i) { return Weight<AlgebraOf<From>>::of(prior[i]); };
+  invert_into(relation, prior.variable(), weight, rows, unreachable);
+  return {{relation.from(), relation.to(), std::move(rows), ByLaw{}}, std::move(unreachable)};
 }
 
 /// The same, written into an existing `result` of the same variables.
 template <Uncertainty To, Uncertainty From>
 void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inverse<From, To>& result) {
-  invert_by_weights(
-      relation, prior.variable(), [&](std::size_t i) { return prior.log(i); }, result);
+  check::same(relation.from(), result.relation.to(), "invert");
+  check::same(relation.to(), result.relation.from(), "invert");
+  const auto weight = [&](std::size_t i) { return prior.log(i); };
+  invert_into(relation, prior.variable(), weight, result.relation.rows(ByLaw{}), result.unreachable);
 }
 
 }  // namespace sigmax

@@ -2,27 +2,41 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include <sigmax/core/algebra.hpp>
+#include <sigmax/core/kernels/accumulate.hpp>
 #include <sigmax/core/table.hpp>
 
 namespace sigmax::kernels {
 
-/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k): every composition of dense tables goes through here.
-/// `result` must not be `right` or `left`.
-template <Algebra A>
-void compose(const Table& left, const Table& right, Table& result) {
+/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), a dense table of parts that may be stored in any way. Allocates nothing
+/// if `result` has room. `result` must not be `right` or `left`.
+template <Algebra A, class Left, class Right>
+void compose(const Left& left, const Right& right, Table& result) {
   result.reshape(right.rows(), left.columns());
-  const std::size_t columns = left.columns();
   for (std::size_t i = 0; i < right.rows(); ++i) {
+    const auto weights = right.entries(i);
     double* const out = result.row(i).data();
-    const double* const weights = right.row(i).data();
-    std::fill_n(out, columns, A::zero());
-    for (std::size_t j = 0; j < left.rows(); ++j) {
-      const double weight = weights[j];
-      const double* const row = left.row(j).data();
-      for (std::size_t k = 0; k < columns; ++k) out[k] = A::plus(out[k], A::times(weight, row[k]));
-    }
+    std::fill_n(out, left.columns(), A::zero());
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      accumulate<A>(weights.value(j), left.entries(weights.index(j)), out);
+  }
+}
+
+/// The same, and for every number of the result the first j that attains it.
+template <SelectiveAlgebra A, class Left, class Right>
+void compose(const Left& left, const Right& right, Table& result, std::vector<Winner>& winners) {
+  result.reshape(right.rows(), left.columns());
+  winners.assign(result.size(), 0);
+  for (std::size_t i = 0; i < right.rows(); ++i) {
+    const auto weights = right.entries(i);
+    double* const out = result.row(i).data();
+    Winner* const won = winners.data() + result.offset(i);
+    std::fill_n(out, left.columns(), A::zero());
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      accumulate<A>(weights.value(j), left.entries(weights.index(j)), out, static_cast<Winner>(weights.index(j)), won);
   }
 }
 

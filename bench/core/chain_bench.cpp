@@ -1,0 +1,112 @@
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <sigmax/core/chain.hpp>
+#include <sigmax/core/route.hpp>
+
+#include "numbers.hpp"
+
+namespace sigmax {
+namespace {
+
+using bench::numbers;
+using bench::transition;
+
+constexpr int links = 1000;  // an iteration
+
+std::size_t size(const benchmark::State& state) { return static_cast<std::size_t>(state.range(0)); }
+
+/// One item is one relation of the chain, with its evidence where there is any.
+void count_links(benchmark::State& state) { state.SetItemsProcessed(state.iterations() * links); }
+
+/// Relations of one kind with evidence at every step; the argument `subnormal` is how many of a hundred numbers are.
+template <Uncertainty Kind>
+void chain_with_evidence(benchmark::State& state) {
+  const double chance = static_cast<double>(state.range(1)) / 100.0;
+  const auto next = transition<Kind>(size(state), 1, chance);
+  const Likelihood<Kind> report{next.to(), numbers(size(state), 2, chance)};
+  for (auto _ : state) {
+    Chain chain{uninformative(next.to())};
+    for (int link = 0; link < links; ++link) chain = update(compose(next, std::move(chain)), report);
+    benchmark::DoNotOptimize(chain.log_total());
+  }
+  count_links(state);
+}
+
+/// The same without evidence.
+template <Uncertainty Kind>
+void chain_without_evidence(benchmark::State& state) {
+  const auto next = transition<Kind>(size(state), 1, static_cast<double>(state.range(1)) / 100.0);
+  for (auto _ : state) {
+    Chain chain{uninformative(next.to())};
+    for (int link = 0; link < links; ++link) chain = compose(next, std::move(chain));
+    benchmark::DoNotOptimize(chain.log_total());
+  }
+  count_links(state);
+}
+
+/// Relations whose kinds alternate, induced throughout.
+void chain_of_alternating_kinds(benchmark::State& state) {
+  const RandomVariable x{"x", size(state)};
+  const FuzzyVariable y{"y", size(state)};
+  const double chance = static_cast<double>(state.range(1)) / 100.0;
+  const Relation<Fuzzy, Random> y_given_x{y, x, transition<Fuzzy>(size(state), 1, chance).rows(), ByLaw{}};
+  const Relation<Random, Fuzzy> x_given_y{x, y, transition<Random>(size(state), 2, chance).rows(), ByLaw{}};
+  for (auto _ : state) {
+    Chain chain{uninformative(x)};
+    for (int link = 0; link < links; link += 2) chain = compose(x_given_y, compose(y_given_x, std::move(chain)));
+    benchmark::DoNotOptimize(chain.log_total());
+  }
+  count_links(state);
+}
+
+/// The same chain as plain tables: what it would cost if nothing could underflow, and what subnormal numbers do to it.
+template <Uncertainty Kind>
+void plain_rows(benchmark::State& state) {
+  const auto next = transition<Kind>(size(state), 1, static_cast<double>(state.range(1)) / 100.0);
+  Table result(1, size(state));
+  for (auto _ : state) {
+    Table row(1, size(state), 1.0);
+    for (int link = 0; link < links; ++link) {
+      kernels::compose<AlgebraOf<Kind>>(next.rows(), row, result);
+      std::swap(row, result);
+    }
+    benchmark::DoNotOptimize(row.data());
+  }
+  count_links(state);
+}
+
+/// A chain that remembers its winners, and the route at its end.
+template <Uncertainty Kind>
+void routes(benchmark::State& state) {
+  const auto next = transition<Kind>(size(state), 1);
+  const Likelihood<Kind> report{next.to(), numbers(size(state), 2)};
+  for (auto _ : state) {
+    Routes all{uninformative(next.to())};
+    for (int link = 0; link < links; ++link) all = update(compose(next, std::move(all)), report);
+    benchmark::DoNotOptimize(best_route(all));
+  }
+  count_links(state);
+}
+
+void sizes_and_subnormals(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"n", "subnormal"});
+  for (const int n : {3, 10, 100})
+    for (const int percent : {0, 50, 100}) benchmark->Args({n, percent});
+}
+
+BENCHMARK(chain_with_evidence<Random>)->Apply(sizes_and_subnormals);
+BENCHMARK(chain_with_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
+BENCHMARK(chain_without_evidence<Random>)->Apply(sizes_and_subnormals);
+BENCHMARK(chain_without_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
+BENCHMARK(plain_rows<Random>)->Apply(sizes_and_subnormals);
+BENCHMARK(plain_rows<Fuzzy>)->Apply(sizes_and_subnormals);
+BENCHMARK(chain_of_alternating_kinds)->Apply(sizes_and_subnormals);
+BENCHMARK(routes<Fuzzy>)->Arg(3)->Arg(10)->Arg(100);
+BENCHMARK(routes<Ordinal>)->Arg(3)->Arg(10)->Arg(100);
+
+}  // namespace
+}  // namespace sigmax

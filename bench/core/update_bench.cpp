@@ -1,0 +1,55 @@
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sigmax/core/update.hpp>
+
+#include "numbers.hpp"
+
+namespace sigmax {
+namespace {
+
+std::size_t size(const benchmark::State& state) { return static_cast<std::size_t>(state.range(0)); }
+
+/// One item is one outcome, or one number of the relation that is inverted.
+void count(benchmark::State& state, std::int64_t items) { state.SetItemsProcessed(state.iterations() * items); }
+
+template <Uncertainty Kind>
+void update_distribution(benchmark::State& state) {
+  const Variable<Kind> x{"x", size(state)};
+  const auto prior = normalized(x, std::span<const double>(bench::numbers(x.size(), 1)));
+  const Likelihood<Kind> likelihood{x, bench::numbers(x.size(), 2)};
+  for (auto _ : state) benchmark::DoNotOptimize(update(prior, likelihood));
+  count(state, state.range(0));
+}
+
+template <Uncertainty Kind>
+void update_belief(benchmark::State& state) {
+  const Variable<Kind> x{"x", size(state)};
+  const Belief<Kind> prior{normalized(x, std::span<const double>(bench::numbers(x.size(), 1)))};
+  const Likelihood<Kind> likelihood{x, bench::numbers(x.size(), 2)};
+  Belief<Kind> posterior = prior;
+  for (auto _ : state) benchmark::DoNotOptimize(update(prior, likelihood, posterior));
+  count(state, state.range(0));
+}
+
+template <Uncertainty Kind>
+void invert_relation(benchmark::State& state) {
+  const auto relation = bench::transition<Kind>(size(state), 1);
+  const auto prior = uninformative(relation.from());
+  for (auto _ : state) benchmark::DoNotOptimize(invert(relation, prior));
+  count(state, state.range(0) * state.range(0));
+}
+
+BENCHMARK(update_distribution<Random>)->RangeMultiplier(8)->Range(2, 1 << 16);
+BENCHMARK(update_distribution<Fuzzy>)->RangeMultiplier(8)->Range(2, 1 << 16);
+BENCHMARK(update_distribution<Ordinal>)->RangeMultiplier(8)->Range(2, 1 << 16);
+BENCHMARK(update_belief<Random>)->RangeMultiplier(8)->Range(2, 1 << 16);
+BENCHMARK(update_belief<Fuzzy>)->RangeMultiplier(8)->Range(2, 1 << 16);
+BENCHMARK(invert_relation<Random>)->RangeMultiplier(4)->Range(2, 512);
+BENCHMARK(invert_relation<Fuzzy>)->RangeMultiplier(4)->Range(2, 512);
+BENCHMARK(invert_relation<Ordinal>)->RangeMultiplier(4)->Range(2, 512);
+
+}  // namespace
+}  // namespace sigmax

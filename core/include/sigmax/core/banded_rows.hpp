@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include <sigmax/core/entries.hpp>
+
+namespace sigmax {
+
+/// One row of a banded table: numbers from column `first` on.
+struct BandOfRow {
+  std::size_t first;
+  std::vector<double> values;
+};
+
+/// A table of which each row stores a run of columns.
+///
+///     BandedRows{{0, {0.9, 0.1}}, {1, {0.4, 0.6}}}
+class BandedRows {
+ public:
+  explicit BandedRows(std::size_t columns = 0) : columns_(columns) {}
+  BandedRows(std::initializer_list<BandOfRow> rows) {
+    for (const BandOfRow& row : rows) append(row.first, row.values);
+  }
+
+  /// Appends a row.
+  void append(std::size_t first, std::span<const double> values) {
+    columns_ = std::max(columns_, first + values.size());
+    rows_.push_back({first, values_.size(), values.size()});
+    values_.insert(values_.end(), values.begin(), values.end());
+  }
+
+  /// Appends `size` equal numbers.
+  void append(std::size_t first, std::size_t size, double value) { append(first, std::vector<double>(size, value)); }
+
+  /// Makes rows share one further row of equal numbers in every column: what is stored grows by one row only.
+  void fill_rows(std::span<const std::size_t> rows, double value) {
+    if (rows.empty()) return;
+    const std::size_t offset = values_.size();
+    values_.resize(offset + columns_, value);
+    for (const std::size_t row : rows) rows_[row] = {0, offset, columns_};
+  }
+
+  std::size_t rows() const { return rows_.size(); }
+  std::size_t columns() const { return columns_; }
+  std::size_t stored() const { return values_.size(); }
+  void widen(std::size_t columns) { columns_ = std::max(columns_, columns); }
+
+  std::size_t offset(std::size_t r) const { return rows_[r].offset; }
+  RunOfEntries entries(std::size_t r) const {
+    return {rows_[r].first, std::span(values_).subspan(rows_[r].offset, rows_[r].size)};
+  }
+  double at(std::size_t r, std::size_t column) const {
+    const RunOfEntries row = entries(r);
+    return column >= row.first && column - row.first < row.size() ? row.value(column - row.first) : 0.0;
+  }
+  std::span<double> values(std::size_t r) { return std::span(values_).subspan(rows_[r].offset, rows_[r].size); }
+
+ private:
+  struct Row {
+    std::size_t first, offset, size;
+  };
+  std::size_t columns_ = 0;
+  std::vector<Row> rows_;
+  std::vector<double> values_;
+};
+
+}  // namespace sigmax

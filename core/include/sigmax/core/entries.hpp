@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace sigmax {
+
+/// The stored numbers of one row: entry k is `value(k)` in column `index(k)`; columns ascend, absent numbers are zero.
+/// This one stores a run of columns without a gap; a dense row is a run from column 0.
+struct RunOfEntries {
+  std::size_t first;
+  std::span<const double> values;
+  std::size_t size() const { return values.size(); }
+  std::size_t index(std::size_t k) const { return first + k; }
+  double value(std::size_t k) const { return values[k]; }
+};
+
+/// The same with the column of each number beside it.
+struct ListOfEntries {
+  std::span<const std::size_t> columns;
+  std::span<const double> values;
+  std::size_t size() const { return values.size(); }
+  std::size_t index(std::size_t k) const { return columns[k]; }
+  double value(std::size_t k) const { return values[k]; }
+};
+
+}  // namespace sigmax

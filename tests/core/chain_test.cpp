@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/chain.hpp>
+#include <sigmax/core/update.hpp>
+
+#include "laws/generate.hpp"
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+using laws::any_normalized_rows;
+using laws::any_unit_numbers;
+using laws::by_kind;
+using laws::numbers_of;
+using plain::Numbers;
+using plain::Rows;
+using support::holds;
+using support::near;
+using support::require_near;
+using support::throws;
+
+constexpr double subnormal = std::numeric_limits<double>::denorm_min();
+
+const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+const FuzzyVariable mood{"mood", {"calm", "wild"}};
+
+static_assert(std::same_as<decltype(compose(std::declval<Relation<Random, Fuzzy>>(), std::declval<Chain<Fuzzy>>())),
+                           Chain<Random>>);
+template <class Left, class Right>
+concept Composes = requires(const Left& left, Right right) {
+  compose(left, std::move(right));
+};
+static_assert(!Composes<Relation<Random, Fuzzy>, Chain<Random>>);
+
+/// log of an exact number: its leading 64 bits and its power of two.
+long double exact_log(const cpp_int& number) {
+  const auto bits = static_cast<std::int64_t>(msb(number));
+  const std::int64_t shift = bits > 63 ? bits - 63 : 0;
+  return std::log(static_cast<long double>(static_cast<std::uint64_t>(number >> static_cast<unsigned>(shift)))) +
+         static_cast<long double>(shift) * std::log(2.0L);
+}
+long double exact_log(const cpp_rational& number) {
+  return exact_log(numerator(number)) - exact_log(denominator(number));
+}
+
+/// The same in exact rational arithmetic, every double taken at its word.
+using ExactRow = std::vector<cpp_rational>;
+ExactRow exact(std::span<const double> values) { return {values.begin(), values.end()}; }
+template <class Kind>
+cpp_rational exact_total(const ExactRow& row) {
+  cpp_rational sum = 0;
+  for (const auto& value : row)
+    sum = by_kind<Kind> == plain::By::sum ? cpp_rational(sum + value) : std::max(sum, value);
+  return sum;
+}
+template <class Eliminated>
+ExactRow exact_compose(const Rows& left, const ExactRow& right) {
+  ExactRow result;
+  for (std::size_t to = 0; to < left.front().size(); ++to) {
+    ExactRow terms;
+    for (std::size_t m = 0; m < right.size(); ++m) terms.push_back(cpp_rational(left[m][to]) * right[m]);
+    result.push_back(exact_total<Eliminated>(terms));
+  }
+  return result;
+}
+
+TEST(Chain, OfNothingIsItsStart) {
+  const Chain chain{Distribution{weather, {0.25, 0.5, 0.25}}};
+  EXPECT_EQ(chain.log_total(), 0.0);
+  EXPECT_EQ(chain.log(1), std::log(0.5));
+  EXPECT_EQ(most_likely(chain), "wet");
+  EXPECT_PRED_FORMAT3(near, chain.normalized().values(), (std::vector{0.25, 0.5, 0.25}), 0.0);
+}
+
+TEST(Chain, ComposesAndUpdatesAsItsParts) {
+  const Distribution prior{weather, {0.25, 0.5, 0.25}};
+  const Relation next{weather, weather, {{0.5, 0.5, 0.0}, {0.25, 0.5, 0.25}, {0.0, 0.5, 0.5}}};
+  const Likelihood report{weather, {0.5, 0.25, 1.0}};
+  const Chain chain = update(compose(next, Chain{prior}), report);
+  Belief belief = compose(next, Belief{prior});
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), update(belief, report, belief), 1e-15);
+  EXPECT_PRED_FORMAT3(near, chain.normalized().values(), belief.distribution().values(), 1e-15);
+  EXPECT_EQ(most_likely(chain), most_likely(belief));
+}
+
+TEST(Chain, OfAlternatingKindsIsInducedThroughout) {  // (15)–(18): β is never divided by
+  const Relation speed_given_mood{weather, mood, {{0.5, 0.25, 0.25}, {0.0, 0.25, 0.75}}};
+  const Relation mood_given_speed{mood, weather, {{1.0, 0.5}, {1.0, 1.0}, {0.25, 1.0}}};
+  const Distribution start{mood, {1.0, 0.5}};
+  const Chain once = compose(speed_given_mood, Chain{start});
+  const Induced induced = compose(speed_given_mood, start);
+  EXPECT_PRED_FORMAT3(near, once.log_total(), std::log(induced.beta()), 1e-15);
+  EXPECT_PRED_FORMAT3(near, once.normalized().values(), induced.normalized().values(), 1e-15);
+  const Chain twice = compose(mood_given_speed, once);
+  EXPECT_PRED_FORMAT3(near, twice.log_total(), std::log(compose(mood_given_speed, induced).beta()), 1e-15);
+}
+
+TEST(Chain, RefusesWhatDoesNotFit) {
+  const RandomVariable sky{"sky", {"dry", "wet", "snow"}};
+  const Relation next{sky, sky, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
+  const Chain chain{uninformative(weather)};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(next, chain); }, {"compose", "'sky'", "'weather'"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { update(chain, Likelihood{sky}); }, {"update", "'weather'", "'sky'"}));
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        update(chain, Likelihood{weather, {0.0, 0.0, 0.0}});
+      },
+      {"evidence", "'weather'"}));
+}
+
+// The log evidence and the winner, checked in exact rational arithmetic.
+
+template <class Kind>
+void expect_exact_evidence() {
+  holds([] {
+    auto x = laws::any_variable<Kind>("x");
+    const auto prior = laws::any_distribution(x);
+    Chain chain{prior};
+    ExactRow row = exact(prior.values());
+    const std::size_t length = *rc::gen::inRange<std::size_t>(1, 7);
+    for (std::size_t step = 0; step < length; ++step) {
+      const auto y = laws::any_variable<Kind>("y" + std::to_string(step));
+      const Rows rows = any_normalized_rows(by_kind<Kind>, x.size(), y.size());
+      chain = compose(Relation<Kind, Kind>{y, x, rows}, std::move(chain));
+      row = exact_compose<Kind>(rows, row);
+      x = y;
+      const Numbers evidence = any_unit_numbers(y.size());
+      ExactRow next = row;
+      for (std::size_t i = 0; i < next.size(); ++i) next[i] *= cpp_rational(evidence[i]);
+      if (exact_total<Kind>(next) == 0) {
+        RC_ASSERT_THROWS_AS(update(chain, Likelihood{y, evidence}), std::domain_error);
+        continue;
+      }
+      row = next;
+      chain = update(std::move(chain), Likelihood{y, evidence});
+    }
+    require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Kind>(row))), 1e-13);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      require_near(chain.log(i), row[i] == 0 ? log_zero : static_cast<double>(exact_log(row[i])), 1e-13);
+    // The winner is the greatest, but for those that rounding makes equal.
+    const cpp_rational best = *std::max_element(row.begin(), row.end());
+    RC_ASSERT(row[chain.winner()] * cpp_rational(1.0 + 1e-12) >= best);
+  });
+}
+TEST(Chain, EvidenceOfRandomVariablesIsExactInRationalArithmetic) { expect_exact_evidence<Random>(); }
+TEST(Chain, EvidenceOfFuzzyVariablesIsExactInRationalArithmetic) { expect_exact_evidence<Fuzzy>(); }
+
+TEST(Chain, BetaOfAlternatingKindsIsExactInRationalArithmetic) {
+  holds([] {
+    const auto x = laws::any_variable<Random>("x");
+    const auto y = laws::any_variable<Fuzzy>("y");
+    const auto prior = laws::any_distribution(x);
+    Chain<Random> chain{prior};
+    ExactRow row = exact(prior.values());
+    const std::size_t length = *rc::gen::inRange<std::size_t>(1, 5);
+    for (std::size_t step = 0; step < length; ++step) {
+      const Rows y_given_x = any_normalized_rows(plain::By::max, x.size(), y.size());
+      const Rows x_given_y = any_normalized_rows(plain::By::sum, y.size(), x.size());
+      const Chain<Fuzzy> between = compose(Relation<Fuzzy, Random>{y, x, y_given_x}, std::move(chain));
+      row = exact_compose<Random>(y_given_x, row);
+      require_near(between.log_total(), static_cast<double>(exact_log(exact_total<Fuzzy>(row))), 1e-13);
+      chain = compose(Relation<Random, Fuzzy>{x, y, x_given_y}, between);
+      row = exact_compose<Fuzzy>(x_given_y, row);
+      require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Random>(row))), 1e-13);
+    }
+  });
+}
+
+// Scaling by powers of two is exact: plain doubles give the same bits as long as they do not underflow.
+
+template <class Kind>
+void expect_same_bits() {
+  holds([] {
+    const auto x = laws::any_variable<Kind>("x");
+    const auto draw = [&](std::size_t rows) {  // numbers far above underflow
+      Rows result = any_normalized_rows(by_kind<Kind>, rows, x.size());
+      for (Numbers& row : result)
+        for (double& value : row) value = value < 1e-12 ? 0.0 : value;
+      return result;
+    };
+    const Distribution<Kind> prior{x, draw(1).front()};
+    Table plain_row = prior.table(), next(1, x.size());
+    Chain chain{prior};
+    for (int step = 0; step < 20; ++step) {
+      const Relation<Kind, Kind> relation{x, x, draw(x.size())};
+      chain = compose(relation, std::move(chain));
+      kernels::compose<AlgebraOf<Kind>>(relation.table(), plain_row, next);
+      std::swap(plain_row, next);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row().value(i) == plain_row(0, i));
+  });
+}
+TEST(Chain, OfRandomVariablesHasTheBitsOfPlainArithmetic) { expect_same_bits<Random>(); }
+TEST(Chain, OfFuzzyVariablesHasTheBitsOfPlainArithmetic) { expect_same_bits<Fuzzy>(); }
+
+TEST(Chain, OfOrdinalVariablesIsPlainMaxMin) {
+  holds([] {
+    const auto x = laws::any_variable<Ordinal>("x");
+    const auto prior = laws::any_distribution(x);
+    Chain chain{prior};
+    Table row = prior.table(), next(1, x.size());
+    for (int step = 0; step < 5; ++step) {
+      const auto relation = laws::any_relation(x, x);
+      chain = compose(relation, std::move(chain));
+      kernels::compose<MaxMin>(relation.table(), row, next);
+      std::swap(row, next);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.log(i) == std::log(row(0, i)));
+    RC_ASSERT(numbers_of(chain.normalized().values()) == numbers_of(row.values()));
+    RC_ASSERT(chain.winner() == index_of_greatest(row.values()));
+  });
+}
+
+// A million relations, checked against closed forms.
+
+constexpr int million = 1000000;
+
+TEST(Chain, OfAMillionRelationsAndReportsHasTheEvidenceOfItsClosedForm) {
+  // A cyclic permutation: the state is known at every step, so the evidence is a product of known likelihoods.
+  const Relation next{weather, weather, {{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
+  const Likelihood report{weather, {0.125, 0.5, 0.25}};
+  Chain chain{Distribution{weather, {1.0, 0.0, 0.0}}};
+  for (int step = 0; step < million; ++step) chain = update(compose(next, std::move(chain)), report);
+  // 10⁶ = 3 · 333333 + 1 steps: each turn passes wet, snow, dry; the last step is to wet.
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), -(333333.0 * 6.0 + 1.0) * std::log(2.0), 1e-14);
+  EXPECT_EQ(most_likely(chain), "wet");
+}
+
+TEST(Chain, OfAMillionMixingRelationsHasTheEvidenceOfItsEigenvalues) {
+  // Two states that stay with probability ¾, reports that fit the first by ½ and the second by ¼: after n steps the
+  // numbers are those of the n-th power of A = ((3/8, 1/16), (1/8, 3/16)), with eigenvalues 7/16 and … in closed form.
+  const RandomVariable state{"state", {"on", "off"}};
+  const Relation next{state, state, {{0.75, 0.25}, {0.25, 0.75}}};
+  const Likelihood report{state, {0.5, 0.25}};
+  Chain chain{Distribution{state, {0.5, 0.5}}};
+  for (int step = 0; step < million; ++step) chain = update(compose(next, std::move(chain)), report);
+  // Row vector times B, B(i, j) = next(i, j) · report(j): ((3/8, 1/16), (1/8, 3/16)), trace 9/16, determinant 1/16.
+  const long double root = std::sqrt(81.0L / 256.0L - 4.0L / 16.0L);
+  const long double greater = (9.0L / 16.0L + root) / 2.0L, lesser = (9.0L / 16.0L - root) / 2.0L;
+  // v Bⁿ 1 = c₁ λ₁ⁿ + c₂ λ₂ⁿ, with its values 1 and 3/8 + … at n = 0 and n = 1: ½ (7/16 + 5/16) = 3/8.
+  const long double c = (3.0L / 8.0L - lesser) / (greater - lesser);
+  const long double expected = std::log(c) + million * std::log(greater);
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), static_cast<double>(expected), 1e-14);
+  EXPECT_EQ(most_likely(chain), "on");
+}
+
+TEST(Chain, OfAMillionAlternatingRelationsHasTheBetaOfItsClosedForm) {
+  // Two outcomes that are alike: p(x|y) = ½ and π(y|x) = 1. Sum over x of π p is 2 a, max over y of p π is a / 2 … with
+  // a the common number; so β halves or doubles in turn.
+  const RandomVariable x{"x", {"a", "b"}};
+  const FuzzyVariable y{"y", {"c", "d", "e"}};
+  const Relation y_given_x{y, x, {{1.0, 0.25, 0.0}, {0.25, 1.0, 0.0}}};
+  const Relation x_given_y{x, y, {{0.75, 0.25}, {0.25, 0.75}, {0.5, 0.5}}};
+  // By symmetry both x have the number a: c and d get 5a/4, e nothing; then both x get ¾ · 5a/4. So a grows by 15/16.
+  Chain<Random> chain{uninformative(x)};
+  for (int pair = 0; pair < million / 2; ++pair) chain = compose(x_given_y, compose(y_given_x, std::move(chain)));
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), (million / 2) * std::log(15.0 / 16.0), 1e-14);
+  EXPECT_PRED_FORMAT3(near, compose(y_given_x, std::move(chain)).log_total(),
+                      (million / 2) * std::log(15.0 / 16.0) + std::log(0.625), 1e-14);
+}
+
+TEST(Chain, ThroughAMillionSubnormalNumbersLosesNothing) {
+  const FuzzyVariable state{"state", {"on", "off"}};
+  const Relation next{state, state, {{subnormal, 1.0}, {1.0, subnormal}}};
+  const Likelihood report{state, {subnormal, 1.0}};
+  Chain chain{Distribution{state, {1.0, subnormal}}};
+  for (int step = 0; step < million; ++step) chain = update(compose(next, std::move(chain)), report);
+  // The route on, off, on, … passes each second step through 2^−1074; 5·10⁵ such reports.
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), -1074.0 * 500000.0 * std::log(2.0), 1e-13);
+}
+
+TEST(Chain, BringsBackAnOutcomeThatIsFarBelowAnyDouble) {
+  const RandomVariable state{"state", {"on", "off"}};
+  const Relation stays{state, state, {{1.0, 0.0}, {0.0, 1.0}}};
+  Chain chain{uninformative(state)};
+  Likelihood against{state}, decisive{state, {0.0, 1.0}};
+  against.set_log(1, -1e5);
+  for (int step = 0; step < 1000; ++step) chain = update(compose(stays, std::move(chain)), against);
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), std::log(0.5), 1e-14);
+  chain = update(compose(stays, std::move(chain)), decisive);
+  EXPECT_PRED_FORMAT3(near, chain.log_total(), -1e8 + std::log(0.5), 1e-15);
+  EXPECT_EQ(most_likely(chain), "off");
+  EXPECT_PRED_FORMAT3(near, chain.normalized().values(), (std::vector{0.0, 1.0}), 0.0);
+}
+
+}  // namespace
+}  // namespace sigmax
