@@ -11,6 +11,8 @@
 
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
+#include <sigmax/core/network.hpp>
+#include <sigmax/core/transform.hpp>
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
@@ -21,6 +23,7 @@ namespace sigmax {
 namespace {
 
 using laws::numbers_of;
+using laws::rows_of;
 using plain::By;
 using plain::Numbers;
 using plain::Rows;
@@ -329,6 +332,31 @@ TEST(SparseRelation, WithManyUnreachableOutcomesInvertsWithoutATable) {
   EXPECT_EQ(inverse.relation(99999, 3), 1e-5);
   EXPECT_EQ(inverse.relation(7, 14), 0.5);
   EXPECT_EQ(inverse.relation(7, 16), 0.0);
+}
+
+TEST(SparseRelation, IsTransformedAsItsTable) {
+  for (const Relation<Random, Random>& step : {sparse_step(), banded_step()}) {
+    EXPECT_EQ(rows_of(to_possibility(step, RatioScale{}).table()),
+              rows_of(to_possibility(step.dense(), RatioScale{}).table()));
+    const Relation<Random, Fuzzy> read_otherwise = with_fuzzy_condition(step);
+    EXPECT_EQ(read_otherwise.rows().index(), step.rows().index());
+    EXPECT_EQ(rows_of(read_otherwise.dense().table()), rows_of(step.dense().table()));
+  }
+}
+
+TEST(SparseRelation, IsDeclaredInANetworkAsItsTable) {
+  const RandomVariable next{"next", {"a", "b", "c", "d"}};
+  RelationNetwork network;
+  network.declare(uninformative(cell));
+  network.declare(
+      Relation<Random, Random>{next, cell, SparseRows{{{0, 0.75}, {3, 0.25}}, {{1, 1.0}}, {{0, 1.0}}, {{3, 1.0}}}});
+  EXPECT_EQ(network[1].rows(0, 3), 0.25);
+  EXPECT_EQ(network[1].rows(0, 1), 0.0);
+  EXPECT_EQ(network[1].rows(3, 3), 1.0);
+}
+
+TEST(SparseRelation, SaysThatItHasNoTable) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { sparse_step().table(); }, {"'cell' given 'cell'", "dense()"}));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class RelationNetwork {
   /// A variable with one parent, `relation.from()`. Throws std::invalid_argument if that was not declared.
   template <NetworkKind To, NetworkKind From>
   void declare(const Relation<To, From>& relation) {
-    append(relation.to(), {relation.from()}, relation.table());
+    append(relation.to(), {relation.from()}, relation.dense().table());
   }
 
   /// A variable with any number of parents. Throws std::invalid_argument, naming variable, row and value, if a parent

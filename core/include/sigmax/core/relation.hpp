@@ -37,7 +37,8 @@ class ConditionalTable {
   /// The table of a dense relation. Throws std::invalid_argument, naming it, if it is not: see `dense`, `for_each`.
   const Table& table() const {
     if (const Table* const table = std::get_if<Table>(&rows_)) return *table;
-    throw std::invalid_argument("'" + to_.name() + "' given '" + from_.name() + "' is stored sparsely, not as a table");
+    throw std::invalid_argument("'" + to_.name() + "' given '" + from_.name() +
+                                "' is stored sparsely, not as a table; call dense() first");
   }
 
   /// p(to|from) by index: `from` first, as the table is written.

@@ -139,7 +139,7 @@ template <Uncertainty To, Uncertainty Old, Uncertainty From, class Method>
 Relation<To, From> transformed(const Relation<Old, From>& relation, const Variable<To>& to, const Method& method) {
   Table rows(relation.from().size(), to.size());
   for (std::size_t r = 0; r < rows.rows(); ++r) {
-    const Distribution row = normalized(to, method(relation.row(r)));
+    const Distribution row = normalized(to, method(relation.given(r).values()));
     std::copy_n(row.values().begin(), to.size(), rows.row(r).begin());
   }
   return {to, relation.from(), std::move(rows), ByLaw{}};
@@ -160,11 +160,11 @@ Relation<Random, From> to_probability(const Relation<Fuzzy, From>& pi, const Met
 ///     with_fuzzy_condition(to_possibility(transition, RatioScale{}))   // (49) as (50)
 template <Uncertainty To, Uncertainty From>
 Relation<To, Fuzzy> with_fuzzy_condition(const Relation<To, From>& relation) {
-  return {relation.to(), as_fuzzy(relation.from()), relation.table(), ByLaw{}};
+  return {relation.to(), as_fuzzy(relation.from()), relation.rows(), ByLaw{}};
 }
 template <Uncertainty To, Uncertainty From>
 Relation<To, Random> with_random_condition(const Relation<To, From>& relation) {
-  return {relation.to(), as_random(relation.from()), relation.table(), ByLaw{}};
+  return {relation.to(), as_random(relation.from()), relation.rows(), ByLaw{}};
 }
 
 }  // namespace sigmax
