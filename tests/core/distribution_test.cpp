@@ -131,6 +131,13 @@ TEST(Normalized, RefusesWhatHasNoProportion) {
   EXPECT_TRUE(throws<std::invalid_argument>([&] { normalized(mood, infinite); }, {"'mood'", "'calm'", "inf"}));
 }
 
+TEST(Distribution, NormalizedIsItself) {
+  const Distribution forecast{weather, {0.25, 0.5, 0.25}};
+  EXPECT_EQ(&forecast.normalized(), &forecast);
+  const auto& outlives = Distribution{weather, {0.25, 0.5, 0.25}}.normalized();  // of a temporary it is a value
+  EXPECT_EQ(outlives["wet"], 0.5);
+}
+
 TEST(MostLikely, IsTheFirstDeclaredOnATie) {
   EXPECT_EQ(most_likely(Distribution{weather, {0.25, 0.5, 0.25}}), "wet");
   EXPECT_EQ(most_likely(Distribution{weather, {0.25, 0.375, 0.375}}), "wet");

@@ -17,43 +17,6 @@ using support::near;
 constexpr double subnormal = std::numeric_limits<double>::denorm_min();
 constexpr double least = std::numeric_limits<double>::min();
 
-TEST(LongNumber, IsEveryDouble) {
-  for (const double value :
-       {0.0, subnormal, 3 * subnormal, least, least - subnormal, 1e-200, 0.1, 0.5, 1.0, 7.0, 1e300}) {
-    EXPECT_EQ(LongNumber::of(value).value(), value);
-    EXPECT_EQ(LongNumber::of(value, -7).value(), std::ldexp(value, -7));
-  }
-  EXPECT_EQ(LongNumber::of(-0.0), LongNumber{});
-  EXPECT_EQ(LongNumber::of(subnormal).exponent, -1073);
-  EXPECT_EQ(LongNumber::of(1.0).significand, 0.5);
-}
-
-TEST(LongNumber, IsMultipliedWithoutUnderflow) {
-  LongNumber product = LongNumber::of(1.0);
-  for (int i = 0; i < 1000; ++i) product = product * LongNumber::of(3 * subnormal);
-  EXPECT_PRED_FORMAT3(near, product.log(), 1000.0 * (std::log(3.0) - 1074.0 * std::log(2.0)), 1e-14);
-  EXPECT_EQ(product.value(), 0.0);
-  EXPECT_EQ((LongNumber{} * product), LongNumber{});
-}
-
-TEST(LongNumber, AddsByTheAlgebraAtAnyScale) {
-  for (const double a : {0.0, subnormal, 1e-170, 0.5, 3.0, 1e80})
-    for (const double b : {0.0, 5 * subnormal, 1e-169, 0.25, 2.0, 1e77}) {
-      const LongNumber x = LongNumber::of(a, -100000), y = LongNumber::of(b, -100000);
-      EXPECT_EQ(LongNumber::plus<Sigma>(x, y), LongNumber::of(a + b, -100000));
-      EXPECT_EQ(LongNumber::plus<Max>(x, y), LongNumber::of(std::max(a, b), -100000));
-      EXPECT_EQ(x < y, a < b);
-    }
-}
-
-TEST(LongNumber, TurnsIntoALogarithmAndBack) {
-  for (const double log : {-1e6, -800.0, -3.0, 0.0, 2.0, 900.0})
-    EXPECT_PRED_FORMAT3(near, LongNumber::exp(log).log(), log, 1e-14);
-  EXPECT_EQ(LongNumber::exp(log_zero), LongNumber{});
-  EXPECT_EQ(LongNumber{}.log(), log_zero);
-  EXPECT_EQ(LongNumber::exp(-3.0).value(), std::exp(-3.0));
-}
-
 TEST(Raised, IsTheNumberTimesAPowerOfTwo) {
   for (const double value : {0.0, 1.0, 0.1, 1e-300, least}) EXPECT_EQ(raised(value), value * 0x1p512);
   EXPECT_EQ(raised(subnormal), 0x1p-562);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <sigmax/core/network/scaled_number.hpp>
+#include <sigmax/core/scaled_number.hpp>
 
 #include "support/near.hpp"
 
@@ -20,6 +20,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 TEST(ScaledNumber, GivesBackEveryDouble) {
   for (const double value : {0.0, subnormal, 3 * subnormal, least, 1e-200, 0.1, 1.0, 7.0, 1e200, greatest})
     EXPECT_EQ(ScaledNumber{value}.value(), value);
+  EXPECT_EQ(ScaledNumber(3 * subnormal, 1000).value(), std::ldexp(3 * subnormal, 1000));
+  EXPECT_EQ(ScaledNumber(0.1, -7).value(), std::ldexp(0.1, -7));
+  EXPECT_EQ(ScaledNumber{-0.0}, ScaledNumber{});
+  EXPECT_EQ(ScaledNumber{subnormal}.exponent(), -1073);
 }
 
 TEST(ScaledNumber, IsMultipliedWithoutUnderflow) {
@@ -69,7 +73,16 @@ TEST(ScaledNumber, TurnsIntoALogarithmAndBack) {
   EXPECT_FALSE(ScaledNumber::exp(-greatest).is_zero());
   EXPECT_LT(ScaledNumber::exp(-greatest) * ScaledNumber::exp(-greatest), ScaledNumber::exp(-greatest));
   EXPECT_LT(ScaledNumber{greatest}, ScaledNumber::exp(greatest));
-  EXPECT_PRED_FORMAT3(near, ScaledNumber::exp(-3.0).value(), std::exp(-3.0), 1e-15);
+  EXPECT_EQ(ScaledNumber::exp(-3.0).value(), std::exp(-3.0));
+}
+
+TEST(ScaledNumber, IsADoubleInUnitsOfAPowerOfTwo) {
+  const ScaledNumber number(0.75, -5000);
+  EXPECT_EQ(number.value_in_units_of(-5000), 0.75);
+  EXPECT_EQ(number.normal_value_in_units_of(-5100), 0.75 * 0x1p100);
+  EXPECT_EQ(number.value_in_units_of(-3930), 0.75 * 0x1p-1070);
+  EXPECT_EQ(number.value_in_units_of(0), 0.0);
+  EXPECT_EQ(ScaledNumber{}.normal_value_in_units_of(-5000), 0.0);
 }
 
 TEST(ScaledNumber, DividesAsFarAsADoubleGoes) {

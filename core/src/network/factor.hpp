@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <sigmax/core/algebra.hpp>
-#include <sigmax/core/network/scaled_number.hpp>
+#include <sigmax/core/scaled_number.hpp>
 
 namespace sigmax::elimination {
 

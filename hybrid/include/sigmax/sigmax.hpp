@@ -20,12 +20,12 @@
 #include <sigmax/core/network/graphviz.hpp>
 #include <sigmax/core/network/measure.hpp>
 #include <sigmax/core/network/query.hpp>
-#include <sigmax/core/network/scaled_number.hpp>
 #include <sigmax/core/network/transform.hpp>
 #include <sigmax/core/network/variable.hpp>
 #include <sigmax/core/relation.hpp>
 #include <sigmax/core/route.hpp>
 #include <sigmax/core/rows.hpp>
+#include <sigmax/core/scaled_number.hpp>
 #include <sigmax/core/sparse_rows.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/uncertainty.hpp>

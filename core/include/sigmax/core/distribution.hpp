@@ -51,6 +51,10 @@ class Distribution {
   double operator[](std::size_t index) const { return table_(0, index); }
   double operator[](std::string_view label) const { return table_(0, variable_.index_of(label)); }
 
+  /// Itself: generic code need not ask whether a composition was only induced.
+  const Distribution& normalized() const& { return *this; }
+  Distribution normalized() && { return std::move(*this); }
+
  private:
   Variable<Kind> variable_;
   Table table_;

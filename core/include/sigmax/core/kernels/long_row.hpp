@@ -13,14 +13,14 @@
 #include <vector>
 
 #include <sigmax/core/kernels/accumulate.hpp>
-#include <sigmax/core/kernels/long_number.hpp>
+#include <sigmax/core/scaled_number.hpp>
 
 namespace sigmax::kernels {
 
 /// x · 2^512, for x in [0, 2^511), without arithmetic on subnormal numbers, which is slow on some processors.
 inline double raised(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x) & ~LongNumber::sign;
-  const std::uint64_t subnormal = ((bits >> 52) - 1) >> 63;  // 1 or 0, without a comparison: it vectorises
+  const auto bits = std::bit_cast<std::uint64_t>(x) << 1 >> 1;  // without the sign that zero may have
+  const std::uint64_t subnormal = ((bits >> 52) - 1) >> 63;     // 1 or 0, without a comparison: it vectorises
   // A subnormal number gets the exponent of the least normal one and, raised, is rid of the leading bit that implies.
   const auto up = std::bit_cast<double>(bits + ((512 + subnormal) << 52));
   return up - std::bit_cast<double>((0 - subnormal) & std::bit_cast<std::uint64_t>(0x1p-510));
@@ -51,7 +51,7 @@ void accumulate_from(double weight, const Entries& row, double* sums, std::size_
 class LongRow {
  public:
   explicit LongRow(std::span<const double> values) {
-    for (const double value : values) numbers_.push_back(LongNumber::of(value));
+    for (const double value : values) numbers_.emplace_back(value);
   }
 
   std::size_t size() const { return numbers_.size(); }
@@ -61,10 +61,10 @@ class LongRow {
   double value(std::size_t i) const { return numbers_[i].value(); }
 
   /// ⊗ by a likelihood given as its logarithm.
-  void multiply(std::size_t i, double log_likelihood) { numbers_[i] = numbers_[i] * LongNumber::exp(log_likelihood); }
+  void multiply(std::size_t i, double log_likelihood) { numbers_[i] = numbers_[i] * ScaledNumber::exp(log_likelihood); }
 
   bool is_zero() const {
-    return std::all_of(numbers_.begin(), numbers_.end(), [](LongNumber number) { return number.significand == 0.0; });
+    return std::all_of(numbers_.begin(), numbers_.end(), [](ScaledNumber number) { return number.is_zero(); });
   }
 
   /// Index of the greatest, the lowest on a tie.
@@ -75,18 +75,15 @@ class LongRow {
   /// The logarithm of their ⊕.
   template <ScalingAlgebra A>
   double log_total() const {
-    LongNumber sum;
-    for (const LongNumber number : numbers_) sum = LongNumber::plus<A>(sum, number);
+    ScaledNumber sum;
+    for (const ScaledNumber number : numbers_) sum = ScaledNumber::plus<A>(sum, number);
     return sum.log();
   }
 
   /// The numbers in proportion, the greatest in [½, 1); what is too small for a double is zero.
   void to_values(std::span<double> values) const {
-    const std::int64_t top = numbers_[greatest()].exponent;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const std::int64_t below = top - numbers_[i].exponent;
-      values[i] = below > 1100 ? 0.0 : std::ldexp(numbers_[i].significand, static_cast<int>(-below));
-    }
+    const ScaledNumber top = numbers_[greatest()];
+    for (std::size_t i = 0; i < size(); ++i) values[i] = numbers_[i].value_in_units_of(top.exponent());
   }
 
   /// number(k) = ⊕_j number(j) ⊗ left(j, k). `winners`, if given, gets the first j that attains each.
@@ -94,7 +91,7 @@ class LongRow {
   /// Numbers that doubles can hold together are composed by doubles, band by band: in one band as a rule.
   template <ScalingAlgebra A, class Left, class... Winners>
   void compose(const Left& left, Winners&... winners) {
-    results_.assign(left.columns(), LongNumber{});
+    results_.assign(left.columns(), ScaledNumber{});
     (winners.assign(left.columns(), 0), ...);
     auto band_winners = std::tuple{Winners{}...};
     for (std::int64_t top = top_exponent(std::numeric_limits<std::int64_t>::max()); top > none;
@@ -102,16 +99,15 @@ class LongRow {
       sums_.assign(left.columns(), A::zero());
       std::apply([&](auto&... won) { (won.assign(left.columns(), 0), ...); }, band_winners);
       for (std::size_t j = 0; j < numbers_.size(); ++j) {
-        const LongNumber number = numbers_[j];
-        if (number.significand == 0.0 || number.exponent > top || number.exponent <= top - band_depth) continue;
-        const double weight = number.over_power(top - weight_exponent);
+        const ScaledNumber number = numbers_[j];
+        if (number.is_zero() || number.exponent() > top || number.exponent() <= top - band_depth) continue;
+        const double weight = number.normal_value_in_units_of(top - weight_exponent);
         std::apply(
             [&](auto&... won) { accumulate_from<A>(weight, RaisedEntries{left.entries(j)}, sums_.data(), j, won...); },
             band_winners);
       }
       for (std::size_t k = 0; k < sums_.size(); ++k)
-        add<A>(k, LongNumber::of(sums_[k], top - weight_exponent - 512), winners...,
-               std::get<Winners>(band_winners)...);
+        add<A>(k, ScaledNumber(sums_[k], top - weight_exponent - 512), winners..., std::get<Winners>(band_winners)...);
     }
     std::swap(numbers_, results_);
   }
@@ -125,28 +121,28 @@ class LongRow {
   /// The greatest exponent that is not above `limit`.
   std::int64_t top_exponent(std::int64_t limit) const {
     std::int64_t top = none;
-    for (const LongNumber number : numbers_)
-      if (number.significand > 0.0 && number.exponent <= limit) top = std::max(top, number.exponent);
+    for (const ScaledNumber number : numbers_)
+      if (!number.is_zero() && number.exponent() <= limit) top = std::max(top, number.exponent());
     return top;
   }
 
   /// Adds what one band gives to result k.
   template <ScalingAlgebra A>
-  void add(std::size_t k, LongNumber term) {
-    results_[k] = LongNumber::plus<A>(results_[k], term);
+  void add(std::size_t k, ScaledNumber term) {
+    results_[k] = ScaledNumber::plus<A>(results_[k], term);
   }
   template <SelectiveAlgebra A>
-  void add(std::size_t k, LongNumber term, std::vector<Winner>& winners, const std::vector<Winner>& band_winners) {
-    if (term.significand == 0.0) return;
+  void add(std::size_t k, ScaledNumber term, std::vector<Winner>& winners, const std::vector<Winner>& band_winners) {
+    if (term.is_zero()) return;
     if (term == results_[k])
       winners[k] = std::min(winners[k], band_winners[k]);
     else if (results_[k] < term)
       winners[k] = band_winners[k];
-    results_[k] = LongNumber::plus<A>(results_[k], term);
+    results_[k] = ScaledNumber::plus<A>(results_[k], term);
   }
 
-  std::vector<LongNumber> numbers_;
-  std::vector<LongNumber> results_;  // of a composition while it lasts; kept for its memory
+  std::vector<ScaledNumber> numbers_;
+  std::vector<ScaledNumber> results_;  // of a composition while it lasts; kept for its memory
   std::vector<double> sums_;
 };
 

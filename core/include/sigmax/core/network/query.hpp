@@ -10,7 +10,7 @@
 
 #include <sigmax/core/network.hpp>
 #include <sigmax/core/network/evidence.hpp>
-#include <sigmax/core/network/scaled_number.hpp>
+#include <sigmax/core/scaled_number.hpp>
 
 namespace sigmax {
 
