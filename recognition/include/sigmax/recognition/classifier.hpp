@@ -1,40 +1,194 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
+#include <sigmax/recognition/feature_model.hpp>
+#include <sigmax/recognition/report.hpp>
 
 namespace sigmax {
 
-/// Sequential pattern recognition: sigma inference (41)–(43) if patterns and features are random, max inference
-/// (44)–(46) if they are fuzzy; nothing else changes.
+/// Sequential pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and
+/// features are random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor
+/// reads a fuzzy feature, (18) and (20) if a fuzzy one reads a random feature; nothing else changes.
 ///
 ///     Classifier classifier{uninformative(target), emitter_given_target};
-///     classifier.observe(Likelihood{emitter, {0.7, 0.1, 0.2}});
+///     classifier.observe(Likelihood{emitter, {0.7, 0.1, 0.2}});        // a graded report
 ///     most_likely(classifier.belief());
 ///
-/// The static p(feature|pattern) is built from p(pattern|feature) by `invert`. A report about a fuzzy feature may come
-/// from a random sensor: `observe(reading_given_feature.likelihood(reading))`.
+///     Classifier animals{prior, std::vector{legs_given_animal, milk_given_animal}};
+///     animals.observe(std::vector<std::size_t>{2, missing});           // a crisp report on every feature
+///
+/// The kind of the pattern is that of the prior, and chooses the ⊕ that normalises; the kind of the features chooses
+/// the ⊕ that eliminates them. Features, and reports, are independent given the pattern. The static p(feature|pattern)
+/// may be built from p(pattern|feature) by `invert`, or learned from counts.
 template <Uncertainty Pattern, Uncertainty Feature>
 class Classifier {
  public:
-  /// Throws std::invalid_argument if the relation's condition is not the prior's variable.
+  using pattern_kind = Pattern;
+  using feature_kind = Feature;
+
+  /// Throws std::invalid_argument if the condition of a feature is not the prior's variable, or there is no feature.
   Classifier(const Distribution<Pattern>& prior, Relation<Feature, Pattern> feature_given_pattern)
-      : feature_given_pattern_(std::move(feature_given_pattern)), belief_(prior) {
-    check::same(prior.variable(), feature_given_pattern_.from(), "Classifier");
+      : Classifier(prior, std::vector<FeatureModel<Pattern, Feature>>{std::move(feature_given_pattern)}) {}
+  Classifier(const Distribution<Pattern>& prior, const std::vector<Relation<Feature, Pattern>>& features)
+      : Classifier(prior, std::vector<FeatureModel<Pattern, Feature>>(features.begin(), features.end())) {}
+  Classifier(const Distribution<Pattern>& prior, std::vector<FeatureModel<Pattern, Feature>> features)
+      : prior_(prior), features_(std::move(features)), initial_(prior), belief_(prior), faded_(prior) {
+    if (features_.empty())
+      throw std::invalid_argument("a Classifier of '" + prior.variable().name() + "' needs at least one feature");
+    for (const auto& feature : features_) check::same(prior.variable(), feature.pattern(), "Classifier");
   }
 
-  /// Takes one report, given as the likelihood of every feature: (42) and (41), or (45) and (44).
-  /// Throws std::domain_error if the report excludes every pattern that was left.
-  void observe(const Likelihood<Feature>& report) { update(belief_, compose(report, feature_given_pattern_), belief_); }
+  /// Takes one report of crisp readings, an index for each feature in order or `missing`: (42) and (41), or (45) and
+  /// (44). Throws std::invalid_argument if there are not as many as features or a reading does not exist, and
+  /// std::domain_error if the report excludes every pattern that was left; the belief is then unchanged.
+  void observe(std::span<const std::size_t> readings) { observe_likelihood(likelihood(readings)); }
+
+  /// The same of a report that may be graded.
+  void observe(const Report<Feature>& report) { observe_likelihood(likelihood(report)); }
+
+  /// The same of a graded report about the only feature. Throws std::invalid_argument if there are several.
+  void observe(const Likelihood<Feature>& report) { observe_likelihood(compose(report, only_feature().relation())); }
+
+  /// Takes several reports at once, with a single ⊕ at the end: what observing them one by one gives, to rounding.
+  /// Throws as `observe` does, and the belief is then as before the first of them.
+  ///
+  ///     classifier.observe_all(std::vector<std::vector<std::size_t>>{{2, missing}, {0, 1}});
+  template <class Reports>
+  void observe_all(const Reports& reports) {
+    Table logs(1, prior_.size());
+    double weight = 1.0;  // of what was believed before
+    for (const auto& report : reports) {
+      for (double& log : logs.values()) log = faded(forgetting_, log);
+      add_log_likelihood(report, logs.values());
+      weight *= forgetting_;
+    }
+    observe_likelihood({prior_.variable(), std::move(logs), ByLaw{}}, weight);
+  }
+
+  /// Takes a graded report with p(f_k|z_{1:k−1}) supplied for this step, as (43) and (46) are printed: p(f_k|c) is
+  /// p(c|f_k) inverted under it. The features' own relations are not used.
+  ///
+  /// If `feature_prediction` is all that is known of the pattern, that is if the belief is p(c|f_k) composed with it,
+  /// then the belief cancels: afterwards it is p(c|f_k) composed with the updated prediction, and no evidence
+  /// accumulates but through the prediction.
+  void observe_predicted(const Likelihood<Feature>& report, const Relation<Pattern, Feature>& pattern_given_feature,
+                         const Distribution<Feature>& feature_prediction) {
+    check::same(prior_.variable(), pattern_given_feature.to(), "Classifier");
+    observe_likelihood(compose(report, invert(pattern_given_feature, feature_prediction).relation));
+  }
+
+  /// How well each pattern explains one report, L(z|c), whatever was believed: (42), (45), (17), (18).
+  Likelihood<Pattern> likelihood(std::span<const std::size_t> readings) const { return likelihood_of(readings); }
+  Likelihood<Pattern> likelihood(const Report<Feature>& report) const { return likelihood_of(report); }
 
   /// What is believed of the pattern after all reports.
   Distribution<Pattern> belief() const { return belief_.distribution(); }
 
+  /// The same as logarithms, where nothing underflows: what decisions and scores are made from.
+  const Belief<Pattern>& log_belief() const { return belief_; }
+
+  /// Forgets all reports: the belief is the prior again.
+  void reset() { belief_ = initial_; }
+
+  /// From now on multiplies the logarithms of the belief by λ in (0, 1] before every report, so that old reports fade
+  /// as λⁿ, for patterns that change. One, the default, forgets nothing; an excluded pattern stays excluded. Throws
+  /// std::invalid_argument, with the factor, if it is not in (0, 1].
+  void set_forgetting(double factor) {
+    if (!(factor > 0.0 && factor <= 1.0))
+      throw std::invalid_argument("a forgetting factor is in (0, 1], not " + std::to_string(factor));
+    forgetting_ = factor;
+  }
+  double forgetting() const { return forgetting_; }
+
+  const Distribution<Pattern>& prior() const { return prior_; }
+  std::span<const FeatureModel<Pattern, Feature>> features() const { return features_; }
+
  private:
-  Relation<Feature, Pattern> feature_given_pattern_;
+  static double faded(double factor, double log) { return log == log_zero ? log_zero : factor * log; }
+
+  const FeatureModel<Pattern, Feature>& only_feature() const {
+    if (features_.size() != 1)
+      throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has " +
+                                  std::to_string(features_.size()) + " features; a report needs a finding for each");
+    return features_.front();
+  }
+
+  void prove_size(std::size_t findings) const {
+    if (findings != features_.size())
+      throw std::invalid_argument("the classifier of '" + prior_.variable().name() + "' has " +
+                                  std::to_string(features_.size()) + " features, but the report has " +
+                                  std::to_string(findings) + " findings");
+  }
+
+  /// logs += each of N columns, in one pass: this is what a crisp report costs.
+  template <std::size_t N>
+  static void add(const std::array<const double*, N>& columns, std::span<double> logs) {
+    double* const to = logs.data();
+    for (std::size_t c = 0; c < logs.size(); ++c) {
+      double sum = to[c];
+      for (const double* const column : columns) sum += column[c];
+      to[c] = sum;
+    }
+  }
+
+  void add_log_likelihood(std::span<const std::size_t> readings, std::span<double> logs) const {
+    prove_size(readings.size());
+    std::array<const double*, 4> columns{};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      if (readings[i] == missing) continue;
+      columns[n++] = features_[i].log_likelihoods(readings[i]).data();
+      if (n < columns.size()) continue;
+      add(columns, logs);
+      n = 0;
+    }
+    for (std::size_t k = 0; k < n; ++k) add<1>({columns[k]}, logs);
+  }
+  void add_log_likelihood(const Report<Feature>& report, std::span<double> logs) const {
+    prove_size(report.size());
+    for (std::size_t i = 0; i < report.size(); ++i) {
+      if (const auto* const reading = std::get_if<std::size_t>(&report[i])) {
+        if (*reading != missing) add<1>({features_[i].log_likelihoods(*reading).data()}, logs);
+      } else {
+        const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), features_[i].relation());
+        add<1>({graded.logs().data()}, logs);
+      }
+    }
+  }
+
+  template <class SomeReport>
+  Likelihood<Pattern> likelihood_of(const SomeReport& report) const {
+    Table logs(1, prior_.size());
+    add_log_likelihood(report, logs.values());
+    return {prior_.variable(), std::move(logs), ByLaw{}};
+  }
+
+  void observe_likelihood(const Likelihood<Pattern>& report) { observe_likelihood(report, forgetting_); }
+  void observe_likelihood(const Likelihood<Pattern>& report, double weight_of_belief) {
+    if (weight_of_belief == 1.0) {
+      update(belief_, report, belief_);
+    } else {
+      faded_.assign([&](std::size_t c) { return faded(weight_of_belief, belief_.log(c)); });
+      update(faded_, report, belief_);
+    }
+  }
+
+  Distribution<Pattern> prior_;
+  std::vector<FeatureModel<Pattern, Feature>> features_;
+  Belief<Pattern> initial_;  // the prior as logarithms
   Belief<Pattern> belief_;
+  Belief<Pattern> faded_;  // what is left of the belief before the next report
+  double forgetting_ = 1.0;
 };
 
 }  // namespace sigmax

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <sigmax/core/belief.hpp>
+#include <sigmax/core/tie.hpp>
+
+namespace sigmax {
+
+/// What a belief is decided for.
+struct Decision {
+  std::size_t pattern;  ///< the winner
+  double margin;        ///< how far it leads; for possibilities its necessity N({winner})
+  std::size_t tied;     ///< how many patterns are as good, itself included: 1 if the winner is alone
+};
+
+/// The maximum a posteriori pattern: of those whose logarithm is within `tie_tolerance` of the greatest, the first.
+///
+/// Its margin is its own value less the greatest of the others: p(winner) − p(second), or, as the winner of a
+/// possibility is one, 1 − π(second) = N({winner}). A lone pattern's margin is its value, one.
+template <Uncertainty Kind>
+Decision decide(const Belief<Kind>& belief) {
+  const double least = belief.log(index_of_greatest(belief.logs())) - tie_tolerance;
+  const auto ties = [&](double log) { return log >= least; };
+  const auto winner = std::find_if(belief.logs().begin(), belief.logs().end(), ties);
+  const auto pattern = static_cast<std::size_t>(winner - belief.logs().begin());
+  double second = 0.0;
+  for (std::size_t c = 0; c < belief.size(); ++c)
+    if (c != pattern) second = std::max(second, belief[c]);
+  const auto tied = static_cast<std::size_t>(std::count_if(belief.logs().begin(), belief.logs().end(), ties));
+  return {pattern, tied == 1 ? belief[pattern] - second : 0.0, tied};
+}
+
+/// The same, or nothing if the margin is below `least_margin`: the reject option, by necessity or by posterior margin.
+template <Uncertainty Kind>
+std::optional<Decision> decide_or_reject(const Belief<Kind>& belief, double least_margin) {
+  const Decision decision = decide(belief);
+  if (decision.margin < least_margin) return std::nullopt;
+  return decision;
+}
+
+/// The k best patterns, best first; of equal ones, to within `tie_tolerance` of the better, the first declared is the
+/// better. All of them if there are not as many.
+template <Uncertainty Kind>
+std::vector<std::size_t> best_patterns(const Belief<Kind>& belief, std::size_t k) {
+  std::vector<std::size_t> order(belief.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return belief.log(a) > belief.log(b); });
+  // Runs of equal weights, each measured from its best, go in the order of declaration.
+  for (auto first = order.begin(); first != order.end();) {
+    const double least = belief.log(*first) - tie_tolerance;
+    const auto last = std::find_if(first, order.end(), [&](std::size_t c) { return belief.log(c) < least; });
+    std::sort(first, last);
+    first = last;
+  }
+  order.resize(std::min(k, order.size()));
+  return order;
+}
+
+}  // namespace sigmax

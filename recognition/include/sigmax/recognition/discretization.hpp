@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/variable.hpp>
+#include <sigmax/recognition/report.hpp>
+
+namespace sigmax {
+
+/// Bins of the real line: bin 0 is (−∞, cut 0), bin i is [cut i−1, cut i), the last is [last cut, ∞). A value on a cut
+/// belongs to the bin above it, and no value is outside.
+///
+/// Fit it on training data only: `equal_width`, `equal_frequency`, or give the cuts.
+class Discretization {
+ public:
+  /// Throws std::invalid_argument, with the cut, unless the cuts are finite and strictly ascending.
+  explicit Discretization(std::vector<double> cuts);
+
+  std::size_t size() const { return cuts_.size() + 1; }
+  std::span<const double> cuts() const { return cuts_; }
+
+  /// The bin of a value; `missing` for NaN.
+  std::size_t bin(double value) const;
+
+  /// Where a bin begins, and where the next one does; ∓∞ at the ends. Throws std::invalid_argument if there is no such
+  /// bin.
+  double lower(std::size_t bin) const;
+  double upper(std::size_t bin) const;
+
+  /// "below 2.5", "2.5 to 4", "4 and above"; "any" if there is a single bin.
+  std::vector<std::string> labels() const;
+
+  /// A variable whose outcomes are the bins.
+  template <Uncertainty Kind>
+  Variable<Kind> variable(std::string name) const {
+    return {std::move(name), labels()};
+  }
+
+ private:
+  std::vector<double> cuts_;
+};
+
+/// `bins` bins of equal width between the least and the greatest value; the outer two reach on to infinity. NaN are
+/// skipped. Throws std::invalid_argument if `bins` is zero, a value is infinite, or the values, of which there must be
+/// one, do not differ while several bins are wanted.
+Discretization equal_width(std::span<const double> values, std::size_t bins);
+
+/// `bins` bins with equal numbers of values, as far as ties allow: of n values in ascending order each cut is number
+/// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. Equal cuts, and cuts at the
+/// least value, are dropped, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does.
+Discretization equal_frequency(std::span<const double> values, std::size_t bins);
+
+}  // namespace sigmax

@@ -1,0 +1,59 @@
+#include <sigmax/recognition/evaluation.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace sigmax {
+
+double ConfusionMatrix::accuracy() const {
+  double right = 0.0, all = 0.0;
+  for (std::size_t truth = 0; truth < size(); ++truth) {
+    right += counts_(truth, truth);
+    for (const double count : counts_.row(truth)) all += count;
+  }
+  if (all == 0.0) throw std::domain_error("the accuracy of no case is not defined");
+  return right / all;
+}
+
+double ConfusionMatrix::f1(std::size_t pattern) const {
+  double either = 0.0;  // 2 TP + FP + FN
+  for (std::size_t other = 0; other < size(); ++other) either += counts_(pattern, other) + counts_(other, pattern);
+  return either == 0.0 ? 0.0 : 2.0 * counts_(pattern, pattern) / either;
+}
+
+double ConfusionMatrix::macro_f1() const {
+  double sum = 0.0, patterns = 0.0;
+  for (std::size_t pattern = 0; pattern < size(); ++pattern) {
+    bool occurs = false;
+    for (std::size_t other = 0; other < size(); ++other)
+      occurs = occurs || counts_(pattern, other) > 0.0 || counts_(other, pattern) > 0.0;
+    if (!occurs) continue;
+    sum += f1(pattern);
+    patterns += 1.0;
+  }
+  if (patterns == 0.0) throw std::domain_error("the F1 of no case is not defined");
+  return sum / patterns;
+}
+
+double mean(std::span<const double> scores) {
+  if (scores.empty()) throw std::domain_error("the mean of no score is not defined");
+  double sum = 0.0;
+  for (const double score : scores) sum += score;
+  return sum / static_cast<double>(scores.size());
+}
+
+Interval paired_interval(std::span<const double> a, std::span<const double> b) {
+  if (a.size() != b.size() || a.size() < 2)
+    throw std::invalid_argument("a paired interval needs scores of the same cases, at least two, not " +
+                                std::to_string(a.size()) + " and " + std::to_string(b.size()));
+  std::vector<double> differences(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
+  const double centre = mean(differences);
+  double squares = 0.0;
+  for (const double difference : differences) squares += (difference - centre) * (difference - centre);
+  const double n = static_cast<double>(a.size());
+  const double half = 1.959963984540054 * std::sqrt(squares / (n - 1.0) / n);
+  return {centre, centre - half, centre + half};
+}
+
+}  // namespace sigmax

@@ -1,0 +1,342 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/transform.hpp>
+#include <sigmax/recognition/classifier.hpp>
+
+#include "laws/generate.hpp"
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+/// Several features a report, any of them missing; batches, forgetting, and relations that change with every step.
+namespace sigmax {
+namespace {
+
+using laws::any;
+using laws::by_kind;
+using plain::By;
+using plain::Numbers;
+using plain::Rows;
+using support::holds;
+using support::near;
+using support::require_near;
+using support::throws;
+
+using Readings = std::vector<std::size_t>;
+
+/// Numbers in [1/64, 1]: whatever is multiplied here, plain numbers can follow.
+Numbers moderate_numbers(std::size_t n) {
+  return any([n](rc::Random& random) {
+    Numbers numbers(n);
+    for (double& number : numbers) number = static_cast<double>(1 + random.next() % 64) / 64.0;
+    return numbers;
+  });
+}
+Numbers moderate_distribution(By by, std::size_t n) {
+  Numbers numbers = moderate_numbers(n);
+  const Numbers ones(n, 1.0);
+  return plain::update(by, numbers, ones);
+}
+Rows moderate_rows(By by, std::size_t rows, std::size_t columns) {
+  Rows result;
+  for (std::size_t i = 0; i < rows; ++i) result.push_back(moderate_distribution(by, columns));
+  return result;
+}
+
+/// A classifier with one to four features, and the numbers that it was made of.
+template <class Kind>
+struct Case {
+  Variable<Kind> pattern{"pattern", laws::any_size()};
+  Numbers prior = moderate_distribution(by_kind<Kind>, pattern.size());
+  std::vector<Variable<Kind>> features;
+  std::vector<Rows> rows;
+
+  Case() {
+    const auto n = *rc::gen::inRange<std::size_t>(1, 5);
+    for (std::size_t i = 0; i < n; ++i) {
+      features.emplace_back("feature " + std::to_string(i), laws::any_size());
+      rows.push_back(moderate_rows(by_kind<Kind>, pattern.size(), features[i].size()));
+    }
+  }
+
+  Classifier<Kind, Kind> classifier() const {
+    std::vector<Relation<Kind, Kind>> relations;
+    for (std::size_t i = 0; i < rows.size(); ++i) relations.emplace_back(features[i], pattern, rows[i]);
+    return {Distribution<Kind>{pattern, prior}, relations};
+  }
+
+  Readings any_readings() const {
+    Readings result;
+    for (const auto& feature : features) {
+      const auto reading = *rc::gen::inRange<std::size_t>(0, feature.size() + 1);
+      result.push_back(reading == feature.size() ? missing : reading);
+    }
+    return result;
+  }
+
+  /// The product over what was read, by plain loops.
+  Numbers likelihood(const Readings& readings) const {
+    Numbers result(pattern.size(), 1.0);
+    for (std::size_t i = 0; i < readings.size(); ++i)
+      for (std::size_t c = 0; c < result.size(); ++c)
+        if (readings[i] != missing) result[c] *= rows[i][c][readings[i]];
+    return result;
+  }
+};
+
+template <class Kind>
+class ClassifierWithFeatures : public testing::Test {};
+using Kinds = testing::Types<Random, Fuzzy>;
+TYPED_TEST_SUITE(ClassifierWithFeatures, Kinds);
+
+TYPED_TEST(ClassifierWithFeatures, MultipliesWhatTheFeaturesSayAndSkipsWhatIsMissing) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto classifier = with.classifier();
+    Numbers expected = with.prior;
+    for (int k = 0; k < 4; ++k) {
+      const Readings readings = with.any_readings();
+      expected = plain::update(by_kind<TypeParam>, expected, with.likelihood(readings));
+      classifier.observe(readings);
+      require_near(classifier.belief().values(), expected);
+    }
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, TakesCrispAndGradedFindingsInOneReport) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto classifier = with.classifier();
+    const Readings readings = with.any_readings();
+    Report<TypeParam> report;
+    Numbers likelihood(with.pattern.size(), 1.0);
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      if (*rc::gen::inRange(0, 2) == 0) {
+        report.emplace_back(readings[i]);
+        if (readings[i] == missing) continue;
+        for (std::size_t c = 0; c < likelihood.size(); ++c) likelihood[c] *= with.rows[i][c][readings[i]];
+      } else {
+        const Numbers graded = moderate_numbers(with.features[i].size());
+        report.emplace_back(Likelihood{with.features[i], graded});
+        for (std::size_t c = 0; c < likelihood.size(); ++c)
+          likelihood[c] *= static_cast<double>(plain::evidence(by_kind<TypeParam>, with.rows[i][c], graded));
+      }
+    }
+    classifier.observe(report);
+    require_near(classifier.belief().values(), plain::update(by_kind<TypeParam>, with.prior, likelihood));
+    Numbers found(with.pattern.size());
+    const auto library = classifier.likelihood(report);
+    for (std::size_t c = 0; c < found.size(); ++c) found[c] = library[c];
+    require_near(found, likelihood);
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, BelievesTheSameWhateverTheOrderOfTheReports) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto forwards = with.classifier(), shuffled = with.classifier();
+    std::vector<Readings> reports;
+    for (int k = 0; k < 6; ++k) reports.push_back(with.any_readings());
+    const auto order = laws::any_order(reports.size());
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+      forwards.observe(reports[k]);
+      shuffled.observe(reports[order[k]]);
+    }
+    require_near(forwards.belief().values(), shuffled.belief().values());
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto one_by_one = with.classifier(), at_once = with.classifier();
+    const double factor = any([](rc::Random& random) { return static_cast<double>(1 + random.next() % 8) / 8.0; });
+    one_by_one.set_forgetting(factor);
+    at_once.set_forgetting(factor);
+    std::vector<Readings> reports;
+    for (int k = 0; k < 7; ++k) reports.push_back(with.any_readings());
+    for (const Readings& readings : reports) one_by_one.observe(readings);
+    at_once.observe_all(reports);
+    require_near(at_once.log_belief().logs(), one_by_one.log_belief().logs());
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, ForgetsByPowersOfTheBelief) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto classifier = with.classifier();
+    classifier.set_forgetting(0.75);
+    Numbers expected = with.prior;
+    for (int k = 0; k < 4; ++k) {
+      const Readings readings = with.any_readings();
+      for (double& value : expected) value = std::pow(value, 0.75);
+      expected = plain::update(by_kind<TypeParam>, expected, with.likelihood(readings));
+      classifier.observe(readings);
+      require_near(classifier.belief().values(), expected);
+    }
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, ResetGoesBackToThePrior) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto classifier = with.classifier();
+    const Readings first = with.any_readings(), second = with.any_readings();
+    classifier.observe(first);
+    classifier.reset();
+    require_near(classifier.belief().values(), with.prior);
+    classifier.observe(second);
+    require_near(classifier.belief().values(), plain::update(by_kind<TypeParam>, with.prior, with.likelihood(second)));
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, RelabellingPatternsRelabelsBeliefs) {
+  holds([] {
+    const Case<TypeParam> with;
+    const auto order = laws::any_order(with.pattern.size());
+    Case<TypeParam> relabelled = with;
+    for (std::size_t c = 0; c < order.size(); ++c) {
+      relabelled.prior[c] = with.prior[order[c]];
+      for (std::size_t i = 0; i < with.rows.size(); ++i) relabelled.rows[i][c] = with.rows[i][order[c]];
+    }
+    auto classifier = with.classifier(), other = relabelled.classifier();
+    const Readings readings = with.any_readings();
+    classifier.observe(readings);
+    other.observe(readings);
+    for (std::size_t c = 0; c < order.size(); ++c) require_near(other.belief()[c], classifier.belief()[order[c]]);
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, WithThePredictedFeatureIsThePrintedRecursion) {  // (41)–(43), (44)–(46)
+  constexpr By by = by_kind<TypeParam>;
+  holds([] {
+    const Variable<TypeParam> pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
+    const Rows pattern_given_feature = moderate_rows(by, feature.size(), pattern.size());
+    const Numbers prior = moderate_distribution(by, pattern.size());
+    Classifier classifier{Distribution{pattern, prior},
+                          Relation{feature, pattern, moderate_rows(by, pattern.size(), feature.size())}};  // not used
+    Numbers expected = prior;
+    for (int k = 0; k < 3; ++k) {
+      const Numbers prediction = moderate_distribution(by, feature.size()), report = moderate_numbers(feature.size());
+      Numbers likelihood;
+      for (const Numbers& row : plain::invert(by, pattern_given_feature, prediction))  // (43), (46)
+        likelihood.push_back(static_cast<double>(plain::evidence(by, row, report)));   // (42), (45)
+      expected = plain::update(by, expected, likelihood);                              // (41), (44)
+      classifier.observe_predicted(Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
+                                   Distribution{feature, prediction});
+      require_near(classifier.belief().values(), expected);
+    }
+  });
+}
+
+/// With the pattern independent of earlier reports given the feature, all that is known of it comes by the prediction
+/// of the feature: its own prior cancels.
+TYPED_TEST(ClassifierWithFeatures, ThePriorCancelsIfTheFeatureCarriesAllThatIsKnown) {
+  constexpr By by = by_kind<TypeParam>;
+  holds([] {
+    const Variable<TypeParam> pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
+    const Rows pattern_given_feature = moderate_rows(by, feature.size(), pattern.size());
+    Numbers of_feature = moderate_distribution(by, feature.size());
+    Classifier classifier{Distribution{pattern, plain::compose(by, pattern_given_feature, of_feature)},
+                          Relation{feature, pattern, moderate_rows(by, pattern.size(), feature.size())}};
+    for (int k = 0; k < 3; ++k) {
+      const Numbers report = moderate_numbers(feature.size());
+      classifier.observe_predicted(Likelihood{feature, report}, Relation{pattern, feature, pattern_given_feature},
+                                   Distribution{feature, of_feature});
+      of_feature = plain::update(by, of_feature, report);
+      require_near(classifier.belief().values(), plain::compose(by, pattern_given_feature, of_feature));
+    }
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, SurvivesAMillionReports) {
+  const Variable<TypeParam> pattern{"pattern", 3}, hair{"hair", 2}, legs{"legs", 3};
+  const bool random = by_kind<TypeParam> == By::sum;
+  const Rows of_hair = random ? Rows{{0.5, 0.5}, {0.25, 0.75}, {0.75, 0.25}} : Rows{{1, 1}, {0.25, 1}, {1, 0.25}};
+  const Rows of_legs = random ? Rows{{0.5, 0.25, 0.25}, {0.25, 0.5, 0.25}, {0.1, 0.1, 0.8}}
+                              : Rows{{1, 0.5, 0.5}, {0.5, 1, 0.5}, {0.125, 0.125, 1}};
+  Classifier classifier{uninformative(pattern),
+                        std::vector{Relation{hair, pattern, of_hair}, Relation{legs, pattern, of_legs}}};
+  std::mt19937_64 generator(1);
+  std::vector<long double> sums(3, 0.0L);
+  for (int k = 0; k < 1000000; ++k) {
+    const std::size_t h = generator() % 3, l = generator() % 4;  // the last of each: missing
+    classifier.observe(Readings{h == 2 ? missing : h, l == 3 ? missing : l});
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[c] += (h == 2 ? 0.0L : std::log(static_cast<long double>(of_hair[c][h]))) +
+                 (l == 3 ? 0.0L : std::log(static_cast<long double>(of_legs[c][l])));
+  }
+  const long double greatest = *std::max_element(sums.begin(), sums.end());
+  for (std::size_t c = 0; c < 3; ++c)  // the losers are far below any double
+    EXPECT_PRED_FORMAT3(near, classifier.log_belief().log(c), static_cast<double>(sums[c] - greatest), 1e-9);
+  EXPECT_LT(classifier.log_belief().log(2), -10000.0);
+}
+
+TYPED_TEST(ClassifierWithFeatures, IsLeftAsItWasByABatchThatExcludesEveryPattern) {
+  const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
+  Classifier classifier{uninformative(pattern), Relation{feature, pattern, Rows{{1.0, 0.0}, {0.0, 1.0}}}};
+  classifier.set_forgetting(0.5);
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        classifier.observe_all(std::vector<Readings>{{0}, {1}});
+      },
+      {"'pattern'"}));
+  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), uninformative(pattern).values(), 0.0);
+  classifier.observe(Readings{1});
+  EXPECT_THROW(classifier.observe(Readings{0}), std::domain_error);  // forgetting does not bring back what is excluded
+  EXPECT_EQ(classifier.belief()[1], 1.0);
+}
+
+TYPED_TEST(ClassifierWithFeatures, ForgetsALongBatchWithoutLosingWhatIsExcluded) {
+  const Variable<TypeParam> pattern{"pattern", 3}, feature{"feature", 2};
+  const Rows rows = by_kind<TypeParam> == By::sum ? Rows{{0.5, 0.5}, {0.25, 0.75}, {0.75, 0.25}}
+                                                  : Rows{{1.0, 1.0}, {0.25, 1.0}, {1.0, 0.25}};
+  const Numbers prior = by_kind<TypeParam> == By::sum ? Numbers{0.5, 0.0, 0.5} : Numbers{1.0, 0.0, 1.0};
+  Classifier classifier{Distribution{pattern, prior}, Relation{feature, pattern, rows}};
+  classifier.set_forgetting(0.25);
+  classifier.observe_all(std::vector<Readings>(2000, Readings{0}));  // 0.25²⁰⁰⁰ is no double
+  EXPECT_EQ(classifier.log_belief().log(1), log_zero);
+  // What is left of the reports is a geometric series: Σ 4⁻ᵏ = 4/3.
+  const double ratio = std::pow(rows[2][0] / rows[0][0], 4.0 / 3.0);
+  EXPECT_PRED_FORMAT3(near, classifier.belief()[2] / classifier.belief()[0], ratio, 1e-12);
+}
+
+TEST(Classifier, RefusesWhatDoesNotFit) {
+  const RandomVariable animal{"animal", {"cat", "hen"}}, legs{"legs", {"2", "4"}}, milk{"milk", {"no", "yes"}};
+  const RandomVariable other{"plant", {"oak", "fern"}};
+  const Relation legs_given_animal{legs, animal, {{0.0, 1.0}, {1.0, 0.0}}};
+  const Relation milk_given_animal{milk, animal, {{0.0, 1.0}, {1.0, 0.0}}};
+  const Relation milk_given_plant{milk, other, {{1.0, 0.0}, {1.0, 0.0}}};
+  const std::vector<Relation<Random, Random>> none;
+  EXPECT_TRUE(
+      throws<std::invalid_argument>([&] { Classifier(uninformative(animal), none); }, {"'animal'", "one feature"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        Classifier(uninformative(animal), std::vector{legs_given_animal, milk_given_plant});
+      },
+      {"'animal'", "'plant'"}));
+  Classifier classifier{uninformative(animal), std::vector{legs_given_animal, milk_given_animal}};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { classifier.observe(Readings{0}); }, {"'animal'", "2", "1 findings"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { classifier.observe(Readings{0, 2}); }, {"'milk'", "2"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { classifier.observe(Likelihood{legs}); }, {"'animal'", "2 features"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        classifier.observe(Report<Random>{Likelihood{milk}, missing});
+      },
+      {"'milk'", "'legs'"}));
+  for (const double factor : {0.0, -0.5, 1.5, std::nan("")})
+    EXPECT_TRUE(
+        throws<std::invalid_argument>([&] { classifier.set_forgetting(factor); }, {"(0, 1]", std::to_string(factor)}));
+  EXPECT_EQ(classifier.forgetting(), 1.0);
+  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.5, 0.5}), 0.0);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/recognition/folds.hpp>
+
+#include "laws/generate.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::holds;
+using support::throws;
+
+using Labels = std::vector<std::size_t>;
+
+std::size_t spread(const Labels& sizes) {
+  return *std::max_element(sizes.begin(), sizes.end()) - *std::min_element(sizes.begin(), sizes.end());
+}
+
+TEST(StratifiedFolds, AreLevelOverAllAndWithinEveryLabel) {
+  holds([] {
+    const auto n = *rc::gen::inRange<std::size_t>(2, 60);
+    const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
+    Labels labels(n);
+    for (auto& label : labels) label = *rc::gen::inRange<std::size_t>(0, 4);
+    std::mt19937_64 generator(n);
+    const auto fold_of = stratified_folds(labels, folds, generator);
+    RC_ASSERT(fold_of.size() == n);
+    Labels all(folds, 0);
+    std::vector<Labels> within(4, Labels(folds, 0));
+    for (std::size_t row = 0; row < n; ++row) {
+      RC_ASSERT(fold_of[row] < folds);
+      ++all[fold_of[row]];
+      ++within[labels[row]][fold_of[row]];
+    }
+    RC_ASSERT(spread(all) <= 1U);
+    for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
+  });
+}
+
+TEST(StratifiedFolds, AreTheSameForASeedAndOthersForAnother) {
+  Labels labels(40);
+  for (std::size_t row = 0; row < labels.size(); ++row) labels[row] = row % 3;
+  std::mt19937_64 one(1), again(1), other(2);
+  const auto folds = stratified_folds(labels, 5, one);
+  EXPECT_EQ(folds, stratified_folds(labels, 5, again));
+  EXPECT_NE(folds, stratified_folds(labels, 5, other));
+}
+
+/// Every row is as likely in one fold as in another: χ² with one degree of freedom for each row.
+TEST(StratifiedFolds, FavourNoRow) {
+  const Labels labels{0, 0, 0, 1, 1, 1, 1, 1};
+  constexpr int runs = 4000;
+  std::mt19937_64 generator(7);
+  Labels in_first(labels.size(), 0);
+  for (int run = 0; run < runs; ++run) {
+    const auto fold_of = stratified_folds(labels, 2, generator);
+    for (std::size_t row = 0; row < labels.size(); ++row) in_first[row] += fold_of[row] == 0 ? 1U : 0U;
+  }
+  // Of the three rows of label 0 two go to fold 0, of the five of label 1 two (the deal goes on from fold 1).
+  for (std::size_t row = 0; row < labels.size(); ++row) {
+    const double expected = runs * (labels[row] == 0 ? 2.0 / 3.0 : 2.0 / 5.0);
+    EXPECT_LT(std::abs(static_cast<double>(in_first[row]) - expected), 5.0 * std::sqrt(runs * 0.25)) << row;
+  }
+}
+
+TEST(StratifiedFolds, RefuseAnImpossibleNumber) {
+  std::mt19937_64 generator(1);
+  const Labels labels{0, 1, 0};
+  for (const std::size_t folds : {0U, 1U, 4U})
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { stratified_folds(labels, folds, generator); },
+                                              {"folds", "3", std::to_string(folds)}));
+}
+
+}  // namespace
+}  // namespace sigmax
