@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/motion.hpp>
 
 namespace sigmax {
 
@@ -62,14 +63,7 @@ class KinematicModel {
   const Vector<Axes>& input() const { return input_; }
   std::string_view name() const { return order() == 2 ? "dwna" : "dwpa"; }
 
-  std::vector<std::string> components() const {
-    std::vector<std::string> names;
-    for (const char* derivative : {"", "v", "a"})
-      for (const char* axis : {"x", "y", "z"})
-        if (names.size() < static_cast<std::size_t>(size()) && axis[0] - 'x' < Axes)
-          names.push_back(std::string(derivative) + axis);
-    return names;
-  }
+  std::vector<std::string> components() const { return motion_components(Axes, static_cast<int>(order())); }
 
   /// G_s(a) and F_s(a, b) = taylor(dt)[b − a], for one axis.
   static std::array<double, 3> gain(double dt) { return {0.5 * dt * dt, dt, 1.0}; }

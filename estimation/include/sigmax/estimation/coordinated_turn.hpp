@@ -1,0 +1,94 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/nonlinear_model.hpp>
+#include <sigmax/estimation/turn.hpp>
+#include <sigmax/estimation/white_noise.hpp>
+
+namespace sigmax {
+
+/// A horizontal turn at a rate that is estimated with the state; not linear, so for `Extended`, `Unscented` or
+/// `Cubature`. States x, y, vx, vy, ω or x, y, z, vx, vy, vz, ω, where ω ("omega", rad/s, counter-clockwise) is a
+/// Wiener process and z moves uniformly. It measures the position.
+///
+/// f turns the velocity by θ = ωT and moves the position along the arc (Bar-Shalom, Li, Kirubarajan 2001, 11.7.1), and
+/// is smooth at ω = 0. The noise is that of CWNA on every axis, q in m²/s³, its turning within the step neglected, and
+/// q_ω T for ω, q_ω in rad²/s³.
+template <int Axes>
+class CoordinatedTurn {
+  static_assert(Axes == 2 || Axes == 3, "a turn needs two axes, and may have an altitude");
+
+ public:
+  static constexpr int axes = Axes;
+  static constexpr int state_size = 2 * Axes + 1;
+  static constexpr int max_state_size = state_size;
+  static constexpr int measurement_size = Axes;
+
+  using State = Vector<state_size>;
+  using Matrix = SquareMatrix<state_size>;
+
+  /// Throws std::invalid_argument unless q and q_ω are finite and not negative.
+  CoordinatedTurn(double q, double q_omega)
+      : noise_(cwna<Axes>(motion_parameter(q, "q", name()))), q_omega_(motion_parameter(q_omega, "q_omega", name())) {}
+
+  double q() const { return noise_.law().q(); }
+  double q_omega() const { return q_omega_; }
+  Eigen::Index size() const { return state_size; }
+  std::string_view name() const { return "coordinated_turn"; }
+  std::vector<std::string> components() const {
+    auto names = motion_components(Axes, 2);
+    names.push_back("omega");
+    return names;
+  }
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, state_size, 1> propagate(const Eigen::Matrix<Scalar, state_size, 1>& x, double dt) const {
+    const Turn<Scalar> turn(Scalar(x(2 * Axes) * dt));
+    const Scalar &vx = x(Axes), &vy = x(Axes + 1);
+    Eigen::Matrix<Scalar, state_size, 1> result = x;
+    result(0) += dt * (turn.along * vx - turn.across * vy);
+    result(1) += dt * (turn.across * vx + turn.along * vy);
+    result(Axes) = turn.cosine * vx - turn.sine * vy;
+    result(Axes + 1) = turn.sine * vx + turn.cosine * vy;
+    if constexpr (Axes == 3) result(2) += dt * x(5);
+    return result;
+  }
+  Matrix transition_jacobian(const State& x, double dt) const {
+    const double omega = x(2 * Axes);
+    const double theta = omega * dt;
+    const Turn<double> turn(theta);
+    const double half = sinc(0.5 * theta);
+    const double along = sinc_derivative(theta);
+    const double across = 0.5 * half * half + 0.5 * theta * half * sinc_derivative(0.5 * theta);
+    const double vx = x(Axes), vy = x(Axes + 1);
+    Matrix F = Matrix::Identity();
+    F.template topLeftCorner<2 * Axes, 2 * Axes>() = turn_transition<Axes>(omega, dt);
+    F(0, 2 * Axes) = dt * dt * (along * vx - across * vy);
+    F(1, 2 * Axes) = dt * dt * (across * vx + along * vy);
+    F(Axes, 2 * Axes) = -dt * (turn.sine * vx + turn.cosine * vy);
+    F(Axes + 1, 2 * Axes) = dt * (turn.cosine * vx - turn.sine * vy);
+    return F;
+  }
+  Matrix process_covariance(double dt) const {
+    Matrix Q = Matrix::Zero();
+    Q.template topLeftCorner<2 * Axes, 2 * Axes>() = noise_.process_covariance(dt);
+    Q(2 * Axes, 2 * Axes) = q_omega_ * dt;
+    return Q;
+  }
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, state_size, 1>& x) const {
+    return x.template head<Axes>();
+  }
+  RectangularMatrix<Axes, state_size> measurement_jacobian(const State&) const {
+    return RectangularMatrix<Axes, state_size>::Identity();
+  }
+
+ private:
+  IndependentAxes<Axes, WhiteNoise<2>> noise_;
+  double q_omega_;
+};
+
+}  // namespace sigmax

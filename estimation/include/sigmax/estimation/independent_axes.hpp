@@ -1,0 +1,107 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/motion.hpp>
+
+namespace sigmax {
+
+/// How a coordinate moves, by its valid expressions; matrices are over its derivatives: position, velocity, …
+///
+///   Law::order                 number of derivatives, position included, 1 to 3
+///   law.name()                 for people
+///   law.transition(dt)         F_s, upper triangular
+///   law.process_covariance(dt) Q_s
+///   law.input_gain(dt)         what a known input of one adds to the derivatives
+template <class Law>
+concept MotionLaw = requires(const Law& law, double dt) {
+  { law.name() } -> std::convertible_to<std::string_view>;
+  { law.transition(dt) } -> MatrixOf<Law::order, Law::order>;
+  { law.process_covariance(dt) } -> MatrixOf<Law::order, Law::order>;
+  { law.input_gain(dt) } -> MatrixOf<Law::order>;
+};
+
+/// Motion along independent axes that follow one law: F = F_s ⊗ I, Q = Q_s ⊗ I, with states ordered by derivative as in
+/// KinematicModel. It measures the position.
+template <int Axes, MotionLaw Law>
+class IndependentAxes {
+  static_assert(Axes >= 1 && Axes <= 3, "one to three axes");
+
+ public:
+  static constexpr int axes = Axes;
+  static constexpr int order = Law::order;
+  static constexpr int state_size = Axes * order;
+  static constexpr int max_state_size = state_size;
+  static constexpr int measurement_size = Axes;
+  static constexpr bool measures_leading_components = true;
+
+  using State = Vector<state_size>;
+  using Matrix = SquareMatrix<state_size>;
+
+  explicit IndependentAxes(const Law& law, const Vector<Axes>& known_input = Vector<Axes>::Zero())
+      : law_(law), input_(known_input) {}
+
+  const Law& law() const { return law_; }
+  Eigen::Index size() const { return state_size; }
+  std::string_view name() const { return law_.name(); }
+  std::vector<std::string> components() const { return motion_components(Axes, order); }
+
+  Matrix transition(double dt) const { return for_all_axes(law_.transition(dt)); }
+  Matrix process_covariance(double dt) const { return for_all_axes(law_.process_covariance(dt)); }
+  State known_input(double dt) const {
+    const Vector<order> gain = law_.input_gain(dt);
+    State u;
+    for (Eigen::Index a = 0; a < order; ++a) u.template segment<Axes>(a * Axes) = gain(a) * input_;
+    return u;
+  }
+  RectangularMatrix<Axes, state_size> measurement_matrix() const {
+    return RectangularMatrix<Axes, state_size>::Identity();
+  }
+
+ private:
+  static Matrix for_all_axes(const SquareMatrix<order>& law) {
+    Matrix result = Matrix::Zero();
+    for (Eigen::Index a = 0; a < order; ++a)
+      for (Eigen::Index b = 0; b < order; ++b)
+        result.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().setConstant(law(a, b));
+    return result;
+  }
+
+  Law law_;
+  Vector<Axes> input_;
+};
+
+/// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular. `result` may be `prior`.
+template <int Axes, class Law>
+void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
+             EstimateOf<IndependentAxes<Axes, Law>>& result) {
+  constexpr int order = Law::order;
+  const SquareMatrix<order> f = model.law().transition(dt);
+  const SquareMatrix<order> q = model.law().process_covariance(dt);
+  if (&result != &prior) result = prior;
+  auto& x = result.mean;
+  auto& P = result.covariance;
+  for (Eigen::Index a = 0; a < order; ++a) {  // later blocks are still unchanged
+    x.template segment<Axes>(a * Axes) *= f(a, a);
+    P.template middleRows<Axes>(a * Axes) *= f(a, a);
+    for (Eigen::Index b = a + 1; b < order; ++b) {
+      x.template segment<Axes>(a * Axes) += f(a, b) * x.template segment<Axes>(b * Axes);
+      P.template middleRows<Axes>(a * Axes) += f(a, b) * P.template middleRows<Axes>(b * Axes);
+    }
+  }
+  for (Eigen::Index a = 0; a < order; ++a) {
+    P.template middleCols<Axes>(a * Axes) *= f(a, a);
+    for (Eigen::Index b = a + 1; b < order; ++b)
+      P.template middleCols<Axes>(a * Axes) += f(a, b) * P.template middleCols<Axes>(b * Axes);
+  }
+  x += model.known_input(dt);
+  for (Eigen::Index a = 0; a < order; ++a)
+    for (Eigen::Index b = 0; b < order; ++b)
+      P.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().array() += q(a, b);
+  mirror_lower(P);
+}
+
+}  // namespace sigmax

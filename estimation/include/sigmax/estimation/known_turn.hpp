@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/motion.hpp>
+#include <sigmax/estimation/turn.hpp>
+
+namespace sigmax {
+
+/// A horizontal turn at a known rate ω (rad/s, counter-clockwise), driven by continuous white-noise acceleration of
+/// power spectral density q (m²/s³) on every axis; linear. States x, y, vx, vy or x, y, z, vx, vy, vz, where z moves as
+/// in CWNA. It measures the position. With θ = ωT (Bar-Shalom, Li, Kirubarajan 2001, 4.2.2 and 11.7.1; Q is the exact
+/// integral)
+///
+///   F = [I  T(sin θ/θ I + (1−cos θ)/θ J); 0  cos θ I + sin θ J],  J a quarter turn,
+///   Q = q [2T³ s I, T² (c I + θ s J); ·, T I],  s = (θ − sin θ)/θ³,  c = (1 − cos θ)/θ².
+///
+/// ω = 0 is CWNA.
+template <int Axes>
+class KnownTurn {
+  static_assert(Axes == 2 || Axes == 3, "a turn needs two axes, and may have an altitude");
+
+ public:
+  static constexpr int axes = Axes;
+  static constexpr int state_size = 2 * Axes;
+  static constexpr int max_state_size = state_size;
+  static constexpr int measurement_size = Axes;
+  static constexpr bool measures_leading_components = true;
+
+  using State = Vector<state_size>;
+  using Matrix = SquareMatrix<state_size>;
+
+  /// Throws std::invalid_argument unless ω is finite, and q finite and not negative.
+  KnownTurn(double omega, double q) : omega_(omega), q_(motion_parameter(q, "q", name())) {
+    if (!std::isfinite(omega))
+      throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) +
+                                  "; expected a finite one");
+  }
+
+  double omega() const { return omega_; }
+  double q() const { return q_; }
+  Eigen::Index size() const { return state_size; }
+  std::string_view name() const { return "known_turn"; }
+  std::vector<std::string> components() const { return motion_components(Axes, 2); }
+
+  Matrix transition(double dt) const { return turn_transition<Axes>(omega_, dt); }
+  Matrix process_covariance(double dt) const {
+    const double theta = omega_ * dt;
+    const double s = cubic_remainder_of_sine(theta);
+    const double c = 0.5 * sinc(0.5 * theta) * sinc(0.5 * theta);
+    Matrix Q = Matrix::Zero();
+    for (Eigen::Index a = 0; a < Axes; ++a) {
+      const bool turns = a < 2;
+      Q(a, a) = q_ * dt * dt * dt * (turns ? 2.0 * s : 1.0 / 3.0);
+      Q(a, Axes + a) = Q(Axes + a, a) = q_ * dt * dt * (turns ? c : 0.5);
+      Q(Axes + a, Axes + a) = q_ * dt;
+    }
+    Q(0, Axes + 1) = Q(Axes + 1, 0) = q_ * dt * dt * theta * s;
+    Q(1, Axes) = Q(Axes, 1) = -Q(0, Axes + 1);
+    return Q;
+  }
+  State known_input(double) const { return State::Zero(); }
+  RectangularMatrix<Axes, state_size> measurement_matrix() const {
+    return RectangularMatrix<Axes, state_size>::Identity();
+  }
+
+ private:
+  double omega_;
+  double q_;
+};
+
+}  // namespace sigmax

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include <sigmax/estimation/gaussian.hpp>
+#include <sigmax/estimation/radar.hpp>
+
+namespace sigmax {
+
+/// The angle less whole turns, in [−π, π].
+inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+/// Measures the position itself, H = [I 0], in m.
+template <int Axes>
+struct PositionSensor {
+  static constexpr int axes = Axes;
+  static constexpr int measurement_size = Axes;
+  static constexpr bool measures_leading_components = true;
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
+    return position;
+  }
+  SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>&) const { return SquareMatrix<Axes>::Identity(); }
+};
+
+/// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
+/// x–y plane, in rad, of a target as seen from `origin`. Differences of azimuths are wrapped. The Jacobian does not
+/// exist at the origin and, of the azimuth, above it.
+template <int Axes>
+class PolarSensor {
+  static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
+
+ public:
+  static constexpr int axes = Axes;
+  static constexpr int measurement_size = Axes;
+
+  explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(origin) {}
+  const Vector<Axes>& origin() const { return origin_; }
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
+    using std::atan2, std::sqrt;
+    const Scalar x = position(0) - origin_(0);
+    const Scalar y = position(1) - origin_(1);
+    const Scalar ground = sqrt(Scalar(x * x + y * y));
+    Eigen::Matrix<Scalar, Axes, 1> seen;
+    seen(1) = atan2(y, x);
+    if constexpr (Axes == 2) {
+      seen(0) = ground;
+    } else {
+      const Scalar z = position(2) - origin_(2);
+      seen(0) = sqrt(Scalar(x * x + y * y + z * z));
+      seen(2) = atan2(z, ground);
+    }
+    return seen;
+  }
+
+  SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>& position) const {
+    const Vector<Axes> d = position - origin_;
+    const double r = d.norm();
+    const double ground_squared = d(0) * d(0) + d(1) * d(1);
+    SquareMatrix<Axes> H = SquareMatrix<Axes>::Zero();
+    H.row(0) = d.transpose() / r;
+    H(1, 0) = -d(1) / ground_squared;
+    H(1, 1) = d(0) / ground_squared;
+    if constexpr (Axes == 3) {
+      const double ground = std::sqrt(ground_squared);
+      H.row(2) << -d(0) * d(2) / (r * r * ground), -d(1) * d(2) / (r * r * ground), ground / (r * r);
+    }
+    return H;
+  }
+
+  Vector<Axes> measurement_difference(const Vector<Axes>& z, const Vector<Axes>& predicted) const {
+    Vector<Axes> difference = z - predicted;
+    difference(1) = wrapped(difference(1));
+    return difference;
+  }
+
+  /// What a radar with these standard deviations measured; with two axes the elevation is of no account.
+  static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
+    const Vector<3> z(measured.range, measured.azimuth, measured.elevation);
+    const Vector<3> deviations(sigma.range, sigma.azimuth, sigma.elevation);
+    return {z.head<Axes>(), deviations.head<Axes>().cwiseAbs2().asDiagonal()};
+  }
+
+ private:
+  Vector<Axes> origin_;
+};
+
+/// Measures only the azimuth of a target, counter-clockwise from x in rad, as seen from `origin`. Differences are
+/// wrapped. One such sensor that stands still does not tell the range.
+class BearingSensor {
+ public:
+  static constexpr int axes = 2;
+  static constexpr int measurement_size = 1;
+
+  explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(origin) {}
+  const Vector<2>& origin() const { return origin_; }
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 2, 1>& position) const {
+    using std::atan2;
+    const Scalar x = position(0) - origin_(0);
+    const Scalar y = position(1) - origin_(1);
+    return Eigen::Matrix<Scalar, 1, 1>(Scalar(atan2(y, x)));
+  }
+
+  Eigen::RowVector2d measurement_jacobian(const Vector<2>& position) const {
+    const Vector<2> d = position - origin_;
+    return Eigen::RowVector2d(-d(1), d(0)) / d.squaredNorm();
+  }
+
+  Vector<1> measurement_difference(const Vector<1>& z, const Vector<1>& predicted) const {
+    return Vector<1>(wrapped(z(0) - predicted(0)));
+  }
+
+ private:
+  Vector<2> origin_;
+};
+
+}  // namespace sigmax

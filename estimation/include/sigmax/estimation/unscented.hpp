@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <sigmax/estimation/sigma_points.hpp>
+
+namespace sigmax {
+
+/// Where the unscented transform puts its points, c = α² (n + κ), and what their centre weighs: 1 − n/c for means and
+/// 1 − n/c + 1 − α² + β for covariances (Julier and Uhlmann 1997; Wan and van der Merwe 2000).
+///
+/// The defaults are such that no weight is negative, so no covariance loses its definiteness. κ = 3 − n with β = 0
+/// matches the fourth moment along each axis, but has negative weights from four states on.
+struct UnscentedScaling {
+  double alpha = 1.0;
+  double beta = 2.0;
+  double kappa = 0.0;
+};
+
+/// The unscented Kalman filter over a model: no Jacobians, 2n + 1 evaluations of f and of h.
+///
+/// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
+/// and the variance gᵀg + ¼ c Σ B_ii² + ¼ (β − α²)(tr B)²; the exact one is gᵀg + ½ Σ B_ij².
+template <NonlinearModel Model>
+class Unscented : public Member<Model> {
+ public:
+  static constexpr bool has_centre = true;
+
+  /// Throws std::invalid_argument unless α² (n + κ) is positive and all three numbers are finite.
+  explicit Unscented(Model model, const UnscentedScaling& scaling = {})
+      : Member<Model>(std::move(model)), scaling_(scaling) {
+    if (!(spread() > 0.0 && std::isfinite(spread()) && std::isfinite(scaling.beta)))
+      throw std::invalid_argument("the unscented filter of model '" + std::string(this->name()) + "' with alpha = " +
+                                  std::to_string(scaling.alpha) + ", beta = " + std::to_string(scaling.beta) +
+                                  ", kappa = " + std::to_string(scaling.kappa) + " and " +
+                                  std::to_string(this->size()) + " states; expected alpha² (n + kappa) > 0");
+  }
+
+  const UnscentedScaling& scaling() const { return scaling_; }
+  SigmaPointWeights weights() const {
+    const double centre = 1.0 - static_cast<double>(this->size()) / spread();
+    return {spread(), centre, centre + 1.0 - scaling_.alpha * scaling_.alpha + scaling_.beta};
+  }
+
+ private:
+  double spread() const {
+    return scaling_.alpha * scaling_.alpha * (static_cast<double>(this->size()) + scaling_.kappa);
+  }
+
+  UnscentedScaling scaling_;
+};
+
+}  // namespace sigmax

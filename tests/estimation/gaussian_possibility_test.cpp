@@ -1,0 +1,217 @@
+#include <sigmax/estimation/gaussian_possibility.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <sigmax/estimation/fixed_step_model.hpp>
+
+#include "support/matrices.hpp"
+#include "support/restatement.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using restatement::transposed;
+using support::dense;
+using support::fixed;
+using support::generated;
+using support::generated_covariance;
+using support::generated_gaussian;
+using support::holds;
+using support::near;
+using support::near_matrix;
+using support::number_between;
+using support::require_near;
+using support::require_near_matrix;
+using support::throws;
+
+using Dense = restatement::Matrix;
+
+TEST(GaussianPossibility, OfARegularCovarianceIsTheFormula) {
+  holds([] {
+    const auto density = generated_gaussian<3>();
+    const GaussianPossibility<3> pi{density};
+    const auto offset = generated(3, 1);
+    const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
+    const double squared = (transposed(offset) * inverse * offset)(0, 0);
+    const Vector<3> x = density.mean + fixed<3, 1>(offset);
+    require_near(pi.log(x), -0.5 * squared, 1e-12);
+    require_near(pi(x), std::exp(-0.5 * squared), 1e-12);
+    RC_ASSERT(pi(density.mean) == 1.0);
+  });
+}
+
+/// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
+TEST(GaussianPossibility, IsTheDensityOnTheRatioScale) {
+  holds([] {
+    const auto gaussian = generated_gaussian<2>();
+    const auto covariance = dense(gaussian.covariance);
+    const auto [inverse, log_determinant] = restatement::inverse(covariance);
+    const auto offset = generated(2, 1);
+    const double greatest = std::exp(-0.5 * log_determinant) / (2.0 * std::numbers::pi);
+    const double p = greatest * std::exp(-0.5 * (transposed(offset) * inverse * offset)(0, 0));
+    const GaussianPossibility<2> pi{gaussian};
+    require_near(pi(gaussian.mean + fixed<2, 1>(offset)), p / greatest, 1e-12);
+    require_near_matrix(pi.density().covariance, gaussian.covariance, 0.0);
+  });
+}
+
+/// Σ = BBᵀ of rank two: x = m + By has the distance of y, the shortest one; what B does not reach is impossible.
+TEST(GaussianPossibility, OfASingularCovarianceLivesOnItsSupport) {
+  holds([] {
+    const Dense B(4, 2, {1, 0, 0, 1, number_between(-2, 2), number_between(-2, 2), 1, number_between(-2, 2)});
+    const Vector<4> mean = 10.0 * fixed<4, 1>(generated(4, 1));
+    const GaussianPossibility<4> pi{{mean, fixed<4, 4>(B * transposed(B))}};
+    const auto y = 3.0 * generated(2, 1);
+    const Vector<4> x = mean + fixed<4, 1>(B * y);
+    require_near(pi.log(x), -0.5 * (y(0, 0) * y(0, 0) + y(1, 0) * y(1, 0)), 1e-9);
+    const Vector<4> off = x + 1e-3 * Vector<4>{-B(2, 0), -B(2, 1), 1.0, 0.0};  // orthogonal to the columns' first three
+    RC_ASSERT(pi(off + 1e-3 * Vector<4>::Unit(3)) == 0.0);
+  });
+}
+
+TEST(GaussianPossibility, WithoutUncertaintyIsPossibleOnlyAtItsMean) {
+  const GaussianPossibility<2> pi{{Vector<2>{1.0, 2.0}, SquareMatrix<2>::Zero()}};
+  EXPECT_EQ(pi({1.0, 2.0}), 1.0);
+  EXPECT_EQ(pi({1.0, 2.0 + 1e-12}), 0.0);
+}
+
+TEST(GaussianPossibility, RefusesWhatIsNoCovariance) {
+  const auto make = [](double variance) {
+    return GaussianPossibility<2>{{Vector<2>::Zero(), SquareMatrix<2>{{1.0, 0.0}, {0.0, variance}}}};
+  };
+  EXPECT_TRUE(throws<std::domain_error>([&] { make(-1e-3); }, {"positive semi-definite"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { make(NAN); }, {"finite"}));
+}
+
+/// log π on a grid, and its maximum as a function of a real number by the parabola through the best node and its
+/// neighbours. That is exact where log π is a parabola, and that it stays one is part of what is tested.
+class SupremumOnGrid {
+ public:
+  SupremumOnGrid(double from, double step, std::size_t size) : from_(from), step_(step), logs_(size) {}
+
+  double node(std::size_t i) const { return from_ + step_ * static_cast<double>(i); }
+
+  /// The vertex of a function of the node: where it is, its value and its second derivative.
+  struct Vertex {
+    double at, value, curvature;
+  };
+  template <class Function>
+  Vertex vertex(const Function& function) const {
+    std::size_t best = 1;
+    for (std::size_t i = 2; i + 1 < logs_.size(); ++i)
+      if (function(i) > function(best)) best = i;
+    const double left = function(best - 1), here = function(best), right = function(best + 1);
+    const double slope = 0.5 * (right - left), bend = right - 2.0 * here + left;
+    return {node(best) - step_ * slope / bend, here - 0.5 * slope * slope / bend, bend / (step_ * step_)};
+  }
+
+  template <class Function>
+  void assign(const Function& log_at) {
+    std::vector<double> next(logs_.size());
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = log_at(i);
+    logs_ = next;
+  }
+  double operator[](std::size_t i) const { return logs_[i]; }
+
+ private:
+  double from_, step_;
+  std::vector<double> logs_;
+};
+
+double parabola(double x, double variance) { return -0.5 * x * x / variance; }
+
+/// (36), (37) by plain loops over a grid, in a system that changes at every step and is measured now and then only.
+TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
+  struct Step {
+    double F, u, Q, H, R;
+    std::optional<double> z;
+  };
+  const std::vector<Step> steps{{1.0, 0.5, 0.3, 1.0, 0.8, 1.1},   {0.7, 0.0, 0.5, 2.0, 1.5, {}},
+                                {-1.2, 0.1, 0.2, 0.5, 0.4, -0.7}, {1.1, -0.4, 1.0, 1.0, 1.0, {}},
+                                {0.9, 0.0, 0.6, -1.0, 0.5, 1.6},  {1.3, 0.2, 0.25, 1.0, 2.0, 0.3}};
+  SupremumOnGrid grid(-9.0, 0.1, 181);
+  grid.assign([&](std::size_t i) { return parabola(grid.node(i) - 0.4, 1.2); });
+  GaussianPossibility<1> pi{{Vector<1>{0.4}, SquareMatrix<1>{1.2}}};
+  for (const Step& step : steps) {
+    const FixedStepModel<1, 1> model("walk", {"x"}, 1.0, SquareMatrix<1>{step.F}, SquareMatrix<1>{step.Q},
+                                     SquareMatrix<1>{step.H}, Vector<1>{step.u});
+    const SupremumOnGrid prior = grid;
+    grid.assign([&](std::size_t to) {
+      const auto joint = [&](std::size_t from) {
+        return prior[from] + parabola(grid.node(to) - step.F * grid.node(from) - step.u, step.Q);
+      };
+      return prior.vertex(joint).value;
+    });
+    pi = predict(model, pi, 1.0);
+    if (step.z) {
+      const Gaussian<1> z{Vector<1>{*step.z}, SquareMatrix<1>{step.R}};
+      grid.assign([&](std::size_t i) { return grid[i] + parabola(*step.z - step.H * grid.node(i), step.R); });
+      const double supremum = grid.vertex([&](std::size_t i) { return grid[i]; }).value;
+      grid.assign([&](std::size_t i) { return grid[i] - supremum; });
+      Gaussian<1> unused;
+      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), z, unused)), supremum, 1e-9);
+      pi = update(model, pi, z);
+    }
+    const auto peak = grid.vertex([&](std::size_t i) { return grid[i]; });
+    EXPECT_PRED_FORMAT3(near, pi.mean()(0), peak.at, 1e-9);
+    EXPECT_PRED_FORMAT3(near, pi.covariance()(0, 0), -1.0 / peak.curvature, 1e-9);
+    EXPECT_PRED_FORMAT3(near, peak.value, 0.0, 1e-9);
+    for (std::size_t i = 40; i < 140; ++i) EXPECT_PRED_FORMAT3(near, pi.log(Vector<1>{grid.node(i)}), grid[i], 1e-9);
+  }
+}
+
+using Model = FixedStepModel<3, 2>;
+Model generated_model() {
+  return {"model",
+          {"a", "b", "c"},
+          1.0,
+          fixed<3, 3>(generated(3, 3)),
+          fixed<3, 3>(generated_covariance(3)),
+          fixed<2, 3>(generated(2, 3))};
+}
+
+/// First (34), then (36) and (37); or first (23) and (24), then (34): with both numbers of (34) written as ratios of
+/// the filter's own densities.
+TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
+  holds([] {
+    const auto model = generated_model();
+    Gaussian<3> density = generated_gaussian<3>();
+    GaussianPossibility<3> pi{density};
+    for (int k = 0; k < 3; ++k) {
+      predict(model, density, 1.0, density);
+      pi = predict(model, pi, 1.0);
+      if (*rc::gen::inRange(0, 2) == 1) {
+        const auto z = generated_gaussian<2>();
+        update(model, density, z, density);
+        pi = update(model, pi, z);
+      }
+      const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
+      const auto offset = generated(3, 1);
+      const double log_ratio = -0.5 * (transposed(offset) * inverse * offset)(0, 0);  // log p(x) − log sup p
+      require_near(pi.log(density.mean + fixed<3, 1>(offset)), log_ratio, 1e-9);
+    }
+  });
+}
+
+TEST(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
+  holds([] {
+    const auto model = generated_model();
+    Gaussian<3> posterior;
+    const auto prior = generated_gaussian<3>();
+    const auto z = generated_gaussian<2>();
+    const auto innovation = update(model, prior, z, posterior);
+    const auto H = dense(model.measurement_matrix());
+    const auto S = H * dense(prior.covariance) * transposed(H) + dense(z.covariance);
+    const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
+    require_near(log_possibility(innovation) - innovation.log_likelihood,
+                 0.5 * std::log(std::pow(2.0 * std::numbers::pi, 2.0) * determinant), 1e-9);
+  });
+}
+
+}  // namespace
+}  // namespace sigmax

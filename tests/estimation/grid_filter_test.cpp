@@ -1,0 +1,287 @@
+#include <sigmax/estimation/grid_filter.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/gaussian_possibility.hpp>
+
+#include "support/matrices.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::near_matrix;
+using support::throws;
+
+/// A number as a function of x, on a line.
+template <class Function>
+auto on_line(const Function& function) {
+  return [=](const Vector<1>& x) { return function(x(0)); };
+}
+Grid<1> line(double lower, double upper, double step) { return {Vector<1>{lower}, Vector<1>{upper}, Vector<1>{step}}; }
+double parabola(double x, double variance) { return -0.5 * x * x / variance; }
+SquareMatrix<1> variance(double value) { return SquareMatrix<1>{value}; }
+
+/// The growth model, in plain loops over whatever cells the filter has: (23), (24) with `plus` a sum, (36), (37) with
+/// a maximum.
+template <Uncertainty Kind, class Plus>
+void expect_plain_recursion(const Plus& plus) {
+  const double Q = 10.0, R = 1.0;
+  GridFilter<Kind, 1> filter{line(-15.0, 15.0, 0.5), on_line([](double x) { return parabola(x - 1.0, 5.0); })};
+  for (int k = 1; k <= 6; ++k) {
+    filter.adapt();
+    std::vector<double> from, prior(filter.belief().values().begin(), filter.belief().values().end());
+    for (std::size_t i = 0; i < prior.size(); ++i) from.push_back(filter.grid().centre(i)(0));
+    const auto f = [k](double x) { return 0.5 * x + 25.0 * x / (1.0 + x * x) + 8.0 * std::cos(1.2 * k); };
+    const double z = 3.0 + 2.0 * std::sin(k);
+    filter.predict([&](const Vector<1>& x) { return Vector<1>{f(x(0))}; }, variance(Q));
+    const double log_evidence = filter.update(on_line([&](double x) { return parabola(z - x * x / 20.0, R); }));
+
+    std::vector<double> posterior(filter.grid().size(), 0.0);
+    const auto to = [&](std::size_t j) { return filter.grid().centre(j)(0); };
+    for (std::size_t i = 0; i < prior.size(); ++i) {
+      double total = 0.0;
+      for (std::size_t j = 0; j < posterior.size(); ++j) total = plus(total, std::exp(parabola(to(j) - f(from[i]), Q)));
+      for (std::size_t j = 0; j < posterior.size(); ++j)
+        posterior[j] = plus(posterior[j], std::exp(parabola(to(j) - f(from[i]), Q)) / total * prior[i]);
+    }
+    double total = 0.0;
+    for (std::size_t j = 0; j < posterior.size(); ++j) {
+      posterior[j] *= std::exp(parabola(z - to(j) * to(j) / 20.0, R));
+      total = plus(total, posterior[j]);
+    }
+    EXPECT_PRED_FORMAT3(near, log_evidence, std::log(total), 1e-9);
+    for (double& value : posterior) value /= total;
+    EXPECT_PRED_FORMAT3(near, filter.belief().values(), posterior, 1e-10);
+  }
+}
+
+TEST(GridFilter, OfARandomStateIsBayesFilter) {
+  expect_plain_recursion<Random>([](double a, double b) { return a + b; });
+}
+
+TEST(GridFilter, OfAFuzzyStateIsMaxInference) {
+  expect_plain_recursion<Fuzzy>([](double a, double b) { return a > b ? a : b; });
+}
+
+/// A system on a line that changes at every step and is not measured at the third, and its Kalman filter.
+struct Line {
+  static constexpr int steps = 6;
+  static constexpr double Q = 0.5, R = 0.8;
+  static double F(int k) { return k % 2 == 0 ? 1.1 : 0.9; }
+  static bool measured(int k) { return k != 2; }
+  static double z(int k) { return std::sin(k); }
+
+  Gaussian<1> estimate{Vector<1>{0.4}, SquareMatrix<1>{1.2}};
+
+  void step(int k) {
+    const FixedStepModel<1, 1> model("line", {"x"}, 1.0, variance(F(k)), variance(Q), variance(1.0));
+    predict(model, estimate, 1.0, estimate);
+    if (measured(k)) update(model, estimate, Gaussian<1>{Vector<1>{z(k)}, variance(R)}, estimate);
+  }
+  double P() const { return estimate.covariance(0, 0); }
+  double log_possibility(double x) const { return parabola(x - estimate.mean(0), P()); }
+
+  template <Uncertainty Kind>
+  static void step(GridFilter<Kind, 1>& filter, int k) {
+    filter.predict([&](const Vector<1>& x) { return Vector<1>{F(k) * x(0)}; }, variance(Q));
+    if (measured(k)) filter.update(on_line([&](double x) { return parabola(z(k) - x, R); }));
+  }
+  template <Uncertainty Kind>
+  static GridFilter<Kind, 1> filter(double h) {  // so many cells that none is cut or joined
+    const auto cells = static_cast<Eigen::Index>(16.0 / h / 2.0);
+    return {line(-8.0, 8.0, h), on_line([](double x) { return parabola(x - 0.4, 1.2); }), {1e-16, cells}};
+  }
+};
+
+/// Sums over centres h apart of a Gaussian of variance s² are off by about exp(−2π²s²/h²), which halving h raises to
+/// the fourth power. The narrowest Gaussian summed is p(y|x) p(x) as a function of x: 1/s² = 1/P + F²/Q.
+TEST(GridFilter, OfARandomStateConvergesToTheKalmanFilterExponentially) {
+  for (const double h : {0.6, 0.3}) {
+    Line kalman;
+    auto filter = Line::filter<Random>(h);
+    double narrowest = Line::Q;
+    for (int k = 0; k < Line::steps; ++k) {
+      narrowest = std::min(narrowest, 1.0 / (1.0 / kalman.P() + Line::F(k) * Line::F(k) / Line::Q));
+      kalman.step(k);
+      Line::step(filter, k);
+      EXPECT_EQ(filter.grid().step()(0), h);
+      const double tolerance = 1e-10 + 10.0 * std::exp(-2.0 * std::pow(std::numbers::pi / h, 2.0) * narrowest);
+      EXPECT_PRED_FORMAT3(near_matrix, filter.moments().mean, kalman.estimate.mean, tolerance);
+      EXPECT_PRED_FORMAT3(near_matrix, filter.moments().covariance, kalman.estimate.covariance, tolerance);
+      if (h == 0.3) {
+        EXPECT_LT(tolerance, 1e-8);
+      }
+    }
+  }
+}
+
+/// A maximum over centres h apart misses a parabola of curvature c by at most ch²/8. In log π that happens once over x,
+/// c = 1/P + F²/Q, once in normalising each row, c = 1/Q, and, in the end, once in normalising π, c = 1/P.
+TEST(GridFilter, OfAFuzzyStateConvergesToTheKalmanFilterQuadratically) {
+  for (const double h : {0.4, 0.2, 0.1}) {
+    Line kalman;
+    auto filter = Line::filter<Fuzzy>(h);
+    double curvatures = 0.0;
+    for (int k = 0; k < Line::steps; ++k) {
+      curvatures += 1.0 / kalman.P() + (Line::F(k) * Line::F(k) + 1.0) / Line::Q;
+      kalman.step(k);
+      Line::step(filter, k);
+      const double bound = h * h / 8.0 * (curvatures + 1.0 / kalman.P());
+      for (std::size_t i = 0; i < filter.grid().size(); ++i) {
+        const double x = filter.grid().centre(i)(0);
+        if (std::abs(x - kalman.estimate.mean(0)) > 5.0 * std::sqrt(kalman.P())) continue;
+        ASSERT_LE(std::abs(std::log(filter.belief()[i]) - kalman.log_possibility(x)), bound) << "at " << x;
+      }
+      EXPECT_LE(std::abs(filter.most_likely()(0) - kalman.estimate.mean(0)), std::sqrt(2.0 * kalman.P() * bound));
+    }
+  }
+}
+
+/// Where the centres are the suprema's arguments there is nothing to miss: with P = Q the best x under y is y/2.
+TEST(GridFilter, OfAFuzzyStateIsExactWhereTheGridHasTheSupremum) {
+  GridFilter<Fuzzy, 1> filter{
+      line(-8.125, 8.125, 0.25), on_line([](double x) { return parabola(x, 1.0); }), {1e-16, 20}};
+  filter.predict([](const Vector<1>& x) { return x; }, variance(1.0));
+  int compared = 0;
+  for (std::size_t i = 0; i < filter.grid().size(); ++i) {
+    const double x = filter.grid().centre(i)(0);
+    if (std::abs(x) < 8.0 && std::fmod(x, 0.5) == 0.0) {
+      EXPECT_PRED_FORMAT3(near, filter.belief()[i], std::exp(parabola(x, 2.0)), 1e-12);
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 31);
+}
+
+/// Position and velocity that leave the first grid far behind, with correlated noise.
+template <Uncertainty Kind>
+void expect_to_follow(double tolerance) {
+  const SquareMatrix<2> F{{1.0, 1.0}, {0.0, 1.0}}, Q{{4.0, 3.0}, {3.0, 6.0}};
+  const Eigen::RowVector2d H{1.0, 0.0};
+  const FixedStepModel<2, 1> model("line", {"x", "v"}, 1.0, F, Q, H);
+  Gaussian<2> kalman{{0.0, 100.0}, SquareMatrix<2>{{25.0, 0.0}, {0.0, 9.0}}};
+  const GaussianPossibility<2> start{kalman};
+  GridFilter<Kind, 2> filter{
+      Grid<2>{{-25.0, 85.0}, {25.0, 115.0}, {1.0, 1.0}}, [&](const Vector<2>& x) { return start.log(x); }, {1e-5, 10}};
+  for (int k = 1; k <= 4; ++k) {
+    const Gaussian<1> z{Vector<1>{100.0 * k + 3.0 * std::sin(k)}, variance(4.0)};
+    predict(model, kalman, 1.0, kalman);
+    update(model, kalman, z, kalman);
+    filter.predict([&](const Vector<2>& x) -> Vector<2> { return F * x; }, Q);
+    filter.update([&](const Vector<2>& x) { return parabola(z.mean(0) - x(0), 4.0); });
+    EXPECT_LT(filter.grid().size(), 10000U);
+    EXPECT_PRED_FORMAT3(near_matrix, filter.moments().mean, kalman.mean, tolerance);
+    EXPECT_PRED_FORMAT3(near_matrix, filter.moments().covariance, kalman.covariance, 10.0 * tolerance);
+  }
+}
+
+TEST(GridFilter, FollowsTheStateThroughThePlane) {
+  expect_to_follow<Random>(1e-4);
+  expect_to_follow<Fuzzy>(1e-2);
+}
+
+/// Three independent walks: the grid of three dimensions has the beliefs of three grids of one.
+template <Uncertainty Kind>
+void expect_independent_axes() {
+  const Vector<3> deviations{1.0, 0.7, 1.4};
+  const SquareMatrix<3> Q = deviations.cwiseAbs2().asDiagonal();
+  const GridOptions options{1e-4, 4};
+  GridFilter<Kind, 3> space{Grid<3>{{-4.0, -4.0, -4.0}, {4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}},
+                            [](const Vector<3>& x) { return parabola(x.norm(), 1.0); }, options};
+  space.predict([](const Vector<3>& x) -> Vector<3> { return 1.5 * x; }, Q);
+  space.update([](const Vector<3>& x) { return parabola((x - Vector<3>{2.0, -1.0, 0.0}).norm(), 2.0); });
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    GridFilter<Kind, 1> one{line(-4.0, 4.0, 1.0), on_line([](double x) { return parabola(x, 1.0); }), options};
+    one.predict([](const Vector<1>& x) -> Vector<1> { return 1.5 * x; }, variance(Q(axis, axis)));
+    one.update(on_line([&](double x) { return parabola(x - Vector<3>{2.0, -1.0, 0.0}(axis), 2.0); }));
+    EXPECT_EQ(space.grid().step()(axis), one.grid().step()(0));
+    EXPECT_PRED_FORMAT3(near, space.moments().mean(axis), one.moments().mean(0), 2e-3);
+    EXPECT_PRED_FORMAT3(near, space.moments().covariance(axis, axis), one.moments().covariance(0, 0), 2e-2);
+    EXPECT_PRED_FORMAT3(near, space.most_likely()(axis), one.most_likely()(0), 1e-12);
+  }
+}
+
+TEST(GridFilter, WorksInSpace) {
+  expect_independent_axes<Random>();
+  expect_independent_axes<Fuzzy>();
+}
+
+/// Numbers 1, 2, 3, … of four cells, normalised.
+template <Uncertainty Kind>
+GridFilter<Kind, 1> ramp(GridOptions options) {
+  return {line(0.0, 4.0, 1.0), on_line([](double x) { return std::log(x + 0.5); }), options};
+}
+
+TEST(GridFilter, CutsCellsByHalvesOrKeepsTheirPossibility) {
+  auto random = ramp<Random>({1e-12, 8});
+  random.adapt();
+  EXPECT_PRED_FORMAT3(near, random.belief().values(), (std::vector{0.05, 0.05, 0.1, 0.1, 0.15, 0.15, 0.2, 0.2}), 1e-15);
+  auto fuzzy = ramp<Fuzzy>({1e-12, 8});
+  fuzzy.adapt();
+  EXPECT_PRED_FORMAT3(near, fuzzy.belief().values(), (std::vector{0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0}), 1e-15);
+  EXPECT_EQ(fuzzy.grid().step()(0), 0.5);
+}
+
+TEST(GridFilter, JoinsCellsBySumOrMaximum) {
+  const auto eight = [](auto filter) {
+    filter.adapt();
+    return filter;
+  };
+  const auto random = eight(
+      GridFilter<Random, 1>{line(0.0, 8.0, 1.0), on_line([](double x) { return std::log(x + 0.5); }), {1e-12, 1}});
+  EXPECT_PRED_FORMAT3(near, random.belief().values(), (std::vector{3.0 / 36, 7.0 / 36, 11.0 / 36, 15.0 / 36}), 1e-15);
+  const auto fuzzy =
+      eight(GridFilter<Fuzzy, 1>{line(0.0, 8.0, 1.0), on_line([](double x) { return std::log(x + 0.5); }), {1e-12, 1}});
+  EXPECT_PRED_FORMAT3(near, fuzzy.belief().values(), (std::vector{0.25, 0.5, 0.75, 1.0}), 1e-15);
+  EXPECT_EQ(fuzzy.grid().step()(0), 2.0);
+}
+
+TEST(GridFilter, DropsWhatIsNegligibleAndNormalisesTheRest) {
+  auto random = ramp<Random>({0.6, 2});
+  random.adapt();
+  EXPECT_PRED_FORMAT3(near, random.belief().values(), (std::vector{3.0 / 7, 4.0 / 7}), 1e-15);
+  EXPECT_EQ(random.grid().first()(0), 2);
+}
+
+TEST(GridFilter, KeepsToTheCellsAllowed) {
+  auto filter = GridFilter<Random, 1>{line(0.0, 4.0, 1.0), on_line([](double) { return 0.0; }), {1e-12, 50, 20}};
+  filter.adapt();
+  EXPECT_EQ(filter.grid().size(), 16U);
+}
+
+TEST(GridFilter, OfAStateThatDoesNotMoveNarrowsDown) {
+  GridFilter<Fuzzy, 1> filter{line(-100.0, 100.0, 1.0), on_line([](double) { return 0.0; })};
+  for (int k = 0; k < 400; ++k) {
+    filter.update(on_line([](double x) { return parabola(x - 12.34, 1.0); }));
+    filter.adapt();
+  }
+  EXPECT_LE(std::abs(filter.most_likely()(0) - 12.34), 0.5 * filter.grid().step()(0));
+  // exp(−400 (x − 12.34)²/2) but for what the cells missed while they were wider.
+  EXPECT_PRED_FORMAT3(near, filter.moments().covariance(0, 0) * 400.0, 1.0, 0.05);
+}
+
+TEST(GridFilter, RefusesWhatItCannotDo) {
+  const auto flat = on_line([](double) { return 0.0; });
+  GridFilter<Random, 1> filter{line(0.0, 4.0, 1.0), flat, {1e-12, 1, 10}};
+  using std::domain_error, std::invalid_argument;
+  EXPECT_TRUE(throws<domain_error>(
+      [&] { filter.predict([](const Vector<1>&) { return Vector<1>{NAN}; }, variance(1.0)); }, {"f(x)", "not finite"}));
+  EXPECT_TRUE(throws<domain_error>([&] { filter.predict([](const Vector<1>& x) { return x; }, variance(0.0)); },
+                                   {"process covariance"}));
+  EXPECT_TRUE(throws<std::length_error>(
+      [&] { filter.predict([](const Vector<1>& x) -> Vector<1> { return 1e3 * x; }, variance(1.0)); },
+      {"cells", "10 are allowed"}));
+  EXPECT_TRUE(throws<domain_error>([&] { filter.update(on_line([](double) { return log_zero; })); }, {"cell"}));
+  EXPECT_TRUE(throws<invalid_argument>([&] { filter.update(on_line([](double) { return NAN; })); }, {"cell"}));
+  using Filter = GridFilter<Random, 1>;
+  EXPECT_TRUE(throws<invalid_argument>([&] { Filter(line(0.0, 4.0, 1.0), flat, {0.0}); }, {"negligible"}));
+}
+
+}  // namespace
+}  // namespace sigmax

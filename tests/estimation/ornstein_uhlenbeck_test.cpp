@@ -1,0 +1,141 @@
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/white_noise.hpp>
+
+#include "estimation/motion_laws.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::generated_step;
+using support::holds;
+using support::near;
+using support::near_matrix;
+using support::number_between;
+using support::require_dense_prediction;
+using support::require_integral_of;
+using support::require_near;
+using support::require_near_covariance;
+using support::require_near_matrix;
+using support::require_steps_to_add_up;
+using support::throws;
+
+/// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
+double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
+
+TEST(OrnsteinUhlenbeck, ATailIsTheSumOfItsPowersOnBothSidesOfOne) {
+  // e⁻ᵘ − 1 + u over u², and 1 − e⁻²ᵘ + 2u + 2u³/3 − 2u² − 4u e⁻ᵘ over u⁵, in long double.
+  for (const double u : {0.0, 1e-8, 0.01, 0.5, 0.999, 1.0, 1.5, 20.0}) {
+    long double second = 0, fifth = 0, term = 1;  // term = (−1)ⁿ uⁿ/n!
+    for (int n = 0; n < 200; ++n) {
+      const auto from = [&](int k) {
+        return n < k ? 0.0L : u == 0.0 ? (n == k ? 1.0L : 0.0L) : term / std::pow(static_cast<long double>(u), k);
+      };
+      const auto factorial = u == 0.0 ? std::tgamma(n + 1.0L) * (n % 2 == 0 ? 1.0L : -1.0L) : 1.0L;
+      second += from(2) / factorial;
+      fifth += from(5) / factorial * (-std::pow(2.0L, n) + 4.0L * n);
+      term *= -static_cast<long double>(u) / (n + 1);
+    }
+    if (u > 15.0) continue;  // the alternating sum itself cancels
+    EXPECT_PRED_FORMAT3(near, exponential_tail(u, 2, 0, 0, 1), static_cast<double>(second), 1e-13) << u;
+    EXPECT_PRED_FORMAT3(near, exponential_tail(u, 5, -1, 4, 0), static_cast<double>(fifth), 1e-13) << u;
+  }
+}
+
+TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
+  const double a = 0.7, T = 3.0, s2 = 4.0;  // Singer 1970; Bar-Shalom, Li, Kirubarajan 2001, (8.2.3-11)
+  const double e = std::exp(-a * T), e2 = e * e;
+  const auto model = singer<1>(a, std::sqrt(s2));
+  const SquareMatrix<3> F{{1, T, (a * T - 1 + e) / (a * a)}, {0, 1, (1 - e) / a}, {0, 0, e}};
+  EXPECT_PRED_FORMAT3(near_matrix, model.transition(T), F, 1e-14);
+  const double q11 =
+      s2 / std::pow(a, 4) * (1 - e2 + 2 * a * T + 2 * std::pow(a * T, 3) / 3 - 2 * a * a * T * T - 4 * a * T * e);
+  const double q12 = s2 / std::pow(a, 3) * (e2 + 1 - 2 * e + 2 * a * T * e - 2 * a * T + a * a * T * T);
+  const double q13 = s2 / (a * a) * (1 - e2 - 2 * a * T * e);
+  const double q22 = s2 / (a * a) * (4 * e - 3 - e2 + 2 * a * T);
+  const double q23 = s2 / a * (e2 + 1 - 2 * e);
+  const double q33 = s2 * (1 - e2);
+  EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(T),
+                      (SquareMatrix<3>{{q11, q12, q13}, {q12, q22, q23}, {q13, q23, q33}}), 1e-13);
+}
+
+TEST(OrnsteinUhlenbeck, IsTheIntegral) {
+  holds([] {
+    const double theta = number_between(0.01, 2.0), sigma = number_between(0.5, 3.0), dt = number_between(0.1, 2.0);
+    const double q = 2.0 * theta * sigma * sigma;
+    require_integral_of(SquareMatrix<1>(-theta), SquareMatrix<1>(q), ou_position<1>(theta, sigma), dt);
+    require_integral_of(SquareMatrix<2>{{0, 1}, {0, -theta}}, SquareMatrix<2>{{0, 0}, {0, q}},
+                        ou_velocity<1>(theta, sigma), dt);
+    require_integral_of(SquareMatrix<3>{{0, 1, 0}, {0, 0, 1}, {0, 0, -theta}},
+                        SquareMatrix<3>{{0, 0, 0}, {0, 0, 0}, {0, 0, q}}, singer<1>(theta, sigma), dt);
+  });
+}
+
+TEST(OrnsteinUhlenbeck, StepsAddUpForAnyRate) {
+  holds([] {
+    const double theta = generated_rate(), sigma = number_between(0.5, 3.0);
+    const double s = generated_step(), t = generated_step();
+    const Vector<2> level(2.0, -1.0);
+    require_steps_to_add_up(ou_position<2>(theta, sigma, level), s, t);
+    require_steps_to_add_up(ou_velocity<2>(theta, sigma, level), s, t);
+    require_steps_to_add_up(IndependentAxes<2, OrnsteinUhlenbeck<3>>{OrnsteinUhlenbeck<3>{theta, sigma}, level}, s, t);
+  });
+}
+
+TEST(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
+  holds([] {
+    const double theta = 1e-14, q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+    const double sigma = std::sqrt(0.5 * q / theta);
+    require_near_matrix(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
+    require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(q).process_covariance(dt), 1e-12);
+    require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt), cwna<2>(q).process_covariance(dt),
+                            1e-12);
+  });
+}
+
+TEST(OrnsteinUhlenbeck, InTheLongRunItForgetsAndKeepsItsDeviation) {
+  const auto model = ou_velocity<2>(2.0, 3.0, Vector<2>(5.0, -7.0));
+  Gaussian<4> estimate{Vector<4>(0.0, 0.0, 100.0, 100.0), 50.0 * SquareMatrix<4>::Identity()};
+  predict(model, estimate, 1000.0, estimate);
+  EXPECT_PRED_FORMAT3(near_matrix, estimate.mean.tail<2>(), (Vector<2>(5.0, -7.0)), 1e-14);
+  EXPECT_PRED_FORMAT3(near_matrix, (estimate.covariance.bottomRightCorner<2, 2>()), (SquareMatrix<2>{{9, 0}, {0, 9}}),
+                      1e-14);
+}
+
+TEST(OrnsteinUhlenbeck, AStepOfNoTimeIsNone) {
+  EXPECT_EQ(singer<3>(0.5, 2.0).transition(0.0), SquareMatrix<9>::Identity());
+  EXPECT_EQ(singer<3>(0.5, 2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
+}
+
+TEST(OrnsteinUhlenbeck, PredictionIsTheFormula) {
+  holds([] {
+    const double theta = number_between(0.0, 2.0), sigma = number_between(0.0, 3.0), dt = number_between(0.0, 3.0);
+    require_dense_prediction(ou_position<3>(theta, sigma, Vector<3>(1.0, 2.0, 3.0)), dt);
+    require_dense_prediction(ou_velocity<2>(theta, sigma, Vector<2>(1.0, 2.0)), dt);
+    require_dense_prediction(singer<2>(theta, sigma), dt);
+  });
+}
+
+TEST(OrnsteinUhlenbeck, NamesItself) {
+  EXPECT_EQ(ou_position<2>(1.0, 1.0).name(), "ou_position");
+  EXPECT_EQ(ou_velocity<2>(1.0, 1.0).name(), "ou_velocity");
+  EXPECT_EQ(singer<2>(1.0, 1.0).name(), "singer");
+  EXPECT_EQ(ou_position<2>(1.0, 1.0).components(), (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(singer<2>(1.0, 1.0).components(), dwpa<2>(1.0).components());
+  EXPECT_EQ(singer<2>(0.25, 1.5).law().theta(), 0.25);
+  EXPECT_EQ(singer<2>(0.25, 1.5).law().sigma(), 1.5);
+}
+
+TEST(OrnsteinUhlenbeck, RefusesParametersThatAreNone) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { singer<3>(-1.0, 1.0); }, {"rate", "singer", "-1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { ou_velocity<3>(1.0, -2.0); }, {"sigma", "ou_velocity", "-2"}));
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,82 @@
+#include <sigmax/estimation/white_noise.hpp>
+
+#include <gtest/gtest.h>
+
+#include <sigmax/estimation/kinematic_model.hpp>
+
+#include "estimation/motion_laws.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::generated_step;
+using support::holds;
+using support::near_matrix;
+using support::number_between;
+using support::require_dense_prediction;
+using support::require_integral_of;
+using support::require_steps_to_add_up;
+using support::throws;
+
+TEST(WhiteNoise, AccelerationIsThatOfTheBook) {
+  const auto model = cwna<1>(3.0);
+  EXPECT_EQ(model.transition(2.0), (SquareMatrix<2>{{1, 2}, {0, 1}}));
+  EXPECT_EQ(model.process_covariance(2.0), (SquareMatrix<2>{{8, 6}, {6, 6}}));  // q [T³/3 T²/2; T²/2 T]
+}
+
+TEST(WhiteNoise, JerkIsThatOfTheBook) {
+  const auto model = cwpa<1>(60.0);
+  EXPECT_EQ(model.transition(2.0), (SquareMatrix<3>{{1, 2, 2}, {0, 1, 2}, {0, 0, 1}}));
+  EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(2.0),  // q [T⁵/20 T⁴/8 T³/6; · T³/3 T²/2; · · T]
+                      (SquareMatrix<3>{{96, 120, 80}, {120, 160, 120}, {80, 120, 120}}), 1e-15);
+}
+
+TEST(WhiteNoise, IsTheIntegral) {
+  holds([] {
+    const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+    const Eigen::MatrixXd acceleration{{0, 1}, {0, 0}}, jerk{{0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    require_integral_of(acceleration, Eigen::MatrixXd{{0, 0}, {0, q}}, cwna<1>(q), dt);
+    require_integral_of(jerk, Eigen::MatrixXd{{0, 0, 0}, {0, 0, 0}, {0, 0, q}}, cwpa<1>(q), dt);
+  });
+}
+
+TEST(WhiteNoise, StepsAddUp) {
+  holds([] {
+    const double q = number_between(0.1, 5.0), s = generated_step(), t = generated_step();
+    require_steps_to_add_up(cwna<2>(q, Vector<2>(3.0, -1.0)), s, t);
+    require_steps_to_add_up(IndependentAxes<2, WhiteNoise<3>>{WhiteNoise<3>{q}, Vector<2>(3.0, -1.0)}, s, t);
+  });
+}
+
+TEST(WhiteNoise, AStepOfNoTimeIsNone) {
+  EXPECT_EQ(cwpa<3>(2.0).transition(0.0), SquareMatrix<9>::Identity());
+  EXPECT_EQ(cwpa<3>(2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
+}
+
+TEST(WhiteNoise, PredictionIsTheFormula) {
+  holds([] {
+    require_dense_prediction(cwna<3>(number_between(0.0, 5.0)), number_between(0.0, 3.0));
+    require_dense_prediction(cwpa<2>(number_between(0.0, 5.0)), number_between(0.0, 3.0));
+  });
+}
+
+TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
+  const Vector<3> a(1.0, -2.0, 3.0);
+  EXPECT_EQ(cwna<3>(1.0, a).known_input(2.0), dwna<3>(1.0, a).known_input(2.0));
+}
+
+TEST(WhiteNoise, NamesItself) {
+  EXPECT_EQ(cwna<2>(1.0).name(), "cwna");
+  EXPECT_EQ(cwpa<2>(1.0).name(), "cwpa");
+  EXPECT_EQ(cwpa<2>(1.0).components(), dwpa<2>(1.0).components());
+  EXPECT_EQ(cwpa<2>(1.5).law().q(), 1.5);
+}
+
+TEST(WhiteNoise, RefusesANoiseThatIsNone) {
+  EXPECT_TRUE(throws<std::invalid_argument>([] { cwna<3>(-1.0); }, {"q", "cwna", "-1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { cwpa<3>(std::nan("")); }, {"q", "cwpa", "nan"}));
+}
+
+}  // namespace
+}  // namespace sigmax

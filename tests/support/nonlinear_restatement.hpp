@@ -1,0 +1,165 @@
+/// A restatement of the extended, unscented and cubature Kalman filters in plain loops. It shares no code with the
+/// library.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "support/restatement.hpp"
+
+namespace restatement {
+
+/// x_k = f(x_{k−1}) + w, z_k = h(x_k) + v, (21)–(22), with the Jacobians of f and h.
+struct NonlinearModel {
+  std::function<Vector(const Vector&, double)> f;
+  std::function<Matrix(const Vector&, double)> F;
+  std::function<Matrix(double)> Q;
+  std::function<Vector(const Vector&)> h;
+  std::function<Matrix(const Vector&)> H;
+  std::vector<bool> is_angle;  // Of each measured quantity.
+};
+
+struct Updated {
+  State posterior;
+  Vector nu;
+  Matrix S;
+  double squared = 0.0;
+  double log_likelihood = 0.0;
+};
+
+inline Vector measured_difference(const NonlinearModel& model, const Vector& a, const Vector& b) {
+  Vector result = difference(a, b);
+  for (Index i = 0; i < result.size(); ++i) {
+    while (model.is_angle[i] && result[i] > std::numbers::pi) result[i] -= 2.0 * std::numbers::pi;
+    while (model.is_angle[i] && result[i] < -std::numbers::pi) result[i] += 2.0 * std::numbers::pi;
+  }
+  return result;
+}
+
+/// (29), (30) as printed, with the gain W, and the likelihood of the innovation.
+inline Updated corrected(const State& prior, const Vector& nu, const Matrix& S, const Matrix& cross) {
+  const Inverse S_inverse = inverse(S);
+  const Matrix W = cross * S_inverse.matrix;
+  Updated result{prior, nu, S, dot(nu, S_inverse.matrix * nu), 0.0};
+  const Vector correction = W * nu;
+  for (Index i = 0; i < correction.size(); ++i) result.posterior.mean[i] += correction[i];
+  result.posterior.covariance = prior.covariance - W * S * transposed(W);
+  result.log_likelihood = -0.5 * (result.squared + S_inverse.log_determinant +
+                                  static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  return result;
+}
+
+inline State extended_prediction(const NonlinearModel& model, const State& prior, double dt) {
+  const Matrix F = model.F(prior.mean, dt);
+  return {model.f(prior.mean, dt), F * prior.covariance * transposed(F) + model.Q(dt)};
+}
+inline Updated extended_update(const NonlinearModel& model, const State& prior, const Vector& z, const Matrix& R) {
+  const Matrix H = model.H(prior.mean);
+  return corrected(prior, measured_difference(model, z, model.h(prior.mean)), H * prior.covariance * transposed(H) + R,
+                   prior.covariance * transposed(H));
+}
+
+/// Points with their weights for means and for covariances.
+struct Points {
+  std::vector<Vector> at;
+  Vector mean_weights;
+  Vector covariance_weights;
+};
+
+/// Cholesky's lower triangular root, by rows.
+inline Matrix root(const Matrix& P) {
+  Matrix L(P.rows, P.rows);
+  for (Index i = 0; i < P.rows; ++i)
+    for (Index j = 0; j <= i; ++j) {
+      double sum = P(i, j);
+      for (Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
+      L(i, j) = i == j ? std::sqrt(sum) : sum / L(j, j);
+    }
+  return L;
+}
+
+inline void add_pairs(Points& points, const State& state, double spread) {
+  const Matrix L = root(state.covariance);
+  for (const double sign : {1.0, -1.0})
+    for (Index i = 0; i < state.mean.size(); ++i) {
+      Vector x = state.mean;
+      for (Index k = 0; k < x.size(); ++k) x[k] += sign * std::sqrt(spread) * L(k, i);
+      points.at.push_back(x);
+      points.mean_weights.push_back(0.5 / spread);
+      points.covariance_weights.push_back(0.5 / spread);
+    }
+}
+
+/// Wan and van der Merwe's scaled points: λ = α²(n + κ) − n.
+inline Points unscented_points(const State& state, double alpha, double beta, double kappa) {
+  const double n = static_cast<double>(state.mean.size());
+  const double lambda = alpha * alpha * (n + kappa) - n;
+  Points points{{state.mean}, {lambda / (n + lambda)}, {lambda / (n + lambda) + 1.0 - alpha * alpha + beta}};
+  add_pairs(points, state, n + lambda);
+  return points;
+}
+inline Points cubature_points(const State& state) {
+  Points points;
+  add_pairs(points, state, static_cast<double>(state.mean.size()));
+  return points;
+}
+
+/// Σ wᵢ aᵢ bᵢᵀ.
+inline Matrix weighted_outer(const Vector& weights, const std::vector<Vector>& a, const std::vector<Vector>& b) {
+  Matrix result(a.front().size(), b.front().size());
+  for (Index i = 0; i < weights.size(); ++i)
+    for (Index r = 0; r < result.rows; ++r)
+      for (Index c = 0; c < result.columns; ++c) result(r, c) += weights[i] * a[i][r] * b[i][c];
+  return result;
+}
+inline Vector weighted_mean(const Vector& weights, const std::vector<Vector>& values) {
+  Vector result(values.front().size(), 0.0);
+  for (Index i = 0; i < weights.size(); ++i)
+    for (Index k = 0; k < result.size(); ++k) result[k] += weights[i] * values[i][k];
+  return result;
+}
+
+inline State points_prediction(const NonlinearModel& model, const Points& points, double dt) {
+  std::vector<Vector> images;
+  for (const Vector& x : points.at) images.push_back(model.f(x, dt));
+  State result;
+  result.mean = weighted_mean(points.mean_weights, images);
+  for (Vector& image : images) image = difference(image, result.mean);
+  result.covariance = weighted_outer(points.covariance_weights, images, images) + model.Q(dt);
+  return result;
+}
+
+/// Cov(x_k−1, x_k).
+inline Matrix points_cross_covariance(const NonlinearModel& model, const State& prior, const Points& points,
+                                      double dt) {
+  std::vector<Vector> images, offsets;
+  for (const Vector& x : points.at) {
+    images.push_back(model.f(x, dt));
+    offsets.push_back(difference(x, prior.mean));
+  }
+  return weighted_outer(points.covariance_weights, offsets, images);  // the offsets' weighted sum is zero
+}
+
+inline Updated points_update(const NonlinearModel& model, const State& prior, const Points& points, const Vector& z,
+                             const Matrix& R) {
+  std::vector<Vector> seen, offsets;
+  for (const Vector& x : points.at) {
+    const Vector h = model.h(x);
+    // Angles are averaged as they lie about the first, without jumps.
+    seen.push_back(h);
+    if (seen.size() > 1) {
+      const Vector from_first = measured_difference(model, h, seen.front());
+      for (Index k = 0; k < h.size(); ++k) seen.back()[k] = seen.front()[k] + from_first[k];
+    }
+    offsets.push_back(difference(x, prior.mean));
+  }
+  const Vector mean = weighted_mean(points.mean_weights, seen);
+  for (Vector& h : seen) h = difference(h, mean);
+  return corrected(prior, measured_difference(model, z, mean),
+                   weighted_outer(points.covariance_weights, seen, seen) + R,
+                   weighted_outer(points.covariance_weights, offsets, seen));
+}
+
+}  // namespace restatement
