@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <concepts>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -10,9 +11,11 @@
 #include <vector>
 
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
 
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
+#include "support/second_order_restatement.hpp"
 
 namespace sigmax {
 
@@ -27,7 +30,25 @@ extern template class InteractingMultipleModel<VectorBank, Fuzzy>;
 extern template class InteractingMultipleModel<TupleBank, Random>;
 extern template class InteractingMultipleModel<TupleBank, Fuzzy>;
 
+// Instantiated once, by second_order_multiple_model_test.cpp.
+extern template class SecondOrderMultipleModel<VectorBank, Random>;
+extern template class SecondOrderMultipleModel<VectorBank, Fuzzy>;
+extern template class SecondOrderMultipleModel<TupleBank, Random>;
+extern template class SecondOrderMultipleModel<TupleBank, Fuzzy>;
+
 namespace support {
+
+/// The two filters, each with what restates it.
+struct Interacting {
+  template <class Models, class Kind>
+  using Filter = InteractingMultipleModel<Models, Kind>;
+  using Restated = restatement::Filter;
+};
+struct SecondOrder {
+  template <class Models, class Kind>
+  using Filter = SecondOrderMultipleModel<Models, Kind>;
+  using Restated = restatement::SecondOrderFilter;
+};
 
 /// One scan: seconds since the last, and what was measured, if anything.
 struct Scan {
@@ -64,6 +85,61 @@ inline std::vector<Scan> manoeuvring_target(std::size_t scans = 220) {
   return result;
 }
 
+using State = Gaussian<Eigen::Dynamic, 6>;
+
+inline const RandomVariable random_motion{"motion", {"calm", "rough", "turn"}};
+inline const FuzzyVariable fuzzy_motion{"motion", {"calm", "rough", "turn"}};
+inline const Relation random_transition{
+    random_motion, random_motion, {{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}}};
+inline const Relation fuzzy_transition{fuzzy_motion, fuzzy_motion, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
+
+template <Uncertainty Kind>
+const Relation<Kind, Kind>& transition_of() {
+  if constexpr (std::is_same_v<Kind, Random>)
+    return random_transition;
+  else
+    return fuzzy_transition;
+}
+
+/// A mode variable without names, and the transition that these rows are.
+template <Uncertainty Kind>
+Relation<Kind, Kind> transition_by(const std::vector<std::vector<double>>& rows) {
+  const Variable<Kind> motion{"motion", rows.size()};
+  return {motion, motion, rows};
+}
+
+inline Planar calm(double sigma_w = 1.0) { return Planar{dwna<2>(sigma_w)}; }
+inline Planar turning(double sigma_w = 4.0) { return Planar{dwpa<2>(sigma_w)}; }
+
+/// Every start is wrong in its own way.
+inline std::vector<State> starts() {
+  SquareMatrix<4> small = 50.0 * SquareMatrix<4>::Identity();
+  small.topRightCorner<2, 2>().setConstant(5.0);
+  small.bottomLeftCorner<2, 2>().setConstant(5.0);
+  SquareMatrix<6> large = 80.0 * SquareMatrix<6>::Identity();
+  large.topRightCorner<2, 2>().setConstant(3.0);
+  large.bottomLeftCorner<2, 2>().setConstant(3.0);
+  return {State{Vector<4>{12005, 7990, -95, -103}, small}, State{Vector<4>{11996, 8004, -99, -108}, 2.0 * small},
+          State{Vector<6>{12001, 8003, -101, -95, 3, -4}, large}};
+}
+
+inline constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
+inline constexpr auto readings = {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred,
+                                  MixedCovariance::released};
+inline constexpr auto ties = {Tie::stay, Tie::first, Tie::last};
+
+/// The plain Kalman filter of one model.
+struct Alone {
+  Planar model;
+  State state;
+  double log_likelihood = 0.0;
+
+  void step(const Scan& scan) {
+    predict(model, state, scan.dt, state);
+    if (scan.z) log_likelihood += update(model, state, *scan.z, state).log_likelihood;
+  }
+};
+
 inline restatement::Model restate(const Planar& model) {
   return model.order() == 2 ? restatement::dwna(2, model.sigma_w()) : restatement::dwpa(2, model.sigma_w());
 }
@@ -74,6 +150,8 @@ restatement::Options restate(const Interaction<Kind>& interaction) {
   restatement::Options options;
   options.lift = static_cast<restatement::Lift>(interaction.lift);
   options.output_tie = static_cast<restatement::Tie>(interaction.output_tie);
+  options.common_start = interaction.mixed_start == MixedStart::common;
+  options.possibilistic = interaction.likelihood == LikelihoodForm::possibility;
   if constexpr (std::is_same_v<Kind, Fuzzy>) {
     options.kind = restatement::Kind::himm;
     options.mixed_covariance = static_cast<restatement::MixedCovariance>(interaction.collapse.mixed_covariance);
@@ -81,6 +159,7 @@ restatement::Options restate(const Interaction<Kind>& interaction) {
   } else {
     options.kind = restatement::Kind::imm;
     options.mixing_weights = static_cast<restatement::Weights>(interaction.collapse.mixing_weights);
+    options.output_spread_omitted = interaction.collapse.output_spread == OutputSpread::omitted;
   }
   return options;
 }
@@ -148,7 +227,8 @@ void step(Filter& filter, const Scan& scan) {
   else
     filter.step(scan.dt);
 }
-inline void step(restatement::Filter& filter, const Scan& scan) {
+template <std::derived_from<restatement::Filter> Restated>
+void step(Restated& filter, const Scan& scan) {
   if (scan.z)
     filter.step(scan.dt, entries(scan.z->mean), dense(scan.z->covariance));
   else

@@ -217,6 +217,9 @@ struct Options {
   Lift lift = Lift::zero;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
+  bool common_start = false;           // One mixture for all models, by the weights before the step: GPB1.
+  bool possibilistic = false;          // exp(−d²/2) instead of the density.
+  bool output_spread_omitted = false;  // (68) as printed.
 };
 
 /// The largest of some log weights; within the tolerance the rule decides, `current` first for `stay`.
@@ -282,8 +285,7 @@ class Filter {
       const Matrix kept = identity(correction.size()) - W * H;
       states_[j].covariance = symmetrised(kept * states_[j].covariance * transposed(kept) +  // (30)
                                           W * R * transposed(W));
-      log_weights_[j] += -0.5 * (dot(nu, S_inverse.matrix * nu) + S_inverse.log_determinant +
-                                 static_cast<double>(z.size()) * std::log(2.0 * std::numbers::pi));  // (62), (63)
+      log_weights_[j] += log_likelihood(nu, S_inverse);  // (62), (63)
       innovations.push_back(nu);
       innovation_covariances.push_back(S);
     }
@@ -318,10 +320,21 @@ class Filter {
       lifted.push_back(in_union(l));
       weights.push_back(std::exp(log_weights_[l]));
     }
-    return moments(lifted, weights, weights);
+    State result = moments(lifted, weights, weights);
+    if (options_.output_spread_omitted)
+      for (Index l = 0; l < lifted.size(); ++l)
+        result.covariance = result.covariance - weights[l] * outer(difference(result.mean, lifted[l].mean));
+    return result;
   }
 
- private:
+ protected:
+  double log_likelihood(const Vector& nu, const Inverse& S_inverse) const {
+    const double squared_distance = dot(nu, S_inverse.matrix * nu);
+    if (options_.possibilistic) return -0.5 * squared_distance;
+    return -0.5 * (squared_distance + S_inverse.log_determinant +
+                   static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  }
+
   /// Step 1, (51)–(59).
   void interact() {
     const Index M = models_.size();
@@ -337,6 +350,7 @@ class Filter {
           move_in[j][l] = l == j ? 0.0 : nothing;
         else
           move_in[j][l] -= predicted[j];
+        if (options_.common_start && predicted[j] != nothing) move_in[j][l] = log_weights_[l];
       }
     }
 
@@ -361,15 +375,15 @@ class Filter {
     for (Index l = 0; l < models_.size(); ++l) {
       lifted.push_back(received(l, j));
       mean_weights.push_back(std::exp(move_in[j][l]));
-      covariance_weights.push_back(
-          std::exp(options_.mixing_weights == Weights::correct ? move_in[j][l] : move_in[l][j]));
+      covariance_weights.push_back(std::exp(
+          options_.mixing_weights == Weights::correct || options_.common_start ? move_in[j][l] : move_in[l][j]));
     }
     return moments(lifted, mean_weights, covariance_weights);
   }
 
   /// (55)–(57).
   State selected(Index j, const Vector& move_in) const {
-    const Index l = largest(move_in, options_.mixing_tie, j);
+    const Index l = largest(move_in, options_.mixing_tie, options_.common_start ? winner_ : j);
     const State winner = received(l, j);
     const Matrix& own = states_[j].covariance;
     switch (options_.mixed_covariance) {

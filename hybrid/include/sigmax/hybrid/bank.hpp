@@ -12,7 +12,8 @@
 namespace sigmax {
 
 /// A bank of models: a tuple of different types, known to the compiler (the fast path), or a vector of one run-time
-/// type (what programs use). The filter is written once, over `for_each_mode` and `mode`.
+/// type (what programs use). The filter is written once, over `for_each_mode` and `mode`. `Estimates` has one estimate
+/// of each model's state, `Pairs` as many as there are modes: one for each other mode that it may come from or go to.
 template <class Models>
 struct Bank;
 
@@ -22,6 +23,7 @@ struct Bank<std::tuple<First, Others...>> {
                 "all models of a bank must score the same measurement vector");
   static constexpr int measurement_size = First::measurement_size;
   using Estimates = std::tuple<EstimateOf<First>, EstimateOf<Others>...>;
+  using Pairs = std::tuple<std::vector<EstimateOf<First>>, std::vector<EstimateOf<Others>>...>;
   /// No bank carries more different components than all its models together.
   static constexpr int max_components = ((First::max_state_size + ... + Others::max_state_size));
 };
@@ -30,6 +32,7 @@ template <class Model>
 struct Bank<std::vector<Model>> {
   static constexpr int measurement_size = Model::measurement_size;
   using Estimates = std::vector<EstimateOf<Model>>;
+  using Pairs = std::vector<std::vector<EstimateOf<Model>>>;
   static constexpr int max_components = Model::max_state_size;
 };
 
@@ -81,6 +84,22 @@ auto estimates_for(const std::tuple<Models...>&) {
 template <class Model>
 auto estimates_for(const std::vector<Model>& models) {
   return std::vector<EstimateOf<Model>>(models.size());
+}
+
+/// Room for as many estimates of each model as there are modes, all equal to that model's estimate.
+template <class... Estimate>
+auto pairs_for(const std::tuple<Estimate...>& estimates) {
+  return std::apply(
+      [](const auto&... each) {
+        return std::tuple<std::vector<Estimate>...>{std::vector<Estimate>(sizeof...(Estimate), each)...};
+      },
+      estimates);
+}
+template <class Estimate>
+auto pairs_for(const std::vector<Estimate>& estimates) {
+  std::vector<std::vector<Estimate>> pairs;
+  for (const Estimate& each : estimates) pairs.emplace_back(estimates.size(), each);
+  return pairs;
 }
 
 }  // namespace sigmax

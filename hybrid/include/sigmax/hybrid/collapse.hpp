@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include <sigmax/core/tie.hpp>
 #include <sigmax/core/uncertainty.hpp>
 #include <sigmax/hybrid/lift.hpp>
 
@@ -16,8 +17,6 @@ enum class Tie {
   first,  ///< the lowest index
   last    ///< the highest index
 };
-
-inline constexpr double tie_tolerance = 1e-9;
 
 /// Index of the greatest weight, given as logarithms. `current` is the mode that `Tie::stay` favours.
 template <class LogWeight>
@@ -55,23 +54,36 @@ struct Selection {
   Tie mixing_tie = Tie::stay;
 };
 
+/// Whether the covariance of the output, (68), has the spread of the means.
+enum class OutputSpread {
+  included,  ///< Σ w (P + (xʲ − x)(xʲ − x)ᵀ), the second moment
+  omitted    ///< Σ w P, as printed
+};
+
 /// One Gaussian for a sum-mixture matches its first two moments, (58), (59), (67), (68).
 struct MomentMatching {
   MixingWeights mixing_weights = MixingWeights::correct;
+  OutputSpread output_spread = OutputSpread::included;
 };
 
 /// How mixtures over a mode of this kind collapse: the only place where IMM and HIMM part.
 template <Uncertainty Kind>
 using Collapse = std::conditional_t<SelectiveAlgebra<AlgebraOf<Kind>>, Selection, MomentMatching>;
 
+/// The mean of the mixture Σ weight(l) N(l).
+template <class Mixture, class Weight, int N, int MaxN>
+void average_means(const Mixture& mixture, const Weight& weight, Vector<N, MaxN>& result) {
+  result.setZero();
+  mixture.visit_all([&](std::size_t l, const auto& part) {
+    if (weight(l) > 0.0) result += weight(l) * part.mean();
+  });
+}
+
 /// Mean and covariance of the mixture Σ weight(l) N(l), whose covariance may have weights of its own.
 template <class Mixture, class Weight, class CovarianceWeight, int N, int MaxN>
 void match_moments(const Mixture& mixture, const Weight& weight, const CovarianceWeight& covariance_weight,
                    Gaussian<N, MaxN>& result) {
-  result.mean.setZero();
-  mixture.visit_all([&](std::size_t l, const auto& part) {
-    if (weight(l) > 0.0) result.mean += weight(l) * part.mean();
-  });
+  average_means(mixture, weight, result.mean);
   result.covariance.setZero();
   mixture.visit_all([&](std::size_t l, const auto& part) {
     if (!(covariance_weight(l) > 0.0)) return;
@@ -82,9 +94,9 @@ void match_moments(const Mixture& mixture, const Weight& weight, const Covarianc
   mirror_lower(result.covariance);
 }
 
-/// One Gaussian for a mixture of Gaussians. `mixture.visit_all(visit)` calls visit(l, part) for every mode and
+/// One Gaussian for a mixture of Gaussians. `mixture.visit_all(visit)` calls visit(l, part) for every part and
 /// `mixture.visit(l, visit)` for one; a part has mean() and add_covariance(weight, covariance). `weight(l)` is the
-/// mode's weight, `winner` the mode selected by it. `result` has its size already.
+/// part's weight, `winner` the one selected by it. `result` has its size already.
 template <class Mixture, class Weight, int N, int MaxN>
 void collapse(const Selection&, const Mixture& mixture, const Weight&, std::size_t winner, Gaussian<N, MaxN>& result) {
   result.covariance.setZero();
@@ -94,19 +106,23 @@ void collapse(const Selection&, const Mixture& mixture, const Weight&, std::size
   });
 }
 template <class Mixture, class Weight, int N, int MaxN>
-void collapse(const MomentMatching&, const Mixture& mixture, const Weight& weight, std::size_t,
+void collapse(const MomentMatching& rule, const Mixture& mixture, const Weight& weight, std::size_t,
               Gaussian<N, MaxN>& result) {
-  match_moments(mixture, weight, weight, result);
+  if (rule.output_spread == OutputSpread::included) return match_moments(mixture, weight, weight, result);
+  average_means(mixture, weight, result.mean);
+  result.covariance.setZero();
+  mixture.visit_all([&](std::size_t l, const auto& part) { part.add_covariance(weight(l), result.covariance); });
 }
 
-/// The mixed start of mode j, (55)–(57) or (58), (59). `move_in(l, j)` is the weight of mode l before, given mode j
-/// now; `own` is the estimate of j.
-template <class Mixture, class MoveIn, int N, int MaxN>
-void mix(const Selection& rule, const Mixture& mixture, const MoveIn& move_in, std::size_t modes, std::size_t j,
-         const Gaussian<N, MaxN>& own, Gaussian<N, MaxN>& result) {
+/// The mixed start of a mode, (55)–(57) or (58), (59). `weight(l)` is that of mode l before, given what the mode is
+/// now; `transposed(l)` the one that the authors' program uses for covariances; `own` is the mode's estimate, and
+/// `favoured` wins ties if they are to stay.
+template <class Mixture, class Weight, class Transposed, int N, int MaxN>
+void mix(const Selection& rule, const Mixture& mixture, const Weight& weight, const Transposed&, std::size_t modes,
+         std::size_t favoured, const Gaussian<N, MaxN>& own, Gaussian<N, MaxN>& result) {
   const std::size_t l = select(
-      modes, [&](std::size_t i) { return std::log(move_in(i, j)); }, j, rule.mixing_tie);
-  collapse(rule, mixture, move_in, l, result);
+      modes, [&](std::size_t i) { return std::log(weight(i)); }, favoured, rule.mixing_tie);
+  collapse(rule, mixture, weight, l, result);
   if (rule.mixed_covariance == MixedCovariance::selected) return;
   result.covariance = own.covariance;
   if (rule.mixed_covariance == MixedCovariance::own) return;
@@ -115,13 +131,13 @@ void mix(const Selection& rule, const Mixture& mixture, const MoveIn& move_in, s
     mixture.visit(0, [&](const auto& first) { spread = result.mean - first.mean(); });
   result.covariance += spread * spread.transpose();
 }
-template <class Mixture, class MoveIn, int N, int MaxN>
-void mix(const MomentMatching& rule, const Mixture& mixture, const MoveIn& move_in, std::size_t, std::size_t j,
-         const Gaussian<N, MaxN>&, Gaussian<N, MaxN>& result) {
-  const bool transposed = rule.mixing_weights == MixingWeights::released;
-  match_moments(
-      mixture, [&](std::size_t l) { return move_in(l, j); },
-      [&](std::size_t l) { return transposed ? move_in(j, l) : move_in(l, j); }, result);
+template <class Mixture, class Weight, class Transposed, int N, int MaxN>
+void mix(const MomentMatching& rule, const Mixture& mixture, const Weight& weight, const Transposed& transposed,
+         std::size_t, std::size_t, const Gaussian<N, MaxN>&, Gaussian<N, MaxN>& result) {
+  if (rule.mixing_weights == MixingWeights::correct)
+    match_moments(mixture, weight, weight, result);
+  else
+    match_moments(mixture, weight, transposed, result);
 }
 
 }  // namespace sigmax

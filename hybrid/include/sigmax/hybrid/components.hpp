@@ -35,6 +35,7 @@ class Components {
                                   " different components, but their type allows " + std::to_string(max_size));
     for_each_mode(models, [&](auto j) {
       output_.emplace_back(names_, mode(models, j).components());
+      start_.emplace_back(mode(models, j).components(), names_);
       for_each_mode(models,
                     [&](auto l) { mixing_.emplace_back(mode(models, j).components(), mode(models, l).components()); });
     });
@@ -73,30 +74,38 @@ class Components {
     return result;
   }
 
-  /// What each model takes of one start, given in the order of `names()`. Throws std::invalid_argument for another
-  /// size.
+  /// What each model takes of one start, given in the order of `names()`, written into estimates of the models' sizes.
+  /// Throws std::invalid_argument for another size.
   template <int N, int MaxN>
-  Estimates shares(const Models& models, const Gaussian<N, MaxN>& start) const {
+  void shares(const Gaussian<N, MaxN>& start, Estimates& shares) const {
     if (static_cast<std::size_t>(start.size()) != names_.size())
       throw std::invalid_argument("the start has " + std::to_string(start.size()) +
                                   " components, but the models have " + std::to_string(names_.size()));
-    Estimates shares = estimates_for(models);
-    for_each_mode(models, [&](auto j) {
-      const Correspondence map(mode(models, j).components(), names_);
+    for_each_mode(shares, [&](auto j) {
       auto& own = mode(shares, j);
-      own.mean.resize(mode(models, j).size());
-      own.covariance.setZero(own.mean.size(), own.mean.size());
-      const Lifted dropped(own, start, map, Lift::zero);
+      const Lifted dropped(own, start, start_[j], Lift::zero);
       own.mean = dropped.mean();
+      own.covariance.setZero();
       dropped.add_covariance(1.0, own.covariance);
     });
-    return shares;
+  }
+  template <int N, int MaxN>
+  Estimates shares(const Models& models, const Gaussian<N, MaxN>& start) const {
+    Estimates result = estimates_for(models);
+    for_each_mode(models, [&](auto j) {
+      const auto n = mode(models, j).size();
+      mode(result, j).mean.setZero(n);
+      mode(result, j).covariance.setZero(n, n);
+    });
+    shares(start, result);
+    return result;
   }
 
  private:
   std::vector<std::string> names_;
   std::vector<Correspondence> mixing_;  ///< of source l in receiver j, at j · modes + l
   std::vector<Correspondence> output_;  ///< of source l in names_
+  std::vector<Correspondence> start_;   ///< of names_ in receiver j
 };
 
 }  // namespace sigmax

@@ -31,6 +31,29 @@ struct LiftedMixture {
   }
 };
 
+/// Estimates of one model as the parts of a mixture. A view.
+template <class Estimate>
+struct EstimateMixture {
+  struct Part {
+    const Estimate& estimate;
+    const auto& mean() const { return estimate.mean; }
+    template <class Matrix>
+    void add_covariance(double weight, Matrix& covariance) const {
+      covariance += weight * estimate.covariance;
+    }
+  };
+  const std::vector<Estimate>& estimates;
+
+  template <class Visit>
+  void visit_all(const Visit& visit) const {
+    for (std::size_t l = 0; l < estimates.size(); ++l) visit(l, Part{estimates[l]});
+  }
+  template <class Visit>
+  void visit(std::size_t wanted, const Visit& visit) const {
+    visit(Part{estimates[wanted]});
+  }
+};
+
 /// The models' innovations as the parts of a mixture: the predicted measurement, about the one that came.
 template <int M>
 struct InnovationMixture {

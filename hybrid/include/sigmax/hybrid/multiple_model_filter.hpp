@@ -1,0 +1,252 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/hybrid_estimate.hpp>
+#include <sigmax/hybrid/interaction.hpp>
+#include <sigmax/hybrid/jump_markov_system.hpp>
+#include <sigmax/hybrid/mixture.hpp>
+
+namespace sigmax {
+
+/// A gate that every measurement passes.
+inline constexpr double no_gate = std::numeric_limits<double>::infinity();
+
+/// What the multiple-model filters share: models and mode, the estimates, and the output. They differ in their `step`.
+///
+/// `Models` is a std::tuple of models or a std::vector of one run-time model type. Mode weights are kept as logarithms.
+template <class Models, Uncertainty Kind>
+class MultipleModelFilter {
+ public:
+  static constexpr int measurement_size = Bank<Models>::measurement_size;
+  using Measurement = Gaussian<measurement_size>;
+  using Estimates = typename Bank<Models>::Estimates;
+  using State = HybridEstimate<Models, Kind>;
+  /// An estimate in the components of all models together.
+  using Estimate = typename Components<Models>::Estimate;
+
+  std::size_t modes() const { return mode_count(system_.models()); }
+  const JumpMarkovSystem<Models, Kind>& system() const { return system_; }
+  const Interaction<Kind>& interaction() const { return interaction_; }
+
+  /// What is believed of the mode now; weights normalised by the mode's own ⊕, as logarithms.
+  const Belief<Kind>& belief() const { return state().belief; }
+
+  /// The most likely mode, (64); ties by the output rule.
+  std::size_t most_likely_mode() const { return state().most_likely_mode; }
+
+  /// The estimates of the models, one each, in their own components.
+  const Estimates& estimates() const { return state().estimates; }
+
+  /// All that the next step depends on.
+  const State& state() const { return states_[current_]; }
+
+  /// Goes on from another state, as a step back or a smoother may want. Throws std::invalid_argument if it does not fit
+  /// the models or is not finite.
+  void restore(const State& state) {
+    require_starts(state.estimates);
+    check::same(system_.mode_variable(), state.belief.variable(), "restore");
+    states_[current_] = state;
+    measured_ = false;
+  }
+
+  /// Starts again as if new: every model from the components that it has of one estimate, given in the order of
+  /// `components()`, and nothing is known of the mode.
+  template <int N, int MaxN>
+  void restart(const Gaussian<N, MaxN>& start) {
+    if (!all_finite(start)) throw std::invalid_argument("the start is not finite");
+    components_.shares(start, states_[current_].estimates);
+    states_[current_].belief = Belief{uninformative(system_.mode_variable())};
+    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+    measured_ = false;
+  }
+
+  /// The names of all components, those of the largest model first.
+  const std::vector<std::string>& components() const { return components_.names(); }
+
+  /// Where the components of mode j's model stand in each model.
+  const Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
+
+  /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
+  /// (67), (68) with the spread of the means that the print omits, if nothing else was chosen. In `components()`,
+  /// lifted by the rule in force. Of the filter's own state, or another, say a smoothed one.
+  Estimate estimate() const { return estimate(state()); }
+  Estimate estimate(const State& state) const { return output(interaction_.collapse, state); }
+
+  /// The estimate of the most likely mode alone, whatever the mode's kind.
+  Estimate most_likely_estimate() const { return output(Selection{}, state()); }
+
+  /// Whether the last step had a measurement, and took it.
+  bool measured() const { return measured_; }
+
+  /// The last innovation of each model; of value only if `measured()`.
+  const std::vector<Innovation<measurement_size>>& innovations() const { return innovations_; }
+
+  /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
+  /// asks, with the weights before the measurement. NaN-free: throws std::logic_error if the last step had no
+  /// measurement.
+  double nis() const {
+    if (!measured_) throw std::logic_error("nis() after a step without a measurement");
+    return predicted_nis();
+  }
+
+ protected:
+  MultipleModelFilter(Models models, ModeTransition<Kind> transition, Estimates start, Interaction<Kind> interaction)
+      : system_(std::move(models), std::move(transition)),
+        interaction_(interaction),
+        innovations_(modes()),
+        prior_(uninformative(system_.mode_variable())),
+        components_(system_.models()),
+        states_{State{start, prior_}, State{start, prior_}} {
+    require_starts(start);
+    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+  }
+
+  /// What the step is writing: until `conclude`, all that is public shows the state before.
+  State& next() { return states_[1 - current_]; }
+
+  /// Begins a step: the prior of the mode, (51) or (53), and the mode that it favours.
+  void predict_mode(double dt) {
+    measured_ = false;
+    compose(system_.transition(dt), belief(), prior_);
+    predicted_mode_ = select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+  }
+
+  /// The estimates, or others, as a mixture in the components of `receiver`.
+  template <class Receiver>
+  LiftedMixture<Receiver, Estimates> mixture(const Receiver& receiver, const Correspondence* maps,
+                                             const Estimates& estimates) const {
+    return {receiver, estimates, maps, interaction_.lift};
+  }
+
+  /// How well model j explained the measurement, by the form in force. Throws std::domain_error if that is no number.
+  double log_likelihood(std::size_t j, const Innovation<measurement_size>& innovation) const {
+    const bool density = interaction_.likelihood == LikelihoodForm::density;
+    const double log = density ? innovation.log_likelihood : -0.5 * innovation.squared_distance;
+    if (std::isnan(log))
+      throw std::domain_error("the likelihood in mode '" + system_.mode_variable().label(j) + "' is not a number");
+    return log;
+  }
+
+  /// Throws std::domain_error, naming the model, unless its next estimate is finite and no variance is negative beyond
+  /// rounding: what a lost definiteness shows first, and costs next to nothing to see.
+  template <class Model>
+  static void require_sound(const Model& model, const EstimateOf<Model>& estimate) {
+    const auto variances = estimate.covariance.diagonal().array();
+    const double rounding = 1e-12 * variances.abs().sum();  // not a number if one of them is not
+    if (!estimate.mean.allFinite() || !std::isfinite(rounding))
+      throw std::domain_error("the estimate of model '" + std::string(model.name()) + "' is not finite");
+    if ((variances < -rounding).any())
+      throw std::domain_error("the covariance of model '" + std::string(model.name()) +
+                              "' is not positive semi-definite");
+  }
+
+  /// The NIS of the step being taken, as soon as its innovations are known.
+  double predicted_nis() const {
+    Measurement predicted;
+    collapse(
+        Collapse<Kind>{}, InnovationMixture<measurement_size>{innovations_},
+        [this](std::size_t j) { return prior_[j]; }, predicted_mode_, predicted);
+    return squared_distance(predicted);
+  }
+
+  /// The next state becomes the state; its most likely mode is (64).
+  void conclude(bool measured) {
+    next().most_likely_mode = select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
+    current_ = 1 - current_;
+    measured_ = measured;
+    ++steps_;
+  }
+
+  static double squared_distance(const Measurement& innovation) {
+    const Eigen::LLT<SquareMatrix<measurement_size>> S(innovation.covariance);
+    return S.matrixL().solve(innovation.mean).squaredNorm();
+  }
+
+  static auto logs_of(const Belief<Kind>& belief) {
+    return [&belief](std::size_t j) { return belief.log(j); };
+  }
+
+  /// Runs what may lose definiteness; says in which step that was.
+  template <class Action>
+  void located(double dt, const Action& action) const {
+    try {
+      action();
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(this_step(dt) + ": " + error.what());
+    }
+  }
+
+  void require(double dt) const {
+    if (!(dt >= 0.0 && std::isfinite(dt)))
+      throw std::invalid_argument(this_step(dt) + ": expected a finite time that is not negative");
+  }
+  void require(double dt, const Measurement& z) const {
+    require(dt);
+    if (!all_finite(z))
+      throw std::invalid_argument(this_step(dt) + ": the measurement, or its covariance, is not finite");
+  }
+
+ private:
+  std::string this_step(double dt) const {
+    return "step " + std::to_string(steps_ + 1) + " of " + std::to_string(dt) + " s";
+  }
+
+  template <class Rule>
+  Estimate output(const Rule& rule, const State& state) const {
+    // What a lift of the output borrows: for each component from the most likely model that has it.
+    const Estimate receiver = components_.carried(state.estimates, [&](const auto& has) {
+      const auto log_weight_if_it_has_it = [&](std::size_t l) {
+        return has(l) ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
+      };
+      return select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
+    });
+    Estimate result = receiver;
+    collapse(
+        rule, mixture(receiver, components_.of_all(), state.estimates), [&](std::size_t j) { return state.belief[j]; },
+        state.most_likely_mode, result);
+    return result;
+  }
+
+  void require_starts(const Estimates& starts) const {
+    if (mode_count(starts) != modes())
+      throw std::invalid_argument("there are " + std::to_string(modes()) + " models, but " +
+                                  std::to_string(mode_count(starts)) + " starts");
+    for_each_mode(starts, [&](auto j) {
+      const auto& model = mode(system_.models(), j);
+      const auto& start = mode(starts, j);
+      if (start.mean.size() != model.size() || start.covariance.rows() != model.size())
+        throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' has " +
+                                    std::to_string(start.mean.size()) + " components; expected " +
+                                    std::to_string(model.size()));
+      if (!all_finite(start))
+        throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
+    });
+  }
+
+ protected:
+  JumpMarkovSystem<Models, Kind> system_;
+  Interaction<Kind> interaction_;
+  std::vector<Innovation<measurement_size>> innovations_;
+  Belief<Kind> prior_;
+
+ private:
+  Components<Models> components_;
+  std::array<State, 2> states_;
+  std::size_t current_ = 0;
+  std::size_t predicted_mode_ = 0;
+  std::size_t steps_ = 0;
+  bool measured_ = false;
+};
+
+}  // namespace sigmax

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <sigmax/core/logarithm.hpp>
+#include <sigmax/core/table.hpp>
+#include <sigmax/hybrid/multiple_model_filter.hpp>
+
+namespace sigmax {
+
+/// The second-order multiple-model filter: with a random mode GPB2 (Tugnait 1982; Bar-Shalom, Li, Kirubarajan 2001,
+/// 11.6.5), with a fuzzy mode the Viterbi filter (Averbuch, Itzikowitz, Kapon 1991), which keeps the best predecessor
+/// of each mode. The mode's kind is the only difference, and HIMM : Viterbi = IMM : GPB2.
+///
+///     SecondOrderMultipleModel filter{std::tuple{dwna<3>(3.0), dwpa<3>(3.0)}, transition, start};
+///
+/// Each of the M² pairs of a predecessor l and a mode j predicts and updates; the predecessors of a mode then collapse
+/// *after* the measurement, by their weights π(j|l) ⊗ b(l) ⊗ Λ_lj. There is no mixed start: of `Interaction`, its
+/// readings (`mixed_start`, `mixed_covariance`, `mixing_weights`) do not concern this filter; `mixing_tie` is the tie
+/// among predecessors. `step` allocates nothing.
+template <class Models, Uncertainty Kind>
+class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
+  using Filter = MultipleModelFilter<Models, Kind>;
+
+ public:
+  using Filter::belief;
+  using Filter::estimates;
+  using Filter::modes;
+  using typename Filter::Estimates;
+  using typename Filter::Measurement;
+
+  /// As InteractingMultipleModel.
+  SecondOrderMultipleModel(Models models, ModeTransition<Kind> transition, Estimates start,
+                           Interaction<Kind> interaction = {})
+      : Filter(std::move(models), std::move(transition), std::move(start), interaction),
+        pairs_(pairs_for(estimates())),
+        pair_innovations_(modes()),
+        log_weight_(modes()),
+        joint_(modes(), modes()),
+        predecessor_(modes(), modes()) {}
+  template <int N, int MaxN>
+  SecondOrderMultipleModel(Models models, ModeTransition<Kind> transition, const Gaussian<N, MaxN>& start,
+                           Interaction<Kind> interaction = {})
+      : SecondOrderMultipleModel(models, std::move(transition), Components<Models>(models).shares(models, start),
+                                 interaction) {}
+
+  /// One cycle; what it takes and throws is as of InteractingMultipleModel.
+  void step(double dt, const Measurement& z, double gate = no_gate) {
+    this->require(dt, z);
+    this->located(dt, [&] {
+      branch(dt);
+      for_each_mode(system_.models(), [&](auto j) {
+        for (std::size_t l = 0; l < modes(); ++l) {
+          if (!lives(l, j)) continue;
+          auto& pair = mode(pairs_, j)[l];
+          pair_innovations_[l] = update(mode(system_.models(), j), pair, z, pair);
+          joint_(j, l) += this->log_likelihood(j, pair_innovations_[l]);
+        }
+        summarize(j);
+      });
+      merge();
+    });
+    if (gate < no_gate && !(this->predicted_nis() <= gate)) return step(dt);
+    this->conclude(true);
+  }
+
+  /// One cycle without a measurement.
+  void step(double dt) {
+    this->require(dt);
+    this->located(dt, [&] {
+      branch(dt);
+      merge();
+    });
+    this->conclude(false);
+  }
+
+ private:
+  using Filter::innovations_;
+  using Filter::interaction_;
+  using Filter::prior_;
+  using Filter::system_;
+
+  /// Every pair predicts from its predecessor's estimate, read in the components of the mode's model.
+  void branch(double dt) {
+    this->predict_mode(dt);
+    const auto& transition = system_.transition();
+    for_each_mode(system_.models(), [&](auto j) {
+      for (std::size_t l = 0; l < modes(); ++l) joint_(j, l) = belief().log(l) + std::log(transition(l, j));
+      weigh(j);
+      const auto& own = mode(estimates(), j);
+      const auto read = this->mixture(own, this->correspondences(j), estimates());
+      for (std::size_t l = 0; l < modes(); ++l) {
+        if (!lives(l, j)) continue;
+        auto& pair = mode(pairs_, j)[l];
+        if (l == j)
+          pair = own;
+        else
+          collapse(Selection{}, read, unweighted, l, pair);
+        predict(mode(system_.models(), j), pair, dt, pair);
+      }
+    });
+  }
+
+  /// The predecessors of each mode collapse, by sum and moments or by selection; the belief is the ⊕ of their weights.
+  void merge() {
+    this->next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
+    for_each_mode(system_.models(), [&](auto j) {
+      const auto& pairs = mode(pairs_, j);
+      collapse(Collapse<Kind>{}, EstimateMixture<typename std::decay_t<decltype(pairs)>::value_type>{pairs}, weight(j),
+               best(j), mode(this->next().estimates, j));
+      this->require_sound(mode(system_.models(), j), mode(this->next().estimates, j));
+    });
+  }
+
+  /// The logarithm of the weight of mode j, and the weights of its predecessors given j. An excluded mode keeps those
+  /// that it had before the measurement, and one that nothing reaches is its own predecessor.
+  void weigh(std::size_t j) {
+    const auto log = [&](std::size_t l) { return joint_(j, l); };
+    log_weight_[j] = log_combine<AlgebraOf<Kind>>(modes(), log, [](std::size_t) { return 1.0; });
+    for (std::size_t l = 0; l < modes(); ++l)
+      if (log_weight_[j] != log_zero)
+        predecessor_(j, l) = std::exp(log(l) - log_weight_[j]);
+      else if (unreachable(j))
+        predecessor_(j, l) = l == j ? 1.0 : 0.0;
+  }
+
+  bool unreachable(std::size_t j) const { return prior_.log(j) == log_zero; }
+  bool lives(std::size_t l, std::size_t j) const { return joint_(j, l) != log_zero || (l == j && unreachable(j)); }
+  auto weight(std::size_t j) const {
+    return [this, j](std::size_t l) { return predecessor_(j, l); };
+  }
+  std::size_t best(std::size_t j) const {
+    Tie tie = Tie::stay;
+    if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = interaction_.collapse.mixing_tie;
+    return select(
+        modes(), [&](std::size_t l) { return std::log(predecessor_(j, l)); }, j, tie);
+  }
+
+  /// The innovation of a mode is that of its predicted measurement, a mixture by the weights before the measurement;
+  /// from then on its predecessors have those after it.
+  void summarize(std::size_t j) {
+    Measurement predicted;
+    collapse(Collapse<Kind>{}, InnovationMixture<Filter::measurement_size>{pair_innovations_}, weight(j), best(j),
+             predicted);
+    const double before = log_weight_[j];
+    weigh(j);
+    const double log_likelihood = before == log_zero ? pair_innovations_[j].log_likelihood : log_weight_[j] - before;
+    innovations_[j] = {predicted.mean, predicted.covariance, Filter::squared_distance(predicted), log_likelihood};
+  }
+
+  static double unweighted(std::size_t) { return 1.0; }
+
+  typename Bank<Models>::Pairs pairs_;                                  ///< of mode j: one for each predecessor
+  std::vector<Innovation<Filter::measurement_size>> pair_innovations_;  ///< of the mode at hand
+  std::vector<double> log_weight_;                                      ///< of each mode
+  Table joint_;        ///< logarithms of π(j|l) ⊗ b(l), and with the measurement ⊗ Λ_lj, at (j, l)
+  Table predecessor_;  ///< the same, given j
+};
+
+template <class Models, Uncertainty Kind, class Start>
+SecondOrderMultipleModel(Models, Relation<Kind, Kind>, Start) -> SecondOrderMultipleModel<Models, Kind>;
+template <class Models, Uncertainty Kind, class Start>
+SecondOrderMultipleModel(Models, Relation<Kind, Kind>, Start, Interaction<Kind>)
+    -> SecondOrderMultipleModel<Models, Kind>;
+template <class Models, class Transition, class Start>
+SecondOrderMultipleModel(Models, Transition, Start) -> SecondOrderMultipleModel<Models, typename Transition::kind>;
+template <class Models, class Transition, class Start, Uncertainty Kind>
+SecondOrderMultipleModel(Models, Transition, Start, Interaction<Kind>) -> SecondOrderMultipleModel<Models, Kind>;
+
+}  // namespace sigmax
