@@ -9,7 +9,8 @@ function(sigmax_warnings target)
 endfunction()
 option(SIGMAX_WERROR "Treat warnings as errors (CI does)" OFF)
 
-# sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root.
+# sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
+# headers below it are the room's file set: they are installed, and each must compile alone.
 function(sigmax_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   set(target sigmax_${name})
@@ -25,6 +26,31 @@ function(sigmax_room name)
   add_library(sigmax::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(${target} ${scope} cxx_std_20)
-  target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>")
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.hpp)
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   target_link_libraries(${target} ${scope} ${ROOM_DEPENDS})
+  sigmax_install(${target})
 endfunction()
+
+# sigmax_install(TARGET): puts a library into the CMake package; does nothing inside another project.
+function(sigmax_install target)
+  if(SIGMAX_INSTALL)
+    install(TARGETS ${target} EXPORT sigmax ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
+    add_dependencies(sigmax_installed ${target})
+    set_property(GLOBAL APPEND PROPERTY sigmax_installed_libraries ${target})
+  endif()
+endfunction()
+
+# sigmax_program(NAME LIBRARIES …): NAME/*.cpp as one program, which is installed.
+function(sigmax_program name)
+  file(GLOB sources CONFIGURE_DEPENDS ${name}/*.cpp)
+  add_executable(${name} ${sources})
+  sigmax_warnings(${name})
+  target_link_libraries(${name} PRIVATE ${ARGN})
+  if(SIGMAX_INSTALL)
+    install(TARGETS ${name} RUNTIME COMPONENT tools)
+    add_dependencies(sigmax_installed ${name})
+  endif()
+endfunction()
+
+add_custom_target(sigmax_installed)  # all that `cmake --install` wants, and no more

@@ -1,0 +1,66 @@
+# What `cmake --install` adds to the libraries and programs: the CMake package, sigmax.pc, and Debian packages by CPack.
+# Components: dev (to link the library) and tools (the programs). Nothing installed holds an absolute path.
+include(CMakePackageConfigHelpers)
+
+sigmax_install(sigmax_all)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sigmax")
+install(EXPORT sigmax NAMESPACE sigmax:: FILE sigmax-targets.cmake DESTINATION "${package_dir}" COMPONENT dev)
+
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/sigmax-config.cmake.in" sigmax-config.cmake
+                              INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(sigmax-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/sigmax-config.cmake" "${CMAKE_CURRENT_BINARY_DIR}/sigmax-config-version.cmake"
+        DESTINATION "${package_dir}" COMPONENT dev)
+
+file(RELATIVE_PATH prefix_from_pc "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
+get_property(libraries GLOBAL PROPERTY sigmax_installed_libraries)
+set(link_flags "")
+foreach(library IN LISTS libraries)
+  get_target_property(type ${library} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    string(PREPEND link_flags " -l${library}")  # rooms are added before those that need them
+  endif()
+endforeach()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/sigmax.pc.in" sigmax.pc @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/sigmax.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+
+# Debian packages: `cpack -G DEB` in the build directory. What Debian wants in every package is installed in packages only.
+foreach(package libsigmax-dev:dev sigmax-tools:tools)
+  string(REPLACE ":" ";" package "${package}")
+  list(POP_FRONT package name component)
+  set(doc "${CMAKE_INSTALL_DATAROOTDIR}/doc/${name}")
+  install(FILES "${CMAKE_CURRENT_LIST_DIR}/debian/copyright" DESTINATION "${doc}" COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES "${CMAKE_CURRENT_BINARY_DIR}/debian/changelog.gz" DESTINATION "${doc}" COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/debian/changelog.in" debian/changelog @ONLY)
+execute_process(COMMAND gzip -9nk -f "${CMAKE_CURRENT_BINARY_DIR}/debian/changelog" COMMAND_ERROR_IS_FATAL ANY)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "sigmax")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL dev tools)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "sigmax maintainers <maintainers@sigmax.invalid>")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsigmax-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libstdc++-12-dev | libstdc++-dev")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Sigma-max inference in C++20: probability and possibility
+Sums for random variables, maxima for fuzzy ones: relations, networks, a sequential classifier,
+Kalman filters and one interacting multiple-model filter, which is the IMM if its mode is random
+and the HIMM if its mode is fuzzy.
+.
+This package holds the headers, the static libraries, and the files for CMake and pkg-config.")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME sigmax-tools)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_TOOLS_DESCRIPTION "Track manoeuvring targets by IMM and HIMM, and recognise targets
+The programs of sigmax, a library of sigma-max inference: himm_demo compares the interacting multiple-model
+filter with a random and with a fuzzy mode, on simulated targets and on recorded flights; recognition_demo
+classifies targets from a sequence of reports, by probability and by possibility.")
+include(CPack)
