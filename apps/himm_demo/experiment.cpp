@@ -68,7 +68,7 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
     Tracker<3> tracker(experiment.filters[f]);
     for (std::size_t k = 0; k < samples; ++k) {
       try {
-        const auto z = to_cartesian(recording.measured[k], tracker.settings().sigma_radar);
+        const auto z = to_cartesian(recording.measured[k], tracker.settings().accuracy.radar);
         bool stepped_now = false;
         tracker.take(time_of(k), z, [&](double time) {
           stepped_now = true;

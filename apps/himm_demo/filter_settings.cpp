@@ -63,18 +63,44 @@ void refuse_bad_transition(const Settings& settings, const char* key, const Filt
   const auto& rows = filter.transition;
   const std::size_t modes = filter.models.size();
   if (rows.size() != modes || rows.front().size() != modes)
-    throw settings.error(key, fmt::format("{0} rows of {0} numbers, one for each model", modes));
+    throw settings.error(key, fmt::format("{0} rows of {0} numbers, one for each model", modes),
+                         "give a row for each of the models");
   for (std::size_t i = 0; i < modes; ++i) {
     double total = 0.0;
     for (const double value : rows[i]) {
-      if (!(value >= 0.0 && value <= 1.0)) throw settings.error(key, "numbers between 0 and 1");
+      if (!(value >= 0.0 && value <= 1.0))
+        throw settings.error(key, "numbers between 0 and 1", "correct row " + std::to_string(i + 1));
       total = filter.fuzzy ? std::max(total, value) : total + value;
     }
     if (!(std::abs(total - 1.0) <= 1e-9))
       throw settings.error(
-          key, fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", filter.fuzzy ? "maximum" : "sum",
-                           i + 1, filter.models[i], shortest(total)));
+          key,
+          fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", filter.fuzzy ? "maximum" : "sum", i + 1,
+                      filter.models[i], shortest(total)),
+          total > 0.0 ? fmt::format("divide that row by {}", shortest(total)) : "give a number above 0 in that row");
   }
+}
+
+Accuracy read_accuracy(const Settings& settings, const Accuracy& otherwise) {
+  Accuracy accuracy;
+  const auto positive = [&](const char* key, double value_otherwise) {
+    const double value = settings.number(key, value_otherwise);
+    if (!(value > 0.0))
+      throw settings.error(key, "a positive standard deviation",
+                           "a covariance is positive definite: give a small one rather than 0");
+    return value;
+  };
+  accuracy.radar = {positive("sigma_range_m", otherwise.radar.range),
+                    positive("sigma_azimuth_deg", otherwise.radar.azimuth / degree) * degree,
+                    positive("sigma_elevation_deg", otherwise.radar.elevation / degree) * degree};
+  accuracy.position_m = settings.numbers("sigma_position_m", otherwise.position_m);
+  if (accuracy.position_m.size() != 1 && accuracy.position_m.size() != 3)
+    throw settings.error("sigma_position_m", "one standard deviation, or one for each of x, y, z");
+  for (const double sigma : accuracy.position_m)
+    if (!(sigma > 0.0))
+      throw settings.error("sigma_position_m", "positive standard deviations",
+                           "a covariance is positive definite: give a small one rather than 0");
+  return accuracy;
 }
 
 FilterSettings read_filter(const Settings& settings, const std::string& name, bool fuzzy,
@@ -122,22 +148,16 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
     if (filter.start_covariance_diagonal.size() != 9)
       throw settings.error("start_covariance_diagonal", "nine variances, since start = \"given\"");
     for (const double variance : filter.start_covariance_diagonal)
-      if (!(variance >= 0.0)) throw settings.error("start_covariance_diagonal", "variances that are not negative");
+      if (!(variance >= 0.0))
+        throw settings.error("start_covariance_diagonal", "variances that are not negative",
+                             "give the squares of standard deviations");
   }
 
-  const auto positive = [&](const char* key, double otherwise) {
-    const double value = settings.number(key, otherwise);
-    if (!(value > 0.0)) throw settings.error(key, "a positive standard deviation");
-    return value;
-  };
-  filter.sigma_radar = {positive("sigma_range_m", defaults.sigma_radar.range),
-                        positive("sigma_azimuth_deg", defaults.sigma_radar.azimuth / degree) * degree,
-                        positive("sigma_elevation_deg", defaults.sigma_radar.elevation / degree) * degree};
-  filter.sigma_position_m = settings.numbers("sigma_position_m", {10.0});
-  if (filter.sigma_position_m.size() != 1 && filter.sigma_position_m.size() != 3)
-    throw settings.error("sigma_position_m", "one standard deviation, or one for each of x, y, z");
-  for (const double sigma : filter.sigma_position_m)
-    if (!(sigma > 0.0)) throw settings.error("sigma_position_m", "positive standard deviations");
+  Accuracy usual{defaults.sigma_radar, {10.0}};
+  filter.accuracy = read_accuracy(settings, usual);
+  const Settings sensors = settings.sub("sensor");
+  for (const auto& sensor : sensors.names())
+    filter.sensors.emplace(sensor, read_accuracy(sensors.sub(sensor), filter.accuracy));
   return filter;
 }
 
@@ -149,6 +169,12 @@ std::string listed(const std::vector<double>& numbers) {
     texts.push_back(std::move(text));
   }
   return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string as_toml(const Accuracy& accuracy) {
+  return fmt::format("sigma_range_m = {}\nsigma_azimuth_deg = {}\nsigma_elevation_deg = {}\nsigma_position_m = {}\n",
+                     shortest(accuracy.radar.range), shortest(accuracy.radar.azimuth / degree),
+                     shortest(accuracy.radar.elevation / degree), listed(accuracy.position_m));
 }
 
 }  // namespace
@@ -218,9 +244,9 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
                           listed(filter.start_covariance_diagonal));
       if (filter.start_time_s) text += fmt::format("start_time_s = {}\n", shortest(*filter.start_time_s));
     }
-    text += fmt::format("sigma_range_m = {}\nsigma_azimuth_deg = {}\nsigma_elevation_deg = {}\nsigma_position_m = {}\n",
-                        shortest(filter.sigma_radar.range), shortest(filter.sigma_radar.azimuth / degree),
-                        shortest(filter.sigma_radar.elevation / degree), listed(filter.sigma_position_m));
+    text += as_toml(filter.accuracy);
+    for (const auto& [sensor, accuracy] : filter.sensors)
+      text += fmt::format("\n[filter.{}.sensor.\"{}\"]\n{}", filter.name, sensor, as_toml(accuracy));
   }
   return text;
 }

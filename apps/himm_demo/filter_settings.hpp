@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sigmax/estimation/radar.hpp>
@@ -18,6 +20,12 @@ enum class Start {
   points,    ///< from the first three measurements, each model by as many as it needs
   released,  ///< from the first three as the authors' program does
   given      ///< from start_mean and start_covariance_diagonal
+};
+
+/// A sensor's standard deviations, as a filter believes them.
+struct Accuracy {
+  Polar radar{};                   ///< m and rad
+  std::vector<double> position_m;  ///< of measurements that are no radar's: one, or one an axis
 };
 
 /// Everything that one filter is made of.
@@ -38,8 +46,13 @@ struct FilterSettings {
   std::vector<double> start_mean;
   std::vector<double> start_covariance_diagonal;
   std::optional<double> start_time_s;
-  Polar sigma_radar{};  ///< m and rad
-  std::vector<double> sigma_position_m;
+  Accuracy accuracy;
+  std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
+
+  const Accuracy& accuracy_of(std::string_view sensor) const {
+    const auto own = sensors.find(sensor);
+    return own == sensors.end() ? accuracy : own->second;
+  }
 };
 
 /// What the keys have as defaults: the paper's, one of its presets', or the library's.

@@ -1,14 +1,15 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
+#include <array>
+#include <iostream>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "himm_demo/simulate.hpp"
 #include "himm_demo/track.hpp"
-#include "support/error.hpp"
+#include "support/run.hpp"
 #include "version.hpp"
 
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using namespace sigmax::apps;
 
 constexpr int exit_usage = 2;
-constexpr int exit_input = 3;
 
 /// A list of exactly three comma-separated numbers, as `--radar 50,0.1,0.1`.
 CLI::Option* add_triple(CLI::App& app, const std::string& name, std::vector<double>& values, const std::string& help,
@@ -29,14 +29,17 @@ std::array<double, 3> triple(const std::vector<double>& values) { return {values
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);  // so that a failure to read the standard input shows
   std::string command = "himm_demo";
   for (int i = 1; i < argc; ++i) command += fmt::format(" {}", argv[i]);
 
   CLI::App app{
       "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a "
-      "fuzzy mode (HIMM)."};
+      "fuzzy mode (HIMM).",
+      "himm_demo"};
   app.set_version_flag("--version", fmt::format("himm_demo {}", version));
   app.require_subcommand(1);
+  app.footer("himm_demo SUBCOMMAND --help lists the options of a subcommand, with examples.");
 
   SimulateOptions simulate;
   simulate.command = command;
@@ -67,28 +70,52 @@ int main(int argc, char** argv) {
   TrackOptions track;
   track.command = command;
   std::vector<double> origin, radar, radar_at;
-  CLI::App& track_app = *app.add_subcommand("track", "Tracks the target of a recording, a headed CSV file.");
+  std::string azimuth_from, on_bad_time;
+  CLI::App& track_app = *app.add_subcommand("track", "Tracks the targets of a recording, a headed CSV file.");
+  track_app.add_option("file", track.recording.file, "A recording as below; - is the standard input")->required();
   track_app
-      .add_option("file", track.file,
-                  "time_s,x_m,y_m[,z_m] or time_s,latitude_deg,longitude_deg,altitude_m (or altitude_gnss_ft, "
-                  "altitude_ft); other columns are ignored")
-      ->required();
-  track_app.add_option("--columns", track.columns, "Headers that stand for these names, as time_s=t,x_m=east")
+      .add_option("--columns", track.recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME=HEADER,…");
+  track_app.add_option("--select", track.recording.select, "Only rows that have this value; may be repeated")
+      ->type_name("COLUMN=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  track_app.add_option("--track-id", track.recording.track_id, "The column that tells tracks apart: a filter each")
+      ->type_name("COLUMN");
+  track_app.add_option("--on-bad-time", on_bad_time, "What to do where a time repeats or goes back [error]")
+      ->check(CLI::IsMember({"error", "skip"}))
+      ->option_text("error|skip");
   CLI::Option* origin_option = add_triple(track_app, "--origin", origin,
                                           "Origin of the local east-north-up frame [the first row]", "LAT,LON,ALT");
+  CLI::Option* azimuth_option =
+      track_app
+          .add_option("--azimuth-from", azimuth_from,
+                      "Whether azimuths run counter-clockwise from east or clockwise from north [east]")
+          ->check(CLI::IsMember({"east", "north"}))
+          ->option_text("east|north");
   CLI::Option* radar_option =
       add_triple(track_app, "--radar", radar,
                  "Take the recording as the truth and measure it by a simulated radar with these standard deviations",
                  "RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");
   CLI::Option* radar_at_option =
-      add_triple(track_app, "--radar-at", radar_at, "Where that radar stands, in m [0,0,0]", "E,N,U")
-          ->needs(radar_option);
+      add_triple(track_app, "--radar-at", radar_at, "Where the radar stands, in m [0,0,0]", "E,N,U");
   track_app.footer(
+      "Recordings are told apart by their columns; others are ignored:\n"
+      "  time_s,x_m,y_m[,z_m]                               positions in m\n"
+      "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
+      "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
+      "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
+      "Beside them may stand true_x_m,true_y_m[,true_z_m] and roll_deg. Times are seconds, or dates and times as\n"
+      "2016-01-12T13:02:11.218Z. A row without a position is a missed measurement.\n"
+      "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --columns time_s=t");
+      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 --set sigma_azimuth_deg=0.2\n"
+      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
+      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
+      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
 
   const auto add_common = [](CLI::App& subcommand, auto& options) {
     subcommand.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
@@ -110,22 +137,17 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
 
-  try {
+  return run_program("himm_demo", [&] {
     if (simulate_app.parsed()) {
       if (runs_option->count() > 0) simulate.runs = runs;
       simulate_and_report(simulate);
     } else {
-      if (origin_option->count() > 0) track.origin = triple(origin);
+      if (origin_option->count() > 0) track.recording.origin = triple(origin);
+      if (azimuth_option->count() > 0) track.recording.azimuth_from_north = azimuth_from == "north";
+      track.recording.skip_bad_times = on_bad_time == "skip";
       if (radar_option->count() > 0) track.radar = triple(radar);
       if (radar_at_option->count() > 0) track.radar_at = triple(radar_at);
       track_and_report(track);
     }
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "himm_demo: {}\n", error.what());
-    return exit_usage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "himm_demo: {}\n", error.what());
-    return exit_input;
-  }
-  return 0;
+  });
 }

@@ -234,7 +234,7 @@ Json json(const Performance& performance, const Experiment& experiment, bool fil
   return result;
 }
 
-void write_summary(const Report& report, const OutputDirectory& directory) {
+AtomicFile summary_file(const Report& report, const OutputDirectory& directory) {
   const auto& experiment = report.experiment;
   Json summary = {{"version", version},
                   {"command", report.options.command},
@@ -261,10 +261,10 @@ void write_summary(const Report& report, const OutputDirectory& directory) {
   }
   AtomicFile file = directory.file("summary.json");
   file.write(summary.dump(2) + "\n");
-  file.commit();
+  return file;
 }
 
-void write_rmse(const Report& report, const OutputDirectory& directory) {
+AtomicFile rmse_file(const Report& report, const OutputDirectory& directory) {
   AtomicFile file = directory.file("rmse.csv");
   file.write("sample,filter,axis,rmse_m\n");
   const auto rows = [&](std::string_view name, const Performance& performance) {
@@ -277,10 +277,10 @@ void write_rmse(const Report& report, const OutputDirectory& directory) {
   rows("measurement", report.outcome.measurement);
   for (std::size_t f = 0; f < report.experiment.filters.size(); ++f)
     rows(report.filter(f).name, report.outcome.filters[f]);
-  file.commit();
+  return file;
 }
 
-void write_weights(const Report& report, const OutputDirectory& directory) {
+AtomicFile weights_file(const Report& report, const OutputDirectory& directory) {
   const auto& filters = report.experiment.filters;
   std::vector<std::string> models;  // of all filters, in order
   for (const auto& filter : filters)
@@ -306,7 +306,7 @@ void write_weights(const Report& report, const OutputDirectory& directory) {
       file.write("\n");
     }
   }
-  file.commit();
+  return file;
 }
 
 }  // namespace
@@ -343,9 +343,10 @@ void simulate_and_report(const SimulateOptions& options) {
   const Report report{options, experiment, outcome, compare(experiment, outcome)};
   print(report);
   if (directory) {
-    write_rmse(report, *directory);
-    write_weights(report, *directory);
-    write_summary(report, *directory);
+    AtomicFile rmse = rmse_file(report, *directory);
+    AtomicFile weights = weights_file(report, *directory);
+    AtomicFile summary = summary_file(report, *directory);
+    commit_all(rmse, weights, summary);
     fmt::print("\nWrote rmse.csv, weights.csv and summary.json to {}\n", options.out);
   }
 }

@@ -1,16 +1,19 @@
 #include "himm_demo/track.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <sigmax/estimation/metrics.hpp>
 
-#include "himm_demo/recording.hpp"
 #include "himm_demo/tracker.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
@@ -40,6 +43,7 @@ constexpr std::array<Part, 3> parts = {{
 /// What is added up over the rows of one part.
 struct Sums {
   std::array<RootMeanSquare, 3> error;
+  std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
   std::vector<double> weights;
   double nis = 0.0;
   std::size_t nis_count = 0;
@@ -51,27 +55,94 @@ void add_error(Sums& sums, const Vector<3>& error) {
   for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));
 }
 
+/// Where the standard conversion of a radar's measurements is out of its validity, r σ_α² / σ_r < 0.4.
+struct Validity {
+  static constexpr double limit = 0.4;
+
+  std::size_t first_line = 0;
+  double first_value = 0.0;
+  double first_range = 0.0;
+  std::size_t outside = 0;
+  std::size_t measurements = 0;
+  double sigma_range_needed = 0.0;
+
+  void add(const Fix& fix, const Polar& seen, const std::vector<FilterSettings>& filters) {
+    ++measurements;
+    double worst = 0.0;
+    for (const auto& filter : filters) {
+      const Polar& sigma = filter.accuracy_of(fix.sensor).radar;
+      const double value = conversion_validity(seen.range, sigma);
+      worst = std::max(worst, value);
+      if (value >= limit) sigma_range_needed = std::max(sigma_range_needed, value * sigma.range / limit);
+    }
+    if (worst < limit) return;
+    if (outside++ > 0) return;
+    first_line = fix.line;
+    first_value = worst;
+    first_range = seen.range;
+  }
+
+  std::string warning(const std::string& file) const {
+    const double unit = std::pow(10.0, std::floor(std::log10(sigma_range_needed)) - 1.0);
+    return fmt::format(
+        "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements holds "
+        "below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance covers "
+        "the error of the conversion, or measure the azimuth better",
+        file, first_line, first_value, first_range, limit, outside, measurements,
+        std::ceil(sigma_range_needed / unit) * unit);
+  }
+};
+
+/// Measurements that no filter expects: an NIS above 30 is beyond the 0.999998 quantile of χ² with three degrees of
+/// freedom.
+struct Outliers {
+  static constexpr double limit = 30.0;
+
+  std::size_t count = 0;
+  std::size_t worst_line = 0;
+  double worst_nis = 0.0;
+
+  void add(std::size_t line, double nis) {
+    if (nis <= limit) return;
+    ++count;
+    if (nis <= worst_nis) return;
+    worst_line = line;
+    worst_nis = nis;
+  }
+
+  std::string warning(const std::string& file, std::size_t measurements) const {
+    return fmt::format(
+        "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
+        "or raise sigma_w or the sensor's sigmas",
+        file, worst_line, worst_nis, limit, count, measurements);
+  }
+};
+
 /// Writes estimates.csv.
 class EstimatesFile {
  public:
-  EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters, bool geodetic)
-      : file_(directory.file("estimates.csv")), geodetic_(geodetic) {
+  EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
+                const RecordingReader& recording)
+      : file_(directory.file("estimates.csv")), recording_(recording) {
     for (const auto& filter : filters)
       for (const auto& model : filter.models)
         if (std::find(models_.begin(), models_.end(), model) == models_.end()) models_.push_back(model);
+    file_.write(recording_.has_tracks() ? "time_s,track,filter" : "time_s,filter");
     file_.write(
-        "time_s,filter,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_x_m,sigma_y_m,sigma_z_m,"
+        ",x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_x_m,sigma_y_m,sigma_z_m,"
         "sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,nis");
     for (const auto& model : models_) file_.print(",weight_{}", model);
-    file_.write(geodetic_ ? ",most_likely,latitude_deg,longitude_deg,altitude_m\n" : ",most_likely\n");
+    file_.write(recording_.geodetic() ? ",most_likely,latitude_deg,longitude_deg,altitude_m\n" : ",most_likely\n");
   }
 
   template <int Axes>
-  void add(double time, const Tracker<Axes>& tracker, const RecordingReader& recording) {
+  void add(double time, const std::string& track, const Tracker<Axes>& tracker) {
     const auto& settings = tracker.settings();
     const auto estimate = tracker.estimate();
     const auto has = [&](int order, int axis) { return axis < Axes && order * Axes + axis < estimate.size(); };
-    file_.print("{},{}", shortest(time), settings.name);
+    file_.write(shortest(time));
+    if (recording_.has_tracks()) file_.print(",{}", csv_field(track));
+    file_.print(",{}", csv_field(settings.name));
     for (int order = 0; order < 3; ++order)
       for (int axis = 0; axis < 3; ++axis)
         cell(has(order, axis) ? std::optional(estimate.mean(order * Axes + axis)) : std::nullopt);
@@ -88,50 +159,67 @@ class EstimatesFile {
                : std::optional(tracker.weight(static_cast<std::size_t>(own - settings.models.begin()))));
     }
     file_.print(",{}", settings.models[tracker.most_likely_mode()]);
-    if (geodetic_) {
+    if (recording_.geodetic()) {
+      const double east = estimate.mean(0), north = estimate.mean(1);
+      const LocalFrame& frame = recording_.frame();
       const Geodetic point =
-          recording.frame().to_geodetic(EastNorthUp{estimate.mean(0), estimate.mean(1), estimate.mean(Axes - 1)});
+          Axes == 3 ? frame.to_geodetic({east, north, estimate.mean(Axes - 1)}) : frame.to_surface(east, north);
       cell(point.latitude_deg());
       cell(point.longitude_deg());
-      cell(point.altitude);
+      cell(Axes == 3 ? std::optional(point.altitude) : std::nullopt);
     }
     file_.write("\n");
   }
 
-  void commit() { file_.commit(); }
+  AtomicFile& file() { return file_; }
 
  private:
   void cell(std::optional<double> value) { file_.print(",{}", value ? shortest(*value) : ""); }
 
   AtomicFile file_;
-  bool geodetic_;
+  const RecordingReader& recording_;
   std::vector<std::string> models_;
 };
 
-/// Truth of a row, kept until every filter has stepped over it.
-struct Truth {
-  double time;
-  Vector<3> position;
-  std::optional<double> roll_deg;
+/// A stream of random numbers for each track, whichever others a file holds: the 64-bit FNV-1a of its name.
+std::uint64_t stream_of(std::string_view track) {
+  if (track.empty()) return 0;
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  for (const char byte : track) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+  return hash;
+}
+
+/// One target of a recording, followed by every filter.
+template <int Axes>
+struct Target {
+  Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
+      : trackers(filters.begin(), filters.end()), random(random_stream) {}
+
+  bool all_running() const {
+    return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.running(); });
+  }
+
+  std::vector<Tracker<Axes>> trackers;
+  RandomStream random;
+  Fix now;
+  Fix before;  // a start may wait for the row after it
 };
 
-/// All filters on one recording.
+/// All filters on all targets of one recording.
 template <int Axes>
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
            EstimatesFile* estimates)
-      : options_(options), recording_(recording), estimates_(estimates), random_(options.seed, 0) {
-    for (const auto& filter : filters) {
-      trackers_.emplace_back(filter);
-      sums_.emplace_back();
-      for (auto& part : sums_.back()) part.weights.assign(filter.models.size(), 0.0);
-    }
+      : options_(options), recording_(recording), filters_(filters), estimates_(estimates), sums_(filters.size()) {
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      for (auto& part : sums_[f]) part.weights.assign(filters[f].models.size(), 0.0);
+    if (options.radar_at) radar_at_ = Vector<3>(options.radar_at->data());
   }
 
   void run() {
     const auto total = recording_.csv().bytes_total();
-    Progress progress(options_.file, total.value_or(1), options_.quiet || !total);
+    Progress progress(file(), total.value_or(1), options_.quiet || !total);
     std::uint64_t done = 0;
     for (Fix fix; recording_.next(fix);) {
       take(fix);
@@ -139,70 +227,92 @@ class TrackRun {
       done = recording_.csv().bytes_read();
     }
     progress.finish();
-    for (const auto& tracker : trackers_)
-      if (!tracker.running())
-        throw InputError(message({.where = options_.file,
-                                  .what = "filter '" + tracker.settings().name + "' never started",
-                                  .found = fmt::format("{} rows, {} of them measurements", rows_, measurements_),
-                                  .expected = "at least three measurements (two rows if the start is given)",
-                                  .remedy = "give more rows, or start = \"given\" with start_time_s"}));
+    for (const auto& [name, target] : targets_)
+      if (!target.all_running()) never_started_.push_back(name);
+    if (never_started_.size() == targets_.size()) refuse_nothing();
   }
 
-  bool truth_known() const { return options_.radar.has_value(); }
+  const std::string& file() const { return recording_.csv().file(); }
+  bool truth_known() const { return options_.radar || recording_.has_truth(); }
   std::size_t rows() const { return rows_; }
   std::size_t measurements() const { return measurements_; }
+  std::size_t tracks() const { return targets_.size(); }
+  const std::vector<std::string>& never_started() const { return never_started_; }
+  const std::map<std::string, std::size_t>& sensors() const { return sensors_; }
+  const Validity& validity() const { return validity_; }
+  const Outliers& outliers() const { return outliers_; }
   const SumsByPart& raw() const { return raw_; }
   const SumsByPart& sums(std::size_t filter) const { return sums_[filter]; }
 
  private:
-  void take(const Fix& fix) {
+  void take(Fix fix) {
     ++rows_;
-    if (fix.position) ++measurements_;
-    const auto seen = fix.position && truth_known() ? std::optional(radar_sees(fix)) : std::nullopt;
-    if (seen)
-      add_by_part(raw_, fix.roll_deg,
-                  [&](Sums& sums) { add_error(sums, radar_at() + to_cartesian(*seen) - *fix.position); });
-    before_ = std::exchange(now_, fix);
-    for (std::size_t f = 0; f < trackers_.size(); ++f) {
-      auto& tracker = trackers_[f];
-      std::optional<Gaussian<Axes>> z;
-      if (fix.position) z = seen ? converted(*seen, tracker.settings()) : direct(*fix.position, tracker.settings());
-      try {
-        tracker.take(fix.time_s, z, [&](double time) { record(f, time); });
-      } catch (const std::exception& error) {
-        throw InputError(fmt::format("{}:{}: filter '{}' at time {} s: {}", options_.file, fix.line,
-                                     tracker.settings().name, shortest(fix.time_s), error.what()));
-      }
-    }
+    if (fix.measured()) ++measurements_;
+    if (recording_.has_sensors()) ++sensors_[fix.sensor];
+    auto target = targets_.find(fix.track);
+    if (target == targets_.end())
+      target = targets_.try_emplace(fix.track, filters_, RandomStream(options_.seed, stream_of(fix.track))).first;
+    if (options_.radar && fix.position) measure(fix, target->second.random);
+    if (fix.seen) validity_.add(fix, *fix.seen, filters_);
+    if (fix.truth && fix.measured())
+      add_by_part(raw_, fix.roll_deg, [&](Sums& sums) {
+        add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
+      });
+    step(target->second, fix);
   }
 
-  Vector<3> radar_at() const { return Eigen::Map<const Vector<3>>(options_.radar_at.data()); }
+  void step(Target<Axes>& target, const Fix& fix) {
+    target.before = std::exchange(target.now, fix);
+    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
+      auto& tracker = target.trackers[f];
+      try {
+        tracker.take(fix.time_s, measurement(fix, tracker.settings()), [&](double time) { record(target, f, time); });
+      } catch (const InputError&) {
+        throw;  // of the output
+      } catch (const std::exception& error) {
+        throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
+                                  .what = fmt::format("filter '{}' at time {} s: {}", tracker.settings().name,
+                                                      shortest(fix.time_s), error.what()),
+                                  .remedy = "look for an outlier here, and at the filter's settings"}));
+      }
+    }
+    std::optional<double> least;  // of the filters' NIS
+    for (const auto& tracker : target.trackers) {
+      const auto nis = tracker.running() ? tracker.nis() : std::nullopt;
+      if (nis && (!least || *nis < *least)) least = nis;
+    }
+    if (least) outliers_.add(fix.line, *least);
+  }
 
-  Polar radar_sees(const Fix& fix) {
+  /// Takes the position for the truth and sees it by the simulated radar.
+  void measure(Fix& fix, RandomStream& random) const {
     const auto& sigma = *options_.radar;
-    Polar seen = to_polar(*fix.position - radar_at());
-    seen.azimuth += sigma[1] * degree * random_.normal();
-    seen.elevation += sigma[2] * degree * random_.normal();
-    seen.range += sigma[0] * random_.normal();
+    Polar seen = to_polar(*fix.position - radar_at_);
+    seen.azimuth += sigma[1] * degree * random.normal();
+    seen.elevation += sigma[2] * degree * random.normal();
+    seen.range += sigma[0] * random.normal();
     if (!(seen.range > 0.0))
-      throw InputError(message({.where = fmt::format("{}:{}", options_.file, fix.line),
+      throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
                                 .what = "the simulated radar",
                                 .found = fmt::format("a range of {} m", shortest(seen.range)),
                                 .expected = "a positive one",
                                 .remedy = "put the radar farther from the track with --radar-at=E,N,U"}));
-    return seen;
+    fix.truth = std::exchange(fix.position, std::nullopt);
+    fix.seen = seen;
   }
 
-  Gaussian<Axes> converted(const Polar& seen, const FilterSettings& settings) const {
-    const Gaussian<3> position = to_cartesian(seen, settings.sigma_radar);
-    const Vector<3> moved = position.mean + radar_at();
-    return {moved.template head<Axes>(), position.covariance.template topLeftCorner<Axes, Axes>()};
-  }
-
-  static Gaussian<Axes> direct(const Vector<3>& position, const FilterSettings& settings) {
-    Gaussian<Axes> z{position.template head<Axes>(), SquareMatrix<Axes>::Zero()};
+  /// What a row measures, with the covariance that a filter believes.
+  std::optional<Gaussian<Axes>> measurement(const Fix& fix, const FilterSettings& settings) const {
+    if (!fix.measured()) return std::nullopt;
+    const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
+    if (fix.seen) {
+      const Gaussian<3> position = to_cartesian(*fix.seen, accuracy.radar);
+      const Vector<3> moved = position.mean + radar_at_;
+      return Gaussian<Axes>{moved.template head<Axes>(), position.covariance.template topLeftCorner<Axes, Axes>()};
+    }
+    Gaussian<Axes> z{fix.position->template head<Axes>(), SquareMatrix<Axes>::Zero()};
     for (Eigen::Index axis = 0; axis < Axes; ++axis) {
-      const auto& sigma = settings.sigma_position_m;
+      const auto& sigma = accuracy.position_m;
       z.covariance(axis, axis) = std::pow(sigma.size() == 1 ? sigma[0] : sigma[static_cast<std::size_t>(axis)], 2);
     }
     return z;
@@ -215,17 +325,19 @@ class TrackRun {
   }
 
   /// Takes down filter f's estimate at a time: that of this row, or of the one before where a start waited for it.
-  void record(std::size_t f, double time) {
-    const auto& tracker = trackers_[f];
-    const Fix& fix = time == now_.time_s ? now_ : before_;
-    if (estimates_) estimates_->add(time, tracker, recording_);
+  void record(const Target<Axes>& target, std::size_t f, double time) {
+    const auto& tracker = target.trackers[f];
+    const Fix& fix = time == target.now.time_s ? target.now : target.before;
+    if (estimates_) estimates_->add(time, fix.track, tracker);
     const auto estimate = tracker.estimate();
     const auto nis = tracker.nis();
     add_by_part(sums_[f], fix.roll_deg, [&](Sums& sums) {
       ++sums.count;
-      if (truth_known() && fix.position) {
+      for (Eigen::Index axis = 0; axis < Axes; ++axis)
+        sums.sigma[static_cast<std::size_t>(axis)].add_square(estimate.covariance(axis, axis));
+      if (fix.truth) {
         Vector<3> error = Vector<3>::Zero();
-        error.template head<Axes>() = estimate.mean.template head<Axes>() - fix.position->template head<Axes>();
+        error.template head<Axes>() = estimate.mean.template head<Axes>() - fix.truth->template head<Axes>();
         add_error(sums, error);
       }
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += tracker.weight(j);
@@ -236,30 +348,55 @@ class TrackRun {
     });
   }
 
+  [[noreturn]] void refuse_nothing() const {
+    if (rows_ == 0 && !options_.recording.select.empty())
+      throw InputError(message({.where = file(),
+                                .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
+                                .remedy = "see how the file writes the value"}));
+    throw InputError(message({.where = file(),
+                              .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
+                                                          : "there is too little for every filter to start",
+                              .found = fmt::format("{} rows, {} of them measurements", rows_, measurements_),
+                              .expected = "at least three measurements (two rows if the start is given)",
+                              .remedy = "give more rows, or start = \"given\" with start_time_s"}));
+  }
+
   const TrackOptions& options_;
   RecordingReader& recording_;
+  const std::vector<FilterSettings>& filters_;
   EstimatesFile* estimates_;
-  RandomStream random_;
-  std::vector<Tracker<Axes>> trackers_;
+  std::map<std::string, Target<Axes>, std::less<>> targets_;
+  std::vector<std::string> never_started_;
+  std::map<std::string, std::size_t> sensors_;
+  Validity validity_;
+  Outliers outliers_;
   SumsByPart raw_;
   std::vector<SumsByPart> sums_;
-  Fix now_;
-  Fix before_;
+  Vector<3> radar_at_ = Vector<3>::Zero();
   std::size_t rows_ = 0;
   std::size_t measurements_ = 0;
 };
 
+/// What the run found, as text for people and as data, and what may be wrong.
+struct TrackReport {
+  std::string text;
+  Json summary;
+  std::vector<std::string> warnings;
+};
+
 template <int Axes>
-void report(const TrackOptions& options, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
-            const TrackRun<Axes>& run, const OutputDirectory* directory) {
-  Json summary = {{"version", version}, {"command", options.command}, {"file", options.file}};
+void describe(TrackReport& report, const TrackOptions& options, const RecordingReader& recording,
+              const std::vector<FilterSettings>& filters, const TrackRun<Axes>& run) {
+  Json& summary = report.summary;
+  summary = {{"version", version}, {"command", options.command}, {"file", run.file()}};
   summary["seed"] = options.seed;
+  const auto at = options.radar_at.value_or(std::array{0.0, 0.0, 0.0});
   if (options.radar) {
     summary["radar"] = {{"sigma_range_m", (*options.radar)[0]},
                         {"sigma_azimuth_deg", (*options.radar)[1]},
-                        {"sigma_elevation_deg", (*options.radar)[2]},
-                        {"at_m", options.radar_at}};
+                        {"sigma_elevation_deg", (*options.radar)[2]}};
   }
+  if (options.radar || recording.polar()) summary["radar"]["at_m"] = at;
   if (recording.geodetic()) {
     const Geodetic& origin = recording.frame().origin();
     summary["origin"] = {{"latitude_deg", origin.latitude_deg()},
@@ -268,24 +405,57 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
   }
   summary["rows"] = run.rows();
   summary["measurements"] = run.measurements();
+  summary["skipped"] = recording.skipped();
+  if (recording.has_sensors()) summary["sensors"] = run.sensors();
+  if (recording.has_tracks()) summary["tracks"] = {{"count", run.tracks()}, {"never_started", run.never_started()}};
   summary["settings_toml"] = as_toml(filters);
 
-  fmt::print("{}: {} rows, {} measurements, {} axes{}\n", options.file, run.rows(), run.measurements(), Axes,
-             recording.geodetic() ? ", geodetic to local east-north-up" : "");
+  std::string& text = report.text;
+  text = fmt::format("{}: {} rows, {} measurements, {} axes{}{}\n", run.file(), run.rows(), run.measurements(), Axes,
+                     recording.geodetic() ? ", geodetic to local east-north-up" : "",
+                     recording.polar() ? ", a radar's measurements converted" : "");
+  if (recording.has_sensors()) {
+    std::vector<std::string> counts;
+    for (const auto& [sensor, count] : run.sensors()) counts.push_back(fmt::format("{} {}", sensor, count));
+    text += fmt::format("Rows by sensor: {}\n", fmt::join(counts, ", "));
+  }
+  if (recording.has_tracks()) {
+    text += fmt::format("{} tracks by {}", run.tracks(), options.recording.track_id);
+    if (!run.never_started().empty())
+      text += fmt::format(", {} of them too short for every filter to start", run.never_started().size());
+    text += "\n";
+  }
+  if (recording.skipped() > 0)
+    text += fmt::format("Skipped {} rows whose time was not after that of the row before\n", recording.skipped());
   if (options.radar)
-    fmt::print(
+    text += fmt::format(
         "The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed "
         "{}\n",
-        shortest((*options.radar)[0]), shortest((*options.radar)[1]), shortest((*options.radar)[2]),
-        shortest(options.radar_at[0]), shortest(options.radar_at[1]), shortest(options.radar_at[2]), options.seed);
+        shortest((*options.radar)[0]), shortest((*options.radar)[1]), shortest((*options.radar)[2]), shortest(at[0]),
+        shortest(at[1]), shortest(at[2]), options.seed);
 
+  if (run.validity().outside > 0) report.warnings.push_back(run.validity().warning(run.file()));
+  if (run.outliers().count > 0) report.warnings.push_back(run.outliers().warning(run.file(), run.measurements()));
+  for (const auto& filter : filters)
+    for (const auto& [sensor, accuracy] : filter.sensors)
+      if (!run.sensors().contains(sensor))
+        report.warnings.push_back(fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", sensor,
+                                              filter.name, run.file()));
+  if (!report.warnings.empty()) summary["warnings"] = report.warnings;
+}
+
+template <int Axes>
+void tabulate(TrackReport& report, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
+              const TrackRun<Axes>& run) {
   const std::size_t part_count = recording.has_roll() ? parts.size() : 1;
   for (std::size_t p = 0; p < part_count; ++p) {
     std::vector<TextTable::Column> columns = {{std::string(parts[p].name), Align::left}, {"rows"}};
-    if (run.truth_known())
-      for (int axis = 0; axis < Axes; ++axis)
-        columns.push_back(
-            {fmt::format("{}{}", axis == 0 ? "RMSE, m: " : "", axis_names[static_cast<std::size_t>(axis)])});
+    const auto add_columns = [&](std::string_view label) {
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(Axes); ++axis)
+        columns.push_back({fmt::format("{}{}", axis == 0 ? label : "", axis_names[axis])});
+    };
+    if (run.truth_known()) add_columns("RMSE, m: ");
+    add_columns("σ, m: ");
     columns.push_back({"mean NIS"});
     columns.push_back({"mean weights", Align::left});
     TextTable table(columns);
@@ -296,11 +466,15 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
       const std::size_t count = filter ? sums.count : sums.error[0].count();
       result["rows"] = count;
       cells.push_back(std::to_string(count));
-      if (run.truth_known())
+      const auto add_cells = [&](const char* key, const std::array<RootMeanSquare, 3>& values) {
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(Axes); ++axis) {
-          cells.push_back(count == 0 ? "–" : fmt::format("{:.2f}", sums.error[axis].value()));
-          result["rmse_m"][axis_names[axis]] = sums.error[axis].value();
+          const bool known = values[axis].count() > 0;
+          cells.push_back(known ? fmt::format("{:.2f}", values[axis].value()) : filter ? "–" : "");
+          if (known) result[key][axis_names[axis]] = values[axis].value();
         }
+      };
+      if (run.truth_known()) add_cells("rmse_m", sums.error);
+      add_cells("sigma_m", sums.sigma);
       std::string weights;
       if (filter) {
         if (sums.nis_count > 0) result["mean_nis"] = sums.nis / static_cast<double>(sums.nis_count);
@@ -318,15 +492,8 @@ void report(const TrackOptions& options, const RecordingReader& recording, const
     };
     if (run.truth_known()) row("measurement", run.raw()[p], nullptr);
     for (std::size_t f = 0; f < filters.size(); ++f) row(filters[f].name, run.sums(f)[p], &filters[f]);
-    fmt::print("\n");
-    table.print();
-    summary["results"][std::string(parts[p].name)] = part;
-  }
-  if (directory) {
-    AtomicFile file = directory->file("summary.json");
-    file.write(summary.dump(2) + "\n");
-    file.commit();
-    fmt::print("\nWrote estimates.csv and summary.json to {}\n", options.out);
+    report.text += "\n" + table.text();
+    report.summary["results"][std::string(parts[p].name)] = part;
   }
 }
 
@@ -336,12 +503,32 @@ void track_on(const TrackOptions& options, RecordingReader& recording, const std
   std::optional<EstimatesFile> estimates;
   if (!options.out.empty()) {
     directory.emplace(options.out);
-    estimates.emplace(*directory, filters, recording.geodetic());
+    estimates.emplace(*directory, filters, recording);
   }
   TrackRun<Axes> run(options, recording, filters, estimates ? &*estimates : nullptr);
   run.run();
-  if (estimates) estimates->commit();
-  report(options, recording, filters, run, directory ? &*directory : nullptr);
+  TrackReport report;
+  describe(report, options, recording, filters, run);
+  tabulate(report, recording, filters, run);
+  if (directory) {
+    AtomicFile summary = directory->file("summary.json");
+    summary.write(report.summary.dump(2) + "\n");
+    commit_all(estimates->file(), summary);
+    report.text += fmt::format("\nWrote estimates.csv and summary.json to {}\n", options.out);
+  }
+  fmt::print("{}", report.text);
+  std::fflush(stdout);  // before the warnings where both are one
+  for (const auto& warning : report.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
+}
+
+void refuse_what_means_nothing(const TrackOptions& options, const RecordingReader& recording) {
+  const std::string& file = recording.csv().file();
+  if (options.radar_at && !options.radar && !recording.polar())
+    throw UsageError("--radar-at is for --radar and for radar input, but " + file + " has no range_m");
+  if (!options.radar) return;
+  if (recording.polar()) throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
+  if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
+  if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has two");
 }
 
 }  // namespace
@@ -357,13 +544,12 @@ void track_and_report(const TrackOptions& options) {
     fmt::print("{}", as_toml(filters));
     return;
   }
-  RecordingReader recording(options.file, options.columns, options.origin);
-  if (recording.axes() == 3) {
+  RecordingReader recording(options.recording);
+  refuse_what_means_nothing(options, recording);
+  if (recording.axes() == 3)
     track_on<3>(options, recording, filters);
-  } else {
-    if (options.radar) throw UsageError("--radar needs three axes, but " + options.file + " has no z_m");
+  else
     track_on<2>(options, recording, filters);
-  }
 }
 
 }  // namespace sigmax::apps

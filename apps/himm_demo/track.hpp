@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "himm_demo/recording.hpp"
+
 namespace sigmax::apps {
 
 /// The options of `himm_demo track`.
 struct TrackOptions {
-  std::string file;
-  std::vector<std::string> columns;             ///< NAME=HEADER
-  std::optional<std::array<double, 3>> origin;  ///< latitude and longitude in degrees, altitude in m
-  std::optional<std::array<double, 3>> radar;   ///< standard deviations: m, degrees, degrees
-  std::array<double, 3> radar_at = {0.0, 0.0, 0.0};
+  RecordingOptions recording;
+  std::optional<std::array<double, 3>> radar;     ///< a simulated one's standard deviations: m, degrees, degrees
+  std::optional<std::array<double, 3>> radar_at;  ///< where a radar stands, simulated or not, in m
   std::uint64_t seed = 1;
   std::string config;
   std::vector<std::string> sets;
@@ -24,7 +24,7 @@ struct TrackOptions {
   std::string command;
 };
 
-/// Tracks one recording through every filter, and reports.
+/// Tracks each target of a recording through every filter, and reports.
 void track_and_report(const TrackOptions& options);
 
 }  // namespace sigmax::apps

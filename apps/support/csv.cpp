@@ -33,7 +33,7 @@ std::string_view CsvRow::operator[](std::size_t column) const {
 
 double CsvRow::number(std::size_t column) const {
   if (const auto value = parse_number((*this)[column])) return *value;
-  throw error(column, "a finite number with a decimal point");
+  throw error(column, "a finite number with a decimal point", "correct the cell or drop the row");
 }
 
 std::optional<double> CsvRow::optional_number(std::size_t column) const {
@@ -49,6 +49,14 @@ InputError CsvRow::error(std::size_t column, std::string_view expected, std::str
                              .found = is_blank(field) ? "an empty cell" : in_quotes(field),
                              .expected = expected,
                              .remedy = remedy}));
+}
+
+std::string csv_field(std::string_view text) {
+  const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text).size() == text.size();
+  if (plain) return std::string{text};
+  std::string field = "\"";
+  for (const char byte : text) field.append(byte == '"' ? 2 : 1, byte);
+  return field += '"';
 }
 
 CsvReader::CsvReader(const std::filesystem::path& path)
@@ -100,8 +108,10 @@ void CsvReader::read_header() {
 
   CsvRow row;
   if (!read_record(row))
-    throw InputError(
-        message({.where = file(), .what = "is empty", .expected = "a line with the names of the columns"}));
+    throw InputError(message({.where = file(),
+                              .what = "is empty",
+                              .expected = "a line with the names of the columns",
+                              .remedy = "see whether it was written whole"}));
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::string_view name = trimmed(row[i]);
@@ -118,7 +128,9 @@ bool CsvReader::next(CsvRow& row) {
   if (row.header_ != header_) row.header_ = header_;
   if (row.size() != header_->names.size())
     throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
-                             .expected = fmt::format("{} as in the header", header_->names.size())});
+                             .expected = fmt::format("{} as in the header", header_->names.size()),
+                             .remedy = ended_ ? "the file ends within this line: see whether it is whole"
+                                              : "add or drop commas; text with commas stands in quotes"});
   return true;
 }
 
@@ -159,7 +171,8 @@ void CsvReader::read_quoted(CsvRow& row) {
   const std::size_t opened = line_;
   for (int byte = get();; byte = get()) {
     if (byte == end_of_file)
-      throw error(opened, {.what = "the quote opened here is not closed at the end of the file"});
+      throw error(opened, {.what = "the quote opened here is not closed at the end of the file",
+                           .remedy = "see whether the file is whole, and write a quote inside quotes twice"});
     if (byte == '"') {
       if (peek() != '"') return;
       get();
@@ -171,7 +184,8 @@ void CsvReader::read_quoted(CsvRow& row) {
 
 void CsvReader::end_line(int byte) {
   if (byte == '\r' && peek() == '\n') get();
-  if (byte != end_of_file) ++line_;
+  ended_ = byte == end_of_file;
+  if (!ended_) ++line_;
 }
 
 void CsvReader::append(CsvRow& row, int byte) const {

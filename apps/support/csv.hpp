@@ -107,6 +107,10 @@ class CsvReader {
   std::uint64_t bytes_before_ = 0;
   std::optional<std::uint64_t> bytes_total_;
   std::size_t line_ = 1;
+  bool ended_ = false;  // the last record ran into the end of the file
 };
+
+/// Text as one field of a CSV file: in quotes where it needs them.
+std::string csv_field(std::string_view text);
 
 }  // namespace sigmax::apps

@@ -86,6 +86,17 @@ EastNorthUp LocalFrame::to_local(const Ecef& point) const {
           cos_latitude_ * outward + sin_latitude_ * z};
 }
 
+Geodetic LocalFrame::to_surface(double east, double north) const {
+  // Each step leaves of the altitude the part 1 − cos of the angle between the two points' normals.
+  EastNorthUp point{east, north, -origin_.altitude};
+  Geodetic surface = to_geodetic(point);
+  for (int step = 0; step < 50 && std::abs(surface.altitude) > 1e-9; ++step) {
+    point.up -= surface.altitude;
+    surface = to_geodetic(point);
+  }
+  return {surface.latitude, surface.longitude, 0.0};
+}
+
 Ecef LocalFrame::to_ecef(const EastNorthUp& point) const {
   const double outward = cos_latitude_ * point.up - sin_latitude_ * point.north;
   return {center_.x + cos_longitude_ * outward - sin_longitude_ * point.east,

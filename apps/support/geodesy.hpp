@@ -46,6 +46,9 @@ class LocalFrame {
   Ecef to_ecef(const EastNorthUp& point) const;
   Geodetic to_geodetic(const EastNorthUp& point) const { return apps::to_geodetic(to_ecef(point)); }
 
+  /// The point of altitude 0 this far east and north, for distances that are small beside the Earth's radius.
+  Geodetic to_surface(double east, double north) const;
+
  private:
   Geodetic origin_;
   Ecef center_;

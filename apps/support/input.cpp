@@ -13,10 +13,16 @@ namespace sigmax::apps {
 std::ifstream open_input(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown))
-    throw InputError(message({.where = path.native(), .found = "a directory", .expected = "a file"}));
+    throw InputError(message({.where = path.native(),
+                              .found = "a directory",
+                              .expected = "a file",
+                              .remedy = "name one of the files in it"}));
   errno = 0;
   std::ifstream stream{path, std::ios::binary};
-  if (!stream) throw InputError(message({.where = path.native(), .what = "cannot be read: " + reason(errno)}));
+  if (!stream)
+    throw InputError(message({.where = path.native(),
+                              .what = "cannot be read: " + reason(errno),
+                              .remedy = "see whether its name and permissions are right"}));
   return stream;
 }
 

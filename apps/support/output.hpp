@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,7 +13,7 @@ namespace sigmax::apps {
 
 /// A file that appears whole or not at all: written beside its place under another name, and renamed by `commit`. What
 /// is not committed is removed. Failures (a full disk, a directory without permission) throw InputError with path and
-/// reason.
+/// reason; more than 16 files at a time throw std::logic_error.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -29,6 +31,9 @@ class AtomicFile {
     write(fmt::format(format, std::forward<Arguments>(arguments)...));
   }
 
+  /// Brings to the disk what was written so far: the failures that a commit can have come before it.
+  void store();
+
   /// Puts the file into its place, over an older one. Nothing can be written afterwards.
   void commit();
 
@@ -41,7 +46,18 @@ class AtomicFile {
   std::filesystem::path temporary_;
   std::string buffer_;
   int descriptor_ = -1;
+  std::optional<std::size_t> place_;  // in the list of unfinished files
 };
+
+/// Commits files that belong together: none is put into its place before all are on the disk.
+template <class... Files>
+void commit_all(Files&... files) {
+  (files.store(), ...);
+  (files.commit(), ...);
+}
+
+/// Removes what uncommitted files of this program have written. A signal handler may call it if the program ends then.
+void remove_unfinished_files() noexcept;
 
 /// A directory for results; it is created, with its parents, unless it exists. Throws InputError with path and reason.
 class OutputDirectory {

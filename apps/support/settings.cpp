@@ -46,6 +46,11 @@ struct Reader {
   const Origin& origin;
   std::string key;
 
+  /// The name of the key within its table and a value, as they would stand in a file.
+  std::string as_in(std::string_view value) const {
+    return fmt::format("write it as in {} = {}", std::string_view{key}.substr(key.rfind('.') + 1), value);
+  }
+
   InputError error(const toml::node& node, std::string_view expected, std::string_view remedy = {}) const {
     return InputError(message({.where = origin.place(node.source()),
                                .what = key_name(key),
@@ -56,52 +61,61 @@ struct Reader {
 
   void read(const toml::node& node, double& value) const {
     const auto number = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!number || !std::isfinite(*number)) throw error(node, node.is_number() ? "a finite number" : "a number");
+    if (!number || !std::isfinite(*number))
+      throw error(node, node.is_number() ? "a finite number" : "a number", as_in("3.5"));
     value = *number;
   }
 
   void read(const toml::node& node, std::int64_t& value) const {
     // toml++ converts a number only where nothing is lost, so that 1e3 is an integer and 0.5 is none.
     const auto integer = node.is_number() ? node.value<std::int64_t>() : std::nullopt;
-    if (!integer) throw error(node, "an integer");
+    if (!integer) throw error(node, "an integer", as_in("3"));
     value = *integer;
   }
 
   void read(const toml::node& node, bool& value) const {
     const auto* boolean = node.as_boolean();
-    if (!boolean) throw error(node, "true or false");
+    if (!boolean) throw error(node, "true or false", as_in("true"));
     value = boolean->get();
   }
 
   void read(const toml::node& node, std::string& value) const {
     const auto* string = node.as_string();
-    if (!string) throw error(node, "a string");
+    if (!string) throw error(node, "a string", as_in("\"text\""));
     value = string->get();
   }
 
-  void read(const toml::node& node, Strings& values) const { read_array(node, values, "an array of strings"); }
+  void read(const toml::node& node, Strings& values) const {
+    if (node.is_string())
+      read(node, values.emplace_back());
+    else
+      read_array(node, values, "a string or an array of strings", R"(["one", "two"])");
+  }
 
   void read(const toml::node& node, Numbers& values) const {
     if (node.is_number())
       read(node, values.emplace_back());
     else
-      read_array(node, values, "a number or an array of numbers");
+      read_array(node, values, "a number or an array of numbers", "[1.0, 2.0]");
   }
 
   void read(const toml::node& node, Matrix& rows) const {
+    constexpr std::string_view example = "[[1.0, 0.5], [0.5, 1.0]]";
     const auto* array = node.as_array();
-    if (!array) throw error(node, "an array of rows, each an array of numbers");
+    if (!array) throw error(node, "an array of rows, each an array of numbers", as_in(example));
     for (const auto& row : *array) {
-      read_array(row, rows.emplace_back(), "a row, which is an array of numbers");
+      read_array(row, rows.emplace_back(), "a row, which is an array of numbers", example);
       if (rows.back().size() != rows.front().size())
-        throw error(row, fmt::format("a row of {} numbers as the first", rows.front().size()));
+        throw error(row, fmt::format("a row of {} numbers as the first", rows.front().size()),
+                    "make all rows of the same length");
     }
   }
 
   template <class Value>
-  void read_array(const toml::node& node, std::vector<Value>& values, std::string_view expected) const {
+  void read_array(const toml::node& node, std::vector<Value>& values, std::string_view expected,
+                  std::string_view example) const {
     const auto* array = node.as_array();
-    if (!array) throw error(node, expected);
+    if (!array) throw error(node, expected, as_in(example));
     for (const auto& element : *array) read(element, values.emplace_back());
   }
 };
@@ -145,9 +159,9 @@ std::size_t levenshtein(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// "did you mean …" where a known word is near, else all of them.
+/// "did you mean …" where a known word is near, else nothing.
 template <class Words>
-std::string suggestion(std::string_view word, const Words& known, std::string_view prefix = {}) {
+std::string nearest_word(std::string_view word, const Words& known, std::string_view prefix = {}) {
   std::string_view nearest;
   std::size_t least = (word.size() + 2) / 3 + 1;
   for (const std::string_view candidate : known)
@@ -155,8 +169,14 @@ std::string suggestion(std::string_view word, const Words& known, std::string_vi
       least = distance;
       nearest = candidate;
     }
-  if (!nearest.empty()) return fmt::format("did you mean {}?", in_quotes(fmt::format("{}{}", prefix, nearest)));
-  return known.empty() ? "" : fmt::format("the known ones are {}", fmt::join(known, ", "));
+  return nearest.empty() ? "" : fmt::format("did you mean {}?", in_quotes(fmt::format("{}{}", prefix, nearest)));
+}
+
+/// As `nearest_word`, but all words where none is near.
+template <class Words>
+std::string suggestion(std::string_view word, const Words& known, std::string_view prefix = {}) {
+  std::string text = nearest_word(word, known, prefix);
+  return !text.empty() || known.empty() ? text : fmt::format("the known ones are {}", fmt::join(known, ", "));
 }
 
 /// Refuses characters beyond ASCII except in comments and in strings of one line. Elsewhere they are no TOML or, in
@@ -260,7 +280,8 @@ struct Settings::Layer {
   std::shared_ptr<Layer> child(std::string_view key) {
     const auto* node = table->get(key);
     if (!node) return nullptr;
-    if (!node->is_table()) throw reader(key).error(*node, "a table");
+    if (!node->is_table())
+      throw reader(key).error(*node, "a table", fmt::format("write [{0}{1}], or {0}{1}.KEY = value", prefix, key));
     auto& known = children[std::string{key}];
     if (!known) {
       known = std::make_shared<Layer>();
@@ -360,7 +381,7 @@ std::string Settings::choice(std::string_view key, std::span<const std::string_v
                              std::string_view otherwise) const {
   std::string chosen = string(key, otherwise);
   if (chosen != otherwise && std::find(names.begin(), names.end(), chosen) == names.end())
-    throw error(key, fmt::format("one of {}", fmt::join(names, ", ")));
+    throw error(key, fmt::format("one of {}", fmt::join(names, ", ")), nearest_word(chosen, names));
   return chosen;
 }
 

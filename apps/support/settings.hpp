@@ -40,9 +40,9 @@ class Settings {
   std::optional<std::int64_t> integer(std::string_view key) const;
   std::optional<bool> boolean(std::string_view key) const;
   std::optional<std::string> string(std::string_view key) const;
-  std::optional<std::vector<std::string>> strings(std::string_view key) const;
 
-  /// One number stands for a list of one.
+  /// One string, or one number, stands for a list of one.
+  std::optional<std::vector<std::string>> strings(std::string_view key) const;
   std::optional<std::vector<double>> numbers(std::string_view key) const;
 
   /// Rows of equal length.

@@ -80,7 +80,8 @@ TEST(Csv, CountsTheLinesInsideQuotes) {
 
 TEST(Csv, RefusesWhatHasNoHeader) {
   for (const char* text : {"", "\n", " \r\n\t\n", "\xEF\xBB\xBF"})
-    EXPECT_EQ(refusal(text), "f.csv: is empty: expected a line with the names of the columns");
+    EXPECT_EQ(refusal(text),
+              "f.csv: is empty: expected a line with the names of the columns; see whether it was written whole");
 }
 
 TEST(Csv, RefusesTwoColumnsOfOneName) {
@@ -89,13 +90,28 @@ TEST(Csv, RefusesTwoColumnsOfOneName) {
 }
 
 TEST(Csv, RefusesRaggedRecordsWithLineAndCounts) {
-  EXPECT_EQ(refusal("a,b,c\n1,2,3\n\n4,5\n"), "f.csv:4: found 2 fields, expected 3 as in the header");
-  EXPECT_EQ(refusal("a\n1,\n"), "f.csv:2: found 2 fields, expected 1 as in the header");
+  const std::string told = " as in the header; add or drop commas; text with commas stands in quotes";
+  EXPECT_EQ(refusal("a,b,c\n1,2,3\n\n4,5\n"), "f.csv:4: found 2 fields, expected 3" + told);
+  EXPECT_EQ(refusal("a\n1,\n"), "f.csv:2: found 2 fields, expected 1" + told);
+}
+
+TEST(Csv, SaysThatAFileMayBeCutOff) {
+  const std::string told = " as in the header; the file ends within this line: see whether it is whole";
+  EXPECT_EQ(refusal("a,b,c\n1,2,3\n4,5"), "f.csv:3: found 2 fields, expected 3" + told);
+}
+
+TEST(CsvField, StandsInQuotesWhereItNeedsThem) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field(""), "");
+  for (const std::string text : {"a,b", "say \"a\"", "two\nlines", " blank", "blank\t", "\r"})
+    EXPECT_EQ(records("h\n" + csv_field(text) + "\n"), (Records{{"h"}, {text}}));
 }
 
 TEST(Csv, RefusesAnOpenQuote) {
-  EXPECT_EQ(refusal("a,b\n1,2\n\n3,\"4\n5,6\n"), "f.csv:4: the quote opened here is not closed at the end of the file");
-  EXPECT_EQ(refusal("\"a"), "f.csv:1: the quote opened here is not closed at the end of the file");
+  const std::string whole = "; see whether the file is whole, and write a quote inside quotes twice";
+  EXPECT_EQ(refusal("a,b\n1,2\n\n3,\"4\n5,6\n"),
+            "f.csv:4: the quote opened here is not closed at the end of the file" + whole);
+  EXPECT_EQ(refusal("\"a"), "f.csv:1: the quote opened here is not closed at the end of the file" + whole);
   EXPECT_EQ(refusal("a\n1\n\"" + std::string(2 << 20, '\n')),
             "f.csv:3: the record that starts here is longer than 1 MiB; look for a quote that is left open");
 }
@@ -153,7 +169,7 @@ TEST(Csv, RefusesWhatIsNoNumberWithFileLineAndColumn) {
     return message_of<InputError>([&] { row.number(1); });
   };
   EXPECT_EQ(refused(), "nothing was thrown");
-  const std::string expected = ", expected a finite number with a decimal point";
+  const std::string expected = ", expected a finite number with a decimal point; correct the cell or drop the row";
   EXPECT_EQ(refused(), "f.csv:4: column 'x_m': found '4m'" + expected);
   EXPECT_EQ(refused(), "f.csv:5: column 'x_m': found 'nan'" + expected);
   EXPECT_EQ(refused(), "f.csv:6: column 'x_m': found '-inf'" + expected);
@@ -206,9 +222,9 @@ TEST(Csv, NamesTheFileThatCannotBeRead) {
   const TemporaryDirectory directory;
   const std::string missing = directory.path() / "missing.csv";
   EXPECT_EQ(message_of<InputError>([&] { CsvReader{missing}; }),
-            missing + ": cannot be read: No such file or directory");
+            missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
   EXPECT_EQ(message_of<InputError>([&] { CsvReader{directory.path()}; }),
-            directory.path().string() + ": found a directory, expected a file");
+            directory.path().string() + ": found a directory, expected a file; name one of the files in it");
 }
 
 TEST(Csv, SaysThatReadingFailed) {

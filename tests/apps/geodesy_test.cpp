@@ -167,6 +167,21 @@ TEST(LocalFrame, StraightUpIsAltitude) {
   EXPECT_NEAR(above.altitude, epsg_origin.altitude + 5000, 3e-9);
 }
 
+TEST(LocalFrame, TheSurfaceIsFoundFromEastAndNorth) {
+  for (const double altitude : {0.0, 2000.0, -50.0}) {
+    const LocalFrame frame{Geodetic::from_degrees(50.8, -1.1, altitude)};
+    for (const double north_deg : {0.0, 0.01, -0.3, 4.0, -20.0})
+      for (const double east_deg : {0.0, -0.02, 0.5, 15.0}) {
+        const Geodetic point = Geodetic::from_degrees(50.8 + north_deg, -1.1 + east_deg, 0.0);
+        const EastNorthUp local = frame.to_local(point);
+        const Geodetic found = frame.to_surface(local.east, local.north);
+        EXPECT_NEAR(found.latitude, point.latitude, 1e-14) << north_deg << ' ' << east_deg;
+        EXPECT_NEAR(found.longitude, point.longitude, 1e-14) << north_deg << ' ' << east_deg;
+        EXPECT_EQ(found.altitude, 0.0);
+      }
+  }
+}
+
 TEST(Geodetic, RefusesWhatIsNoPlace) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Geodetic::from_degrees(90.001, 0, 0), std::invalid_argument);

@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
 #include "support/program.hpp"
@@ -57,30 +57,6 @@ std::string csv(const std::vector<Point>& points) {
     text << '\n';
   }
   return text.str();
-}
-
-/// The rows of a CSV file, each by the names of its columns.
-std::vector<std::map<std::string, std::string>> rows(const std::string& text) {
-  std::istringstream lines(text);
-  std::vector<std::string> names;
-  std::vector<std::map<std::string, std::string>> result;
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> cells;
-    std::string cell;
-    for (const char letter : line + ",") {
-      if (letter == ',')
-        cells.push_back(std::exchange(cell, ""));
-      else
-        cell += letter;
-    }
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    auto& row = result.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells.at(i);
-  }
-  return result;
 }
 
 struct Case {
@@ -300,46 +276,6 @@ TEST(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
   EXPECT_NE(found[2].at("nis"), "");
 }
 
-TEST(HimmDemoTrack, BadInputExitsWith3AndNamesFileLineColumnAndValue) {
-  const TemporaryDirectory directory;
-  const auto message = [&](std::string_view text, std::vector<std::string> more = {}) {
-    const auto ending = track(directory, text, std::move(more));
-    EXPECT_EQ(ending.status, 3) << ending.output;
-    return ending.output;
-  };
-  const auto contains = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
-  contains(message("time_s,x_m,y_m\n0,1,2\n1,one,3\n"), "input.csv:3: column 'x_m': found 'one'");
-  contains(message("time_s,x_m,y_m\n0,1,2\n1,3\n"), "input.csv:3");
-  contains(message("time_s,x_m,y_m\n0,1,2\n0,3,4\n"), "input.csv:3: column 'time_s': found '0'");
-  contains(message("time_s,x_m,y_m\n0,1,2\n1,3,\n"), "column 'y_m'");
-  contains(message("time_s,x_m\n0,1\n"), "expected time_s,x_m,y_m");
-  contains(message("time_s,x_m,y_m\n0,1,2\n1,2,3\n"), "never started");
-  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "lft=zero"}), "did you mean 'lift'");
-  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "transition_possibility=[[1,0.5],[0.5,0.9]]"}),
-           "row 2 (from dwpa) is 0.9");
-  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "transition_probability=[[1,0.5],[0.5,0.5]]"}),
-           "row 1 (from dwna) is 1.5");
-  contains(message("time_s,x_m,y_m\n0,1,2\n", {"--set", "start=given"}), "start_mean");
-  contains(message("time_s,latitude_deg,longitude_deg,altitude_m\n0,91,4,0\n"), "latitude_deg");
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"track", directory.path() / "absent.csv"}).status, 3);
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"track", directory.path()}).status, 3);
-}
-
-TEST(HimmDemoTrack, BadUsageExitsWith2) {
-  const TemporaryDirectory directory;
-  const std::string good = "time_s,x_m,y_m\n0,1,2\n";
-  EXPECT_EQ(track(directory, good, {"--radar", "1,2"}).status, 2);
-  EXPECT_EQ(track(directory, good, {"--radar", "1,2,3"}).status, 2);  // two axes only
-  EXPECT_EQ(track(directory, good, {"--columns", "what=x_m"}).status, 2);
-  EXPECT_EQ(track(directory, good, {"--origin", "52,4,0"}).status, 2);
-  EXPECT_EQ(track(directory, good, {"--unheard-of"}).status, 2);
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {}).status, 2);
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"--help"}).status, 0);
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"--version"}).status, 0);
-}
-
 TEST(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
   const TemporaryDirectory directory;
   const std::string good = "time_s,x_m,y_m\n0,1,2\n";
@@ -350,12 +286,6 @@ TEST(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
   const auto second = track(directory, good, {"--print-config", "--config", file});
   EXPECT_EQ(second.output, first.output);
   EXPECT_NE(first.output.find("sigma_w = [5.0, 5.0]"), std::string::npos) << first.output;
-}
-
-/// Recorded data outside the project, or nothing.
-std::string recorded(const std::string& name) {
-  const auto path = std::filesystem::path(SIGMAX_DATA) / "tracking" / name;
-  return std::filesystem::exists(path) ? path.string() : "";
 }
 
 TEST(HimmDemoTrack, ARecordedJetIsTrackedBetterThanItIsMeasured) {

@@ -63,9 +63,9 @@ TEST(OpenInput, SaysWhyAFileCannotBeRead) {
   const TemporaryDirectory directory;
   const std::string missing = directory.path() / "missing.csv";
   EXPECT_EQ(message_of<InputError>([&] { open_input(missing); }),
-            missing + ": cannot be read: No such file or directory");
+            missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
   EXPECT_EQ(message_of<InputError>([&] { open_input(directory.path()); }),
-            directory.path().string() + ": found a directory, expected a file");
+            directory.path().string() + ": found a directory, expected a file; name one of the files in it");
 }
 
 TEST(OpenInput, SaysThatPermissionIsMissing) {
@@ -74,7 +74,7 @@ TEST(OpenInput, SaysThatPermissionIsMissing) {
   const auto secret = directory.write("secret", "1");
   std::filesystem::permissions(secret, std::filesystem::perms::none);
   EXPECT_EQ(message_of<InputError>([&] { open_input(secret); }),
-            secret.string() + ": cannot be read: Permission denied");
+            secret.string() + ": cannot be read: Permission denied; see whether its name and permissions are right");
 }
 
 }  // namespace

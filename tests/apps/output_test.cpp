@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -109,12 +110,14 @@ TEST(AtomicFile, CanBeMoved) {
 TEST(AtomicFile, NamesPathAndReasonOfAFailure) {
   const TemporaryDirectory directory;
   const std::string lost = directory.path() / "none" / "a.csv";
-  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{lost}; }), lost + ": cannot be written: No such file or directory");
+  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{lost}; }),
+            lost + ": cannot be written: No such file or directory; choose another place");
 
   const fs::path taken = directory.path() / "taken";
   fs::create_directory(taken);
   AtomicFile file{taken};
-  EXPECT_EQ(message_of<InputError>([&] { file.commit(); }), taken.string() + ": cannot be written: Is a directory");
+  EXPECT_EQ(message_of<InputError>([&] { file.commit(); }),
+            taken.string() + ": cannot be written: Is a directory; choose another place");
   EXPECT_EQ(count_files(directory.path()), 1);
 }
 
@@ -136,7 +139,8 @@ TEST(AtomicFile, ReportsAFullDevice) {
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(refusal, (directory.path() / "a").string() + ": cannot be written: File too large");
+  EXPECT_EQ(refusal, (directory.path() / "a").string() +
+                         ": cannot be written: File too large; make room there, or choose another place");
   EXPECT_EQ(count_files(directory.path()), 0);
 }
 
@@ -145,8 +149,56 @@ TEST(AtomicFile, ReportsMissingPermission) {
   const TemporaryDirectory directory;
   fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const std::string path = directory.path() / "a";
-  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{path}; }), path + ": cannot be written: Permission denied");
+  EXPECT_EQ(message_of<InputError>([&] { AtomicFile{path}; }),
+            path + ": cannot be written: Permission denied; choose another place");
   fs::permissions(directory.path(), fs::perms::owner_all);
+}
+
+TEST(CommitAll, PutsNoFileIntoItsPlaceUnlessAllAreOnTheDisk) {
+  const TemporaryDirectory directory;
+  AtomicFile small{directory.path() / "small"};
+  AtomicFile large{directory.path() / "large"};
+  small.write("1");
+  large.write(std::string(60'000, 'x'));  // stays in memory until it is stored
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit limit{20'000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const std::string refusal = message_of<InputError>([&] { commit_all(small, large); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(refusal.find("large: cannot be written: File too large"), std::string::npos) << refusal;
+  EXPECT_FALSE(fs::exists(directory.path() / "small"));
+
+  AtomicFile again{directory.path() / "large"};
+  again.write("2");
+  commit_all(small, again);
+  EXPECT_EQ(contents(directory.path() / "small"), "1");
+  EXPECT_EQ(contents(directory.path() / "large"), "2");
+  EXPECT_EQ(count_files(directory.path()), 2);
+}
+
+TEST(RemoveUnfinishedFiles, RemovesWhatIsNotCommitted) {
+  const TemporaryDirectory directory;
+  AtomicFile committed{directory.path() / "committed"};
+  AtomicFile first{directory.path() / "first"};
+  AtomicFile moved{std::move(first)};
+  committed.commit();
+  EXPECT_EQ(count_files(directory.path()), 2);
+  remove_unfinished_files();
+  EXPECT_EQ(count_files(directory.path()), 1);
+  EXPECT_TRUE(fs::exists(directory.path() / "committed"));
+}
+
+TEST(AtomicFile, AtMost16AreWrittenAtATime) {
+  const TemporaryDirectory directory;
+  for (int round = 0; round < 3; ++round) {
+    std::vector<AtomicFile> files;
+    for (int i = 0; i < 16; ++i) files.emplace_back(directory.path() / std::to_string(i));
+    EXPECT_THROW(AtomicFile{directory.path() / "more"}, std::logic_error);
+  }
+  EXPECT_EQ(count_files(directory.path()), 0);
 }
 
 TEST(OutputDirectory, IsCreatedWithItsParents) {
@@ -173,7 +225,7 @@ TEST(OutputDirectory, SaysWhyItCannotBe) {
   const fs::path file = directory.write("file", "");
   for (const fs::path& path : {file, file / "below"})
     EXPECT_EQ(message_of<InputError>([&] { OutputDirectory{path}; }),
-              path.string() + ": the directory cannot be created: Not a directory");
+              path.string() + ": the directory cannot be created: Not a directory; choose another place");
 }
 
 TEST(Shortest, ReadsBackAsTheSameDouble) {

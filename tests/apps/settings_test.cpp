@@ -102,42 +102,51 @@ TEST(Settings, SetsTakeTomlAndBareWords) {
 TEST(Settings, AnIntegerMayBeWrittenAsAWholeNumber) {
   EXPECT_EQ(from_sets({"runs=1e3"}).integer("runs"), 1000);
   EXPECT_EQ(refusal([] { from_sets({"runs=0.5"}).integer("runs"); }),
-            "--set runs=0.5: key 'runs': found '0.5', expected an integer");
+            "--set runs=0.5: key 'runs': found '0.5', expected an integer; write it as in runs = 3");
 }
 
 TEST(Settings, NamesThePlaceOfAWrongType) {
   const Settings settings = from_file("a = 1\n  sigma_w = \"5\"\nlist = [1,\n  true]\nwhen = 2020-01-01\n");
   EXPECT_EQ(refusal([&] { settings.number("sigma_w", 1); }),
-            "c.toml:2:13: key 'sigma_w': found the string '5', expected a number");
-  EXPECT_EQ(refusal([&] { settings.numbers("list"); }), "c.toml:4:3: key 'list': found 'true', expected a number");
-  EXPECT_EQ(refusal([&] { settings.string("a"); }), "c.toml:1:5: key 'a': found '1', expected a string");
-  EXPECT_EQ(refusal([&] { settings.strings("a"); }), "c.toml:1:5: key 'a': found '1', expected an array of strings");
-  EXPECT_EQ(refusal([&] { settings.boolean("a"); }), "c.toml:1:5: key 'a': found '1', expected true or false");
+            "c.toml:2:13: key 'sigma_w': found the string '5', expected a number; write it as in sigma_w = 3.5");
+  EXPECT_EQ(refusal([&] { settings.numbers("list"); }),
+            "c.toml:4:3: key 'list': found 'true', expected a number; write it as in list = 3.5");
+  EXPECT_EQ(refusal([&] { settings.string("a"); }),
+            "c.toml:1:5: key 'a': found '1', expected a string; write it as in a = \"text\"");
+  EXPECT_EQ(refusal([&] { settings.strings("a"); }),
+            "c.toml:1:5: key 'a': found '1', expected a string or an array of strings; write it as in a = [\"one\", "
+            "\"two\"]");
+  EXPECT_EQ(refusal([&] { settings.boolean("a"); }),
+            "c.toml:1:5: key 'a': found '1', expected true or false; write it as in a = true");
   EXPECT_EQ(refusal([&] { settings.integer("when"); }),
-            "c.toml:5:8: key 'when': found '2020-01-01', expected an integer");
-  EXPECT_EQ(refusal([&] { settings.sub("a"); }), "c.toml:1:5: key 'a': found '1', expected a table");
+            "c.toml:5:8: key 'when': found '2020-01-01', expected an integer; write it as in when = 3");
+  EXPECT_EQ(refusal([&] { settings.sub("a"); }),
+            "c.toml:1:5: key 'a': found '1', expected a table; write [a], or a.KEY = value");
   EXPECT_EQ(refusal([] { from_sets({"f.x.s=[1, 2]"}).sub("f").sub("x").number("s"); }),
-            "--set f.x.s=[1, 2]: key 'f.x.s': found the array '[ 1, 2 ]', expected a number");
+            "--set f.x.s=[1, 2]: key 'f.x.s': found the array '[ 1, 2 ]', expected a number; write it as in s = 3.5");
   EXPECT_EQ(refusal([] { from_sets({"f.x=1"}).number("f"); }),
-            "--set f.x=1: key 'f': found a table, expected a number");
+            "--set f.x=1: key 'f': found a table, expected a number; write it as in f = 3.5");
 }
 
 TEST(Settings, RefusesNumbersThatAreNotFinite) {
   EXPECT_EQ(refusal([] { from_sets({"a=nan"}).number("a"); }),
-            "--set a=nan: key 'a': found 'nan', expected a finite number");
+            "--set a=nan: key 'a': found 'nan', expected a finite number; write it as in a = 3.5");
   EXPECT_EQ(refusal([] { from_sets({"a=[1,-inf]"}).numbers("a"); }),
-            "--set a=[1,-inf]: key 'a': found '-inf', expected a finite number");
+            "--set a=[1,-inf]: key 'a': found '-inf', expected a finite number; write it as in a = 3.5");
   EXPECT_EQ(refusal([] { from_sets({"a=inf"}).integer("a"); }),
-            "--set a=inf: key 'a': found 'inf', expected an integer");
+            "--set a=inf: key 'a': found 'inf', expected an integer; write it as in a = 3");
 }
 
 TEST(Settings, RefusesMatricesThatAreNone) {
   EXPECT_EQ(refusal([] { from_file("m = [[1, 2],\n [3]]").matrix("m"); }),
-            "c.toml:2:2: key 'm': found the array '[ 3 ]', expected a row of 2 numbers as the first");
+            "c.toml:2:2: key 'm': found the array '[ 3 ]', expected a row of 2 numbers as the first; make all rows of "
+            "the same length");
   EXPECT_EQ(refusal([] { from_sets({"m=[1,2]"}).matrix("m"); }),
-            "--set m=[1,2]: key 'm': found '1', expected a row, which is an array of numbers");
+            "--set m=[1,2]: key 'm': found '1', expected a row, which is an array of numbers; write it as in m = "
+            "[[1.0, 0.5], [0.5, 1.0]]");
   EXPECT_EQ(refusal([] { from_sets({"m=1"}).matrix("m"); }),
-            "--set m=1: key 'm': found '1', expected an array of rows, each an array of numbers");
+            "--set m=1: key 'm': found '1', expected an array of rows, each an array of numbers; write it as in m = "
+            "[[1.0, 0.5], [0.5, 1.0]]");
 }
 
 enum class Lift { zero, borrowed_variance, unbiased };
@@ -148,11 +157,11 @@ TEST(Settings, AChoiceIsOneOfItsNames) {
   EXPECT_EQ(settings.choice("absent", {"zero", "unbiased"}, "zero"), "zero");
   EXPECT_EQ(settings.choice("lift", {{"zero", Lift::zero}, {"unbiased", Lift::unbiased}}, Lift::zero), Lift::unbiased);
   EXPECT_EQ(settings.choice("absent", {{"zero", Lift::zero}, {"unbiased", Lift::unbiased}}, Lift::zero), Lift::zero);
-  EXPECT_EQ(
-      refusal([&] {
-        settings.choice("wrong", {"zero", "borrowed_variance", "unbiased"}, "zero");
-      }),
-      "--set wrong=zerro: key 'wrong': found the string 'zerro', expected one of zero, borrowed_variance, unbiased");
+  EXPECT_EQ(refusal([&] {
+              settings.choice("wrong", {"zero", "borrowed_variance", "unbiased"}, "zero");
+            }),
+            "--set wrong=zerro: key 'wrong': found the string 'zerro', expected one of zero, borrowed_variance, "
+            "unbiased; did you mean 'zero'?");
 }
 
 TEST(Settings, MalformedTomlIsPlaced) {
@@ -189,9 +198,9 @@ TEST(Settings, SaysWhyAFileCannotBeRead) {
   const TemporaryDirectory directory;
   const std::string missing = directory.path() / "missing.toml";
   EXPECT_EQ(message_of<InputError>([&] { Settings::read(missing); }),
-            missing + ": cannot be read: No such file or directory");
+            missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
   EXPECT_EQ(message_of<InputError>([&] { Settings::read(directory.path()); }),
-            directory.path().string() + ": found a directory, expected a file");
+            directory.path().string() + ": found a directory, expected a file; name one of the files in it");
 }
 
 TEST(Settings, ASubTableOverlaysTheRest) {

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include <sigmax/estimation/white_noise.hpp>
+
+#include "support/settings.hpp"
+
+namespace sigmax::apps {
+
+/// The models that settings can name.
+enum class MotionType { dwna, dwpa, cwna, cwpa, singer, ou_position, ou_velocity, known_turn, ct };
+
+/// The filter of a model that is not linear; a linear one has the Kalman filter, which all are then.
+enum class MemberType { kf, ekf, ukf, ckf };
+
+/// One model of a filter with its parameters; those that its type does not have are of no account.
+struct Motion {
+  MotionType type = MotionType::dwna;
+  double sigma_w = 3.0;     ///< the strength of the noise; its unit depends on the type
+  double tau = 10.0;        ///< s
+  double turn_rate = 0.0;   ///< rad/s
+  double turn_drift = 0.0;  ///< rad/s in one second
+
+  bool linear() const { return type != MotionType::ct; }
+  /// Whether it stands for a manoeuvre beside a model that does not.
+  bool manoeuvres() const;
+  bool has_tau() const;
+  /// Number of derivatives, position included.
+  int order() const;
+};
+
+/// The keys `models`, `sigma_w`, `tau_s`, `turn_deg_s`, `turn_drift_deg_s`. Throws InputError for what cannot be.
+std::vector<Motion> read_motions(const Settings& settings, double sigma_w);
+
+/// Those keys in TOML, of those that the models have.
+std::string as_toml(const std::vector<Motion>& motions);
+
+/// Distinct names of the models: a second dwna is dwna_2.
+std::vector<std::string> names_of(const std::vector<Motion>& motions);
+
+/// The fast bank, if every model is dwna or dwpa.
+template <int Axes>
+using KinematicBank = std::vector<KinematicModel<Axes, Eigen::Dynamic>>;
+
+/// The bank of all models.
+template <int Axes>
+using AnyBank =
+    std::vector<AnyModel<3 * Axes + 1, KinematicModel<Axes, 2>, KinematicModel<Axes, 3>,
+                         IndependentAxes<Axes, WhiteNoise<2>>, IndependentAxes<Axes, WhiteNoise<3>>,
+                         IndependentAxes<Axes, OrnsteinUhlenbeck<1>>, IndependentAxes<Axes, OrnsteinUhlenbeck<2>>,
+                         IndependentAxes<Axes, OrnsteinUhlenbeck<3>>, KnownTurn<Axes>, Extended<CoordinatedTurn<Axes>>,
+                         Unscented<CoordinatedTurn<Axes>>, Cubature<CoordinatedTurn<Axes>>>>;
+
+/// Whether the fast bank has all models.
+bool kinematic(const std::vector<Motion>& motions);
+
+template <int Axes>
+KinematicBank<Axes> kinematic_bank(const std::vector<Motion>& motions) {
+  KinematicBank<Axes> bank;
+  for (const auto& motion : motions) bank.emplace_back(motion.sigma_w, Vector<Axes>::Zero(), motion.order());
+  return bank;
+}
+
+template <int Axes>
+typename AnyBank<Axes>::value_type any_model(const Motion& motion, MemberType member) {
+  const double sigma = motion.sigma_w;
+  switch (motion.type) {
+    case MotionType::dwna:
+      return dwna<Axes>(sigma);
+    case MotionType::dwpa:
+      return dwpa<Axes>(sigma);
+    case MotionType::cwna:
+      return cwna<Axes>(sigma * sigma);
+    case MotionType::cwpa:
+      return cwpa<Axes>(sigma * sigma);
+    case MotionType::singer:
+      return singer<Axes>(1.0 / motion.tau, sigma);
+    case MotionType::ou_position:
+      return ou_position<Axes>(1.0 / motion.tau, sigma);
+    case MotionType::ou_velocity:
+      return ou_velocity<Axes>(1.0 / motion.tau, sigma);
+    case MotionType::known_turn:
+      return KnownTurn<Axes>(motion.turn_rate, sigma * sigma);
+    case MotionType::ct:
+      break;
+  }
+  const CoordinatedTurn<Axes> turn(sigma * sigma, motion.turn_drift * motion.turn_drift);
+  if (member == MemberType::ukf) return Unscented{turn};
+  if (member == MemberType::ckf) return Cubature{turn};
+  return Extended{turn};
+}
+
+template <int Axes>
+AnyBank<Axes> any_bank(const std::vector<Motion>& motions, MemberType member) {
+  AnyBank<Axes> bank;
+  for (const auto& motion : motions) bank.push_back(any_model<Axes>(motion, member));
+  return bank;
+}
+
+}  // namespace sigmax::apps

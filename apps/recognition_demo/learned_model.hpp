@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/recognition/counts.hpp>
+#include <sigmax/recognition/discretization.hpp>
+
+#include "recognition_demo/contest.hpp"
+#include "recognition_demo/data_table.hpp"
+
+namespace sigmax::apps {
+
+/// How one column of data becomes readings: an index into its values, or into bins of its numbers.
+struct FeatureCode {
+  std::string name;
+  std::vector<std::string> values;     ///< of a categorical feature
+  std::optional<Discretization> bins;  ///< of a numeric one
+
+  std::vector<std::string> labels() const { return bins ? bins->labels() : values; }
+};
+
+/// Choices that turn counts into relations, the same for every classifier.
+struct LearningOptions {
+  std::size_t bins = 8;
+  bool equal_width = false;  ///< bins of equal width, else of equal frequency
+  double smoothing = 1.0;    ///< added to every count: 1 is Laplace's rule
+  double misread = 0.0;      ///< probability that a reading is another than the feature's value, spread evenly
+  bool equal_prior = false;  ///< nothing is known of the class, else its share of the rows
+};
+
+/// What was learned from labelled data: the counts, and how to read further data.
+struct LearnedModel {
+  std::string label;
+  std::vector<FeatureCode> features;
+  Counts counts;
+  LearningOptions options;
+};
+
+/// Fits bins and counts on some rows of the data. Throws InputError for a class without any of them.
+LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, const LearningOptions& options);
+
+/// One row of the data as readings.
+Readings readings(const LearnedModel& model, const DataTable& data, std::size_t row);
+
+/// The kinds of classifiers: "sigma", "max", "sigma-max".
+inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};
+
+/// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and for
+/// Dubois and Prade's transform.
+std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds);
+
+/// "max, Dubois-Prade cannot prefer 'a': 'b' is at least as possible whatever is read", for each such class.
+std::vector<std::string> warnings(const std::vector<Contestant>& classifiers);
+
+/// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file and
+/// the place for what is no model, is truncated or of another version, or contradicts itself.
+void write_model(const LearnedModel& model, std::span<const std::string> kinds, const std::filesystem::path& path);
+struct ModelFile {
+  LearnedModel model;
+  std::vector<std::string> kinds;
+};
+ModelFile read_model(const std::filesystem::path& path);
+
+}  // namespace sigmax::apps

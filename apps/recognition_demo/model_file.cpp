@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "recognition_demo/learned_model.hpp"
+#include "support/input.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view format_name = "sigmax recognition model";
+constexpr int format_version = 1;
+
+/// A place in a model file, for its own value and for messages: "model.json: features[2].counts[0]".
+class Node {
+ public:
+  Node(const Json& json, std::string file, std::string path = {})
+      : json_(json), file_(std::move(file)), path_(std::move(path)) {}
+
+  Node at(const std::string& key) const {
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    if (!json_.is_object()) throw error("an object");
+    const auto found = json_.find(key);
+    if (found == json_.end())
+      throw InputError(message({.where = file_, .what = fmt::format("there is no {}", in_quotes(path))}));
+    return {*found, file_, path};
+  }
+  std::vector<Node> list(std::string_view of_what) const {
+    if (!json_.is_array()) throw error(fmt::format("a list of {}", of_what));
+    std::vector<Node> result;
+    for (std::size_t i = 0; i < json_.size(); ++i) result.emplace_back(json_[i], file_, fmt::format("{}[{}]", path_, i));
+    return result;
+  }
+  std::vector<Node> list(std::string_view of_what, std::size_t size) const {
+    auto result = list(of_what);
+    if (result.size() != size)
+      throw InputError(message({.where = file_,
+                                .what = in_quotes(path_),
+                                .found = fmt::format("{} {}", result.size(), of_what),
+                                .expected = fmt::format("{}", size)}));
+    return result;
+  }
+  std::string text() const {
+    if (!json_.is_string() || json_.get<std::string>().empty()) throw error("a text that is not empty");
+    return json_.get<std::string>();
+  }
+  bool boolean() const {
+    if (!json_.is_boolean()) throw error("true or false");
+    return json_.get<bool>();
+  }
+  double number() const {
+    if (!json_.is_number()) throw error("a number");
+    return json_.get<double>();
+  }
+  double number(double least, double below, std::string_view expected) const {
+    const double value = number();
+    if (!(value >= least && value < below)) throw error(expected);
+    return value;
+  }
+  bool has(const std::string& key) const { return json_.is_object() && json_.contains(key); }
+
+  InputError error(std::string_view expected, std::string_view remedy = {}) const {
+    const std::string found = json_.is_structured() ? (json_.is_array() ? "a list" : "an object") : json_.dump();
+    return InputError(message({.where = file_,
+                               .what = path_.empty() ? "" : in_quotes(path_),
+                               .found = in_quotes(found),
+                               .expected = expected,
+                               .remedy = remedy}));
+  }
+
+ private:
+  const Json& json_;
+  std::string file_;
+  std::string path_;
+};
+
+std::vector<std::string> names(const Node& node, std::string_view of_what) {
+  std::vector<std::string> result;
+  std::set<std::string> seen;
+  for (const Node& each : node.list(of_what)) {
+    result.push_back(each.text());
+    if (!seen.insert(result.back()).second) throw each.error("names that differ");
+  }
+  if (result.empty()) throw node.error("at least one name");
+  return result;
+}
+
+double count(const Node& node) { return node.number(0.0, 0x1p53, "a count that is not negative"); }
+
+FeatureCode feature_code(const Node& node) {
+  FeatureCode code{node.at("name").text(), {}, std::nullopt};
+  if (!node.has("cuts")) {
+    code.values = names(node.at("values"), "values");
+    return code;
+  }
+  std::vector<double> cuts;
+  for (const Node& each : node.at("cuts").list("numbers")) {
+    cuts.push_back(each.number());
+    if (cuts.size() > 1 && cuts[cuts.size() - 2] >= cuts.back()) throw each.error("cuts in ascending order");
+  }
+  code.bins = Discretization{cuts};
+  return code;
+}
+
+Json parsed(const std::filesystem::path& path) {
+  try {
+    return Json::parse(read_text(path));
+  } catch (const Json::parse_error& error) {
+    // Its words are "[json.exception.parse_error.101] parse error at line 3, column 1: …".
+    std::string what = error.what();
+    if (const auto place = what.find("] "); place != std::string::npos) what = what.substr(place + 2);
+    throw InputError(message({.where = path.native(),
+                              .what = what,
+                              .expected = "a model as `recognition_demo train` writes it",
+                              .remedy = "train it again if the file was cut off"}));
+  }
+}
+
+}  // namespace
+
+void write_model(const LearnedModel& model, std::span<const std::string> kinds, const std::filesystem::path& path) {
+  const Counts& counts = model.counts;
+  Json json = {{"format", format_name},
+               {"version", format_version},
+               {"label", model.label},
+               {"kinds", kinds},
+               {"smoothing", model.options.smoothing},
+               {"misread", model.options.misread},
+               {"equal_prior", model.options.equal_prior}};
+  for (std::size_t c = 0; c < counts.pattern().size(); ++c)
+    json["classes"].push_back({{"name", counts.pattern().label(c)}, {"rows", counts.rows(c)}});
+  for (std::size_t i = 0; i < model.features.size(); ++i) {
+    const FeatureCode& code = model.features[i];
+    Json feature = {{"name", code.name}};
+    if (code.bins)
+      feature["cuts"] = std::vector<double>(code.bins->cuts().begin(), code.bins->cuts().end());
+    else
+      feature["values"] = code.values;
+    for (std::size_t c = 0; c < counts.pattern().size(); ++c)
+      feature["counts"].push_back(std::vector<double>(counts.of(i, c).begin(), counts.of(i, c).end()));
+    json["features"].push_back(feature);
+  }
+  AtomicFile file{path};
+  file.write(json.dump(1) + "\n");
+  file.commit();
+}
+
+ModelFile read_model(const std::filesystem::path& path) {
+  const Json json = parsed(path);
+  const Node root(json, path.native());
+  if (!root.has("format") || root.at("format").text() != format_name)
+    throw InputError(message({.where = path.native(), .what = "is no model of recognition_demo"}));
+  if (root.at("version").number() != format_version)
+    throw root.at("version").error(fmt::format("version {}", format_version),
+                                   "train the model again with this program");
+
+  ModelFile result{{root.at("label").text(), {}, Counts{RandomVariable{"-", 1}, {RandomVariable{"-", 1}}}, {}},
+                   names(root.at("kinds"), "kinds of classifiers")};
+  for (const Node& kind : root.at("kinds").list("kinds"))
+    if (std::find(std::begin(kind_names), std::end(kind_names), kind.text()) == std::end(kind_names))
+      throw kind.error(fmt::format("one of {}", fmt::join(kind_names, ", ")));
+  LearningOptions& options = result.model.options;
+  options.smoothing = root.at("smoothing").number(0.0, 1e9, "a number that is not negative");
+  options.misread = root.at("misread").number(0.0, 1.0, "a probability below one");
+  options.equal_prior = root.at("equal_prior").boolean();
+
+  std::vector<std::string> classes;
+  std::vector<double> rows;
+  std::set<std::string> seen;
+  for (const Node& each : root.at("classes").list("classes")) {
+    classes.push_back(each.at("name").text());
+    if (!seen.insert(classes.back()).second) throw each.at("name").error("names that differ");
+    rows.push_back(count(each.at("rows")));
+    if (rows.back() == 0.0) throw each.at("rows").error("a class with at least one row");
+  }
+  if (classes.size() < 2) throw root.at("classes").error("at least two classes");
+
+  const auto features = root.at("features").list("features");
+  if (features.empty()) throw root.at("features").error("at least one feature");
+  std::vector<RandomVariable> variables;
+  for (const Node& feature : features) {
+    result.model.features.push_back(feature_code(feature));
+    variables.emplace_back(result.model.features.back().name, result.model.features.back().labels());
+  }
+  Counts counts{RandomVariable{result.model.label, classes}, variables};
+  const std::vector<std::size_t> nothing(features.size(), missing);
+  for (std::size_t c = 0; c < classes.size(); ++c) counts.observe(c, nothing, rows[c]);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const auto tables = features[i].at("counts").list("rows", classes.size());
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+      const auto cells = tables[c].list("counts", variables[i].size());
+      double sum = 0.0;
+      for (std::size_t f = 0; f < cells.size(); ++f) {
+        const double times = count(cells[f]);
+        counts.observe_value(c, i, f, times);
+        sum += times;
+      }
+      if (sum > rows[c])
+        throw tables[c].error(fmt::format("counts with a sum of at most {}, the rows of class {}", rows[c],
+                                          in_quotes(classes[c])));
+      if (sum == 0.0 && options.smoothing == 0.0)
+        throw tables[c].error("a count above zero, as there is no smoothing");
+    }
+  }
+  result.model.counts = std::move(counts);
+  return result;
+}
+
+}  // namespace sigmax::apps

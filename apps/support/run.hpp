@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+namespace sigmax::apps {
+
+/// Does a program's work and returns its exit code: 0, 2 after a UsageError, 3 after any other exception or if standard
+/// output cannot be written. The message goes to standard error, after the program's name.
+///
+/// On SIGINT, SIGTERM, SIGHUP or SIGPIPE the program ends at once with 128 and the signal's number, 130 for SIGINT, and
+/// removes its unfinished files; signals that are ignored stay so. What a limit on file sizes refuses is a failed
+/// write.
+int run_program(const char* name, const std::function<void()>& work);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,568 @@
+// What `track` reads: radars, several sensors, geodetic tracks on two axes, dates, tracks side by side.
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/recordings.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/geodesy.hpp"
+#include "support/near.hpp"
+#include "support/program.hpp"
+#include "support/restatement.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using restatement::Index;
+using restatement::Position;
+using sigmax::support::near;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// Where a target is, about 6 km from a radar at the origin: straight, turning, straight, with a gap of a minute.
+struct Flown {
+  double time;
+  std::array<double, 3> x;
+};
+
+std::vector<Flown> flight(std::size_t axes) {
+  std::vector<Flown> points;
+  std::array<double, 3> x = {5000.0, -3000.0, 800.0};
+  std::array<double, 3> v = {-60.0, 80.0, 5.0};
+  double time = 100.0;
+  for (int k = 0; k < 120; ++k) {
+    const double dt = k == 90 ? 60.0 : 0.5 + 0.25 * (k % 3);
+    time += dt;
+    for (std::size_t i = 0; i < 3; ++i) x[i] += dt * v[i];
+    if (k >= 40 && k < 70) v = {v[0] - 4.0 * dt, v[1] - 6.0 * dt, v[2]};
+    points.push_back({time, {x[0], x[1], axes == 3 ? x[2] : 0.0}});
+  }
+  return points;
+}
+
+struct Sigma {
+  double range, azimuth_deg, elevation_deg;
+};
+
+/// A radar's measurement: m and degrees counter-clockwise from east.
+std::array<double, 3> seen(const std::array<double, 3>& x, const Sigma& sigma, std::mt19937_64& engine) {
+  std::normal_distribution<double> noise;
+  const double ground = std::hypot(x[0], x[1]);
+  const double range = std::hypot(ground, x[2]) + sigma.range * noise(engine);
+  const double azimuth = std::atan2(x[1], x[0]) / degree + sigma.azimuth_deg * noise(engine);
+  return {range, azimuth, std::atan2(x[2], ground) / degree + sigma.elevation_deg * noise(engine)};
+}
+
+Position converted(const std::array<double, 3>& z, const Sigma& sigma, std::size_t axes,
+                   const std::array<double, 3>& at = {0, 0, 0}) {
+  const Position full = restatement::standard_conversion(z[0], z[1] * degree, z[2] * degree, sigma.range,
+                                                         sigma.azimuth_deg * degree, sigma.elevation_deg * degree);
+  Position position{restatement::Vector(axes), restatement::Matrix(axes, axes)};
+  for (Index i = 0; i < axes; ++i) {
+    position.z[i] = full.z[i] + at[i];
+    for (Index j = 0; j < axes; ++j) position.R(i, j) = full.R(i, j);
+  }
+  return position;
+}
+
+/// One row as the filters ought to see it.
+struct Expected {
+  double time;
+  std::optional<Position> z;
+};
+
+/// Every estimate of both filters equals that of the plain restatement with the default settings.
+void expect_restated(const std::string& estimates, const std::vector<Expected>& expected, std::size_t axes) {
+  const auto found = rows(estimates);
+  for (const std::string name : {"imm", "himm"}) {
+    SCOPED_TRACE(name);
+    std::vector<TextRow> own;
+    for (const auto& row : found)
+      if (row.at("filter") == name) own.push_back(row);
+    restatement::Options options;
+    options.lift = restatement::Lift::borrowed_variance;
+    options.mixed_covariance = restatement::MixedCovariance::own_recentred;
+    if (name == "himm") options.kind = restatement::Kind::himm;
+    const restatement::Matrix transition = name == "himm" ? restatement::Matrix(2, 2, {1, 0.5, 0.5, 1})
+                                                          : restatement::Matrix(2, 2, {0.95, 0.05, 0.05, 0.95});
+    const double T12 = expected[1].time - expected[0].time;
+    const double T23 = expected[2].time - expected[1].time;
+    restatement::Filter filter(
+        {restatement::dwna(axes, 3.0), restatement::dwpa(axes, 3.0)}, transition,
+        {restatement::two_point_start(*expected[1].z, *expected[2].z, T23),
+         restatement::three_point_start(*expected[0].z, *expected[1].z, *expected[2].z, T12, T23)},
+        {1.0, 1.0}, options);
+    ASSERT_EQ(own.size(), expected.size() - 3);
+    double time = expected[2].time;
+    for (std::size_t k = 3; k < expected.size(); ++k) {
+      const auto& [now, z] = expected[k];
+      if (z)
+        filter.step(now - time, z->z, z->R);
+      else
+        filter.step(now - time);
+      time = now;
+      const TextRow& row = own[k - 3];
+      SCOPED_TRACE("row " + std::to_string(k));
+      ASSERT_EQ(std::stod(row.at("time_s")), now);
+      const auto estimate = filter.estimate();
+      const std::array<const char*, 6> means = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
+      const std::array<const char*, 6> sigmas = {"sigma_x_m",    "sigma_y_m",    "sigma_z_m",
+                                                 "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps"};
+      for (Index order = 0; order < 2; ++order)
+        for (Index axis = 0; axis < axes; ++axis) {
+          const Index i = order * axes + axis;
+          ASSERT_PRED_FORMAT3(near, std::stod(row.at(means[order * 3 + axis])), estimate.mean[i], 1e-9);
+          ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[order * 3 + axis])), std::sqrt(estimate.covariance(i, i)),
+                              1e-9);
+        }
+      ASSERT_EQ(row.at("nis").empty(), !z);
+      if (z) {
+        ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), *filter.nis(), 1e-9);
+      }
+      ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+    }
+  }
+}
+
+/// Runs `track` on a text and gives back estimates.csv.
+std::string estimates(const std::string& text, std::vector<std::string> more = {}, std::string* output = nullptr) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> arguments = {"track", directory.write("input.csv", text), "--out", directory.path() / "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  if (output) *output = ending.output;
+  return contents(directory.path() / "out" / "estimates.csv");
+}
+
+std::vector<std::string> radar_settings(const Sigma& sigma) {
+  return {"--set", "sigma_range_m=" + exact(sigma.range),
+          "--set", "sigma_azimuth_deg=" + exact(sigma.azimuth_deg),
+          "--set", "sigma_elevation_deg=" + exact(sigma.elevation_deg)};
+}
+
+struct RadarCase {
+  std::size_t axes;
+  bool from_north;
+  std::array<double, 3> at;
+};
+
+class RadarInput : public testing::TestWithParam<RadarCase> {};
+
+TEST_P(RadarInput, IsConvertedAsTheStandardConversionHasIt) {
+  const auto [axes, from_north, at] = GetParam();
+  const Sigma sigma{20.0, 0.3, 0.2};
+  std::mt19937_64 engine(5);
+  std::string text = axes == 3 ? "time_s,range_m,azimuth_deg,elevation_deg\n" : "time_s,range_m,azimuth_deg\n";
+  std::vector<Expected> expected;
+  std::size_t k = 0;
+  for (const auto& [time, x] : flight(axes)) {
+    if (++k % 11 == 0) {  // missed
+      text += exact(time) + (axes == 3 ? ",,,\n" : ",,\n");
+      expected.push_back({time, {}});
+      continue;
+    }
+    const auto z = seen(x, sigma, engine);
+    text += exact(time) + "," + exact(z[0]) + "," + exact(from_north ? 90.0 - z[1] : z[1]);
+    text += axes == 3 ? "," + exact(z[2]) + "\n" : "\n";
+    expected.push_back({time, converted({z[0], z[1], axes == 3 ? z[2] : 0.0}, sigma, axes, at)});
+  }
+  auto arguments = radar_settings(sigma);
+  if (from_north) arguments.insert(arguments.end(), {"--azimuth-from", "north"});
+  arguments.push_back("--radar-at=" + exact(at[0]) + "," + exact(at[1]) + "," + exact(at[2]));
+  expect_restated(estimates(text, arguments), expected, axes);
+}
+
+INSTANTIATE_TEST_SUITE_P(HimmDemo, RadarInput,
+                         testing::Values(RadarCase{3, false, {0, 0, 0}}, RadarCase{3, true, {100, -50, 7}},
+                                         RadarCase{2, false, {-30, 40, 0}}, RadarCase{2, true, {0, 0, 0}}),
+                         [](const auto& test) {
+                           return (test.param.axes == 3 ? "Three" : "Two") +
+                                  std::string(test.param.from_north ? "AxesFromNorth" : "AxesFromEast");
+                         });
+
+TEST(HimmDemoRecording, ARoundPathAboutARadarEqualsItsConvertedMeasurements) {
+  // With σ_r = r σ_α the converted covariance is σ_r² I, which Cartesian input can have too.
+  const double range = 4000.0, sigma_azimuth_deg = 0.5;
+  const double sigma_range = range * sigma_azimuth_deg * degree;
+  std::string polar = "time_s,range_m,azimuth_deg\n", cartesian = "time_s,x_m,y_m\n";
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> noise(0.0, sigma_azimuth_deg);
+  for (int k = 0; k < 200; ++k) {
+    const double azimuth = 2.0 * k + noise(engine) - 200.0;
+    polar += std::to_string(k) + "," + exact(range) + "," + exact(azimuth) + "\n";
+    cartesian += std::to_string(k) + "," + exact(range * std::cos(azimuth * degree)) + "," +
+                 exact(range * std::sin(azimuth * degree)) + "\n";
+  }
+  const auto by_radar = rows(estimates(polar, radar_settings({sigma_range, sigma_azimuth_deg, 1.0})));
+  const auto by_position = rows(estimates(cartesian, {"--set", "sigma_position_m=" + exact(sigma_range)}));
+  ASSERT_EQ(by_radar.size(), 2U * 197U);
+  ASSERT_EQ(by_radar.size(), by_position.size());
+  for (std::size_t k = 0; k < by_radar.size(); ++k)
+    for (const auto& [name, cell] : by_position[k]) {
+      const std::string& other = by_radar[k].at(name);
+      if (name == "filter" || name == "most_likely" || cell.empty()) {
+        ASSERT_EQ(other, cell) << name;
+      } else {
+        ASSERT_PRED_FORMAT3(near, std::stod(other), std::stod(cell), 1e-9) << name << " of row " << k;
+      }
+    }
+}
+
+TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
+  for (const std::size_t axes : {2U, 3U}) {
+    SCOPED_TRACE(axes);
+    const Sigma coarse{40.0, 0.6, 0.5}, fine{15.0, 0.1, 0.5};  // the elevation's is the same for both
+    std::mt19937_64 engine(9);
+    std::normal_distribution<double> noise(0.0, 5.0);
+    std::string text = axes == 3 ? "time_s,sensor,x_m,y_m,z_m,range_m,azimuth_deg,elevation_deg\n"
+                                 : "time_s,sensor,x_m,y_m,range_m,azimuth_deg\n";
+    std::vector<Expected> expected;
+    std::size_t k = 0;
+    for (const auto& [time, x] : flight(axes)) {
+      if (k % 3 == 0) {
+        Position z{restatement::Vector(axes), restatement::Matrix(axes, axes)};
+        text += exact(time) + ",lidar";
+        for (Index i = 0; i < axes; ++i) {
+          z.z[i] = x[i] + noise(engine);
+          z.R(i, i) = 25.0;
+          text += "," + exact(z.z[i]);
+        }
+        text += axes == 3 ? ",,,\n" : ",,\n";
+        expected.push_back({time, z});
+      } else {
+        const Sigma& sigma = k % 3 == 1 ? coarse : fine;
+        const auto z = seen(x, sigma, engine);
+        text += exact(time) + (k % 3 == 1 ? ",old radar" : ",new") + (axes == 3 ? ",,,," : ",,,") + exact(z[0]) + "," +
+                exact(z[1]) + (axes == 3 ? "," + exact(z[2]) : "") + "\n";
+        expected.push_back({time, converted({z[0], z[1], axes == 3 ? z[2] : 0.0}, sigma, axes)});
+      }
+      ++k;
+    }
+    const TemporaryDirectory directory;
+    const auto settings =
+        directory.write("settings.toml",
+                        "sigma_range_m = 40\nsigma_elevation_deg = 0.5\n[sensor.lidar]\nsigma_position_m = 5\n"
+                        "[sensor.\"old radar\"]\nsigma_azimuth_deg = 0.6\n"
+                        "[sensor.new]\nsigma_azimuth_deg = 0.1\n[filter.imm.sensor.new]\nsigma_range_m = 15\n"
+                        "[filter.himm.sensor.new]\nsigma_range_m = 15\n");
+    std::string output;
+    expect_restated(estimates(text, {"--config", settings}, &output), expected, axes);
+    EXPECT_NE(output.find("Rows by sensor: lidar 40, new 40, old radar 40"), std::string::npos) << output;
+
+    const auto printed = program::run(SIGMAX_HIMM_DEMO, {"track", "any", "--print-config", "--config", settings});
+    const auto again = directory.write("again.toml", printed.output);
+    EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"track", "any", "--print-config", "--config", again}).output,
+              printed.output);
+  }
+}
+
+TEST(HimmDemoRecording, ASensorOfTheSettingsThatIsInNoRowIsWarnedOf) {
+  std::string output;
+  estimates("time_s,sensor,x_m,y_m,range_m,azimuth_deg\n0,a,1,2,,\n1,a,2,3,,\n2,a,3,4,,\n3,a,4,5,,\n",
+            {"--set", "sensor.b.sigma_range_m=1"}, &output);
+  EXPECT_NE(output.find("warning: key 'sensor.b' of filter 'imm': no row of"), std::string::npos) << output;
+}
+
+TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
+  std::mt19937_64 engine(2);
+  std::normal_distribution<double> noise(0.0, 10.0);
+  std::string text = "time_s,x_m,y_m,true_x_m,true_y_m\n";
+  const auto points = flight(2);
+  for (const auto& [time, x] : points)
+    text += exact(time) + "," + exact(x[0] + noise(engine)) + "," + exact(x[1] + noise(engine)) + "," + exact(x[0]) +
+            "," + exact(x[1]) + "\n";
+  const TemporaryDirectory directory;
+  const auto input = directory.write("input.csv", text);
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", input, "--out", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results").at("all");
+  const auto found = rows(contents(directory.path() / "estimates.csv"));
+  const auto measured = rows(text);
+  for (const std::string filter : {"measurement", "imm", "himm"})
+    for (const auto& [axis, index] : {std::pair{"x", 0U}, {"y", 1U}}) {
+      double sum = 0.0, variance = 0.0;
+      std::size_t count = 0;
+      if (filter == "measurement") {
+        for (; count < points.size(); ++count)
+          sum += std::pow(std::stod(measured[count].at(axis + std::string("_m"))) - points[count].x[index], 2);
+      } else {
+        for (const auto& row : found)
+          if (row.at("filter") == filter) {
+            sum += std::pow(std::stod(row.at(axis + std::string("_m"))) - points[3 + count].x[index], 2);
+            variance += std::pow(std::stod(row.at("sigma_" + std::string(axis) + "_m")), 2);
+            ++count;
+          }
+        EXPECT_PRED_FORMAT3(near, results.at(filter).at("sigma_m").at(axis).get<double>(),
+                            std::sqrt(variance / static_cast<double>(count)), 1e-9);
+      }
+      EXPECT_PRED_FORMAT3(near, results.at(filter).at("rmse_m").at(axis).get<double>(),
+                          std::sqrt(sum / static_cast<double>(count)), 1e-9);
+    }
+}
+
+TEST(HimmDemoRecording, WarnsOnceWhereTheConversionIsOutOfItsValidity) {
+  // r σ_α²/σ_r is 0.4 at 1313 m: lines 4 and 6 are beyond.
+  const double sigma_azimuth_deg = std::sqrt(0.4 * 10.0 / 1313.0) / degree;
+  const std::string text = "time_s,range_m,azimuth_deg\n0,1200,10\n1,1300,10\n2,1400,10\n3,1312,10\n4,1900,10\n";
+  std::string output;
+  estimates(text, radar_settings({10.0, sigma_azimuth_deg, 1.0}), &output);
+  const auto at = output.find("input.csv:4: r σ_α²/σ_r is 0.43 at a range of 1400 m");
+  ASSERT_NE(at, std::string::npos) << output;
+  EXPECT_EQ(output.find("σ_α²", at + 40), std::string::npos) << "once\n" << output;
+  EXPECT_NE(output.find("in 2 of 5 measurements"), std::string::npos) << output;
+  EXPECT_NE(output.find("set sigma_range_m above 15,"), std::string::npos) << output;  // 10 · 1900/1313 = 14.47
+  estimates(text, radar_settings({15.0, sigma_azimuth_deg, 1.0}), &output);
+  EXPECT_EQ(output.find("warning"), std::string::npos) << output;
+}
+
+TEST(HimmDemoRecording, AMeasurementThatNoFilterExpectsIsNamed) {
+  std::string text = "time_s,x_m,y_m\n";
+  for (int k = 0; k < 40; ++k) text += std::to_string(k) + "," + (k == 20 ? "5000" : std::to_string(10 * k)) + ",0\n";
+  std::string output;
+  estimates(text, {}, &output);
+  EXPECT_NE(output.find("warning: "), std::string::npos) << output;
+  EXPECT_NE(output.find("input.csv:22: no filter expects this measurement"), std::string::npos) << output;
+}
+
+TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
+  const LocalFrame frame(Geodetic::from_degrees(50.8, -1.1, 0.0));
+  std::string geodetic = "time_s,latitude_deg,longitude_deg\n", cartesian = "time_s,x_m,y_m\n";
+  for (int k = 0; k < 60; ++k) {
+    const double latitude = 50.8 + 0.002 * k, longitude = -1.1 - 0.003 * k;
+    const EastNorthUp point = frame.to_local(Geodetic::from_degrees(latitude, longitude, 0.0));
+    geodetic += std::to_string(10 * k) + "," + exact(latitude) + "," + exact(longitude) + "\n";
+    cartesian += std::to_string(10 * k) + "," + exact(point.east) + "," + exact(point.north) + "\n";
+  }
+  const auto found = rows(estimates(geodetic));
+  const auto expected = rows(estimates(cartesian));
+  ASSERT_EQ(found.size(), 2U * 57U);
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (const char* name : {"x_m", "y_m", "vx_mps", "sigma_x_m"})
+      ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(name)), std::stod(expected[k].at(name)), 1e-9);
+    EXPECT_EQ(found[k].at("z_m"), "");
+    EXPECT_EQ(found[k].at("altitude_m"), "");
+    const EastNorthUp back = frame.to_local(
+        Geodetic::from_degrees(std::stod(found[k].at("latitude_deg")), std::stod(found[k].at("longitude_deg")), 0.0));
+    EXPECT_NEAR(back.east, std::stod(found[k].at("x_m")), 1e-6);
+    EXPECT_NEAR(back.north, std::stod(found[k].at("y_m")), 1e-6);
+  }
+}
+
+TEST(HimmDemoRecording, DatesEqualSeconds) {
+  std::string dates = "when,x_m,y_m\n", seconds = "when,x_m,y_m\n";
+  for (int k = 0; k < 100; ++k) {
+    const int total = 59 + k;  // over the end of a year
+    const std::string rest = "," + std::to_string(7 * k) + "," + std::to_string(k * k) + "\n";
+    const bool next = total >= 60;
+    const std::string second = std::to_string(100 + total % 60).substr(1) + ".25";
+    const std::string minute = next ? std::to_string(100 + total / 60 - 1).substr(1) : "59";
+    dates += (next ? "2017-01-01T00:" : "2016-12-31 23:") + minute + ":" + second + (k % 2 ? "Z" : "") + rest;
+    seconds += std::to_string(1483228740 + total) + ".25" + rest;  // 1483228800 begins 2017
+  }
+  const std::vector<std::string> mapped = {"--columns", "time_s=when"};
+  EXPECT_EQ(estimates(dates, mapped), estimates(seconds, mapped));
+}
+
+/// Three tracks of one file, whose rows lie between each other's in time; `axes` columns of positions.
+struct Interleaved {
+  std::string all;
+  std::map<std::string, std::string> alone;
+};
+
+Interleaved interleaved(std::size_t axes) {
+  const std::string header = axes == 3 ? "time_s,ship,x_m,y_m,z_m\n" : "time_s,ship,x_m,y_m\n";
+  Interleaved result{header, {{"A", header}, {"B", header}, {"C", header}}};
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> noise(0.0, 10.0);
+  for (int k = 0; k < 300; ++k) {
+    const std::string ship = k % 5 == 0 ? "A" : k % 2 == 0 ? "B" : "C";
+    std::string row = std::to_string(0.5 * k) + "," + ship;
+    for (std::size_t i = 0; i < axes; ++i) row += "," + exact(3000.0 + 5.0 * k + noise(engine));
+    result.all += row + "\n";
+    result.alone[ship] += row + "\n";
+  }
+  return result;
+}
+
+/// The lines of one track, without the column that names it.
+std::string lines_of(const std::string& text, const std::string& track) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    const auto first = line.find(',');
+    const auto second = line.find(',', first + 1);
+    const std::string name = line.substr(first + 1, second - first - 1);
+    if (name == track || name == "track") result += line.substr(0, first) + line.substr(second) + "\n";
+  }
+  return result;
+}
+
+TEST(HimmDemoRecording, TracksOfOneFileEqualEachAlone) {
+  const auto [all, alone] = interleaved(2);
+  std::string output;
+  const std::string together = estimates(all, {"--track-id", "ship"}, &output);
+  EXPECT_NE(output.find("3 tracks by ship\n"), std::string::npos) << output;
+  for (const auto& [ship, text] : alone) {
+    EXPECT_EQ(lines_of(together, ship), estimates(text)) << ship;
+    EXPECT_EQ(lines_of(together, ship), estimates(all, {"--select", "ship=" + ship})) << ship;
+  }
+}
+
+TEST(HimmDemoRecording, TheSimulatedRadarSeesATrackAlikeWhicheverOthersThereAre) {
+  const auto [all, alone] = interleaved(3);
+  const std::vector<std::string> radar = {"--track-id", "ship", "--radar", "10,0.1,0.1"};
+  const std::string together = estimates(all, radar);
+  for (const auto& [ship, text] : alone) EXPECT_EQ(lines_of(together, ship), lines_of(estimates(text, radar), ship));
+}
+
+TEST(HimmDemoRecording, ATrackTooShortToStartIsCountedAndTheOthersGoOn) {
+  std::string output;
+  const std::string found =
+      estimates("time_s,id,x_m,y_m\n0,a,0,0\n1,a,1,0\n1,b,5,5\n2,a,2,0\n3,a,3,0\n", {"--track-id", "id"}, &output);
+  EXPECT_NE(output.find("2 tracks by id, 1 of them too short for every filter to start\n"), std::string::npos);
+  EXPECT_EQ(rows(found).size(), 2U);
+}
+
+TEST(HimmDemoRecording, TheNameOfATrackIsQuotedWhereItNeedsIt) {
+  const std::string found = estimates("time_s,id,x_m,y_m\n0,\"a,b\",0,0\n1,\"a,b\",1,0\n2,\"a,b\",2,0\n3,\"a,b\",3,0\n",
+                                      {"--track-id", "id"});
+  EXPECT_NE(found.find("\n3,\"a,b\",imm,"), std::string::npos) << found;
+}
+
+TEST(HimmDemoRecording, SelectionsHoldAllAtOnce) {
+  const std::string header = "time_s,a,b,x_m,y_m\n";
+  const std::string chosen = "0,1,u,0,0\n2,1,u,2,1\n4,1,u,4,2\n6,1,u,6,3\n8,1,u,8,5\n";
+  std::string mixed = header;
+  for (std::size_t begin = 0; begin < chosen.size();) {
+    const std::size_t end = chosen.find('\n', begin) + 1;
+    mixed += "1,1,v,bad,\n" + chosen.substr(begin, end - begin) + "nonsense,2,u,9,9\n";
+    begin = end;
+  }
+  EXPECT_EQ(estimates(mixed, {"--select", "a=1", "--select", "b=u"}), estimates(header + chosen));
+}
+
+TEST(HimmDemoRecording, BadTimesAreSkippedOnRequest) {
+  std::string output;
+  EXPECT_EQ(estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n1,99,99\n2,2,0\n0.5,99,99\n3,3,1\n4,4,1\n",
+                      {"--on-bad-time", "skip"}, &output),
+            estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n3,3,1\n4,4,1\n"));
+  EXPECT_NE(output.find("Skipped 2 rows"), std::string::npos) << output;
+}
+
+TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
+  const std::string text = interleaved(2).all;
+  const TemporaryDirectory directory;
+  const std::string input = directory.write("input.csv", text);
+  const std::string out = directory.path() / "out";
+  const auto ending = program::run("/bin/sh", {"-c", "exec \"$1\" track - --track-id ship --out \"$2\" < \"$3\"", "sh",
+                                               SIGMAX_HIMM_DEMO, out, input});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_TRUE(ending.output.starts_with("standard input: 300 rows")) << ending.output;
+  EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), estimates(text, {"--track-id", "ship"}));
+}
+
+/// The most memory that a run of `track` had, in KiB.
+long peak_memory(const std::string& input) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setenv("ASAN_OPTIONS", "quarantine_size_mb=1", 1);  // else a sanitizer keeps what is freed
+    ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
+    ::execl(SIGMAX_HIMM_DEMO, SIGMAX_HIMM_DEMO, "track", input.c_str(), "--set", "filters=[\"imm\"]", "--set",
+            "models=[\"dwna\"]", static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  ::wait4(child, &status, 0, &usage);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  return usage.ru_maxrss;
+}
+
+TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
+  const TemporaryDirectory directory;
+  const auto file_of = [&](const std::string& name, int count) {
+    std::ofstream file(directory.path() / name);
+    file << "time_s,x_m,y_m\n";
+    for (int k = 0; k < count; ++k) file << k << ',' << 10 * k << ',' << k % 100 << ".123456\n";
+    return (directory.path() / name).string();
+  };
+  const long small = peak_memory(file_of("small.csv", 10'000));
+  const std::string large = file_of("large.csv", 200'000);
+  ASSERT_GT(std::filesystem::file_size(large), 4U << 20U);
+  EXPECT_LT(peak_memory(large) - small, 1024);
+}
+
+TEST(HimmDemoRecording, RecordedShipsAreTrackedOneByOneAndAllAtOnce) {
+  const std::string file = recorded("ais_solent.csv");
+  if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
+  const TemporaryDirectory directory;
+  const auto run = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "track",     file,
+        "--columns", "time_s=Time,latitude_deg=Latitude_degrees,longitude_deg=Longitude_degrees",
+        "--origin",  "50.8,-1.1,0",
+        "--set",     "sigma_w=0.05",
+        "--out",     directory.path() / out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return program::run(SIGMAX_HIMM_DEMO, arguments);
+  };
+  const auto all = run("all", {"--track-id", "MMSI", "--on-bad-time", "skip"});
+  ASSERT_EQ(all.status, 0) << all.output;
+  EXPECT_NE(all.output.find("18620 rows, 18620 measurements, 2 axes"), std::string::npos) << all.output;
+  EXPECT_NE(all.output.find("91 tracks by MMSI, 3 of them too short"), std::string::npos) << all.output;
+  EXPECT_NE(all.output.find("Skipped 3 rows"), std::string::npos) << all.output;
+  const auto one = run("one", {"--select", "MMSI=235013375"});
+  ASSERT_EQ(one.status, 0) << one.output;
+  const std::string alone = contents(directory.path() / "one" / "estimates.csv");
+  EXPECT_EQ(rows(alone).size(), 2U * 1135U);
+  EXPECT_EQ(lines_of(contents(directory.path() / "all" / "estimates.csv"), "235013375"), alone);
+  EXPECT_EQ(run("none", {"--track-id", "MMSI"}).status, 3) << "three reports come twice";
+}
+
+TEST(HimmDemoRecording, ARecordedLidarAndRadarAreFusedAgainstTheTruth) {
+  const std::string file = recorded("lidar_radar.csv");
+  if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
+  const TemporaryDirectory directory;
+  const auto ending =
+      program::run(SIGMAX_HIMM_DEMO, {"track", file, "--set", "sensor.lidar.sigma_position_m=0.15", "--set",
+                                      "sensor.radar.sigma_range_m=0.3", "--set", "sensor.radar.sigma_azimuth_deg=1.72",
+                                      "--out", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.output.find("Rows by sensor: lidar 250, radar 250"), std::string::npos) << ending.output;
+  const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results").at("all");
+  const auto truth = rows(contents(file));
+  const auto found = rows(contents(directory.path() / "estimates.csv"));
+  ASSERT_EQ(found.size(), 2U * 497U);
+  for (std::size_t f = 0; f < 2; ++f)
+    for (const std::string axis : {"x", "y"}) {
+      double sum = 0.0;
+      for (std::size_t k = 3; k < 500; ++k)
+        sum += std::pow(
+            std::stod(found[2 * (k - 3) + f].at(axis + "_m")) - std::stod(truth[k].at("true_" + axis + "_m")), 2);
+      const double rmse = results.at(f == 0 ? "imm" : "himm").at("rmse_m").at(axis).get<double>();
+      EXPECT_PRED_FORMAT3(near, rmse, std::sqrt(sum / 497.0), 1e-9);
+      EXPECT_LT(rmse, results.at("measurement").at("rmse_m").at(axis).get<double>());
+    }
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+TEST(OptionPages, AreWhatTheProgramPrints) {
+  const std::filesystem::path source = SIGMAX_SOURCE;
+  const auto page = program::run(source / "scripts" / "option_pages", {"--print", SIGMAX_HIMM_DEMO});
+  ASSERT_EQ(page.status, 0) << page.output;
+  EXPECT_EQ(contents(source / "docs" / "himm_demo_options.md"), page.output) << "run scripts/option_pages";
+}
+
+TEST(OptionPages, EverySubcommandHasTwoExamples) {
+  for (const std::string subcommand : {"simulate", "track"}) {
+    const std::string help = program::run(SIGMAX_HIMM_DEMO, {subcommand, "--help"}).output;
+    const auto examples = help.find("\nExamples:\n");
+    ASSERT_NE(examples, std::string::npos);
+    std::size_t count = 0;
+    for (auto at = help.find("\n  himm_demo ", examples); at != std::string::npos; ++count)
+      at = help.find("\n  himm_demo ", at + 1);
+    EXPECT_GE(count, 2U) << help;
+  }
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,97 @@
+#include "support/run.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include "apps/temporary_directory.hpp"
+#include "support/error.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+struct Ending {
+  int code = -1;
+  std::string complaint;
+};
+
+/// Runs the work in a child of its own, whose standard output is `output` and whose standard error comes back.
+Ending run_in_child(const TemporaryDirectory& directory, const std::function<void()>& work,
+                    const char* output = "/dev/null") {
+  const std::string complaints = directory.path() / "complaints";
+  std::fflush(stdout);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+    ::dup2(::open(output, O_WRONLY), STDOUT_FILENO);
+    ::dup2(::open(complaints.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    ::_exit(run_program("demo", work));
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(complaints)};
+}
+
+TEST(RunProgram, TellsTheKindOfAFailureByItsExitCode) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_in_child(directory, [] {}).code, 0);
+  const Ending usage = run_in_child(directory, [] { throw UsageError("what?"); });
+  EXPECT_EQ(usage.code, 2);
+  EXPECT_EQ(usage.complaint, "demo: what?\n");
+  EXPECT_EQ(run_in_child(directory, [] { throw InputError("bad"); }).code, 3);
+  const Ending other = run_in_child(directory, [] { throw std::domain_error("lost"); });
+  EXPECT_EQ(other.code, 3);
+  EXPECT_EQ(other.complaint, "demo: lost\n");
+}
+
+TEST(RunProgram, OutputThatIsLostIsAFailure) {
+  const TemporaryDirectory directory;
+  const Ending ending = run_in_child(
+      directory, [] { std::fputs("text", stdout); }, "/dev/full");
+  EXPECT_EQ(ending.code, 3);
+  EXPECT_EQ(ending.complaint,
+            "demo: standard output: cannot be written: No space left on device; make room there, or choose another "
+            "place\n");
+}
+
+TEST(RunProgram, ASignalRemovesUnfinishedFiles) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    const TemporaryDirectory directory;
+    const Ending ending = run_in_child(directory, [&] {
+      AtomicFile file{directory.path() / "a.csv"};
+      file.write(std::string(100'000, 'x'));
+      std::raise(signal);
+      file.commit();
+    });
+    EXPECT_EQ(ending.code, 128 + signal);
+    EXPECT_EQ(ending.complaint, signal == SIGPIPE ? "" : "demo: interrupted; unfinished output was removed\n");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator{directory.path()}, {}), 1) << "beside the complaints";
+  }
+}
+
+TEST(RunProgram, AnIgnoredSignalStaysIgnored) {
+  const TemporaryDirectory directory;
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  std::fflush(stdout);
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(run_program("demo", [] { std::raise(SIGHUP); }));
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  std::signal(SIGHUP, before);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+}  // namespace
+}  // namespace sigmax::apps

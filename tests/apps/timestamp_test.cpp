@@ -1,0 +1,93 @@
+#include "support/timestamp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <ctime>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace sigmax::apps {
+namespace {
+
+TEST(Timestamp, APlainNumberIsSeconds) {
+  EXPECT_EQ(parse_timestamp("12.5"), 12.5);
+  EXPECT_EQ(parse_timestamp(" -3e2\t"), -300.0);
+  EXPECT_EQ(parse_timestamp("2016"), 2016.0);
+}
+
+TEST(Timestamp, AnIsoDateAndTimeIsSecondsSince1970) {
+  EXPECT_EQ(parse_timestamp("1970-01-01T00:00:00Z"), 0.0);
+  EXPECT_EQ(parse_timestamp("1970-01-01 00:00:00"), 0.0);
+  EXPECT_EQ(parse_timestamp("2001-09-09T01:46:40Z"), 1e9);
+  EXPECT_EQ(parse_timestamp("2038-01-19T03:14:08"), 2147483648.0);
+  EXPECT_EQ(parse_timestamp("1969-12-31T23:59:59.25Z"), -0.75);
+  EXPECT_EQ(parse_timestamp(" 2016-01-12 13:02:11.218 "), 1452603731.218);
+  EXPECT_EQ(parse_timestamp("2016-01-12T13:02:11,218Z"), 1452603731.218);
+  EXPECT_EQ(parse_timestamp("2000-02-29T12:00:00"), 951825600.0);
+  EXPECT_EQ(parse_timestamp("0000-01-01T00:00:00Z"), -62167219200.0);
+  EXPECT_EQ(parse_timestamp("9999-12-31T23:59:59Z"), 253402300799.0);
+}
+
+TEST(Timestamp, AnOffsetIsTakenOff) {
+  EXPECT_EQ(parse_timestamp("2016-01-12T14:02:11+01:00"), parse_timestamp("2016-01-12T13:02:11Z"));
+  EXPECT_EQ(parse_timestamp("2016-01-12T07:32:11-05:30"), parse_timestamp("2016-01-12T13:02:11Z"));
+  EXPECT_EQ(parse_timestamp("1970-01-01T00:30:00.5+00:30"), 0.5);
+}
+
+TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {
+  EXPECT_EQ(parse_timestamp("2016-12-31T23:59:60Z"), parse_timestamp("2017-01-01T00:00:00Z"));
+}
+
+TEST(Timestamp, NothingElseIsATime) {
+  for (const std::string text : {"",
+                                 " ",
+                                 "now",
+                                 "nan",
+                                 "inf",
+                                 "2016-01-12",
+                                 "13:02:11",
+                                 "2016-1-12T13:02:11",
+                                 "2016-01-12T13:02",
+                                 "2016-01-12T13:02:11.",
+                                 "2016-01-12T13:02:11.Z",
+                                 "2016-01-12T13:02:11z",
+                                 "2016-01-12t13:02:11",
+                                 "2016-01-12  13:02:11",
+                                 "2016-01-12T24:00:00",
+                                 "2016-01-12T13:60:00",
+                                 "2016-01-12T13:02:61",
+                                 "2016-13-12T13:02:11",
+                                 "2016-00-12T13:02:11",
+                                 "2016-01-32T13:02:11",
+                                 "2016-01-00T13:02:11",
+                                 "2015-02-29T13:02:11",
+                                 "1900-02-29T13:02:11",
+                                 "2016-01-12T13:02:11+0100",
+                                 "2016-01-12T13:02:11+01",
+                                 "2016-01-12T13:02:11+24:00",
+                                 "2016-01-12T13:02:11+01:60",
+                                 "2016-01-12T13:02:11ZZ",
+                                 "2016-01-12T13:02:11Z+01:00",
+                                 "+2016-01-12T13:02:11",
+                                 "-2016-01-12T13:02:11",
+                                 "12016-01-12T13:02:11",
+                                 "2016-01-12T13:02:-1"})
+    EXPECT_EQ(parse_timestamp(text), std::nullopt) << text;
+}
+
+RC_GTEST_PROP(Timestamp, AgreesWithTheCalendarOfTheCLibrary, ()) {
+  const auto seconds = *rc::gen::inRange<std::int64_t>(-2208988800, 4102444800);
+  const auto milliseconds = *rc::gen::inRange(0, 1000);
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm parts{};
+  RC_ASSERT(::gmtime_r(&time, &parts) != nullptr);
+  const std::string text =
+      fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                  parts.tm_hour, parts.tm_min, parts.tm_sec, milliseconds);
+  RC_ASSERT(parse_timestamp(text) == static_cast<double>(seconds) + milliseconds / 1000.0);
+}
+
+}  // namespace
+}  // namespace sigmax::apps
