@@ -50,17 +50,19 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsigmax-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libstdc++-12-dev | libstdc++-dev")
-set(CPACK_COMPONENT_DEV_DESCRIPTION "Sigma-max inference in C++20: probability and possibility
-Sums for random variables, maxima for fuzzy ones: relations, networks, a sequential classifier,
-Kalman filters and one interacting multiple-model filter, which is the IMM if its mode is random
-and the HIMM if its mode is fuzzy.
+set(CPACK_COMPONENT_DEV_DESCRIPTION "sigma-max inference: probability and possibility, for C++20
+Sums for random variables, maxima for fuzzy ones: relations, networks, a
+sequential classifier, Kalman filters, and one interacting multiple-model
+filter, which is the IMM if its mode is random and the HIMM if it is fuzzy.
 .
-This package holds the headers, the static libraries, and the files for CMake and pkg-config.")
+This package holds the headers, the static libraries, and the files for CMake
+and pkg-config.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME sigmax-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_TOOLS_DESCRIPTION "Track manoeuvring targets by IMM and HIMM, and recognise targets
-The programs of sigmax, a library of sigma-max inference: himm_demo compares the interacting multiple-model
-filter with a random and with a fuzzy mode, on simulated targets and on recorded flights; recognition_demo
-classifies targets from a sequence of reports, by probability and by possibility.")
+set(CPACK_COMPONENT_TOOLS_DESCRIPTION "tracking and recognition by probability and possibility
+The programs of sigmax, a library of sigma-max inference. himm_demo compares
+the interacting multiple-model filter with a random and with a fuzzy mode, on
+simulated targets and on recorded flights. recognition_demo learns to recognise
+targets from sequences of reports, by probability and by possibility.")
 include(CPack)

@@ -41,7 +41,8 @@ function(sigmax_install target)
   endif()
 endfunction()
 
-# sigmax_program(NAME LIBRARIES …): NAME/*.cpp as one program, which is installed.
+# sigmax_program(NAME LIBRARIES …): NAME/*.cpp as one program, which is installed; with a manual page made of its --help
+# where there is help2man.
 function(sigmax_program name)
   file(GLOB sources CONFIGURE_DEPENDS ${name}/*.cpp)
   add_executable(${name} ${sources})
@@ -50,6 +51,15 @@ function(sigmax_program name)
   if(SIGMAX_INSTALL)
     install(TARGETS ${name} RUNTIME COMPONENT tools)
     add_dependencies(sigmax_installed ${name})
+    find_program(HELP2MAN help2man)
+    if(HELP2MAN)
+      add_custom_command(OUTPUT ${name}.1.gz DEPENDS ${name} VERBATIM
+                         COMMAND "${HELP2MAN}" --no-info "--name=sigma-max inference" --output=${name}.1 $<TARGET_FILE:${name}>
+                         COMMAND gzip -9nf ${name}.1)
+      add_custom_target(${name}_manual ALL DEPENDS ${name}.1.gz)
+      install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${name}.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+      add_dependencies(sigmax_installed ${name}_manual)
+    endif()
   endif()
 endfunction()
 

@@ -5,27 +5,23 @@
 #include <numbers>
 
 #include "runs.hpp"
-#include "support/plot.hpp"
 #include "support/random.hpp"
 
 using namespace sigmax;
+using examples::Study;
 
-const double drift = 40.0, bearing_deviation = 2.0 * std::numbers::pi / 180.0;  // m a scan, rad
+const double drift = 40.0, bearing_deviation = 4.0 * std::numbers::pi / 180.0;  // m a scan, rad
 
-/// Where the ship is: north for ten scans, then east, 200 m a scan.
-Vector<2> ship(int k) { return {-1500.0 + 200.0 * std::max(0, k - 10), -2000.0 + 200.0 * std::min(k, 10)}; }
+/// Where the ship is: it goes north for eight scans, then east, 100 m a scan.
+Vector<2> ship(int k) { return {-800.0 + 100.0 * std::max(0, k - 8), -1000.0 + 100.0 * std::min(k, 8)}; }
 double bearing(const Vector<2>& boat, int k) { return std::atan2(boat(0) - ship(k)(0), boat(1) - ship(k)(1)); }
 
-struct Estimates {
-  std::vector<double> mean, most_likely;  // x, y of every scan
-};
-
 template <Uncertainty Kind>  // nothing else tells sums from maxima
-Estimates follow(const std::vector<double>& measurements) {
+Study::Estimates follow(const std::vector<double>& measurements) {
   GridFilter<Kind, 2> filter{Grid<2>{{-1000.0, -1000.0}, {1000.0, 1000.0}, {40.0, 40.0}},
                              [](const Vector<2>& x) { return -0.5 * x.squaredNorm() / (400.0 * 400.0); },
                              {.negligible = 1e-6, .cells = 12}};
-  Estimates estimates;
+  Study::Estimates estimates;
   for (int k = 1; const double z : measurements) {
     filter.predict([](const Vector<2>& x) { return x; }, drift * drift * SquareMatrix<2>::Identity());
     filter.update([&](const Vector<2>& x) {
@@ -41,7 +37,7 @@ Estimates follow(const std::vector<double>& measurements) {
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::stoi(argv[1]) : 10, scans = 20;
-  examples::Study study;
+  Study study(2);
   for (int run = 0; run < runs; ++run) {
     apps::RandomStream noise{1, static_cast<std::uint64_t>(run)};
     std::vector<double> truth, measurements;
@@ -50,9 +46,9 @@ int main(int argc, char** argv) {
       for (double& x : boat) truth.push_back(x += drift * noise.normal());
       measurements.push_back(bearing(boat, k) + bearing_deviation * noise.normal());
     }
-    const Estimates random = follow<Random>(measurements), fuzzy = follow<Fuzzy>(measurements);
-    study.add(truth, {random.mean, random.most_likely, fuzzy.mean, fuzzy.most_likely});
+    study.add(truth, follow<Random>(measurements), follow<Fuzzy>(measurements));
   }
-  std::cout << "RMSE in x or y over " << runs << " runs of " << scans << " scans, m, with 95 % confidence\n";
+  std::cout << "RMSE of position over " << runs << " runs of " << scans << " scans in m, with 95 % confidence\n";
   study.print();
+  if (argc > 2) study.draw("Bearings only", "scan", "RMSE, m").save(std::string(argv[2]) + "/bearings_only.svg");
 }

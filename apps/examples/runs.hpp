@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <iostream>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "support/plot.hpp"
 
 namespace examples {
 
@@ -25,39 +30,72 @@ class MeanOfRuns {
 };
 
 /// The root mean square errors of four estimates over many runs: what sums and what maxima make of the same
-/// measurements.
+/// measurements. A track is one number for each step, or as many as the study is told: x, y, x, y, …
 class Study {
  public:
   using Track = std::vector<double>;
 
-  /// Adds a run: the truth, one number or several a step, and the estimates.
-  void add(const Track& truth, const std::vector<Track>& estimates) {
-    for (std::size_t i = 0; i < estimates.size(); ++i) squares_[i].add(mean_square(estimates[i], truth));
-    loss_.add(mean_square(estimates[2], truth) - mean_square(estimates[0], truth));
+  explicit Study(std::size_t numbers_per_step) : numbers_per_step_(numbers_per_step) {}
+
+  /// What a filter said: the mean, and the most probable or most possible state.
+  struct Estimates {
+    Track mean, most_likely;
+  };
+
+  /// Adds a run.
+  void add(const Track& truth, const Estimates& random, const Estimates& fuzzy) {
+    const std::array<Track, 4> estimates{random.mean, random.most_likely, fuzzy.mean, fuzzy.most_likely};
+    std::vector<double> mean_squares;
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+      const std::size_t steps = truth.size() / numbers_per_step_;
+      by_step_[i].resize(steps);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < steps; ++k) {
+        double square = 0.0;
+        for (std::size_t d = k * numbers_per_step_; d < (k + 1) * numbers_per_step_; ++d)
+          square += (estimates[i][d] - truth[d]) * (estimates[i][d] - truth[d]);
+        by_step_[i][k].add(square);
+        sum += square;
+      }
+      mean_squares.push_back(sum / static_cast<double>(steps));
+      in_all_[i].add(mean_squares.back());
+    }
+    loss_.add(mean_squares[2] - mean_squares[0]);
   }
 
   void print() const {
-    const std::vector<std::string_view> names{"random: mean", "random: most probable", "fuzzy: mean of (35)",
-                                              "fuzzy: most possible"};
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const double root = std::sqrt(squares_[i].mean());
-      print(names[i], root, squares_[i].half_width() / (2.0 * root));
+      const double root = std::sqrt(in_all_[i].mean());
+      print(names[i], root, in_all_[i].half_width() / (2.0 * root));
     }
     print("mean square of mean, fuzzy less random", loss_.mean(), loss_.half_width());
   }
 
- private:
-  static double mean_square(const Track& estimate, const Track& truth) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < truth.size(); ++k) sum += (estimate[k] - truth[k]) * (estimate[k] - truth[k]);
-    return sum / static_cast<double>(truth.size());
+  /// The means of both kinds: RMSE over the runs, step by step.
+  sigmax::apps::Plot draw(std::string title, std::string x_label, std::string y_label) const {
+    sigmax::apps::Plot plot{std::move(title), std::move(x_label), std::move(y_label)};
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+      std::vector<double> steps, roots;
+      for (const MeanOfRuns& squares : by_step_[i]) {
+        steps.push_back(static_cast<double>(steps.size() + 1));
+        roots.push_back(std::sqrt(squares.mean()));
+      }
+      plot.line(std::string(names[i]), steps, roots);
+    }
+    return plot;
   }
+
+ private:
+  static constexpr std::array<std::string_view, 4> names{"random: mean", "random: most probable", "fuzzy: mean of (35)",
+                                                         "fuzzy: most possible"};
   static void print(std::string_view title, double value, double half_width) {
     std::cout << "  " << std::left << std::setw(40) << title << std::fixed << std::setprecision(2) << value << " ± "
               << half_width << '\n';
   }
 
-  std::vector<MeanOfRuns> squares_ = std::vector<MeanOfRuns>(4);
+  std::size_t numbers_per_step_;
+  std::array<MeanOfRuns, 4> in_all_;
+  std::array<std::vector<MeanOfRuns>, 4> by_step_;
   MeanOfRuns loss_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <exception>
 #include <limits>
 #include <stdexcept>
@@ -25,12 +26,14 @@ struct Trace {
   std::vector<std::array<double, 3>> squared_error;
   std::vector<double> nees_position;
   std::vector<double> nees_velocity;
+  std::vector<double> nis;
   std::vector<std::vector<double>> weights;
 
   explicit Trace(std::size_t samples)
       : squared_error(samples, {nan, nan, nan}),
         nees_position(samples, nan),
         nees_velocity(samples, nan),
+        nis(samples, nan),
         weights(samples) {}
 };
 
@@ -46,10 +49,12 @@ std::array<double, 3> squares(const Vector<3>& error) {
 void record(const Tracker<3>& tracker, const Vector<6>& truth, std::size_t sample, Trace& trace) {
   const auto estimate = tracker.estimate();
   trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
-  const Vector<6> error = estimate.mean.head<6>() - truth;
-  trace.nees_position[sample] =
-      normalized_error_squared<3, 3>(error.head<3>(), estimate.covariance.topLeftCorner<3, 3>());
-  trace.nees_velocity[sample] = normalized_error_squared<6, 6>(error, estimate.covariance.topLeftCorner<6, 6>());
+  trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
+                                                               estimate.covariance.topLeftCorner<3, 3>());
+  if (estimate.size() >= 6)
+    trace.nees_velocity[sample] =
+        normalized_error_squared<6, 6>(estimate.mean.head<6>() - truth, estimate.covariance.topLeftCorner<6, 6>());
+  trace.nis[sample] = tracker.nis().value_or(nan);
   const std::size_t models = tracker.settings().models.size();
   for (std::size_t j = 0; j < models; ++j) trace.weights[sample].push_back(tracker.weight(j));
 }
@@ -111,14 +116,15 @@ std::optional<double> first_crossing(int onset, int samples, const Difference& d
   return std::nullopt;
 }
 
-/// The model that stands for the manoeuvre: the last of the highest order, if another is of a lower one.
+/// The model that stands for the manoeuvre: the last that does, if another does not.
 std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
-  const auto [lowest, highest] = std::minmax_element(filter.orders.begin(), filter.orders.end());
-  if (*lowest == *highest) return std::nullopt;
-  std::size_t model = 0;
-  for (std::size_t j = 0; j < filter.orders.size(); ++j)
-    if (filter.orders[j] == *highest) model = j;
-  return model;
+  const auto& motions = filter.motions;
+  std::optional<std::size_t> model;
+  for (std::size_t j = 0; j < motions.size(); ++j)
+    if (motions[j].manoeuvres()) model = j;
+  const bool all =
+      std::all_of(motions.begin(), motions.end(), [](const Motion& motion) { return motion.manoeuvres(); });
+  return all ? std::nullopt : model;
 }
 
 double weight_difference(const std::vector<double>& weights, std::size_t model) {
@@ -137,6 +143,7 @@ class Tally {
     squared_.assign(samples, {0.0, 0.0, 0.0});
     nees_position_.assign(samples, 0.0);
     nees_velocity_.assign(samples, 0.0);
+    nis_.assign(samples, 0.0);
     weights_.assign(samples, {});
   }
 
@@ -145,6 +152,7 @@ class Tally {
       for (std::size_t axis = 0; axis < 3; ++axis) squared_[k][axis] += trace.squared_error[k][axis];
       nees_position_[k] += trace.nees_position[k];
       nees_velocity_[k] += trace.nees_velocity[k];
+      nis_[k] += trace.nis[k];
       weights_[k].resize(trace.weights[k].size(), 0.0);
       for (std::size_t j = 0; j < trace.weights[k].size(); ++j) weights_[k][j] += trace.weights[k][j];
     }
@@ -181,6 +189,9 @@ class Tally {
       }
       result.nees_position[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_position_[k] / runs; });
       result.nees_velocity[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_velocity_[k] / runs; });
+      result.nis[p] = phase_mean(phases[p], [&](std::size_t k) { return nis_[k] / runs; });
+      const auto& rmse = result.phase_rmse[p];
+      result.position_rmse[p] = std::sqrt(rmse[0] * rmse[0] + rmse[1] * rmse[1] + rmse[2] * rmse[2]);
     }
     result.weights = weights_;
     for (auto& weights : result.weights)
@@ -211,6 +222,7 @@ class Tally {
   std::vector<std::array<double, 3>> squared_;
   std::vector<double> nees_position_;
   std::vector<double> nees_velocity_;
+  std::vector<double> nis_;
   std::vector<std::vector<double>> weights_;
   std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares_{};
   std::vector<double> crossings_;
@@ -260,6 +272,36 @@ Outcome run(const Experiment& experiment, const std::function<void()>& advance) 
   Outcome outcome{measurement.performance(), {}};
   for (const auto& filter : filters) outcome.filters.push_back(filter.performance());
   return outcome;
+}
+
+std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
+  constexpr int most_runs = 15;
+  const auto cpu_time = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+  };
+  std::vector<double> medians;
+  for (const auto& filter : experiment.filters) {
+    std::vector<double> times;
+    for (int number = 0; number < std::min(most_runs, experiment.runs); ++number) {
+      RandomStream random(experiment.seed, static_cast<std::uint64_t>(number));
+      std::vector<Gaussian<3>> measurements;
+      for (const Polar& seen : simulate(experiment.scenario, experiment.group.data, random).measured)
+        measurements.push_back(to_cartesian(seen, filter.accuracy.radar));
+      Tracker<3> tracker(filter);
+      double start = 0.0;
+      int steps = -1;  // the first only warms up
+      for (std::size_t k = 0; k < measurements.size(); ++k) {
+        if (steps == 0) start = cpu_time();
+        tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], [&](double) { ++steps; });
+      }
+      times.push_back((cpu_time() - start) / steps);
+    }
+    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+    medians.push_back(times[times.size() / 2]);
+  }
+  return medians;
 }
 
 Interval paired_difference(const Performance& a, const Performance& b, std::size_t phase, std::size_t axis) {

@@ -30,10 +30,12 @@ struct CrossTime {
 struct Performance {
   std::vector<std::array<double, 3>> rmse;            ///< per sample and axis; NaN before the first estimate
   std::array<std::array<double, 3>, 3> phase_rmse{};  ///< by phase and axis: root mean square over its samples
-  std::array<double, 3> peak{};                       ///< greatest RMSE of a sample of any phase
-  std::array<double, 3> nees_position{};              ///< mean by phase; 3 if consistent
-  std::array<double, 3> nees_velocity{};              ///< of position and velocity; 6 if consistent
-  std::vector<std::vector<double>> weights;           ///< mean per sample and model; empty before the first estimate
+  std::array<double, 3> position_rmse{};     ///< by phase: of the distance, the root of the axes' sum of squares
+  std::array<double, 3> peak{};              ///< greatest RMSE of a sample of any phase
+  std::array<double, 3> nees_position{};     ///< mean by phase; 3 if consistent
+  std::array<double, 3> nees_velocity{};     ///< of position and velocity; 6 if consistent
+  std::array<double, 3> nis{};               ///< mean by phase; 3 if consistent
+  std::vector<std::vector<double>> weights;  ///< mean per sample and model; empty before the first estimate
   CrossTime cross_time;
   /// By phase, axis and run: mean square error.
   std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares{};
@@ -59,6 +61,9 @@ struct Outcome {
 /// Runs the experiment; `advance` is called after each run, by any thread. The outcome does not depend on the number of
 /// threads. Throws what a filter throws, naming filter, run and sample.
 Outcome run(const Experiment& experiment, const std::function<void()>& advance);
+
+/// CPU time of a step of each filter in ns, on one thread: the median over some of the runs. Not reproducible.
+std::vector<double> nanoseconds_per_step(const Experiment& experiment);
 
 /// RMSE of `a` minus RMSE of `b` in one phase and axis, paired by run (delta method).
 Interval paired_difference(const Performance& a, const Performance& b, std::size_t phase, std::size_t axis);

@@ -27,8 +27,48 @@ const Names<Lift> lifts = {
     {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
 const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
 const Names<Start> starts = {{"points", Start::points}, {"released", Start::released}, {"given", Start::given}};
-const Names<bool> kinds = {{"imm", false}, {"himm", true}};
+const Names<bool> kinds = {{"random", false}, {"fuzzy", true}};
+const Names<Scheme> schemes = {{"interacting", Scheme::interacting},
+                               {"common_start", Scheme::common_start},
+                               {"second_order", Scheme::second_order},
+                               {"independent", Scheme::independent}};
+const Names<MemberType> members = {
+    {"kf", MemberType::kf}, {"ekf", MemberType::ekf}, {"ukf", MemberType::ukf}, {"ckf", MemberType::ckf}};
+const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
+                                           {"possibility", LikelihoodForm::possibility}};
+const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
 const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
+
+/// A filter with a name of its own: the kind of its mode, and what it has by default.
+struct KnownFilter {
+  std::string_view name;
+  bool fuzzy;
+  void (*adapt)(FilterDefaults&);
+};
+const std::initializer_list<KnownFilter> known_filters = {
+    {"imm", false, [](FilterDefaults&) {}},
+    {"imm_correct", false, [](FilterDefaults& own) { own.imm_mixing = MixingWeights::correct; }},
+    {"imm_released", false, [](FilterDefaults& own) { own.imm_mixing = MixingWeights::released; }},
+    {"imm_most_likely", false, [](FilterDefaults& own) { own.most_likely_output = true; }},
+    {"imm_as_printed", false, [](FilterDefaults& own) { own.output_spread = OutputSpread::omitted; }},
+    {"gpb1", false, [](FilterDefaults& own) { own.scheme = Scheme::common_start; }},
+    {"gpb2", false, [](FilterDefaults& own) { own.scheme = Scheme::second_order; }},
+    {"static_random", false, [](FilterDefaults& own) { own.scheme = Scheme::independent; }},
+    {"himm", true, [](FilterDefaults&) {}},
+    {"himm_selected", true, [](FilterDefaults& own) { own.mixed_covariance = MixedCovariance::selected; }},
+    {"himm_own", true, [](FilterDefaults& own) { own.mixed_covariance = MixedCovariance::own; }},
+    {"himm_own_recentred", true, [](FilterDefaults& own) { own.mixed_covariance = MixedCovariance::own_recentred; }},
+    {"himm_released", true, [](FilterDefaults& own) { own.mixed_covariance = MixedCovariance::released; }},
+    {"himm_global", true, [](FilterDefaults& own) { own.scheme = Scheme::common_start; }},
+    {"himm_possibility", true, [](FilterDefaults& own) { own.likelihood = LikelihoodForm::possibility; }},
+    {"viterbi", true, [](FilterDefaults& own) { own.scheme = Scheme::second_order; }},
+    {"static_fuzzy", true, [](FilterDefaults& own) { own.scheme = Scheme::independent; }}};
+
+const KnownFilter* known_filter(std::string_view name) {
+  const auto found = std::find_if(known_filters.begin(), known_filters.end(),
+                                  [&](const KnownFilter& filter) { return filter.name == name; });
+  return found == known_filters.end() ? nullptr : &*found;
+}
 
 template <class Value>
 std::string_view name_of(Names<Value> names, Value value) {
@@ -42,21 +82,17 @@ std::vector<std::vector<double>> transition_of(std::size_t modes, double stays, 
   return rows;
 }
 
-/// The distinct names of the models: a second dwna is dwna_2.
-std::vector<std::string> distinct(const std::vector<std::string>& names) {
-  std::vector<std::string> result;
-  for (const auto& name : names) {
-    const auto before = std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(result.size()), name);
-    result.push_back(before == 0 ? name : fmt::format("{}_{}", name, before + 1));
-  }
-  return result;
-}
-
 bool default_kind(const Settings& settings, const std::string& name) {
+  if (const KnownFilter* known = known_filter(name)) return known->fuzzy;
   if (name.starts_with("himm")) return true;
   if (name.starts_with("imm")) return false;
-  throw settings.error("filters", "names that begin with imm or himm, or a table [filter." + name + "] with a kind",
-                       "add filter." + name + ".kind = \"imm\" or \"himm\"");
+  std::vector<std::string_view> names;
+  for (const auto& known : known_filters) names.push_back(known.name);
+  throw settings.error("filters",
+                       fmt::format("\"all\", names out of {}, other names that begin with imm or himm, or a table "
+                                   "[filter.{}] with a kind",
+                                   fmt::join(names, ", "), name),
+                       "add filter." + name + ".kind = \"random\" or \"fuzzy\"");
 }
 
 void refuse_bad_transition(const Settings& settings, const char* key, const FilterSettings& filter) {
@@ -108,20 +144,15 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   FilterSettings filter;
   filter.name = name;
   filter.fuzzy = fuzzy;
-  const auto types = settings.strings("models", {"dwna", "dwpa"});
-  if (types.empty()) throw settings.error("models", "at least one of dwna, dwpa");
-  for (const auto& type : types) {
-    if (type != "dwna" && type != "dwpa") throw settings.error("models", "names out of dwna, dwpa");
-    filter.orders.push_back(type == "dwna" ? 2 : 3);
-  }
-  filter.models = distinct(types);
-  const std::size_t modes = types.size();
-
-  filter.sigma_w = settings.numbers("sigma_w", {defaults.sigma_w});
-  if (filter.sigma_w.size() == 1) filter.sigma_w.resize(modes, filter.sigma_w.front());
-  if (filter.sigma_w.size() != modes) throw settings.error("sigma_w", "one number, or one for each model");
-  for (const double sigma : filter.sigma_w)
-    if (!(sigma >= 0.0)) throw settings.error("sigma_w", "numbers that are not negative, in m/s²");
+  filter.scheme = settings.choice("scheme", schemes, defaults.scheme);
+  filter.motions = read_motions(settings, defaults.sigma_w);
+  filter.models = names_of(filter.motions);
+  filter.member = settings.choice("member", members, MemberType::ekf);
+  for (std::size_t i = 0; i < filter.motions.size(); ++i)
+    if (filter.member == MemberType::kf && !filter.motions[i].linear())
+      throw settings.error("member", fmt::format("ekf, ukf or ckf, since the model {} is not linear", filter.models[i]),
+                           "linear models have the Kalman filter whatever the member is");
+  const std::size_t modes = filter.models.size();
 
   // Both transitions are asked for, so that one for the other kind of filter is no unknown key.
   const double leaves = modes > 1 ? 0.05 / static_cast<double>(modes - 1) : 0.0;
@@ -136,12 +167,17 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   filter.lift = settings.choice("lift", lifts, defaults.lift);
   filter.mixing_tie = settings.choice("mixing_tie", ties, defaults.mixing_tie);
   filter.output_tie = settings.choice("output_tie", ties, defaults.output_tie);
-  filter.most_likely_output = settings.choice("output", outputs, false);
+  filter.likelihood = settings.choice("likelihood", likelihoods, defaults.likelihood);
+  filter.output_spread = settings.choice("output_spread", spreads, defaults.output_spread);
+  filter.most_likely_output = settings.choice("output", outputs, defaults.most_likely_output);
 
   filter.start = settings.choice("start", starts, defaults.start);
   filter.start_mean = settings.numbers("start_mean", {});
   filter.start_covariance_diagonal = settings.numbers("start_covariance_diagonal", {});
   filter.start_time_s = settings.number("start_time_s");
+  filter.start_sigma_turn_deg_s = settings.number("start_sigma_turn_deg_s", filter.start_sigma_turn_deg_s);
+  if (!(filter.start_sigma_turn_deg_s > 0.0))
+    throw settings.error("start_sigma_turn_deg_s", "a positive standard deviation, in °/s");
   if (filter.start == Start::given) {
     if (filter.start_mean.size() != 9)
       throw settings.error("start_mean", "nine numbers x, y, z, vx, vy, vz, ax, ay, az, since start = \"given\"");
@@ -161,20 +197,10 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   return filter;
 }
 
-std::string listed(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) {
-    std::string text = shortest(number);
-    if (text.find_first_of(".eni") == std::string::npos) text += ".0";  // TOML tells integers from floats
-    texts.push_back(std::move(text));
-  }
-  return fmt::format("[{}]", fmt::join(texts, ", "));
-}
-
 std::string as_toml(const Accuracy& accuracy) {
   return fmt::format("sigma_range_m = {}\nsigma_azimuth_deg = {}\nsigma_elevation_deg = {}\nsigma_position_m = {}\n",
                      shortest(accuracy.radar.range), shortest(accuracy.radar.azimuth / degree),
-                     shortest(accuracy.radar.elevation / degree), listed(accuracy.position_m));
+                     shortest(accuracy.radar.elevation / degree), toml_list(accuracy.position_m));
 }
 
 }  // namespace
@@ -197,15 +223,23 @@ FilterDefaults FilterDefaults::of(Preset preset) {
   return defaults;
 }
 
+bool asks_for_all(const Settings& settings) {
+  return settings.strings("filters", std::vector<std::string>{}) == std::vector<std::string>{"all"};
+}
+
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults) {
-  const auto names = settings.strings("filters", defaults.filters);
+  auto names = settings.strings("filters", defaults.filters);
   if (names.empty()) throw settings.error("filters", "the name of at least one filter");
+  if (asks_for_all(settings)) {
+    names.clear();
+    for (const auto& known : known_filters) names.emplace_back(known.name);
+  }
   const Settings tables = settings.sub("filter");
   const auto read = [&](const std::string& name) {
     const Settings table = tables.sub(name);
     const bool fuzzy = table.has("kind") ? table.choice("kind", kinds, false) : default_kind(settings, name);
     FilterDefaults own = defaults;
-    if (name == "imm_correct") own.imm_mixing = MixingWeights::correct;
+    if (const KnownFilter* known = known_filter(name)) known->adapt(own);
     return read_filter(settings.overlaid_by(table), name, fuzzy, own);
   };
   for (const auto& name : tables.names()) read(name);  // also what is not run must be right
@@ -223,25 +257,34 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
   for (const auto& filter : filters) names.push_back("\"" + filter.name + "\"");
   std::string text = fmt::format("filters = [{}]\n", fmt::join(names, ", "));
   for (const auto& filter : filters) {
-    std::vector<std::string> models;
-    for (const int order : filter.orders) models.push_back(order == 2 ? "\"dwna\"" : "\"dwpa\"");
-    std::vector<std::string> rows;
-    for (const auto& row : filter.transition) rows.push_back(listed(row));
-    text += fmt::format("\n[filter.{}]\nkind = \"{}\"\n", filter.name, name_of(kinds, filter.fuzzy));
-    text += fmt::format("models = [{}]\nsigma_w = {}\n", fmt::join(models, ", "), listed(filter.sigma_w));
-    text += fmt::format("{} = [{}]\n", filter.fuzzy ? "transition_possibility" : "transition_probability",
-                        fmt::join(rows, ", "));
-    if (filter.fuzzy)
-      text += fmt::format("mixed_covariance = \"{}\"\nmixing_tie = \"{}\"\n",
-                          name_of(mixed_covariances, filter.mixed_covariance), name_of(ties, filter.mixing_tie));
-    else
+    const bool mixes = filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
+    text += fmt::format("\n[filter.{}]\nkind = \"{}\"\nscheme = \"{}\"\n", filter.name, name_of(kinds, filter.fuzzy),
+                        name_of(schemes, filter.scheme));
+    text += as_toml(filter.motions);
+    const bool turns = std::any_of(filter.motions.begin(), filter.motions.end(),
+                                   [](const Motion& motion) { return !motion.linear(); });
+    if (turns) text += fmt::format("member = \"{}\"\n", name_of(members, filter.member));
+    if (filter.scheme != Scheme::independent) {
+      std::vector<std::string> rows;
+      for (const auto& row : filter.transition) rows.push_back(toml_list(row));
+      text += fmt::format("{} = [{}]\n", filter.fuzzy ? "transition_possibility" : "transition_probability",
+                          fmt::join(rows, ", "));
+    }
+    if (filter.fuzzy && mixes)
+      text += fmt::format("mixed_covariance = \"{}\"\n", name_of(mixed_covariances, filter.mixed_covariance));
+    if (filter.fuzzy && filter.scheme != Scheme::independent)
+      text += fmt::format("mixing_tie = \"{}\"\n", name_of(ties, filter.mixing_tie));
+    if (!filter.fuzzy && mixes)
       text += fmt::format("imm_mixing = \"{}\"\n", name_of(mixing_weights, filter.imm_mixing));
-    text += fmt::format("lift = \"{}\"\noutput = \"{}\"\noutput_tie = \"{}\"\nstart = \"{}\"\n",
-                        name_of(lifts, filter.lift), name_of(outputs, filter.most_likely_output),
-                        name_of(ties, filter.output_tie), name_of(starts, filter.start));
+    if (!filter.fuzzy) text += fmt::format("output_spread = \"{}\"\n", name_of(spreads, filter.output_spread));
+    text += fmt::format("likelihood = \"{}\"\nlift = \"{}\"\noutput = \"{}\"\noutput_tie = \"{}\"\nstart = \"{}\"\n",
+                        name_of(likelihoods, filter.likelihood), name_of(lifts, filter.lift),
+                        name_of(outputs, filter.most_likely_output), name_of(ties, filter.output_tie),
+                        name_of(starts, filter.start));
+    if (turns) text += fmt::format("start_sigma_turn_deg_s = {}\n", shortest(filter.start_sigma_turn_deg_s));
     if (filter.start == Start::given) {
-      text += fmt::format("start_mean = {}\nstart_covariance_diagonal = {}\n", listed(filter.start_mean),
-                          listed(filter.start_covariance_diagonal));
+      text += fmt::format("start_mean = {}\nstart_covariance_diagonal = {}\n", toml_list(filter.start_mean),
+                          toml_list(filter.start_covariance_diagonal));
       if (filter.start_time_s) text += fmt::format("start_time_s = {}\n", shortest(*filter.start_time_s));
     }
     text += as_toml(filter.accuracy);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <sigmax/estimation/radar.hpp>
-#include <sigmax/hybrid/collapse.hpp>
-#include <sigmax/hybrid/lift.hpp>
+#include <sigmax/hybrid/interaction.hpp>
 
+#include "himm_demo/motion.hpp"
 #include "himm_demo/scenario.hpp"
 #include "support/settings.hpp"
 
@@ -22,6 +22,14 @@ enum class Start {
   given      ///< from start_mean and start_covariance_diagonal
 };
 
+/// When and how what a mode's model starts from is made one Gaussian.
+enum class Scheme {
+  interacting,   ///< before the measurement, for each mode: IMM and HIMM
+  common_start,  ///< before the measurement, once for all modes: GPB1
+  second_order,  ///< after the measurement: GPB2 and Viterbi
+  independent    ///< never: a static (autonomous) bank
+};
+
 /// A sensor's standard deviations, as a filter believes them.
 struct Accuracy {
   Polar radar{};                   ///< m and rad
@@ -31,20 +39,24 @@ struct Accuracy {
 /// Everything that one filter is made of.
 struct FilterSettings {
   std::string name;
-  bool fuzzy = false;  ///< HIMM rather than IMM
-  std::vector<std::string> models;
-  std::vector<int> orders;  ///< of the models: 2 for dwna, 3 for dwpa
-  std::vector<double> sigma_w;
+  bool fuzzy = false;  ///< whether the mode is fuzzy rather than random
+  Scheme scheme = Scheme::interacting;
+  std::vector<Motion> motions;
+  std::vector<std::string> models;  ///< their names, all different
+  MemberType member = MemberType::ekf;
   std::vector<std::vector<double>> transition;
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
   Lift lift = Lift::zero;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
+  LikelihoodForm likelihood = LikelihoodForm::density;
+  OutputSpread output_spread = OutputSpread::included;
   bool most_likely_output = false;
   Start start = Start::points;
   std::vector<double> start_mean;
   std::vector<double> start_covariance_diagonal;
+  double start_sigma_turn_deg_s = 3.0;  ///< of a rate that is estimated; it starts from 0
   std::optional<double> start_time_s;
   Accuracy accuracy;
   std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
@@ -64,6 +76,10 @@ struct FilterDefaults {
   Lift lift = Lift::borrowed_variance;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
+  Scheme scheme = Scheme::interacting;
+  LikelihoodForm likelihood = LikelihoodForm::density;
+  OutputSpread output_spread = OutputSpread::included;
+  bool most_likely_output = false;
   Start start = Start::points;
   Polar sigma_radar{};
   std::vector<std::string> filters = {"imm", "himm"};
@@ -71,7 +87,11 @@ struct FilterDefaults {
   static FilterDefaults of(Preset preset);
 };
 
-/// The filters that the settings name, in order. Throws InputError, with the key, for what cannot be.
+/// Whether the settings ask for every filter that has a name of its own, `filters = "all"`.
+bool asks_for_all(const Settings& settings);
+
+/// The filters that the settings name, in order; "all" stands for those that have names of their own. Throws
+/// InputError, with the key, for what cannot be.
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
 
 /// The settings of all filters in TOML: what is in force. It reads back as the same.

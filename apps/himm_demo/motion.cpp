@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,18 +12,15 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
-const std::initializer_list<std::pair<std::string_view, MotionType>> types = {
-    {"dwna", MotionType::dwna},
-    {"dwpa", MotionType::dwpa},
-    {"cwna", MotionType::cwna},
-    {"cwpa", MotionType::cwpa},
-    {"singer", MotionType::singer},
-    {"ou_position", MotionType::ou_position},
-    {"ou_velocity", MotionType::ou_velocity},
-    {"known_turn", MotionType::known_turn},
-    {"ct", MotionType::ct}};
+const std::initializer_list<std::pair<std::string_view, MotionType>> types = {{"dwna", MotionType::dwna},
+                                                                              {"dwpa", MotionType::dwpa},
+                                                                              {"cwna", MotionType::cwna},
+                                                                              {"cwpa", MotionType::cwpa},
+                                                                              {"singer", MotionType::singer},
+                                                                              {"ou_position", MotionType::ou_position},
+                                                                              {"ou_velocity", MotionType::ou_velocity},
+                                                                              {"known_turn", MotionType::known_turn},
+                                                                              {"ct", MotionType::ct}};
 
 std::string_view name_of(MotionType type) {
   return std::find_if(types.begin(), types.end(), [&](const auto& entry) { return entry.second == type; })->first;
@@ -68,22 +64,24 @@ std::vector<Motion> read_motions(const Settings& settings, double sigma_w) {
     if (found == types.end()) throw settings.error("models", "names out of " + all);
     motions.emplace_back().type = found->second;
   }
+  const Motion usual;
   const std::size_t count = motions.size();
   if (count == 0) throw settings.error("models", "at least one of " + all);
 
   const auto sigmas = for_each_model(settings, "sigma_w", count, sigma_w, "numbers that are not negative",
                                      [](double value) { return value >= 0.0; });
-  const auto taus =
-      for_each_model(settings, "tau_s", count, 10.0, "positive times, in s", [](double value) { return value > 0.0; });
-  const auto rates = for_each_model(settings, "turn_deg_s", count, 3.0,
+  const auto taus = for_each_model(settings, "tau_s", count, usual.tau_s, "positive times, in s",
+                                   [](double value) { return value > 0.0; });
+  const auto rates = for_each_model(settings, "turn_deg_s", count, usual.turn_deg_s,
                                     "rates in °/s, counter-clockwise from above", [](double) { return true; });
-  const auto drifts = for_each_model(settings, "turn_drift_deg_s", count, 0.2, "numbers that are not negative, in °/s",
-                                     [](double value) { return value >= 0.0; });
+  const auto drifts =
+      for_each_model(settings, "turn_drift_deg_s", count, usual.turn_drift_deg_s,
+                     "numbers that are not negative, in °/s", [](double value) { return value >= 0.0; });
   for (std::size_t i = 0; i < count; ++i) {
     motions[i].sigma_w = sigmas[i];
-    motions[i].tau = taus[i];
-    motions[i].turn_rate = rates[i] * degree;
-    motions[i].turn_drift = drifts[i] * degree;
+    motions[i].tau_s = taus[i];
+    motions[i].turn_deg_s = rates[i];
+    motions[i].turn_drift_deg_s = drifts[i];
   }
   return motions;
 }
@@ -101,22 +99,33 @@ std::string as_toml(const std::vector<Motion>& motions) {
   line(
       "sigma_w", [](const Motion&) { return true; }, [](const Motion& motion) { return motion.sigma_w; });
   line(
-      "tau_s", [](const Motion& motion) { return motion.has_tau(); }, [](const Motion& motion) { return motion.tau; });
+      "tau_s", [](const Motion& motion) { return motion.has_tau(); },
+      [](const Motion& motion) { return motion.tau_s; });
   line(
       "turn_deg_s", [](const Motion& motion) { return motion.type == MotionType::known_turn; },
-      [](const Motion& motion) { return motion.turn_rate / degree; });
+      [](const Motion& motion) { return motion.turn_deg_s; });
   line(
       "turn_drift_deg_s", [](const Motion& motion) { return motion.type == MotionType::ct; },
-      [](const Motion& motion) { return motion.turn_drift / degree; });
+      [](const Motion& motion) { return motion.turn_drift_deg_s; });
   return text;
+}
+
+std::string toml_list(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) {
+    std::string text = shortest(number);
+    if (text.find_first_of(".eni") == std::string::npos) text += ".0";  // TOML tells integers from floats
+    texts.push_back(std::move(text));
+  }
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::vector<std::string> names_of(const std::vector<Motion>& motions) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const auto earlier = motions.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto before = std::count_if(motions.begin(), earlier,
-                                      [&](const Motion& motion) { return motion.type == motions[i].type; });
+    const auto before =
+        std::count_if(motions.begin(), earlier, [&](const Motion& motion) { return motion.type == motions[i].type; });
     const std::string_view name = name_of(motions[i].type);
     names.push_back(before == 0 ? std::string(name) : fmt::format("{}_{}", name, before + 1));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,10 +28,10 @@ enum class MemberType { kf, ekf, ukf, ckf };
 /// One model of a filter with its parameters; those that its type does not have are of no account.
 struct Motion {
   MotionType type = MotionType::dwna;
-  double sigma_w = 3.0;     ///< the strength of the noise; its unit depends on the type
-  double tau = 10.0;        ///< s
-  double turn_rate = 0.0;   ///< rad/s
-  double turn_drift = 0.0;  ///< rad/s in one second
+  double sigma_w = 3.0;  ///< the strength of the noise; its unit depends on the type
+  double tau_s = 10.0;
+  double turn_deg_s = 3.0;        ///< counter-clockwise from above
+  double turn_drift_deg_s = 0.2;  ///< standard deviation of what the rate changes in one second
 
   bool linear() const { return type != MotionType::ct; }
   /// Whether it stands for a manoeuvre beside a model that does not.
@@ -46,6 +47,9 @@ std::vector<Motion> read_motions(const Settings& settings, double sigma_w);
 /// Those keys in TOML, of those that the models have.
 std::string as_toml(const std::vector<Motion>& motions);
 
+/// The numbers in TOML.
+std::string toml_list(const std::vector<double>& numbers);
+
 /// Distinct names of the models: a second dwna is dwna_2.
 std::vector<std::string> names_of(const std::vector<Motion>& motions);
 
@@ -55,12 +59,11 @@ using KinematicBank = std::vector<KinematicModel<Axes, Eigen::Dynamic>>;
 
 /// The bank of all models.
 template <int Axes>
-using AnyBank =
-    std::vector<AnyModel<3 * Axes + 1, KinematicModel<Axes, 2>, KinematicModel<Axes, 3>,
-                         IndependentAxes<Axes, WhiteNoise<2>>, IndependentAxes<Axes, WhiteNoise<3>>,
-                         IndependentAxes<Axes, OrnsteinUhlenbeck<1>>, IndependentAxes<Axes, OrnsteinUhlenbeck<2>>,
-                         IndependentAxes<Axes, OrnsteinUhlenbeck<3>>, KnownTurn<Axes>, Extended<CoordinatedTurn<Axes>>,
-                         Unscented<CoordinatedTurn<Axes>>, Cubature<CoordinatedTurn<Axes>>>>;
+using AnyBank = std::vector<
+    AnyModel<3 * Axes + 1, KinematicModel<Axes, 2>, KinematicModel<Axes, 3>, IndependentAxes<Axes, WhiteNoise<2>>,
+             IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
+             IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>, KnownTurn<Axes>,
+             Extended<CoordinatedTurn<Axes>>, Unscented<CoordinatedTurn<Axes>>, Cubature<CoordinatedTurn<Axes>>>>;
 
 /// Whether the fast bank has all models.
 bool kinematic(const std::vector<Motion>& motions);
@@ -74,6 +77,7 @@ KinematicBank<Axes> kinematic_bank(const std::vector<Motion>& motions) {
 
 template <int Axes>
 typename AnyBank<Axes>::value_type any_model(const Motion& motion, MemberType member) {
+  constexpr double degree = std::numbers::pi / 180.0;
   const double sigma = motion.sigma_w;
   switch (motion.type) {
     case MotionType::dwna:
@@ -85,17 +89,18 @@ typename AnyBank<Axes>::value_type any_model(const Motion& motion, MemberType me
     case MotionType::cwpa:
       return cwpa<Axes>(sigma * sigma);
     case MotionType::singer:
-      return singer<Axes>(1.0 / motion.tau, sigma);
+      return singer<Axes>(1.0 / motion.tau_s, sigma);
     case MotionType::ou_position:
-      return ou_position<Axes>(1.0 / motion.tau, sigma);
+      return ou_position<Axes>(1.0 / motion.tau_s, sigma);
     case MotionType::ou_velocity:
-      return ou_velocity<Axes>(1.0 / motion.tau, sigma);
+      return ou_velocity<Axes>(1.0 / motion.tau_s, sigma);
     case MotionType::known_turn:
-      return KnownTurn<Axes>(motion.turn_rate, sigma * sigma);
+      return KnownTurn<Axes>(motion.turn_deg_s * degree, sigma * sigma);
     case MotionType::ct:
       break;
   }
-  const CoordinatedTurn<Axes> turn(sigma * sigma, motion.turn_drift * motion.turn_drift);
+  const double drift = motion.turn_drift_deg_s * degree;
+  const CoordinatedTurn<Axes> turn(sigma * sigma, drift * drift);
   if (member == MemberType::ukf) return Unscented{turn};
   if (member == MemberType::ckf) return Cubature{turn};
   return Extended{turn};

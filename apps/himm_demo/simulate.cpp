@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "himm_demo/experiment.hpp"
+#include "support/csv.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
@@ -51,11 +52,12 @@ struct Report {
   const Experiment& experiment;
   const Outcome& outcome;
   std::vector<Comparison> comparisons;
+  std::vector<double> ns_per_step;  ///< of each filter; empty unless all filters were asked for
 
   const FilterSettings& filter(std::size_t f) const { return experiment.filters[f]; }
 };
 
-/// Every HIMM against every IMM; without both, every filter against the first.
+/// Every fuzzy filter against every random one of its scheme; without both, every filter against the first.
 std::vector<Comparison> compare(const Experiment& experiment, const Outcome& outcome) {
   std::vector<Comparison> comparisons;
   const auto add = [&](std::size_t filter, std::size_t reference) {
@@ -69,15 +71,74 @@ std::vector<Comparison> compare(const Experiment& experiment, const Outcome& out
   const auto& filters = experiment.filters;
   for (std::size_t f = 0; f < filters.size(); ++f)
     for (std::size_t r = 0; r < filters.size(); ++r)
-      if (filters[f].fuzzy && !filters[r].fuzzy) add(f, r);
+      if (filters[f].fuzzy && !filters[r].fuzzy && filters[f].scheme == filters[r].scheme) add(f, r);
   if (comparisons.empty())
     for (std::size_t f = 1; f < filters.size(); ++f) add(f, 0);
   return comparisons;
 }
 
-std::string fixed(double value) { return fmt::format("{:.2f}", value); }
+/// What the paper's claims are about: HIMM against IMM.
+bool judged(const FilterSettings& filter, const FilterSettings& reference) {
+  return filter.fuzzy && !reference.fuzzy && filter.scheme == Scheme::interacting &&
+         reference.scheme == Scheme::interacting;
+}
+
+std::string fixed(double value) { return std::isnan(value) ? "–" : fmt::format("{:.2f}", value); }
 std::string fixed(const Interval& interval) {
   return fmt::format("{:+.2f} ± {:.2f}", interval.estimate, interval.half_width);
+}
+
+/// Every filter as one row.
+void print_overview(const Report& report) {
+  const auto& phases = report.experiment.scenario.phases;
+  TextTable table({{"filter", Align::left},
+                   {fmt::format("RMSE, m: {}", phases[0].name)},
+                   {std::string(phases[1].name)},
+                   {std::string(phases[2].name)},
+                   {"NEES: position"},
+                   {"and velocity"},
+                   {"NIS"},
+                   {"cross-time: runs"},
+                   {"curves"},
+                   {"ns/step"}});
+  const auto mean = [&](const std::array<double, 3>& by_phase) {  // over the samples of all phases
+    double sum = 0.0;
+    double samples = 0.0;
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double length = phases[p].last - phases[p].first + 1;
+      sum += length * by_phase[p];
+      samples += length;
+    }
+    return sum / samples;
+  };
+  const auto rmse = [](const Performance& performance) {
+    std::vector<std::string> cells;
+    for (const double value : performance.position_rmse) cells.push_back(fixed(value));
+    return cells;
+  };
+  const auto row = [&](const std::string& name, std::vector<std::string> cells) {
+    cells.insert(cells.begin(), name);
+    cells.resize(10);
+    table.row(cells);
+  };
+  row("measurement", rmse(report.outcome.measurement));
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f) {
+    const Performance& performance = report.outcome.filters[f];
+    const CrossTime& time = performance.cross_time;
+    auto cells = rmse(performance);
+    for (const auto& by_phase : {performance.nees_position, performance.nees_velocity, performance.nis})
+      cells.push_back(fixed(mean(by_phase)));
+    cells.push_back(time.mean_of_runs ? fixed(time.mean_of_runs->estimate) : "–");
+    cells.push_back(time.of_averaged_curves ? fixed(*time.of_averaged_curves) : "–");
+    cells.push_back(fmt::format("{:.0f}", report.ns_per_step[f]));
+    row(report.filter(f).name, cells);
+  }
+  table.rule();
+  row("if consistent", {"", "", "", "3", "6", "3"});
+  table.print();
+  fmt::print(
+      "(RMSE of the distance. NEES and NIS: means over all phases. Cross-time: mean of the runs' that crossed, and of "
+      "the\naveraged curves, in samples. ns/step: CPU time on one thread, median; all else is the same for a seed.)\n");
 }
 
 void print_rmse(const Report& report) {
@@ -121,7 +182,7 @@ void print_nees(const Report& report) {
 }
 
 std::optional<double> paper_cross_time(const Report& report, const FilterSettings& filter) {
-  if (report.options.group != 1) return std::nullopt;
+  if (report.options.group != 1 || filter.scheme != Scheme::interacting) return std::nullopt;
   return paper_cross_times[static_cast<std::size_t>(report.options.scenario - 1)][filter.fuzzy ? 1 : 0];
 }
 
@@ -163,10 +224,10 @@ void print_comparisons(const Report& report) {
   for (const auto& comparison : report.comparisons) {
     const auto& filter = report.filter(comparison.filter);
     const auto& reference = report.filter(comparison.reference);
-    const bool judged = filter.fuzzy && !reference.fuzzy;
+    const bool claimed = judged(filter, reference);
     std::vector<TextTable::Column> columns = {
         {fmt::format("{} − {}, m", filter.name, reference.name), Align::left}, {"x"}, {"y"}, {"z"}};
-    if (judged) {
+    if (claimed) {
       columns.push_back({"the paper says", Align::left});
       columns.push_back({reference.imm_mixing == MixingWeights::correct ? "against the correct IMM that"
                                                                         : "against the released IMM that",
@@ -176,7 +237,7 @@ void print_comparisons(const Report& report) {
     for (std::size_t p = 0; p < 3; ++p) {
       std::vector<std::string> cells = {std::string(phases[p].name)};
       for (const auto& difference : comparison.difference[p]) cells.push_back(fixed(difference));
-      if (judged) {
+      if (claimed) {
         const Claim claim = claims[report.options.scenario - 1][report.options.group - 1][p];
         cells.emplace_back(word(claim));
         cells.push_back(
@@ -196,6 +257,7 @@ void print(const Report& report) {
              report.options.preset == Preset::released ? "released" : "paper_text", experiment.runs, experiment.seed);
   fmt::print("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}\n\n", phases[0].name, phases[0].first, phases[0].last,
              phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
+  if (!report.ns_per_step.empty()) return print_overview(report);
   print_rmse(report);
   print_comparisons(report);
   if (!report.comparisons.empty())
@@ -216,9 +278,11 @@ Json json(const Performance& performance, const Experiment& experiment, bool fil
   for (std::size_t p = 0; p < 3; ++p) {
     Json phase;
     for (std::size_t axis = 0; axis < 3; ++axis) phase["rmse_m"][axes[axis]] = performance.phase_rmse[p][axis];
+    phase["rmse_m"]["distance"] = performance.position_rmse[p];
     if (filter) {
       phase["nees_position"] = performance.nees_position[p];
       phase["nees_position_velocity"] = performance.nees_velocity[p];
+      phase["nis"] = performance.nis[p];
     }
     by_phase[std::string(experiment.scenario.phases[p].name)] = phase;
   }
@@ -259,8 +323,46 @@ AtomicFile summary_file(const Report& report, const OutputDirectory& directory) 
             json(comparison.difference[p][axis]);
     summary["comparisons"].push_back(entry);
   }
+  for (std::size_t f = 0; f < report.ns_per_step.size(); ++f)
+    summary["not_reproducible"]["ns_per_step"][report.filter(f).name] = report.ns_per_step[f];
   AtomicFile file = directory.file("summary.json");
   file.write(summary.dump(2) + "\n");
+  return file;
+}
+
+/// A row for each filter: what the tables show.
+AtomicFile filters_file(const Report& report, const OutputDirectory& directory) {
+  AtomicFile file = directory.file("filters.csv");
+  const auto& phases = report.experiment.scenario.phases;
+  file.write("filter");
+  for (const auto& phase : phases)
+    for (const char* of : {"", "_x", "_y", "_z"}) file.print(",rmse_{}{}_m", phase.name, of);
+  for (const char* axis : axes) file.print(",peak_{}_m", axis);
+  for (const char* what : {"nees_position", "nees_position_velocity", "nis"})
+    for (const auto& phase : phases) file.print(",{}_{}", what, phase.name);
+  file.write(",cross_time_of_runs,cross_time_half_width,runs_crossed,cross_time_of_curves\n");
+  const auto cell = [&](std::optional<double> value) {
+    file.print(",{}", value && !std::isnan(*value) ? shortest(*value) : "");
+  };
+  const auto row = [&](std::string_view name, const Performance& performance, bool filter) {
+    file.write(name);
+    for (std::size_t p = 0; p < 3; ++p) {
+      cell(performance.position_rmse[p]);
+      for (const double rmse : performance.phase_rmse[p]) cell(rmse);
+    }
+    for (const double peak : performance.peak) cell(peak);
+    for (const auto& by_phase : {performance.nees_position, performance.nees_velocity, performance.nis})
+      for (const double value : by_phase) cell(filter ? std::optional(value) : std::nullopt);
+    const CrossTime& time = performance.cross_time;
+    cell(time.mean_of_runs ? std::optional(time.mean_of_runs->estimate) : std::nullopt);
+    cell(time.mean_of_runs ? std::optional(time.mean_of_runs->half_width) : std::nullopt);
+    file.print(",{}", filter ? std::to_string(time.runs_crossed) : "");
+    cell(time.of_averaged_curves);
+    file.write("\n");
+  };
+  row("measurement", report.outcome.measurement, false);
+  for (std::size_t f = 0; f < report.experiment.filters.size(); ++f)
+    row(csv_field(report.filter(f).name), report.outcome.filters[f], true);
   return file;
 }
 
@@ -340,14 +442,16 @@ void simulate_and_report(const SimulateOptions& options) {
   const Outcome outcome = run(experiment, [&] { progress.advance(); });
   progress.finish();
 
-  const Report report{options, experiment, outcome, compare(experiment, outcome)};
+  Report report{options, experiment, outcome, compare(experiment, outcome), {}};
+  if (asks_for_all(settings)) report.ns_per_step = nanoseconds_per_step(experiment);
   print(report);
   if (directory) {
+    AtomicFile table = filters_file(report, *directory);
     AtomicFile rmse = rmse_file(report, *directory);
     AtomicFile weights = weights_file(report, *directory);
     AtomicFile summary = summary_file(report, *directory);
-    commit_all(rmse, weights, summary);
-    fmt::print("\nWrote rmse.csv, weights.csv and summary.json to {}\n", options.out);
+    commit_all(table, rmse, weights, summary);
+    fmt::print("\nWrote filters.csv, rmse.csv, weights.csv and summary.json to {}\n", options.out);
   }
 }
 

@@ -1,12 +1,31 @@
 #include "himm_demo/tracker.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace sigmax::apps {
+namespace {
+
+/// A start in the type of a bank's models. That of a rate of turn, which no start tells, has no correlation with the
+/// rest.
+template <class Start, class Estimate>
+Start widened(const Estimate& estimate, bool turns, double sigma_turn) {
+  const Eigen::Index n = estimate.size();
+  const Eigen::Index all = turns ? n + 1 : n;
+  Start start;
+  start.mean.setZero(all);
+  start.mean.head(n) = estimate.mean;
+  start.covariance.setZero(all, all);
+  start.covariance.topLeftCorner(n, n) = estimate.covariance;
+  if (turns) start.covariance(n, n) = sigma_turn * sigma_turn;
+  return start;
+}
+
+}  // namespace
 
 template <int Axes>
-Tracker<Axes>::Tracker(FilterSettings settings) : settings_(std::move(settings)) {
-  for (std::size_t i = 0; i < settings_.orders.size(); ++i)
-    models_.emplace_back(settings_.sigma_w[i], Vector<Axes>::Zero(), settings_.orders[i]);
-}
+Tracker<Axes>::Tracker(FilterSettings settings) : settings_(std::move(settings)) {}
 
 template <int Axes>
 void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
@@ -17,7 +36,7 @@ void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
   } else if (settings_.start == Start::given) {
     waiting_.push_back({time, z});
     if (!settings_.start_time_s && waiting_.size() < 2) return;
-    start_given(settings_.start_time_s ? *settings_.start_time_s : 2.0 * waiting_[0].first - waiting_[1].first);
+    start(settings_.start_time_s ? *settings_.start_time_s : 2.0 * waiting_[0].first - waiting_[1].first);
     for (const auto& [waited, measurement] : waiting_) {
       step(waited, measurement);
       stepped(waited);
@@ -25,22 +44,28 @@ void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
     waiting_.clear();
   } else if (z) {
     points_.push_back({time, *z});
-    if (points_.size() == 3) start_from_points();
+    if (points_.size() < 3) return;
+    start(time);
+    points_.clear();
   }
 }
 
 template <int Axes>
 auto Tracker<Axes>::estimate() const -> Estimate {
   return std::visit(
-      [&](const auto& filter) {
-        return settings_.most_likely_output ? filter.most_likely_estimate() : filter.estimate();
+      [](const auto& filter) -> Estimate {
+        const auto all = filter.estimate();
+        const auto& names = filter.components();  // those of the largest model lead; a rate of turn is no derivative
+        const Eigen::Index n =
+            std::count_if(names.begin(), names.end(), [](const auto& name) { return name != "omega"; });
+        return {all.mean.head(n), all.covariance.topLeftCorner(n, n)};
       },
       *filter_);
 }
 
 template <int Axes>
 double Tracker<Axes>::weight(std::size_t mode) const {
-  return std::visit([&](const auto& filter) { return filter.belief()[mode]; }, *filter_);
+  return std::visit([&](const auto& filter) { return filter.weight(mode); }, *filter_);
 }
 
 template <int Axes>
@@ -50,78 +75,64 @@ std::size_t Tracker<Axes>::most_likely_mode() const {
 
 template <int Axes>
 std::optional<double> Tracker<Axes>::nis() const {
-  return std::visit([](const auto& filter) { return filter.measured() ? std::optional(filter.nis()) : std::nullopt; },
-                    *filter_);
+  return std::visit([](const auto& filter) { return filter.nis(); }, *filter_);
 }
 
 template <int Axes>
 void Tracker<Axes>::step(double time, const std::optional<Measurement>& z) {
-  std::visit(
-      [&](auto& filter) {
-        if (z)
-          filter.step(time - time_, *z);
-        else
-          filter.step(time - time_);
-      },
-      *filter_);
+  std::visit([&](auto& filter) { filter.step(time - time_, z); }, *filter_);
   time_ = time;
 }
 
 template <int Axes>
-void Tracker<Axes>::start_from_points() {
+void Tracker<Axes>::start(double time) {
+  time_ = time;
+  const auto start_bank = [&](const auto& bank) {
+    using Models = std::decay_t<decltype(bank)>;
+    using Starts = typename ModeFilter<Models>::Starts;
+    const double sigma_turn = settings_.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
+    Starts starts;
+    for (const auto& motion : settings_.motions)
+      starts.push_back(
+          widened<typename Starts::value_type>(start_of(motion), motion.type == MotionType::ct, sigma_turn));
+    filter_.emplace(ModeFilter<Models>(settings_, bank, starts));
+  };
+  if (kinematic(settings_.motions))
+    start_bank(kinematic_bank<Axes>(settings_.motions));
+  else
+    start_bank(any_bank<Axes>(settings_.motions, settings_.member));
+}
+
+template <int Axes>
+auto Tracker<Axes>::start_of(const Motion& motion) const -> Estimate {
+  return settings_.start == Start::given ? given_start(motion) : start_from_points(motion);
+}
+
+template <int Axes>
+auto Tracker<Axes>::start_from_points(const Motion& motion) const -> Estimate {
+  const Eigen::Index n = motion.order() * Axes;
   const bool released = settings_.start == Start::released;
-  const auto wide = released ? released_start<Axes>(points_[0], points_[1], points_[2])
-                             : three_point_start<Axes>(points_[0], points_[1], points_[2]);
+  if (motion.order() == 3 || released) {
+    const auto wide = released ? released_start<Axes>(points_[0], points_[1], points_[2])
+                               : three_point_start<Axes>(points_[0], points_[1], points_[2]);
+    return {wide.mean.head(n), wide.covariance.topLeftCorner(n, n)};
+  }
   const auto narrow = two_point_start<Axes>(points_[1], points_[2]);
-  Starts starts(models_.size());
-  for (std::size_t i = 0; i < models_.size(); ++i) {
-    const Eigen::Index n = models_[i].size();
-    if (models_[i].order() == 2 && !released) {
-      starts[i] = {narrow.mean, narrow.covariance};
-    } else {
-      starts[i] = {wide.mean.head(n), wide.covariance.topLeftCorner(n, n)};
-    }
-  }
-  start(points_.back().time, starts);
-  points_.clear();
+  return {narrow.mean.head(n), narrow.covariance.topLeftCorner(n, n)};
 }
 
 template <int Axes>
-void Tracker<Axes>::start_given(double time) {
-  const Vector<9> mean = Eigen::Map<const Vector<9>>(settings_.start_mean.data());
-  const Vector<9> variance = Eigen::Map<const Vector<9>>(settings_.start_covariance_diagonal.data());
-  Starts starts(models_.size());
-  for (std::size_t i = 0; i < models_.size(); ++i) {
-    const Eigen::Index n = models_[i].size();
-    starts[i].mean.resize(n);
-    starts[i].covariance.setZero(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) {  // the keys always speak of three axes
-      const Eigen::Index key = k / Axes * 3 + k % Axes;
-      starts[i].mean(k) = mean(key);
-      starts[i].covariance(k, k) = variance(key);
-    }
+auto Tracker<Axes>::given_start(const Motion& motion) const -> Estimate {
+  const Eigen::Index n = motion.order() * Axes;
+  Estimate start;
+  start.mean.resize(n);
+  start.covariance.setZero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {  // the keys always speak of three axes
+    const auto key = static_cast<std::size_t>(k / Axes * 3 + k % Axes);
+    start.mean(k) = settings_.start_mean[key];
+    start.covariance(k, k) = settings_.start_covariance_diagonal[key];
   }
-  start(time, starts);
-}
-
-template <int Axes>
-void Tracker<Axes>::start(double time, const Starts& starts) {
-  time_ = time;
-  if (settings_.fuzzy) {
-    Interaction<Fuzzy> interaction{
-        settings_.lift, {settings_.mixed_covariance, settings_.mixing_tie}, settings_.output_tie};
-    filter_.emplace(Himm(models_, this->template transition<Fuzzy>(), starts, interaction));
-  } else {
-    Interaction<Random> interaction{settings_.lift, {settings_.imm_mixing}, settings_.output_tie};
-    filter_.emplace(Imm(models_, this->template transition<Random>(), starts, interaction));
-  }
-}
-
-template <int Axes>
-template <Uncertainty Kind>
-Relation<Kind, Kind> Tracker<Axes>::transition() const {
-  const Variable<Kind> mode{"mode", settings_.models};
-  return {mode, mode, settings_.transition};
+  return start;
 }
 
 template class Tracker<2>;

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include <sigmax/estimation/start.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/mode_filter.hpp"
 
 namespace sigmax::apps {
 
@@ -18,10 +17,9 @@ namespace sigmax::apps {
 template <int Axes>
 class Tracker {
  public:
-  using Model = KinematicModel<Axes, Eigen::Dynamic>;
-  using Models = std::vector<Model>;
   using Measurement = Gaussian<Axes>;
-  using Estimate = typename InteractingMultipleModel<Models, Random>::Estimate;
+  /// Position, velocity and acceleration, as far as the models have them.
+  using Estimate = Gaussian<Eigen::Dynamic, 3 * Axes>;
 
   explicit Tracker(FilterSettings settings);
 
@@ -43,22 +41,19 @@ class Tracker {
   std::optional<double> nis() const;
 
  private:
-  using Imm = InteractingMultipleModel<Models, Random>;
-  using Himm = InteractingMultipleModel<Models, Fuzzy>;
-  using Starts = typename Bank<Models>::Estimates;
+  using Points = std::vector<TimedMeasurement<Axes>>;
 
   void step(double time, const std::optional<Measurement>& z);
-  void start_from_points();
-  void start_given(double time);
-  void start(double time, const Starts& starts);
-  template <Uncertainty Kind>
-  Relation<Kind, Kind> transition() const;
+  void start(double time);
+  /// Where a model starts.
+  Estimate start_of(const Motion& motion) const;
+  Estimate start_from_points(const Motion& motion) const;
+  Estimate given_start(const Motion& motion) const;
 
   FilterSettings settings_;
-  Models models_;
-  std::vector<TimedMeasurement<Axes>> points_;
+  Points points_;
   std::vector<std::pair<double, std::optional<Measurement>>> waiting_;
-  std::optional<std::variant<Imm, Himm>> filter_;
+  std::optional<std::variant<ModeFilter<KinematicBank<Axes>>, ModeFilter<AnyBank<Axes>>>> filter_;
   double time_ = 0.0;
 };
 

@@ -12,6 +12,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
+#include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
@@ -257,8 +258,8 @@ void classify_and_report(const ClassifyOptions& options) {
       one["accuracy_of_the_decided"] = static_cast<double>(tallies[i].right) / static_cast<double>(tallies[i].judged);
     summary["classifiers"][all[i].name] = one;
   }
-  file->commit();
-  write_summary(summary, *directory);
+  AtomicFile summary_json = summary_file(summary, *directory);
+  commit_all(*file, summary_json);
   print_written({"predictions.csv", "summary.json"}, options.out);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "support/csv.hpp"
 #include "support/table.hpp"
 #include "version.hpp"
 
@@ -49,13 +50,13 @@ void print_scores(const std::vector<Score>& scores, const std::string& what_is_c
                  score.refused);
 }
 
-void write_curves(const std::vector<Score>& scores, const OutputDirectory& directory) {
+AtomicFile curves_file(const std::vector<Score>& scores, const OutputDirectory& directory) {
   AtomicFile file = directory.file("curves.csv");
   file.write("report,classifier,accuracy\n");
   for (const Score& score : scores)
     for (std::size_t k = 0; k < score.accuracy.size(); ++k)
       file.print("{},{},{}\n", k + 1, csv_field(score.name), shortest(score.accuracy[k]));
-  file.commit();
+  return file;
 }
 
 Json as_json(const Interval& interval) {
@@ -78,17 +79,10 @@ Json as_json(const std::vector<Score>& scores) {
 
 Json summary_of(const std::string& command) { return {{"version", version}, {"command", command}}; }
 
-void write_summary(const Json& summary, const OutputDirectory& directory) {
+AtomicFile summary_file(const Json& summary, const OutputDirectory& directory) {
   AtomicFile file = directory.file("summary.json");
   file.write(summary.dump(2) + "\n");
-  file.commit();
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char letter : text) field += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return field + "\"";
+  return file;
 }
 
 void print_written(const std::vector<std::string>& files, const std::string& directory) {

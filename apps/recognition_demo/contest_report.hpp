@@ -19,8 +19,8 @@ std::vector<std::size_t> shown_reports(std::size_t reports);
 /// Prints the accuracy after some numbers of reports, the belief in the truth, and each difference from the first.
 void print_scores(const std::vector<Score>& scores, const std::string& what_is_counted = "reports");
 
-/// report,classifier,accuracy
-void write_curves(const std::vector<Score>& scores, const OutputDirectory& directory);
+/// curves.csv, not yet committed: report,classifier,accuracy.
+AtomicFile curves_file(const std::vector<Score>& scores, const OutputDirectory& directory);
 
 /// All figures that `print_scores` prints.
 Json as_json(const std::vector<Score>& scores);
@@ -28,10 +28,9 @@ Json as_json(const Interval& interval);
 
 /// What every summary begins with.
 Json summary_of(const std::string& command);
-void write_summary(const Json& summary, const OutputDirectory& directory);
 
-/// Text as a field of a CSV file.
-std::string csv_field(const std::string& text);
+/// summary.json, not yet committed.
+AtomicFile summary_file(const Json& summary, const OutputDirectory& directory);
 
 /// "Wrote a.csv and summary.json to DIR", after an empty line.
 void print_written(const std::vector<std::string>& files, const std::string& directory);

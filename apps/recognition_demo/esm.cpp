@@ -10,6 +10,7 @@
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/parallel.hpp"
+#include "support/csv.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {
@@ -112,9 +113,8 @@ void esm_and_report(const EsmOptions& options) {
   summary["reports"] = options.reports;
   summary["seed"] = options.seed;
   summary["classifiers"] = as_json(scores);
-  write_curves(scores, *directory);
-  runs_file->commit();
-  write_summary(summary, *directory);
+  AtomicFile curves = curves_file(scores, *directory), summary_json = summary_file(summary, *directory);
+  commit_all(curves, *runs_file, summary_json);
   print_written({"curves.csv", "runs.csv", "summary.json"}, options.out);
 }
 

@@ -16,6 +16,7 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/parallel.hpp"
 #include "recognition_demo/train.hpp"
+#include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
 
@@ -143,7 +144,7 @@ void print_confusion(const DataTable& data, const Outcome& outcome) {
   table.print();
 }
 
-void write_predictions(const DataTable& data, std::span<const std::size_t> fold_of_row, const std::vector<Outcome>& all,
+AtomicFile predictions_file(const DataTable& data, std::span<const std::size_t> fold_of_row, const std::vector<Outcome>& all,
                        const OutputDirectory& directory) {
   AtomicFile file = directory.file("predictions.csv");
   file.write("line,fold,truth,classifier,decision");
@@ -159,10 +160,10 @@ void write_predictions(const DataTable& data, std::span<const std::size_t> fold_
             file.write("\n");
           },
           *outcome.beliefs[row]);
-  file.commit();
+  return file;
 }
 
-void write_confusion(const DataTable& data, const std::vector<Outcome>& all, const OutputDirectory& directory) {
+AtomicFile confusion_file(const DataTable& data, const std::vector<Outcome>& all, const OutputDirectory& directory) {
   AtomicFile file = directory.file("confusion.csv");
   file.write("classifier,truth,decision,rows\n");
   for (const Outcome& outcome : all)
@@ -170,7 +171,7 @@ void write_confusion(const DataTable& data, const std::vector<Outcome>& all, con
       for (std::size_t c = 0; c < data.classes.size(); ++c)
         file.print("{},{},{},{}\n", csv_field(outcome.name), csv_field(data.classes[truth]), csv_field(data.classes[c]),
                    confusion(outcome)(truth, c));
-  file.commit();
+  return file;
 }
 
 Json as_json(const Outcome& outcome, const Outcome& first) {
@@ -251,9 +252,9 @@ void evaluate_and_report(const EvaluateOptions& options) {
   summary["misread"] = options.learning.misread;
   summary["bins"] = options.learning.bins;
   for (const Outcome& outcome : all) summary["classifiers"][outcome.name] = as_json(outcome, all.front());
-  write_predictions(data, fold_of_row, all, *directory);
-  write_confusion(data, all, *directory);
-  write_summary(summary, *directory);
+  AtomicFile predictions = predictions_file(data, fold_of_row, all, *directory);
+  AtomicFile confusion_csv = confusion_file(data, all, *directory), summary_json = summary_file(summary, *directory);
+  commit_all(predictions, confusion_csv, summary_json);
   print_written({"predictions.csv", "confusion.csv", "summary.json"}, options.out);
 }
 

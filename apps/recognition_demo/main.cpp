@@ -1,19 +1,18 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "recognition_demo/classify.hpp"
+#include "recognition_demo/encounter.hpp"
 #include "recognition_demo/esm.hpp"
 #include "recognition_demo/evaluate.hpp"
 #include "recognition_demo/manoeuvre.hpp"
+#include "recognition_demo/performance.hpp"
 #include "recognition_demo/regimes.hpp"
 #include "recognition_demo/train.hpp"
-#include "support/error.hpp"
+#include "support/run.hpp"
 #include "version.hpp"
 
 namespace {
@@ -21,7 +20,6 @@ namespace {
 using namespace sigmax::apps;
 
 constexpr int exit_usage = 2;
-constexpr int exit_input = 3;
 
 template <class Options>
 void add_out(CLI::App& app, Options& options) {
@@ -79,9 +77,11 @@ int main(int argc, char** argv) {
 
   CLI::App app{
       "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and sigma-max inference "
-      "(both). Without a subcommand it runs esm."};
+      "(both). Without a subcommand it runs esm.",
+      "recognition_demo"};
   app.set_version_flag("--version", fmt::format("recognition_demo {}", version));
   app.require_subcommand(0, 1);
+  app.footer("recognition_demo SUBCOMMAND --help lists the options of a subcommand, with examples.");
 
   EsmOptions esm;
   esm.command = command;
@@ -121,6 +121,60 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  recognition_demo manoeuvre\n"
       "  recognition_demo manoeuvre --runs 1000 --out results");
+
+  EncounterOptions encounter;
+  encounter.command = command;
+  CLI::App& encounter_app = *app.add_subcommand(
+      "encounter", "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
+  encounter_app
+      .add_option("counts", encounter.file, "Counts by class and feature: class,feature,bin,lower,upper,count")
+      ->required()
+      ->type_name("COUNTS.csv");
+  encounter_app.add_option("--reports", encounter.reports, "Reports in a drawn run")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  CLI::Option* const track_option =
+      encounter_app
+          .add_option("--track", encounter.track,
+                      "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), "
+                      "groundspeed_kt (or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
+          ->type_name("FILE.csv");
+  encounter_app.add_option("--every", encounter.every_s, "Seconds between two reports of a recording")
+      ->check(CLI::Range(0.001, 1e6))
+      ->needs(track_option)
+      ->capture_default_str();
+  CLI::Option* const ground_option =
+      encounter_app.add_option("--ground", encounter.ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
+          ->needs(track_option)
+          ->type_name("FT");
+  add_draws(encounter_app, encounter);
+  encounter_app.footer(
+      "Examples:\n"
+      "  recognition_demo encounter encounter_features.csv\n"
+      "  recognition_demo encounter encounter_features.csv --track helicopter.csv --every 30");
+
+  PerformanceOptions performance;
+  performance.command = command;
+  CLI::App& performance_app = *app.add_subcommand(
+      "performance", "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
+  performance_app
+      .add_option("data", performance.file, "type,variable,optimum,minimum,maximum,model,parameters")
+      ->required()
+      ->type_name("PERFORMANCE.csv");
+  performance_app.add_option("--draws", performance.draws, "What the quantities are drawn from")
+      ->check(CLI::IsMember({"density", "triangle"}))
+      ->capture_default_str();
+  performance_app.add_option("--bins", performance.bins, "Bins of a quantity")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  performance_app.add_option("--least", performance.least, "Possibility of what lies outside [min, max]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  add_draws(performance_app, performance);
+  performance_app.footer(
+      "Examples:\n"
+      "  recognition_demo performance openap_performance.csv\n"
+      "  recognition_demo performance openap_performance.csv --draws triangle --least 0.1");
 
   TrainOptions train;
   std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
@@ -183,7 +237,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
 
-  try {
+  return run_program("recognition_demo", [&] {
     if (train_app.parsed()) {
       train.kinds = kinds;
       train_and_report(train);
@@ -195,15 +249,13 @@ int main(int argc, char** argv) {
       manoeuvre_and_report(manoeuvre);
     } else if (regimes_app.parsed()) {
       regimes_and_report(regimes);
+    } else if (encounter_app.parsed()) {
+      if (ground_option->count() == 0) encounter.ground_ft.reset();
+      encounter_and_report(encounter);
+    } else if (performance_app.parsed()) {
+      performance_and_report(performance);
     } else {
       esm_and_report(esm);
     }
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "recognition_demo: {}\n", error.what());
-    return exit_usage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "recognition_demo: {}\n", error.what());
-    return exit_input;
-  }
-  return 0;
+  });
 }

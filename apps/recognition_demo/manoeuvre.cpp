@@ -12,6 +12,7 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/manoeuvre_scenario.hpp"
 #include "recognition_demo/parallel.hpp"
+#include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
 
@@ -178,10 +179,8 @@ void manoeuvre_and_report(const ManoeuvreOptions& options) {
   summary["seed"] = options.seed;
   for (const TargetScores& result : results)
     summary["targets"][scenario.target.label(result.target)] = as_json(result.scores);
-  samples->commit();
-  runs->commit();
-  curves.commit();
-  write_summary(summary, *directory);
+  AtomicFile summary_json = summary_file(summary, *directory);
+  commit_all(*samples, *runs, curves, summary_json);
   print_written({"samples.csv", "runs.csv", "curves.csv", "summary.json"}, options.out);
 }
 

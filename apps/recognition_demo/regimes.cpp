@@ -13,6 +13,7 @@
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/parallel.hpp"
+#include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
 
@@ -184,7 +185,7 @@ void print_verdict(const std::vector<SettingScores>& all) {
       better_count + worse + level, worse, level, better_count, better.empty() ? "." : ":", better);
 }
 
-void write_regimes(const std::vector<SettingScores>& all, const OutputDirectory& directory) {
+AtomicFile regimes_file(const std::vector<SettingScores>& all, const OutputDirectory& directory) {
   AtomicFile file = directory.file("regimes.csv");
   file.write("regime,setting,classifier,accuracy,difference,lower,upper\n");
   for (const SettingScores& setting : all)
@@ -194,7 +195,7 @@ void write_regimes(const std::vector<SettingScores>& all, const OutputDirectory&
       const Interval difference = paired_difference(score, setting.scores.front());
       file.print(",{},{},{}\n", shortest(difference.mean), shortest(difference.lower), shortest(difference.upper));
     }
-  file.commit();
+  return file;
 }
 
 }  // namespace
@@ -245,8 +246,8 @@ void regimes_and_report(const RegimesOptions& options) {
   summary["seed"] = options.seed;
   for (const SettingScores& setting : results)
     summary["regimes"][setting.regime][setting.setting] = as_json(setting.scores);
-  write_regimes(results, *directory);
-  write_summary(summary, *directory);
+  AtomicFile csv = regimes_file(results, *directory), summary_json = summary_file(summary, *directory);
+  commit_all(csv, summary_json);
   print_written({"regimes.csv", "summary.json"}, options.out);
 }
 

@@ -216,9 +216,13 @@ bool CsvReader::fill() {
   position_ = 0;
   filled_ = 0;
   errno = 0;
-  stream_->read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  // What is there now is enough: a pipe may take its time for more.
+  if (stream_->peek() != std::istream::traits_type::eof()) {
+    const auto size = stream_->readsome(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    filled_ = static_cast<std::size_t>(size);
+    if (size == 0 && stream_->get(buffer_[0])) filled_ = 1;
+  }
   if (stream_->bad()) throw InputError(message({.where = file(), .what = "cannot be read: " + reason(errno)}));
-  filled_ = static_cast<std::size_t>(stream_->gcount());
   return filled_ > 0;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr double width = 720.0, height = 420.0, left = 70.0, right = 20.0, top = 40.0, bottom = 55.0;
+constexpr double width = 720.0, height = 400.0, left = 70.0, top = 40.0, bottom = 55.0;
 constexpr double legend_line = 18.0;
 
 /// Colours that colour-blind readers tell apart (Okabe, Ito 2008).
@@ -66,11 +67,6 @@ struct Axis {
     low = tick * std::floor(low / tick + 1e-9);
     high = tick * std::ceil(high / tick - 1e-9);
   }
-  void widen(double span) {
-    const double more = 0.5 * (span - (high - low));
-    low -= more;
-    high += more;
-  }
 };
 
 }  // namespace
@@ -85,6 +81,9 @@ void Plot::add(Series series) {
 
 std::string Plot::svg() const {
   if (series_.empty()) throw std::logic_error("the plot '" + title_ + "' has nothing to show");
+  std::size_t longest = 0;
+  for (const Series& series : series_) longest = std::max(longest, series.name.size());
+  const double right = 60.0 + 7.5 * static_cast<double>(longest);  // the legend stands there
   Axis x{series_[0].x[0], series_[0].x[0], left, width - right};
   Axis y{series_[0].y[0], series_[0].y[0], height - bottom, top};
   for (const Series& series : series_) {
@@ -96,28 +95,19 @@ std::string Plot::svg() const {
     y.high = std::max(y.high, *y_high);
   }
   for (Axis* axis : {&x, &y})
-    if (axis->high == axis->low) axis->widen(1.0);
-  if (proportions_) {
-    const double scale = std::max((x.high - x.low) / (x.to - x.from), (y.high - y.low) / (y.from - y.to));
-    x.widen(1.1 * scale * (x.to - x.from));
-    y.widen(1.1 * scale * (y.from - y.to));
-    const Axis unrounded_x = x, unrounded_y = y;
-    x.round_to_ticks();
-    y.round_to_ticks();
-    x.low = unrounded_x.low, x.high = unrounded_x.high, y.low = unrounded_y.low, y.high = unrounded_y.high;
-  } else {
-    x.round_to_ticks();
-    y.round_to_ticks();
-  }
+    if (axis->high == axis->low) axis->high = axis->low + 1.0;
+  x.round_to_ticks();
+  y.round_to_ticks();
 
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
       "<text x=\"{2}\" y=\"24\" font-size=\"15\" text-anchor=\"middle\">{3}</text>\n",
       width, height, 0.5 * (left + width - right), escaped(title_));
-  const auto line = [&](double x1, double y1, double x2, double y2, std::string_view colour) {
-    svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2,
-                       y2, colour);
+  const auto line = [&](double x1, double y1, double x2, double y2, std::string_view colour, double stroke = 1.0) {
+    svg += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", x1, y1,
+        x2, y2, colour, stroke);
   };
   const auto text = [&](double at_x, double at_y, std::string_view anchor, std::string_view what) {
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", at_x, at_y, anchor, what);
@@ -152,22 +142,15 @@ std::string Plot::svg() const {
     if (series.joined) svg += "\"/>\n";
   }
 
-  std::size_t longest = 0;
-  for (const Series& series : series_) longest = std::max(longest, series.name.size());
-  const double legend_width = 46.0 + 7.8 * static_cast<double>(longest);
-  const double legend_x = width - right - legend_width - 6.0;
-  svg += fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"white\" fill-opacity=\"0.85\" "
-      "stroke=\"#bbbbbb\"/>\n",
-      legend_x, top + 4.0, legend_width, 8.0 + legend_line * static_cast<double>(series_.size()));
+  const double legend = width - right + 15.0;
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const double at = top + 4.0 + legend_line * (static_cast<double>(i) + 0.75);
     const std::string_view colour = colours[i % colours.size()];
     if (series_[i].joined)
-      line(legend_x + 8.0, at, legend_x + 30.0, at, colour);
+      line(legend, at, legend + 22.0, at, colour, 2.0);
     else
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", legend_x + 19.0, at, colour);
-    text(legend_x + 38.0, at + 4.5, "start", escaped(series_[i].name));
+      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", legend + 11.0, at, colour);
+    text(legend + 30.0, at + 4.5, "start", escaped(series_[i].name));
   }
   return svg + "</svg>\n";
 }

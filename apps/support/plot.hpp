@@ -27,9 +27,6 @@ class Plot {
     add({std::move(name), std::move(x), std::move(y), false});
   }
 
-  /// Makes a unit as long on both axes, as on a map.
-  void keep_proportions() { proportions_ = true; }
-
   /// The document. Throws std::logic_error if nothing was added.
   std::string svg() const;
 
@@ -46,7 +43,6 @@ class Plot {
 
   std::string title_, x_label_, y_label_;
   std::vector<Series> series_;
-  bool proportions_ = false;
 };
 
 }  // namespace sigmax::apps

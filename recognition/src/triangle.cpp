@@ -24,9 +24,7 @@ double Triangle::operator()(double x) const {
 double Triangle::supremum(double lower, double upper) const {
   if (lower <= optimum_ && optimum_ < upper) return 1.0;
   if (lower > optimum_) return (*this)(lower);
-  // Up to `upper`, below the optimum: the limit there.
-  if (minimum_ == optimum_) return 0.0;
-  return upper == optimum_ ? 1.0 : (*this)(upper);
+  return minimum_ == optimum_ ? 0.0 : (*this)(upper);  // up to `upper`: the limit there
 }
 
 Distribution<Fuzzy> triangular(const FuzzyVariable& variable, const Discretization& bins, const Triangle& triangle,

@@ -153,6 +153,46 @@ TYPED_TEST(ClassifierWithFeatures, BelievesTheSameWhateverTheOrderOfTheReports) 
   });
 }
 
+TYPED_TEST(ClassifierWithFeatures, ScalesOfReportsDoNotMatterAndConstantOnesSayNothing) {
+  holds([] {
+    const Case<TypeParam> with;
+    auto classifier = with.classifier(), scaled = with.classifier();
+    Report<TypeParam> report, larger, constant;
+    for (const auto& feature : with.features) {
+      Numbers numbers = moderate_numbers(feature.size());
+      report.emplace_back(Likelihood{feature, numbers});
+      for (double& number : numbers) number *= 1e200;
+      larger.emplace_back(Likelihood{feature, numbers});
+      constant.emplace_back(Likelihood{feature, Numbers(feature.size(), 3.0)});
+    }
+    classifier.observe(report);
+    scaled.observe(constant);
+    require_near(scaled.belief().values(), with.prior);
+    scaled.observe(larger);
+    require_near(scaled.belief().values(), classifier.belief().values());
+  });
+}
+
+TYPED_TEST(ClassifierWithFeatures, NeverBringsBackWhatIsExcluded) {
+  holds([] {
+    const auto pattern = laws::any_variable<TypeParam>("pattern"), feature = laws::any_variable<TypeParam>("feature");
+    Classifier classifier{laws::any_distribution(pattern), laws::any_relation(feature, pattern)};
+    if (*rc::gen::inRange(0, 2) == 1) classifier.set_forgetting(0.5);
+    std::vector<bool> excluded(pattern.size(), false);
+    for (int k = 0; k < 5; ++k) {
+      try {
+        classifier.observe(Likelihood{feature, laws::any_unit_numbers(feature.size())});
+      } catch (const std::domain_error&) {  // it excludes all that is left
+      }
+      for (std::size_t c = 0; c < pattern.size(); ++c) {
+        const bool now = classifier.log_belief().log(c) == log_zero;
+        RC_ASSERT(now || !excluded[c]);
+        excluded[c] = now;
+      }
+    }
+  });
+}
+
 TYPED_TEST(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) {
   holds([] {
     const Case<TypeParam> with;

@@ -179,8 +179,8 @@ TEST(RecognitionWalk, Learning) {
 
   const std::vector training{3.1, 4.7, 2.2, 5.0, 3.8, 2.9};
   const Discretization bins = equal_frequency(training, 3);
-  EXPECT_EQ(bins.labels(), (std::vector<std::string>{"below 3.1", "3.1 to 4.7", "4.7 and above"}));
   const std::size_t bin = bins.bin(3.1);
+  EXPECT_EQ(bins.labels(), (std::vector<std::string>{"below 3.1", "3.1 to 4.7", "4.7 and above"}));
   EXPECT_EQ(bin, 1U);
 
   const FuzzyVariable speed = bins.variable<Fuzzy>("speed");

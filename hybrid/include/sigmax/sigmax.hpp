@@ -27,6 +27,7 @@
 #include <sigmax/core/rows.hpp>
 #include <sigmax/core/scaled_number.hpp>
 #include <sigmax/core/sparse_rows.hpp>
+#include <sigmax/core/tie.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/uncertainty.hpp>
 #include <sigmax/core/update.hpp>
@@ -49,3 +50,13 @@
 #include <sigmax/hybrid/lift.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/recognition/classifier.hpp>
+#include <sigmax/recognition/counts.hpp>
+#include <sigmax/recognition/decision.hpp>
+#include <sigmax/recognition/discretization.hpp>
+#include <sigmax/recognition/dominance.hpp>
+#include <sigmax/recognition/evaluation.hpp>
+#include <sigmax/recognition/explanation.hpp>
+#include <sigmax/recognition/feature_model.hpp>
+#include <sigmax/recognition/folds.hpp>
+#include <sigmax/recognition/report.hpp>
+#include <sigmax/recognition/triangle.hpp>

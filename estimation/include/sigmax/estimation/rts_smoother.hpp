@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <stdexcept>
-#include <string_view>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Cholesky>

@@ -2,111 +2,174 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
+#include <sigmax/hybrid/future_evidence.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 
 namespace sigmax {
 
+/// Fixed-interval smoothing for the multiple-model filters, with a random or a fuzzy mode: what was known at k becomes
+/// what is known of k at the end.
+///
+/// For each pair of a mode i at k and j at k + 1, what came to be known after k in mode j (FutureEvidence) meets the
+/// prediction from i by the model of j, and a step back of Rauch, Tung and Striebel takes the result to i. With the
+/// evidence Λ_ij of that meeting and the smoothed belief b of k + 1 the pair weighs
+///
+///   w(i, j) = B(i|j) ⊗ b(j),   B(i|j) ∝ π(j|i) ⊗ b_k(i) ⊗ Λ_ij,   ⊕ᵢ B(i|j) = 1.
+///
+/// The smoothed belief of k is ⊕ⱼ w(i, j), and the j of each i collapse: moments if the mode is random, selection if it
+/// is fuzzy. So one Gaussian a mode is kept backwards, as it is forwards (compare Kim 1994; Helmick, Blair, Hoffman
+/// 1995). With one model it is the smoother of Rauch, Tung and Striebel.
 template <class Models, Uncertainty Kind>
 class FixedIntervalSmoother {
  public:
   using State = HybridEstimate<Models, Kind>;
-  bool corrected = true;
+  using Step = RecordedStep<Models, Kind>;
 
+  /// For what this filter records; its models and rules are taken over.
   explicit FixedIntervalSmoother(const MultipleModelFilter<Models, Kind>& filter)
-      : filter_(filter), system_(filter.system()),
+      : filter_(filter),
+        system_(filter.system()),
+        starts_(filter.estimates()),
+        predictions_(filter.estimates()),
         pairs_(pairs_for(filter.estimates())),
-        log_weight_(filter.modes()), joint_(filter.modes(), filter.modes()),
-        successor_(filter.modes(), filter.modes()) {}
+        log_weight_(filter.modes()),
+        joint_(filter.modes(), filter.modes()) {}
 
-  void step(const State& filtered, double dt, State& smoothed) {
-    const auto& transition = system_.transition(dt);
-    for_each_mode(filtered.estimates, [&](auto i) {
-      for_each_mode(filtered.estimates, [&](auto j) {
-        joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
-        if (joint_(i, j) == log_zero || smoothed.belief.log(j) == log_zero) return;
-        const double likelihood = smooth_pair(i, j, filtered.estimates, dt, mode(smoothed.estimates, j), mode(pairs_, i)[j]);
-        if (corrected) joint_(i, j) += likelihood;
+  /// One step back: `smoothed` is the smoothed state after the step `next`, and becomes that of `filtered`, the state
+  /// before it. Allocates nothing.
+  /// Throws std::domain_error, naming the model, if what it predicted is not positive definite.
+  void step(const State& filtered, const Step& next, State& smoothed) {
+    const auto& transition = system_.transition(next.dt);
+    for_each_mode(smoothed.estimates, [&](auto j) {
+      const auto pair = [&](std::size_t i) { return joint_(i, j); };
+      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
+      if (total(pair) == log_zero || smoothed.belief.log(j) == log_zero) {
+        for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
+        return;
+      }
+      const FutureEvidence evidence(mode(next.predicted, j), mode(smoothed.estimates, j), name(j));
+      for_each_mode(filtered.estimates, [&](auto i) {
+        if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j, next.dt, evidence);
       });
+      const double log_total = total(pair);
+      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += smoothed.belief.log(j) - log_total;
     });
-    const std::size_t n = filter_.modes();
-    for (std::size_t j = 0; j < n; ++j) {
-      const double total = log_combine<AlgebraOf<Kind>>(n, [&](std::size_t i) { return joint_(i, j); }, [](std::size_t) { return 1.0; });
-      for (std::size_t i = 0; i < n; ++i) joint_(i, j) = joint_(i, j) == log_zero ? log_zero : joint_(i, j) - total + smoothed.belief.log(j);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      log_weight_[i] = log_combine<AlgebraOf<Kind>>(n, [&](std::size_t j) { return joint_(i, j); }, [](std::size_t) { return 1.0; });
-      for (std::size_t j = 0; j < n; ++j)
-        successor_(i, j) = log_weight_[i] == log_zero ? 0.0 : std::exp(joint_(i, j) - log_weight_[i]);
-    }
-    smoothed.belief.assign([&](std::size_t i) { return log_weight_[i]; });
-    for_each_mode(filtered.estimates, [&](auto i) {
-      auto& result = mode(smoothed.estimates, i);
-      if (log_weight_[i] == log_zero) { result = mode(filtered.estimates, i); return; }
-      const auto& pairs = mode(pairs_, i);
-      const std::size_t best = select(n, [&](std::size_t j) { return std::log(successor_(i, j)); }, i, Tie::stay);
-      collapse(Collapse<Kind>{}, EstimateMixture<typename std::decay_t<decltype(pairs)>::value_type>{pairs},
-               [&](std::size_t j) { return successor_(i, j); }, best, result);
-    });
-    smoothed.most_likely_mode = select(n, [&](std::size_t i) { return smoothed.belief.log(i); }, smoothed.most_likely_mode, filter_.interaction().output_tie);
+    merge(filtered, smoothed);
   }
 
  private:
-  template <class I, class J, class Next, class Result>
-  double smooth_pair(I i, J j, const typename Bank<Models>::Estimates& filtered, double dt, const Next& next, Result& result) {
+  std::size_t modes() const { return filter_.modes(); }
+  auto name(std::size_t j) const { return system_.mode_variable().label(j); }
+
+  /// log ⊕ exp over the modes, by the mode's own ⊕.
+  template <class LogWeight>
+  double total(const LogWeight& log_weight) const {
+    return log_combine<AlgebraOf<Kind>>(modes(), log_weight, [](std::size_t) { return 1.0; });
+  }
+
+  /// The estimate of mode i given mode j next and all that came to be known in j; returns the evidence.
+  template <class I, class J, class Evidence>
+  double smooth_pair(const typename Bank<Models>::Estimates& filtered, I i, J j, double dt, const Evidence& evidence) {
     const auto& model = mode(system_.models(), j);
     const auto& of_i = mode(filtered, i);
-    Next start = mode(filtered, j);
-    const auto& in_i = filter_.correspondences(j)[i].in_source;  // of the components of j
-    const auto& in_j = filter_.correspondences(i)[j].in_source;
-    {
-      const Lifted read(mode(filtered, j), of_i, filter_.correspondences(j)[i], filter_.interaction().lift);
-      start.mean = read.mean(); start.covariance.setZero(); read.add_covariance(1.0, start.covariance);
-    }
-    Next predicted;
+    auto& start = mode(starts_, j);  // that of i, in the components of j
+    auto& predicted = mode(predictions_, j);
+    const auto& from_i = filter_.correspondences(j)[i];
+    const Lifted read(mode(filtered, j), of_i, from_i, filter_.interaction().lift);
+    start.mean = read.mean();
+    start.covariance.setZero();
+    read.add_covariance(1.0, start.covariance);
     predict(model, start, dt, predicted);
-    const auto cross = prediction_covariance(model, start, dt);
-    using Cross = typename CrossOf<Result, Next>::type;
-    Cross with_next(of_i.size(), next.size());
-    for (Eigen::Index a = 0; a < of_i.size(); ++a) {
-      if (in_j[std::size_t(a)] >= 0) { with_next.row(a) = cross.row(in_j[std::size_t(a)]); continue; }
-      Next column; column.mean.setZero(next.size());
-      for (Eigen::Index b = 0; b < next.size(); ++b)
-        column.mean(b) = in_i[std::size_t(b)] >= 0 ? of_i.covariance(a, in_i[std::size_t(b)]) : 0.0;
-      with_next.row(a) = start.covariance.ldlt().solve(column.mean).transpose() * cross;
-    }
-    step_back(of_i, with_next, predicted, next, model.name(), result);
-    const auto f = predicted.covariance.ldlt();
-    const auto nu = (next.mean - predicted.mean).eval();
-    return -0.5 * nu.dot(f.solve(nu)) - 0.5 * f.vectorD().array().log().sum() - 0.5 * double(nu.size()) * std::log(2 * std::numbers::pi);
+    const auto cross =
+        covariance_with(start, of_i, from_i, filter_.correspondences(i)[j], prediction_covariance(model, start, dt));
+    auto smoothed = predicted;
+    const double log_evidence = evidence.meet(predicted, smoothed);
+    step_back(of_i, cross, predicted, smoothed, model.name(), mode(pairs_, i)[j]);
+    return log_evidence;
   }
-  template <class A, class B> struct CrossOf;
-  template <int N, int MaxN, int M, int MaxM> struct CrossOf<Gaussian<N, MaxN>, Gaussian<M, MaxM>> { using type = RectangularMatrix<N, M, MaxN, MaxM>; };
+
+  /// The covariance of the state of i with what was predicted from it, where `predicted_with` is that of the start in
+  /// the components of j. A component that j lacks is correlated with the prediction through those that j has.
+  template <int N, int MaxN, int M, int MaxM>
+  static RectangularMatrix<N, M, MaxN, MaxM> covariance_with(const Gaussian<M, MaxM>& start,
+                                                             const Gaussian<N, MaxN>& of_i,
+                                                             const Correspondence& from_i, const Correspondence& to_j,
+                                                             const SquareMatrix<M, MaxM>& predicted_with) {
+    RectangularMatrix<N, M, MaxN, MaxM> cross(of_i.size(), start.size());
+    bool all_shared = true;
+    for (Eigen::Index a = 0; a < of_i.size(); ++a) {
+      const Eigen::Index in_j = to_j.in_source[static_cast<std::size_t>(a)];
+      if (in_j >= 0) cross.row(a) = predicted_with.row(in_j);
+      all_shared = all_shared && in_j >= 0;
+    }
+    if (all_shared) return cross;
+    const Eigen::LDLT<SquareMatrix<M, MaxM>> factor(start.covariance);
+    const SquareMatrix<M, MaxM> regression = factor.solve(predicted_with);
+    for (Eigen::Index a = 0; a < of_i.size(); ++a) {
+      if (to_j.in_source[static_cast<std::size_t>(a)] >= 0) continue;
+      Vector<M, MaxM> with_start(start.size());
+      for (Eigen::Index b = 0; b < start.size(); ++b) {
+        const Eigen::Index in_i = from_i.in_source[static_cast<std::size_t>(b)];
+        with_start(b) = in_i >= 0 ? of_i.covariance(a, in_i) : 0.0;
+      }
+      cross.row(a) = with_start.transpose() * regression;
+    }
+    return cross;
+  }
+
+  /// The belief of k, and for each of its modes one estimate; a mode that leads nowhere keeps its own.
+  void merge(const State& filtered, State& smoothed) {
+    for (std::size_t i = 0; i < modes(); ++i) log_weight_[i] = total([&](std::size_t j) { return joint_(i, j); });
+    smoothed.belief.assign([&](std::size_t i) { return log_weight_[i]; });
+    for_each_mode(filtered.estimates, [&](auto i) {
+      auto& result = mode(smoothed.estimates, i);
+      if (log_weight_[i] == log_zero) {
+        result = mode(filtered.estimates, i);
+        return;
+      }
+      const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
+      collapse(
+          Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)},
+          [&](std::size_t j) { return std::exp(log_weight(j)); }, select(modes(), log_weight, i, Tie::stay), result);
+    });
+    smoothed.most_likely_mode = select(
+        modes(), [&](std::size_t i) { return smoothed.belief.log(i); }, smoothed.most_likely_mode,
+        filter_.interaction().output_tie);
+  }
 
   MultipleModelFilter<Models, Kind> filter_;
   JumpMarkovSystem<Models, Kind> system_;
-  typename Bank<Models>::Pairs pairs_;
-  std::vector<double> log_weight_;
-  Table joint_;
-  Table successor_;
+  typename Bank<Models>::Estimates starts_;       ///< of the pair at hand
+  typename Bank<Models>::Estimates predictions_;  ///< of the pair at hand
+  typename Bank<Models>::Pairs pairs_;            ///< of mode i: one for each j
+  std::vector<double> log_weight_;                ///< of each i
+  Table joint_;                                   ///< log w(i, j)
 };
 
+/// The smoothed states of a whole interval, one for each record; the last is the filtered one. The record grows with
+/// the interval, by two estimates of each model a step. `filter.estimate(state)` gives the output of a smoothed state.
+///
+///     std::vector record{filter.recorded(0.0)};
+///     for (const auto& [dt, z] : measurements) {
+///       filter.step(dt, z);
+///       record.push_back(filter.recorded(dt));
+///     }
+///     const auto smoothed = smooth(filter, record);
 template <class Models, Uncertainty Kind>
-std::vector<HybridEstimate<Models, Kind>> smooth(const MultipleModelFilter<Models, Kind>& filter, const std::vector<FilteredStep<HybridEstimate<Models, Kind>>>& record, bool corrected) {
+std::vector<HybridEstimate<Models, Kind>> smooth(const MultipleModelFilter<Models, Kind>& filter,
+                                                 const std::vector<RecordedStep<Models, Kind>>& record) {
   FixedIntervalSmoother<Models, Kind> smoother(filter);
-  smoother.corrected = corrected;
   std::vector<HybridEstimate<Models, Kind>> smoothed;
   for (const auto& step : record) smoothed.push_back(step.state);
   for (std::size_t k = record.size(); k-- > 1;) {
-    auto state = smoothed[k];
-    smoother.step(record[k - 1].state, record[k].dt, state);
-    smoothed[k - 1] = state;
+    smoothed[k - 1] = smoothed[k];
+    smoother.step(record[k - 1].state, record[k], smoothed[k - 1]);
   }
   return smoothed;
 }

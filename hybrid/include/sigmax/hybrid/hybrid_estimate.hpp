@@ -16,4 +16,12 @@ struct HybridEstimate {
   std::size_t most_likely_mode = 0;  ///< (64), where the output rule has broken ties
 };
 
+/// What one step of a multiple-model filter left, for smoothing.
+template <class Models, Uncertainty Kind>
+struct RecordedStep {
+  double dt;  ///< since the step before, in s; of the first record it is of no account, nor is `predicted`
+  HybridEstimate<Models, Kind> state;
+  typename Bank<Models>::Estimates predicted;  ///< what each model predicted before the measurement
+};
+
 }  // namespace sigmax

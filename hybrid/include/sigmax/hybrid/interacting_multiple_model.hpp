@@ -37,6 +37,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   InteractingMultipleModel(Models models, ModeTransition<Kind> transition, Estimates start,
                            Interaction<Kind> interaction = {})
       : Filter(std::move(models), std::move(transition), std::move(start), interaction),
+        predicted_(estimates()),
         move_in_(invert(system_.transition(), belief())),
         likelihood_(system_.mode_variable()) {
     move_in_.unreachable.reserve(modes());
@@ -60,8 +61,8 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       for_each_mode(system_.models(), [&](auto j) {  // step 2, (60), (61)
         const auto& model = mode(system_.models(), j);
         auto& estimate = mode(this->next().estimates, j);
-        predict(model, estimate, dt, estimate);
-        innovations_[j] = update(model, estimate, z, estimate);
+        predict(model, estimate, dt, mode(predicted_, j));
+        innovations_[j] = update(model, mode(predicted_, j), z, estimate);
         this->require_sound(model, estimate);
         likelihood_.set_log(j, this->log_likelihood(j, innovations_[j]));
       });
@@ -79,13 +80,17 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       for_each_mode(system_.models(), [&](auto j) {
         const auto& model = mode(system_.models(), j);
         auto& estimate = mode(this->next().estimates, j);
-        predict(model, estimate, dt, estimate);
+        predict(model, estimate, dt, mode(predicted_, j));
+        estimate = mode(predicted_, j);
         this->require_sound(model, estimate);
       });
     });
     this->next().belief = prior_;
     this->conclude(false);
   }
+
+  /// What the last step, of `dt` seconds, left for a smoother.
+  RecordedStep<Models, Kind> recorded(double dt) const { return {dt, this->state(), predicted_}; }
 
  private:
   using Filter::innovations_;
@@ -112,6 +117,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
     });
   }
 
+  Estimates predicted_;  ///< before the measurement
   Inverse<Kind, Kind> move_in_;
   Likelihood<Kind> likelihood_;
 };

@@ -35,7 +35,8 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   SecondOrderMultipleModel(Models models, ModeTransition<Kind> transition, Estimates start,
                            Interaction<Kind> interaction = {})
       : Filter(std::move(models), std::move(transition), std::move(start), interaction),
-        pairs_(pairs_for(estimates())),
+        predicted_(pairs_for(estimates())),
+        pairs_(predicted_),
         pair_innovations_(modes()),
         log_weight_(modes()),
         joint_(modes(), modes()),
@@ -54,13 +55,12 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
       for_each_mode(system_.models(), [&](auto j) {
         for (std::size_t l = 0; l < modes(); ++l) {
           if (!lives(l, j)) continue;
-          auto& pair = mode(pairs_, j)[l];
-          pair_innovations_[l] = update(mode(system_.models(), j), pair, z, pair);
+          pair_innovations_[l] = update(mode(system_.models(), j), mode(predicted_, j)[l], z, mode(pairs_, j)[l]);
           joint_(j, l) += this->log_likelihood(j, pair_innovations_[l]);
         }
         summarize(j);
       });
-      merge();
+      merge(pairs_, this->next().estimates);
     });
     if (gate < no_gate && !(this->predicted_nis() <= gate)) return step(dt);
     this->conclude(true);
@@ -71,12 +71,21 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
     this->require(dt);
     this->located(dt, [&] {
       branch(dt);
-      merge();
+      merge(predicted_, this->next().estimates);
     });
     this->conclude(false);
   }
 
+  /// What the last step, of `dt` seconds, left for a smoother. What a mode predicted is that of its predecessors by
+  /// their weights after the measurement.
+  RecordedStep<Models, Kind> recorded(double dt) const {
+    RecordedStep<Models, Kind> result{dt, this->state(), estimates()};
+    collapse_predecessors(predicted_, result.predicted);
+    return result;
+  }
+
  private:
+  using Pairs = typename Bank<Models>::Pairs;
   using Filter::innovations_;
   using Filter::interaction_;
   using Filter::prior_;
@@ -93,7 +102,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
       const auto read = this->mixture(own, this->correspondences(j), estimates());
       for (std::size_t l = 0; l < modes(); ++l) {
         if (!lives(l, j)) continue;
-        auto& pair = mode(pairs_, j)[l];
+        auto& pair = mode(predicted_, j)[l];
         if (l == j)
           pair = own;
         else
@@ -103,14 +112,18 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
     });
   }
 
-  /// The predecessors of each mode collapse, by sum and moments or by selection; the belief is the ⊕ of their weights.
-  void merge() {
+  /// The belief is the ⊕ of the pairs' weights, and the predecessors of each mode collapse.
+  void merge(const Pairs& pairs, Estimates& merged) {
     this->next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
-    for_each_mode(system_.models(), [&](auto j) {
-      const auto& pairs = mode(pairs_, j);
-      collapse(Collapse<Kind>{}, EstimateMixture<typename std::decay_t<decltype(pairs)>::value_type>{pairs}, weight(j),
-               best(j), mode(this->next().estimates, j));
-      this->require_sound(mode(system_.models(), j), mode(this->next().estimates, j));
+    collapse_predecessors(pairs, merged);
+    for_each_mode(merged, [&](auto j) { this->require_sound(mode(system_.models(), j), mode(merged, j)); });
+  }
+
+  /// By sum and moments or by selection.
+  void collapse_predecessors(const Pairs& pairs, Estimates& merged) const {
+    for_each_mode(merged, [&](auto j) {
+      using Each = std::decay_t<decltype(mode(merged, j))>;
+      collapse(Collapse<Kind>{}, EstimateMixture<Each>{mode(pairs, j)}, weight(j), best(j), mode(merged, j));
     });
   }
 
@@ -152,7 +165,8 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
 
   static double unweighted(std::size_t) { return 1.0; }
 
-  typename Bank<Models>::Pairs pairs_;                                  ///< of mode j: one for each predecessor
+  Pairs predicted_;
+  Pairs pairs_;                                                         ///< of mode j: one for each predecessor
   std::vector<Innovation<Filter::measurement_size>> pair_innovations_;  ///< of the mode at hand
   std::vector<double> log_weight_;                                      ///< of each mode
   Table joint_;        ///< logarithms of π(j|l) ⊗ b(l), and with the measurement ⊗ Λ_lj, at (j, l)

@@ -21,7 +21,7 @@ struct Decision {
 /// The maximum a posteriori pattern: of those whose logarithm is within `tie_tolerance` of the greatest, the first.
 ///
 /// Its margin is its own value less the greatest of the others: p(winner) − p(second), or, as the winner of a
-/// possibility is one, 1 − π(second) = N({winner}). A lone pattern's margin is its value, one.
+/// possibility is one, 1 − π(second) = N({winner}). It is zero on a tie, and of a lone pattern its value, one.
 template <Uncertainty Kind>
 Decision decide(const Belief<Kind>& belief) {
   const double least = belief.log(index_of_greatest(belief.logs())) - tie_tolerance;

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
+
+#include "himm_demo/filter_settings.hpp"
+
+namespace sigmax::apps {
+
+/// The filter that the settings describe, over one bank of models: its scheme and its mode's kind are known when the
+/// program runs. `Models` is a KinematicBank or an AnyBank.
+template <class Models>
+class ModeFilter {
+ public:
+  using Starts = typename Bank<Models>::Estimates;
+  using Estimate = typename Components<Models>::Estimate;
+  using Measurement = Gaussian<Bank<Models>::measurement_size>;
+
+  ModeFilter(const FilterSettings& settings, const Models& models, const Starts& starts);
+
+  void step(double dt, const std::optional<Measurement>& z);
+
+  /// The output that the settings ask for, in `components()`.
+  Estimate estimate() const;
+  const std::vector<std::string>& components() const;
+  double weight(std::size_t mode) const;
+  std::size_t most_likely_mode() const;
+
+  /// The normalised innovation squared of the last step, if it had a measurement.
+  std::optional<double> nis() const;
+
+ private:
+  using Filter = std::variant<InteractingMultipleModel<Models, Random>, InteractingMultipleModel<Models, Fuzzy>,
+                              SecondOrderMultipleModel<Models, Random>, SecondOrderMultipleModel<Models, Fuzzy>>;
+
+  static Filter made(const FilterSettings& settings, const Models& models, const Starts& starts);
+
+  Filter filter_;
+  bool most_likely_output_;
+};
+
+extern template class ModeFilter<KinematicBank<2>>;
+extern template class ModeFilter<KinematicBank<3>>;
+extern template class ModeFilter<AnyBank<2>>;
+extern template class ModeFilter<AnyBank<3>>;
+
+}  // namespace sigmax::apps

@@ -1,0 +1,8 @@
+#include "himm_demo/mode_filter_implementation.hpp"
+
+namespace sigmax::apps {
+
+template class ModeFilter<AnyBank<2>>;
+template class ModeFilter<AnyBank<3>>;
+
+}  // namespace sigmax::apps

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "himm_demo/mode_filter.hpp"
+
+namespace sigmax::apps {
+
+// Included by the two files that instantiate it: a bank each, since that is most of the program's compile time.
+
+template <Uncertainty Kind>
+Relation<Kind, Kind> transition_of(const FilterSettings& settings) {
+  const Variable<Kind> mode{"mode", settings.models};
+  if (settings.scheme == Scheme::independent) return identity(mode);
+  return {mode, mode, settings.transition};
+}
+
+template <Uncertainty Kind>
+Interaction<Kind> interaction_of(const FilterSettings& settings) {
+  Interaction<Kind> interaction;
+  interaction.lift = settings.lift;
+  interaction.output_tie = settings.output_tie;
+  interaction.mixed_start = settings.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
+  interaction.likelihood = settings.likelihood;
+  if constexpr (std::is_same_v<Kind, Fuzzy>)
+    interaction.collapse = {settings.mixed_covariance, settings.mixing_tie};
+  else
+    interaction.collapse = {settings.imm_mixing, settings.output_spread};
+  return interaction;
+}
+
+template <class Models>
+ModeFilter<Models>::ModeFilter(const FilterSettings& settings, const Models& models, const Starts& starts)
+    : filter_(made(settings, models, starts)), most_likely_output_(settings.most_likely_output) {}
+
+template <class Models>
+auto ModeFilter<Models>::made(const FilterSettings& settings, const Models& models, const Starts& starts) -> Filter {
+  const auto make = [&]<Uncertainty Kind>(Kind) -> Filter {
+    const auto transition = transition_of<Kind>(settings);
+    const auto interaction = interaction_of<Kind>(settings);
+    if (settings.scheme == Scheme::second_order)
+      return SecondOrderMultipleModel<Models, Kind>(models, transition, starts, interaction);
+    return InteractingMultipleModel<Models, Kind>(models, transition, starts, interaction);
+  };
+  return settings.fuzzy ? make(Fuzzy{}) : make(Random{});
+}
+
+template <class Models>
+void ModeFilter<Models>::step(double dt, const std::optional<Measurement>& z) {
+  std::visit(
+      [&](auto& filter) {
+        if (z)
+          filter.step(dt, *z);
+        else
+          filter.step(dt);
+      },
+      filter_);
+}
+
+template <class Models>
+auto ModeFilter<Models>::estimate() const -> Estimate {
+  return std::visit(
+      [&](const auto& filter) { return most_likely_output_ ? filter.most_likely_estimate() : filter.estimate(); },
+      filter_);
+}
+
+template <class Models>
+const std::vector<std::string>& ModeFilter<Models>::components() const {
+  return std::visit([](const auto& filter) -> const std::vector<std::string>& { return filter.components(); }, filter_);
+}
+
+template <class Models>
+double ModeFilter<Models>::weight(std::size_t mode) const {
+  return std::visit([&](const auto& filter) { return filter.belief()[mode]; }, filter_);
+}
+
+template <class Models>
+std::size_t ModeFilter<Models>::most_likely_mode() const {
+  return std::visit([](const auto& filter) { return filter.most_likely_mode(); }, filter_);
+}
+
+template <class Models>
+std::optional<double> ModeFilter<Models>::nis() const {
+  return std::visit([](const auto& filter) { return filter.measured() ? std::optional(filter.nis()) : std::nullopt; },
+                    filter_);
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,161 @@
+#include "recognition_demo/performance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sigmax/core/transform.hpp>
+#include <sigmax/recognition/discretization.hpp>
+
+#include "recognition_demo/contest_report.hpp"
+#include "recognition_demo/draws.hpp"
+#include "recognition_demo/parallel.hpp"
+#include "recognition_demo/performance_data.hpp"
+#include "support/progress.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// Bins of one quantity that hold all but a thousandth of every type's density at either end.
+Discretization bins_of(const std::vector<Performance>& types, std::size_t bins) {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const Performance& type : types) {
+    least = std::min(least, type.density.quantile(0.001));
+    greatest = std::max(greatest, type.density.quantile(0.999));
+  }
+  std::vector<double> cuts;
+  for (std::size_t i = 1; i < bins; ++i)
+    cuts.push_back(least + (greatest - least) * static_cast<double>(i) / static_cast<double>(bins));
+  return Discretization{cuts};
+}
+
+/// p(bin|type) from the densities.
+Relation<Random, Random> probable(const RandomVariable& feature, const RandomVariable& type, const Discretization& bins,
+                                  const std::vector<Performance>& types) {
+  std::vector<std::vector<double>> rows;
+  for (const Performance& each : types) {
+    auto& row = rows.emplace_back();
+    for (std::size_t b = 0; b < bins.size(); ++b)
+      row.push_back(std::max(0.0, each.density.cdf(bins.upper(b)) - each.density.cdf(bins.lower(b))));
+  }
+  return {feature, type, rows};
+}
+
+/// π(bin|type) from [minimum, optimum, maximum].
+Relation<Fuzzy, Fuzzy> possible(const RandomVariable& feature, const RandomVariable& type, const Discretization& bins,
+                                const std::vector<Performance>& types, double least) {
+  std::vector<std::vector<double>> rows;
+  for (const Performance& each : types) {
+    const auto row = triangular(as_fuzzy(feature), bins, each.triangle, least);
+    rows.emplace_back(row.values().begin(), row.values().end());
+  }
+  return {as_fuzzy(feature), as_fuzzy(type), rows};
+}
+
+/// A number with the density that is in proportion to the triangle.
+double draw_from(const Triangle& triangle, double u) {
+  const double a = triangle.minimum(), c = triangle.optimum(), b = triangle.maximum();
+  const double below = (c - a) / (b - a);
+  return u < below ? a + std::sqrt(u * (b - a) * (c - a)) : b - std::sqrt((1.0 - u) * (b - a) * (b - c));
+}
+
+struct World {
+  std::vector<Discretization> bins;
+  std::vector<Contestant> contestants;
+};
+
+World world_of(const PerformanceData& data, const PerformanceOptions& options) {
+  const RandomVariable type{"type", data.types};
+  std::vector<FeatureModel<Random, Random>> by_density, by_triangle_p;
+  std::vector<FeatureModel<Fuzzy, Fuzzy>> by_triangle, by_ratio, by_dubois_prade;
+  World world;
+  for (std::size_t v = 0; v < data.variables.size(); ++v) {
+    const auto bins = bins_of(data.table[v], options.bins);
+    const auto feature = bins.variable<Random>(data.variables[v]);
+    const auto p = probable(feature, type, bins, data.table[v]);
+    const auto pi = possible(feature, type, bins, data.table[v], options.least);
+    by_density.emplace_back(p);
+    by_triangle.emplace_back(pi);
+    by_triangle_p.emplace_back(with_random_condition(to_probability(pi, RatioScale{})));
+    by_ratio.emplace_back(with_fuzzy_condition(to_possibility(p, RatioScale{})));
+    by_dubois_prade.emplace_back(with_fuzzy_condition(to_possibility(p, DuboisPrade{})));
+    world.bins.push_back(bins);
+  }
+  const auto random_prior = uninformative(type);
+  const auto fuzzy_prior = uninformative(as_fuzzy(type));
+  world.contestants = {
+      {"sigma, p of the density", SigmaClassifier{random_prior, std::move(by_density)}},
+      {"max, π of the triangle", MaxClassifier{fuzzy_prior, std::move(by_triangle)}},
+      {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, std::move(by_triangle_p)}},
+      {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, std::move(by_ratio)}},
+      {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}},
+  };
+  return world;
+}
+
+double mean_probability_inside(const PerformanceData& data) {
+  double sum = 0.0;
+  for (const auto& row : data.table)
+    for (const Performance& each : row)
+      sum += each.density.cdf(each.triangle.maximum()) - each.density.cdf(each.triangle.minimum());
+  return sum / static_cast<double>(data.table.size() * data.types.size());
+}
+
+}  // namespace
+
+void performance_and_report(const PerformanceOptions& options) {
+  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
+  if (!options.out.empty()) directory.emplace(options.out);
+  const PerformanceData data = read_performance(options.file);
+  const World world = world_of(data, options);
+
+  const auto trace = [&](std::size_t run) {
+    RandomStream random(options.seed, run);
+    RunTraces result{draw_index(random, data.types.size()), {}};
+    std::vector<Readings> reports;
+    for (std::size_t v = 0; v < data.variables.size(); ++v) {
+      const Performance& of_type = data.table[v][result.truth];
+      const double u = random.uniform();
+      const double value = options.draws == "density" ? of_type.density.quantile(u) : draw_from(of_type.triangle, u);
+      reports.emplace_back(data.variables.size(), missing)[v] = world.bins[v].bin(value);
+    }
+    for (const Contestant& contestant : world.contestants)
+      result.traces.push_back(follow(contestant, result.truth, reports));
+    return result;
+  };
+  Progress progress("runs", options.runs, options.quiet);
+  const auto scores = score(world.contestants, options.runs, threads_or_all(options.threads), trace,
+                            [&](std::size_t, const RunTraces&) { progress.advance(); });
+  progress.finish();
+
+  fmt::print(
+      "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
+      "[min, max] holds {} % of the density on average; outside it the possibility is taken to be {}\n",
+      options.file, data.types.size(), data.variables.size(), percent(mean_probability_inside(data)), options.least);
+  for (const auto& remark : data.remarks) fmt::print("{}\n", remark);
+  fmt::print("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a quantity\n\n",
+             options.runs,
+             options.draws == "density" ? "the densities: sigma inference knows them"
+                                        : "densities in proportion to the triangles",
+             options.seed, options.bins);
+  print_scores(scores, "quantities");
+
+  if (!directory) return;
+  Json summary = summary_of(options.command);
+  summary["file"] = options.file;
+  summary["drawn_from"] = options.draws;
+  summary["bins"] = options.bins;
+  summary["least_possibility"] = options.least;
+  summary["runs"] = options.runs;
+  summary["seed"] = options.seed;
+  summary["remarks"] = data.remarks;
+  summary["classifiers"] = as_json(scores);
+  AtomicFile curves = curves_file(scores, *directory), summary_json = summary_file(summary, *directory);
+  commit_all(curves, summary_json);
+  print_written({"curves.csv", "summary.json"}, options.out);
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,236 @@
+#include <sigmax/estimation/converted_measurement.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <sigmax/estimation/chi_square.hpp>
+#include <sigmax/estimation/metrics.hpp>
+
+#include "support/matrices.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::holds;
+using support::near_matrix;
+using support::number_between;
+using support::require_near;
+using support::require_near_matrix;
+using support::throws;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+Polar generated_polar() { return {number_between(1.0, 1e3), number_between(-3.2, 3.2), number_between(-1.5, 1.5)}; }
+Polar generated_deviations() { return {number_between(0.0, 50.0), number_between(0.0, 0.5), number_between(0.0, 0.5)}; }
+
+TEST(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {
+  holds([] {  // Lerro and Bar-Shalom 1993, (20)–(23)
+    const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
+    const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
+    const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth);
+    const double v = sigma.azimuth * sigma.azimuth, vr = sigma.range * sigma.range;
+    const double cosh2 = std::cosh(2 * v), cosh1 = std::cosh(v), sinh2 = std::sinh(2 * v), sinh1 = std::sinh(v);
+    const auto variance = [&](double a, double b) {
+      return std::exp(-2 * v) * (r * r * (a * a * (cosh2 - cosh1) + b * b * (sinh2 - sinh1)) +
+                                 vr * (a * a * (2 * cosh2 - cosh1) + b * b * (2 * sinh2 - sinh1)));
+    };
+    const double R12 = s * c * std::exp(-4 * v) * (vr + (r * r + vr) * (1 - std::exp(v)));
+    const double bias = std::exp(-v) - std::exp(-v / 2);
+    const auto found = to_cartesian(m, sigma, Conversion::debiased);
+    require_near_matrix(found.mean, Vector<3>(r * c * (1 - bias), r * s * (1 - bias), 0.0), 1e-12);
+    require_near_matrix(found.covariance.topLeftCorner<2, 2>() / (r * r),
+                        SquareMatrix<2>{{variance(c, s), R12}, {R12, variance(s, c)}} / (r * r), 1e-12);
+    RC_ASSERT(found.covariance == found.covariance.transpose());
+  });
+}
+
+TEST(ConvertedMeasurement, UnbiasedInThePlaneIsThePrintedOne) {
+  holds([] {  // Mo, Song, Zhou, Sun, Bar-Shalom 1998
+    const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
+    const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
+    const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth), vr = sigma.range * sigma.range;
+    const double lambda = std::exp(-sigma.azimuth * sigma.azimuth / 2), k = 1 / (lambda * lambda) - 2;
+    const double l4 = std::pow(lambda, 4), half = (r * r + vr) / 2;
+    const double R11 = k * r * r * c * c + half * (1 + l4 * std::cos(2 * m.azimuth));
+    const double R22 = k * r * r * s * s + half * (1 - l4 * std::cos(2 * m.azimuth));
+    const double R12 = k * r * r * s * c + half * l4 * std::sin(2 * m.azimuth);
+    const auto found = to_cartesian(m, sigma, Conversion::unbiased);
+    require_near_matrix(found.mean, Vector<3>(r * c / lambda, r * s / lambda, 0.0), 1e-12);
+    require_near_matrix(found.covariance.topLeftCorner<2, 2>() / (r * r),
+                        SquareMatrix<2>{{R11, R12}, {R12, R22}} / (r * r), 1e-12);
+  });
+}
+
+/// Integrals over the errors of a radar, by the trapezoidal rule, which converges fast for Gaussians.
+template <class Function>
+auto expected(const Polar& about, const Polar& sigma, const Function& function) {
+  constexpr int steps = 24;
+  constexpr double width = 8.0;
+  auto sum = (0.0 * function(about)).eval();
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j)
+      for (int k = 0; k <= steps; ++k) {
+        const auto at = [](int n) { return width * (2.0 * n / steps - 1.0); };
+        const double weight = std::exp(-0.5 * (at(i) * at(i) + at(j) * at(j) + at(k) * at(k))) *
+                              std::pow(2.0 * width / steps / std::sqrt(2.0 * std::numbers::pi), 3);
+        sum += weight * function(Polar{about.range + sigma.range * at(i), about.azimuth + sigma.azimuth * at(j),
+                                       about.elevation + sigma.elevation * at(k)});
+      }
+  return sum;
+}
+
+const std::array<std::pair<Polar, Polar>, 3> scenes{{{{100.0, 0.7, 0.4}, {5.0, 0.2, 0.1}},
+                                                     {{50.0, -2.5, -1.0}, {1.0, 0.05, 0.4}},
+                                                     {{10.0, 3.1, 1.2}, {3.0, 0.3, 0.3}}}};
+
+TEST(ConvertedMeasurement, TheUnbiasedOneIsUnbiasedAndItsCovarianceIsTheMeanSquareError) {
+  for (const auto& [m, sigma] : scenes) {
+    const auto& deviations = sigma;
+    const Vector<3> mean = expected(
+        m, sigma, [&](const Polar& seen) { return to_cartesian(seen, deviations, Conversion::unbiased).mean; });
+    EXPECT_PRED_FORMAT3(near_matrix, mean, to_cartesian(m), 1e-10) << "m is the truth here";
+
+    const auto z = to_cartesian(m, sigma, Conversion::unbiased);  // and here what was measured
+    const SquareMatrix<3> R = expected(m, sigma, [&](const Polar& truth) {
+      const Vector<3> error = z.mean - to_cartesian(truth);
+      return SquareMatrix<3>(error * error.transpose());
+    });
+    EXPECT_PRED_FORMAT3(near_matrix, z.covariance, R, 1e-10);
+  }
+}
+
+TEST(ConvertedMeasurement, TheDebiasedOneTakesTheMeanBiasAndTheMeanCovariance) {
+  for (const auto& [m, sigma] : scenes) {
+    const double la = std::exp(-sigma.azimuth * sigma.azimuth / 2),
+                 le = std::exp(-sigma.elevation * sigma.elevation / 2);
+    const Vector<3> l(la * le, la * le, le);  // E[conversion | truth] = l · truth
+    const Vector<3> bias = expected(m, sigma, [&](const Polar& truth) {
+      const Vector<3> p = to_cartesian(truth);
+      return Vector<3>(l.cwiseProduct(p) - p);
+    });
+    const SquareMatrix<3> of_means = expected(m, sigma, [&](const Polar& truth) {
+      const Vector<3> p = l.cwiseProduct(to_cartesian(truth));
+      return SquareMatrix<3>(p * p.transpose());
+    });
+    const double root2 = std::sqrt(2.0);  // the truth about what was measured, and what would be measured about that
+    const SquareMatrix<3> of_squares =
+        expected(m, {root2 * sigma.range, root2 * sigma.azimuth, root2 * sigma.elevation}, [](const Polar& seen) {
+          const Vector<3> p = to_cartesian(seen);
+          return SquareMatrix<3>(p * p.transpose());
+        });
+    const auto z = to_cartesian(m, sigma, Conversion::debiased);
+    EXPECT_PRED_FORMAT3(near_matrix, z.mean, to_cartesian(m) - bias, 1e-10);
+    EXPECT_PRED_FORMAT3(near_matrix, z.covariance, of_squares - of_means, 1e-10);
+  }
+}
+
+TEST(ConvertedMeasurement, SmallErrorsMakeAllConversionsOne) {
+  holds([] {
+    const Polar m = generated_polar();
+    const Polar sigma{1e-3 * m.range, number_between(1e-7, 1e-6), number_between(1e-7, 1e-6)};
+    const auto standard = to_cartesian(m, sigma, Conversion::standard);
+    RC_ASSERT(standard.mean == to_cartesian(m, sigma).mean);
+    RC_ASSERT(standard.covariance == to_cartesian(m, sigma).covariance);
+    for (const auto conversion : {Conversion::unbiased, Conversion::debiased}) {
+      const auto found = to_cartesian(m, sigma, conversion);
+      require_near_matrix(found.mean / m.range, standard.mean / m.range, 1e-11);
+      const double scale = sigma.azimuth * sigma.azimuth * m.range * m.range;  // of the smallest variance
+      const Vector<3> across(-std::sin(m.azimuth), std::cos(m.azimuth), 0.0);
+      require_near(across.dot(found.covariance * across) / scale, across.dot(standard.covariance * across) / scale,
+                   1e-3);
+    }
+  });
+}
+
+TEST(ConvertedMeasurement, TurningTheTargetTurnsIt) {
+  holds([] {
+    const Polar m = generated_polar(), sigma = generated_deviations();
+    const double turn = number_between(-3.0, 3.0);
+    const SquareMatrix<3> T{{std::cos(turn), -std::sin(turn), 0}, {std::sin(turn), std::cos(turn), 0}, {0, 0, 1}};
+    for (const auto conversion : {Conversion::unbiased, Conversion::debiased}) {
+      const auto here = to_cartesian(m, sigma, conversion);
+      const auto there = to_cartesian({m.range, m.azimuth + turn, m.elevation}, sigma, conversion);
+      require_near_matrix(there.mean, T * here.mean, 1e-9);
+      require_near_matrix(there.covariance / 1e6, T * here.covariance * T.transpose() / 1e6, 1e-9);
+    }
+  });
+}
+
+TEST(ConvertedMeasurement, RefusesWhatTheStandardOneRefuses) {
+  for (const auto conversion : {Conversion::standard, Conversion::unbiased, Conversion::debiased}) {
+    EXPECT_TRUE(throws<std::invalid_argument>(
+        [&] {
+          to_cartesian({-5.0, 0.1, 0.1}, {1.0, 0.1, 0.1}, conversion);
+        },
+        {"range", "-5.0"}));
+    EXPECT_TRUE(throws<std::invalid_argument>(
+        [&] {
+          to_cartesian({5.0, 0.1, 0.1}, {1.0, -0.1, 0.1}, conversion);
+        },
+        {"deviations"}));
+  }
+}
+
+/// Mean NEES of the three conversions of a target at the start of the second scenario.
+struct Study {
+  std::array<double, 3> plane{}, space{};
+};
+constexpr int draws = 100000;
+Study nees_at(double angle_deg) {
+  const double angle = angle_deg * degree;
+  const Polar truth = to_polar({120e3, 80e3, 20e3}), in_plane{truth.range, truth.azimuth, 0.0};
+  const Polar sigma{100.0, angle, angle}, sigma_in_plane{100.0, angle, 0.0};
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  Study sum;
+  for (int i = 0; i < draws; ++i) {
+    const double r = truth.range + 100.0 * normal(generator), a = truth.azimuth + angle * normal(generator);
+    const double e = angle * normal(generator);
+    for (const auto conversion : {Conversion::standard, Conversion::unbiased, Conversion::debiased}) {
+      const auto k = static_cast<std::size_t>(conversion);
+      const auto flat = to_cartesian({r, a, 0.0}, sigma_in_plane, conversion);
+      sum.space[k] += nees(to_cartesian({r, a, truth.elevation + e}, sigma, conversion), to_cartesian(truth)) / draws;
+      sum.plane[k] += normalized_error_squared<2, 2>((flat.mean - to_cartesian(in_plane)).head<2>(),
+                                                     flat.covariance.topLeftCorner<2, 2>()) /
+                      draws;
+    }
+  }
+  return sum;
+}
+
+testing::AssertionResult within(double value, const Band& band) {
+  if (value >= band.lower && value <= band.upper) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << value << " is not in [" << band.lower << ", " << band.upper << "]";
+}
+
+TEST(ConvertedMeasurement, AtATenthOfADegreeAllAreConsistent) {
+  const Study study = nees_at(0.1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_TRUE(within(study.plane[k], chi_square_band(2, draws)));
+    EXPECT_TRUE(within(study.space[k], chi_square_band(3, draws)));
+  }
+}
+
+TEST(ConvertedMeasurement, TheUnbiasedOneIsConsistentAtAnyAngleAndTheDebiasedOneInThePlane) {
+  for (const double angle : {0.9, 1.8, 3.0}) {
+    const Study study = nees_at(angle);
+    EXPECT_TRUE(within(study.plane[1], chi_square_band(2, draws))) << angle;
+    EXPECT_TRUE(within(study.space[1], chi_square_band(3, draws))) << angle;
+    EXPECT_TRUE(within(study.plane[2], chi_square_band(2, draws))) << angle;
+  }
+}
+
+TEST(ConvertedMeasurement, TheStandardOneIsTooSureOfItselfAtThreeDegrees) {
+  const Study study = nees_at(3.0);
+  EXPECT_TRUE(within(study.plane[0], {13.0, 15.0}));
+  EXPECT_TRUE(within(study.space[0], {32.0, 36.0}));
+  EXPECT_TRUE(within(study.space[2], {3.6, 3.75})) << "the debiased one in space";
+}
+
+}  // namespace
+}  // namespace sigmax
