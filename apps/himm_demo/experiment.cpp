@@ -144,6 +144,7 @@ class Tally {
     nees_position_.assign(samples, 0.0);
     nees_velocity_.assign(samples, 0.0);
     nis_.assign(samples, 0.0);
+    nis_count_.assign(samples, 0.0);
     weights_.assign(samples, {});
   }
 
@@ -152,7 +153,10 @@ class Tally {
       for (std::size_t axis = 0; axis < 3; ++axis) squared_[k][axis] += trace.squared_error[k][axis];
       nees_position_[k] += trace.nees_position[k];
       nees_velocity_[k] += trace.nees_velocity[k];
-      nis_[k] += trace.nis[k];
+      if (!std::isnan(trace.nis[k])) {  // else the gate turned the measurement away
+        nis_[k] += trace.nis[k];
+        nis_count_[k] += 1.0;
+      }
       weights_[k].resize(trace.weights[k].size(), 0.0);
       for (std::size_t j = 0; j < trace.weights[k].size(); ++j) weights_[k][j] += trace.weights[k][j];
     }
@@ -189,7 +193,8 @@ class Tally {
       }
       result.nees_position[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_position_[k] / runs; });
       result.nees_velocity[p] = phase_mean(phases[p], [&](std::size_t k) { return nees_velocity_[k] / runs; });
-      result.nis[p] = phase_mean(phases[p], [&](std::size_t k) { return nis_[k] / runs; });
+      result.nis[p] = phase_mean(phases[p], [&](std::size_t k) { return nis_[k]; }) /
+                      phase_mean(phases[p], [&](std::size_t k) { return nis_count_[k]; });
       const auto& rmse = result.phase_rmse[p];
       result.position_rmse[p] = std::sqrt(rmse[0] * rmse[0] + rmse[1] * rmse[1] + rmse[2] * rmse[2]);
     }
@@ -223,6 +228,7 @@ class Tally {
   std::vector<double> nees_position_;
   std::vector<double> nees_velocity_;
   std::vector<double> nis_;
+  std::vector<double> nis_count_;
   std::vector<std::vector<double>> weights_;
   std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares_{};
   std::vector<double> crossings_;

@@ -189,6 +189,13 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
                              "give the squares of standard deviations");
   }
 
+  filter.gate_probability = settings.number("gate_probability", filter.gate_probability);
+  if (!(filter.gate_probability > 0.0 && filter.gate_probability <= 1.0))
+    throw settings.error("gate_probability", "a probability above 0; 1 is no gate");
+  filter.restart_after_s = settings.number("restart_after_s");
+  if (filter.restart_after_s && !(*filter.restart_after_s > 0.0))
+    throw settings.error("restart_after_s", "a positive time, in s");
+
   Accuracy usual{defaults.sigma_radar, {10.0}};
   filter.accuracy = read_accuracy(settings, usual);
   const Settings sensors = settings.sub("sensor");
@@ -287,6 +294,9 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
                           toml_list(filter.start_covariance_diagonal));
       if (filter.start_time_s) text += fmt::format("start_time_s = {}\n", shortest(*filter.start_time_s));
     }
+    if (filter.gate_probability < 1.0)
+      text += fmt::format("gate_probability = {}\n", shortest(filter.gate_probability));
+    if (filter.restart_after_s) text += fmt::format("restart_after_s = {}\n", shortest(*filter.restart_after_s));
     text += as_toml(filter.accuracy);
     for (const auto& [sensor, accuracy] : filter.sensors)
       text += fmt::format("\n[filter.{}.sensor.\"{}\"]\n{}", filter.name, sensor, as_toml(accuracy));

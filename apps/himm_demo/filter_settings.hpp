@@ -58,6 +58,8 @@ struct FilterSettings {
   std::vector<double> start_covariance_diagonal;
   double start_sigma_turn_deg_s = 3.0;  ///< of a rate that is estimated; it starts from 0
   std::optional<double> start_time_s;
+  double gate_probability = 1.0;          ///< that a right measurement passes the gate; 1 is no gate
+  std::optional<double> restart_after_s;  ///< without a measurement that passes
   Accuracy accuracy;
   std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
 

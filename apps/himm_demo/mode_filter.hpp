@@ -23,7 +23,8 @@ class ModeFilter {
 
   ModeFilter(const FilterSettings& settings, const Models& models, const Starts& starts);
 
-  void step(double dt, const std::optional<Measurement>& z);
+  /// A measurement whose NIS is above the gate counts as missed. Returns whether there was one that passed.
+  bool step(double dt, const std::optional<Measurement>& z, double gate);
 
   /// The output that the settings ask for, in `components()`.
   Estimate estimate() const;

@@ -4,7 +4,7 @@
 
 namespace sigmax::apps {
 
-// Included by the two files that instantiate it: a bank each, since that is most of the program's compile time.
+// Included only by the files that instantiate it: several, since that is most of the program's compile time.
 
 template <Uncertainty Kind>
 Relation<Kind, Kind> transition_of(const FilterSettings& settings) {
@@ -44,13 +44,14 @@ auto ModeFilter<Models>::made(const FilterSettings& settings, const Models& mode
 }
 
 template <class Models>
-void ModeFilter<Models>::step(double dt, const std::optional<Measurement>& z) {
-  std::visit(
+bool ModeFilter<Models>::step(double dt, const std::optional<Measurement>& z, double gate) {
+  return std::visit(
       [&](auto& filter) {
         if (z)
-          filter.step(dt, *z);
+          filter.step(dt, *z, gate);
         else
           filter.step(dt);
+        return filter.measured();
       },
       filter_);
 }

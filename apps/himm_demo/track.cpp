@@ -195,8 +195,8 @@ struct Target {
   Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
       : trackers(filters.begin(), filters.end()), random(random_stream) {}
 
-  bool all_running() const {
-    return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.running(); });
+  bool all_started() const {
+    return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
   }
 
   std::vector<Tracker<Axes>> trackers;
@@ -228,7 +228,7 @@ class TrackRun {
     }
     progress.finish();
     for (const auto& [name, target] : targets_)
-      if (!target.all_running()) never_started_.push_back(name);
+      if (!target.all_started()) never_started_.push_back(name);
     if (never_started_.size() == targets_.size()) refuse_nothing();
   }
 
@@ -238,6 +238,13 @@ class TrackRun {
   std::size_t measurements() const { return measurements_; }
   std::size_t tracks() const { return targets_.size(); }
   const std::vector<std::string>& never_started() const { return never_started_; }
+  /// A count of each filter's trackers, added up over the targets.
+  template <class Count>
+  std::size_t total(std::size_t filter, const Count& count) const {
+    std::size_t sum = 0;
+    for (const auto& [name, target] : targets_) sum += count(target.trackers[filter]);
+    return sum;
+  }
   const std::map<std::string, std::size_t>& sensors() const { return sensors_; }
   const Validity& validity() const { return validity_; }
   const Outliers& outliers() const { return outliers_; }
@@ -427,6 +434,19 @@ void describe(TrackReport& report, const TrackOptions& options, const RecordingR
   }
   if (recording.skipped() > 0)
     text += fmt::format("Skipped {} rows whose time was not after that of the row before\n", recording.skipped());
+  const auto by_filter = [&](const char* key, const char* what, const auto& count) {
+    std::vector<std::string> counts;
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      if (const std::size_t total = run.total(f, count); total > 0) {
+        counts.push_back(fmt::format("{} {}", filters[f].name, total));
+        summary[key][filters[f].name] = total;
+      }
+    if (!counts.empty()) text += fmt::format("{}: {}\n", what, fmt::join(counts, ", "));
+  };
+  by_filter("rejected", "Measurements that the gate turned away",
+            [](const Tracker<Axes>& tracker) { return tracker.rejected(); });
+  by_filter("restarts", "Starts after a gap",
+            [](const Tracker<Axes>& tracker) { return tracker.starts() > 0 ? tracker.starts() - 1 : 0; });
   if (options.radar)
     text += fmt::format(
         "The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed "
@@ -517,7 +537,7 @@ void track_on(const TrackOptions& options, RecordingReader& recording, const std
     report.text += fmt::format("\nWrote estimates.csv and summary.json to {}\n", options.out);
   }
   fmt::print("{}", report.text);
-  std::fflush(stdout);  // before the warnings where both are one
+  if (!report.warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
   for (const auto& warning : report.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
 }
 

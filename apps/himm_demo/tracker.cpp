@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <sigmax/estimation/chi_square.hpp>
+
 namespace sigmax::apps {
 namespace {
 
@@ -25,15 +27,18 @@ Start widened(const Estimate& estimate, bool turns, double sigma_turn) {
 }  // namespace
 
 template <int Axes>
-Tracker<Axes>::Tracker(FilterSettings settings) : settings_(std::move(settings)) {}
+Tracker<Axes>::Tracker(FilterSettings settings)
+    : settings_(std::move(settings)),
+      gate_(settings_.gate_probability < 1.0 ? chi_square_quantile(settings_.gate_probability, Axes) : no_gate) {}
 
 template <int Axes>
 void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
                          const std::function<void(double time)>& stepped) {
+  if (running() && settings_.restart_after_s && time - last_measured_ > *settings_.restart_after_s) filter_.reset();
   if (running()) {
     step(time, z);
     stepped(time);
-  } else if (settings_.start == Start::given) {
+  } else if (given()) {
     waiting_.push_back({time, z});
     if (!settings_.start_time_s && waiting_.size() < 2) return;
     start(settings_.start_time_s ? *settings_.start_time_s : 2.0 * waiting_[0].first - waiting_[1].first);
@@ -80,13 +85,15 @@ std::optional<double> Tracker<Axes>::nis() const {
 
 template <int Axes>
 void Tracker<Axes>::step(double time, const std::optional<Measurement>& z) {
-  std::visit([&](auto& filter) { filter.step(time - time_, z); }, *filter_);
+  const bool measured = std::visit([&](auto& filter) { return filter.step(time - time_, z, gate_); }, *filter_);
   time_ = time;
+  if (measured) last_measured_ = time;
+  if (z && !measured) ++rejected_;
 }
 
 template <int Axes>
 void Tracker<Axes>::start(double time) {
-  time_ = time;
+  time_ = last_measured_ = time;
   const auto start_bank = [&](const auto& bank) {
     using Models = std::decay_t<decltype(bank)>;
     using Starts = typename ModeFilter<Models>::Starts;
@@ -101,11 +108,12 @@ void Tracker<Axes>::start(double time) {
     start_bank(kinematic_bank<Axes>(settings_.motions));
   else
     start_bank(any_bank<Axes>(settings_.motions, settings_.member));
+  ++starts_;
 }
 
 template <int Axes>
 auto Tracker<Axes>::start_of(const Motion& motion) const -> Estimate {
-  return settings_.start == Start::given ? given_start(motion) : start_from_points(motion);
+  return given() ? given_start(motion) : start_from_points(motion);
 }
 
 template <int Axes>

@@ -13,7 +13,8 @@
 
 namespace sigmax::apps {
 
-/// One filter on one stream of timed measurements: it starts as its settings say, then steps.
+/// One filter on one stream of timed measurements: it starts as its settings say, then steps. After too long without a
+/// measurement that passes the gate it starts again, from the next three.
 template <int Axes>
 class Tracker {
  public:
@@ -29,8 +30,12 @@ class Tracker {
   /// given start without a time waits for the second row: it is one step before the first.
   void take(double time, const std::optional<Measurement>& z, const std::function<void(double time)>& stepped);
 
-  /// Whether there is an estimate.
+  /// Whether there is an estimate, and how often there began to be one.
   bool running() const { return filter_.has_value(); }
+  std::size_t starts() const { return starts_; }
+
+  /// How many measurements the gate has turned away.
+  std::size_t rejected() const { return rejected_; }
 
   /// The output that the settings ask for.
   Estimate estimate() const;
@@ -43,6 +48,8 @@ class Tracker {
  private:
   using Points = std::vector<TimedMeasurement<Axes>>;
 
+  /// Whether the start to come is the given one.
+  bool given() const { return settings_.start == Start::given && starts_ == 0; }
   void step(double time, const std::optional<Measurement>& z);
   void start(double time);
   /// Where a model starts.
@@ -54,7 +61,11 @@ class Tracker {
   Points points_;
   std::vector<std::pair<double, std::optional<Measurement>>> waiting_;
   std::optional<std::variant<ModeFilter<KinematicBank<Axes>>, ModeFilter<AnyBank<Axes>>>> filter_;
+  double gate_;
   double time_ = 0.0;
+  double last_measured_ = 0.0;
+  std::size_t starts_ = 0;
+  std::size_t rejected_ = 0;
 };
 
 extern template class Tracker<2>;

@@ -97,7 +97,9 @@ std::string described(const Belief<Kind>& belief, double least_margin) {
                      decision.tied > 1 ? ", a tie" : "");
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞"; }
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
+}
 
 template <class Kind>
 void print_explanation(const std::string& name, Classifier<Kind, Kind> classifier, const Readings& readings) {
@@ -151,13 +153,13 @@ void classify_and_report(const ClassifyOptions& options) {
   std::vector<Tally> tallies(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
   std::vector<ShownRow> shown;
   std::size_t count = 0;
-  Progress progress("bytes", reader.bytes_total().value_or(0), options.quiet);
-  std::uint64_t before = 0;
+  Progress progress("classifying", reader.bytes_total().value_or(0), options.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++count) {
     const Readings report = rows.readings(row);
     const auto truth = rows.truth(row);
     const std::string truth_label = truth ? pattern.label(*truth) : "";
-    ShownRow* const show = count < options.rows ? &shown.emplace_back(ShownRow{row.line(), truth_label, report, {}}) : nullptr;
+    ShownRow* const show =
+        count < options.rows ? &shown.emplace_back(ShownRow{row.line(), truth_label, report, {}}) : nullptr;
     for (std::size_t i = 0; i < all.size(); ++i) {
       Tally& tally = tallies[i];
       std::visit(
@@ -189,8 +191,7 @@ void classify_and_report(const ClassifyOptions& options) {
           },
           all[i].classifier);
     }
-    progress.advance(reader.bytes_read() - before);
-    before = reader.bytes_read();
+    progress.advance(reader.bytes_read() - progress.done());
   }
   progress.finish();
   if (count == 0) throw InputError(message({.where = options.file, .what = "there is no row below the header"}));
@@ -225,10 +226,9 @@ void classify_and_report(const ClassifyOptions& options) {
       for (const std::size_t decided : tallies[i].decided) cells.push_back(fmt::format("{}", decided));
     cells.push_back(fmt::format("{}", tallies[i].rejected));
     if (rows.has_truth())
-      cells.push_back(tallies[i].judged == 0
-                          ? "–"
-                          : fmt::format("{:.2f}", 100.0 * static_cast<double>(tallies[i].right) /
-                                                      static_cast<double>(tallies[i].judged)));
+      cells.push_back(tallies[i].judged == 0 ? "–"
+                                             : fmt::format("{:.2f}", 100.0 * static_cast<double>(tallies[i].right) /
+                                                                         static_cast<double>(tallies[i].judged)));
     table.row(cells);
   }
   table.print();

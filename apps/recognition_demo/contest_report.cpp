@@ -24,7 +24,7 @@ void print_scores(const std::vector<Score>& scores, const std::string& what_is_c
   const auto shown = shown_reports(scores.front().accuracy.size());
   std::vector<TextTable::Column> columns = {{fmt::format("right, % after {}:", what_is_counted), Align::left}};
   for (const std::size_t k : shown) columns.push_back({fmt::format("{}", k)});
-  columns.push_back({fmt::format("last − {}'s, points", scores.front().name)});
+  columns.push_back({"last − the first row's, points"});
   columns.push_back({"ties, %"});
   columns.push_back({"p or π of truth"});
   columns.push_back({"N of truth"});

@@ -12,6 +12,7 @@
 #include <sigmax/recognition/report.hpp>
 
 #include "support/input.hpp"
+#include "support/progress.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -151,7 +152,9 @@ DataTable read_data(const std::filesystem::path& path, const DataOptions& option
   table.file = reader.file();
   table.label = options.label;
   Words classes;
+  Progress progress("reading", reader.bytes_total().value_or(0), options.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
+    progress.advance(reader.bytes_read() - progress.done());
     if (is_missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
     table.labels.push_back(classes.code(trimmed(row[label])));
     if (classes.size() > most_values)
@@ -159,15 +162,16 @@ DataTable read_data(const std::filesystem::path& path, const DataOptions& option
     table.lines.push_back(row.line());
     for (auto& column : columns) column.take(row);
   }
+  progress.finish();
   if (table.labels.empty())
     throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
   table.classes = classes.sorted(table.labels);
   if (table.classes.size() == 1)
-    throw InputError(message({.where = fmt::format("{}:{}", reader.file(), table.lines.front()),
-                              .what = fmt::format("column {}", in_quotes(options.label)),
-                              .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()),
-                                                   table.labels.size()),
-                              .expected = "at least two classes"}));
+    throw InputError(
+        message({.where = fmt::format("{}:{}", reader.file(), table.lines.front()),
+                 .what = fmt::format("column {}", in_quotes(options.label)),
+                 .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.labels.size()),
+                 .expected = "at least two classes"}));
   for (auto& column : columns) table.columns.push_back(std::move(column).column(reader, table.lines.front()));
   return table;
 }

@@ -33,6 +33,7 @@ struct DataOptions {
   std::string label;                     ///< the column with the class
   std::vector<std::string> categorical;  ///< columns to take as words although they hold numbers, or "all"
   std::vector<std::string> ignore;       ///< columns to leave out
+  bool quiet = false;                    ///< no progress bar
 };
 
 /// Whether a cell holds nothing: it is empty or "?".

@@ -29,8 +29,8 @@ inline std::size_t draw(RandomStream& random, std::span<const double> probabilit
   return last;
 }
 
-/// The logarithm of a draw from the gamma density of unit scale: Marsaglia and Tsang (2000). A shape below one is raised
-/// by one and the draw shrunk by u^(1/shape), which underflows where its logarithm does not.
+/// The logarithm of a draw from the gamma density of unit scale: Marsaglia and Tsang (2000). A shape below one is
+/// raised by one and the draw shrunk by u^(1/shape), which underflows where its logarithm does not.
 inline double draw_log_gamma(RandomStream& random, double shape) {
   if (shape < 1.0) {
     const double log_u = std::log(random.uniform());

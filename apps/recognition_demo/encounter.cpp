@@ -31,9 +31,10 @@ std::vector<Contestant> contestants(const Counts& counts) {
 }
 
 void print_counts(const EncounterOptions& options, const Counts& counts) {
-  fmt::print("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are equally\n"
-             "plausible before\n",
-             options.file);
+  fmt::print(
+      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are equally\n"
+      "plausible before\n",
+      options.file);
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     double samples = 0.0;
     for (const double count : counts.of(0, c)) samples += count;
@@ -59,9 +60,10 @@ void draw_and_report(const EncounterOptions& options, const EncounterData& data,
                             [&](std::size_t, const RunTraces&) { progress.advance(); });
   progress.finish();
 
-  fmt::print("{} seeded draws from the counts themselves, every feature and report independent, as sigma inference assumes;\n"
-             "seed {}\n\n",
-             options.runs, options.seed);
+  fmt::print(
+      "{} seeded draws from the counts themselves, every feature and report independent, as sigma inference assumes;\n"
+      "seed {}\n\n",
+      options.runs, options.seed);
   print_scores(scores);
   if (!directory) return;
   Json summary = summary_of(options.command);
@@ -123,7 +125,8 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
 
   std::vector<TextTable::Column> columns = {{"% of single reports that say", Align::left}};
   for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({pattern.label(c)});
-  for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({(c == 0 ? "p or π after all: " : "") + pattern.label(c)});
+  for (std::size_t c = 0; c < pattern.size(); ++c)
+    columns.push_back({(c == 0 ? "p or π after all: " : "") + pattern.label(c)});
   TextTable table(columns);
   Json summary = summary_of(options.command);
   summary["file"] = options.file;
@@ -131,8 +134,8 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
   summary["reports"] = track.reports.size();
   summary["ground_ft"] = track.ground_ft;
   for (const Contestant& contestant : all) {
-    const TrackOutcome outcome =
-        std::visit([&](const auto& classifier) { return follow_track(classifier, track.reports); }, contestant.classifier);
+    const TrackOutcome outcome = std::visit(
+        [&](const auto& classifier) { return follow_track(classifier, track.reports); }, contestant.classifier);
     std::vector<std::string> cells = {contestant.name};
     for (const double share : outcome.single) cells.push_back(percent(share));
     for (const double value : outcome.belief) cells.push_back(fmt::format("{:.2g}", value));
@@ -143,8 +146,10 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
     }
   }
   table.print();
-  fmt::print("(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for independent:\n"
-             "the belief after all of them is more certain than it should be.)\n");
+  fmt::print(
+      "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
+      "independent:\n"
+      "the belief after all of them is more certain than it should be.)\n");
   if (!directory) return;
   AtomicFile file = directory->file("reports.csv");
   file.write("time_s");

@@ -13,8 +13,8 @@ struct EncounterOptions {
   std::size_t reports = 10;
   std::size_t runs = 1000;
   std::uint64_t seed = 1;
-  int threads = 0;       ///< 0: as many as the machine has
-  std::string track;     ///< a recording to classify instead of draws
+  int threads = 0;    ///< 0: as many as the machine has
+  std::string track;  ///< a recording to classify instead of draws
   double every_s = 10.0;
   std::optional<double> ground_ft;  ///< nothing: the lowest altitude of the recording
   std::string out;

@@ -54,9 +54,8 @@ EncounterData read_encounter(const std::filesystem::path& path) {
     layers.count.push_back(times);
   }
   if (classes.size() < 2)
-    throw InputError(message({.where = reader.file(),
-                              .found = fmt::format("{} classes", classes.size()),
-                              .expected = "at least two"}));
+    throw InputError(message(
+        {.where = reader.file(), .found = fmt::format("{} classes", classes.size()), .expected = "at least two"}));
 
   std::vector<Discretization> bins;
   std::vector<RandomVariable> variables;
@@ -107,8 +106,7 @@ TrackReports read_track(const std::filesystem::path& path, const EncounterData& 
       throw row.error(time, fmt::format("a time not before {}", rows[rows.size() - 2].time));
     if (!std::isnan(rows.back().altitude)) lowest = std::min(lowest, rows.back().altitude);
   }
-  if (!std::isfinite(lowest))
-    throw InputError(message({.where = reader.file(), .what = "no row has an altitude"}));
+  if (!std::isfinite(lowest)) throw InputError(message({.where = reader.file(), .what = "no row has an altitude"}));
 
   TrackReports result;
   result.rows = rows.size();
@@ -129,10 +127,10 @@ TrackReports read_track(const std::filesystem::path& path, const EncounterData& 
     next = row.time + every_s;
   }
   if (result.reports.empty())
-    throw InputError(message({.where = reader.file(),
-                              .what = fmt::format("no row is {} ft or more above the ground at {} ft", data.lowest_ft,
-                                                  result.ground_ft),
-                              .remedy = "give the altitude of the ground by --ground"}));
+    throw InputError(message(
+        {.where = reader.file(),
+         .what = fmt::format("no row is {} ft or more above the ground at {} ft", data.lowest_ft, result.ground_ft),
+         .remedy = "give the altitude of the ground by --ground"}));
   return result;
 }
 

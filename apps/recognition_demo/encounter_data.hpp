@@ -38,8 +38,8 @@ struct TrackReports {
   double ground_ft = 0.0;
 };
 
-/// Reads a recording and reports every so many seconds while it flies; the turn rate is that between the row and the one
-/// before, if that is at most 15 s earlier. Throws InputError with file, line, column and value.
+/// Reads a recording and reports every so many seconds while it flies; the turn rate is that between the row and the
+/// one before, if that is at most 15 s earlier. Throws InputError with file, line, column and value.
 TrackReports read_track(const std::filesystem::path& path, const EncounterData& data, double every_s,
                         std::optional<double> ground_ft);
 

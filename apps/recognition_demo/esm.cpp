@@ -45,8 +45,9 @@ std::vector<Contestant> contestants(const EsmWorld& world, const EsmOptions& opt
 std::string described_usage(const EsmOptions& options) {
   return options.usage == "uniform"
              ? "equal for all emitters of a platform, as the classifiers assume"
-             : fmt::format("Dirichlet({}) over the emitters of a platform, drawn for each run, unknown to the classifiers",
-                           options.alpha);
+             : fmt::format(
+                   "Dirichlet({}) over the emitters of a platform, drawn for each run, unknown to the classifiers",
+                   options.alpha);
 }
 
 /// The header of runs.csv: a row for each run with the truth, the readings, and what each classifier believed at last.
@@ -97,10 +98,11 @@ void esm_and_report(const EsmOptions& options) {
   const auto scores = score(all, options.runs, threads_or_all(options.threads), trace, see);
   progress.finish();
 
-  fmt::print("Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports the\n"
-             "true emitter with probability {}, each other with {:.3g}\n"
-             "Usage: {}\n{} runs of {} reports, seed {}\n\n",
-             hit, (1.0 - hit) / 4.0, described_usage(options), options.runs, options.reports, options.seed);
+  fmt::print(
+      "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports the\n"
+      "true emitter with probability {}, each other with {:.3g}\n"
+      "Usage: {}\n{} runs of {} reports, seed {}\n\n",
+      hit, (1.0 - hit) / 4.0, described_usage(options), options.runs, options.reports, options.seed);
   print_scores(scores);
 
   if (!directory) return;

@@ -29,7 +29,8 @@ Relation<Random, Random> EsmWorld::sensor(double hit) const {
   return {reading, emitter, rows};
 }
 
-std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t platform, const std::vector<double>& shares) {
+std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t platform,
+                                         const std::vector<double>& shares) {
   std::vector<double> probabilities(world.emitter.size(), 0.0);
   for (std::size_t i = 0; i < shares.size(); ++i) probabilities[world.carried[platform][i]] = shares[i];
   return probabilities;

@@ -55,7 +55,8 @@ struct EsmRun {
 };
 
 /// p(emitter) of a platform that uses its emitters, in their order, with these shares.
-std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t platform, const std::vector<double>& shares);
+std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t platform,
+                                         const std::vector<double>& shares);
 
 /// Shares of `size` emitters of which one dominates.
 std::vector<double> dominant_shares(std::size_t size, std::size_t dominant, double share);

@@ -74,8 +74,8 @@ std::vector<Outcome> outcomes(const DataTable& data) {
   std::vector<Outcome> result;
   std::vector<std::size_t> all_rows(data.labels.size());
   const RandomVariable pattern{data.label, data.classes};
-  for (const char* name : {"sigma", "max, ratio scale", "max, Dubois-Prade", "sigma-max, ratio scale",
-                           "sigma-max, Dubois-Prade"}) {
+  for (const char* name :
+       {"sigma", "max, ratio scale", "max, Dubois-Prade", "sigma-max, ratio scale", "sigma-max, Dubois-Prade"}) {
     const bool fuzzy = result.size() > 0;
     Outcome outcome{name, std::vector<std::optional<AnyBelief>>(data.labels.size()), Evaluation<Random>{pattern}};
     if (fuzzy) outcome.evaluation = Evaluation<Fuzzy>{as_fuzzy(pattern)};
@@ -124,8 +124,9 @@ void print_outcomes(const std::vector<Outcome>& all) {
     table.row(cells);
   }
   table.print();
-  fmt::print("(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. A truth is\n"
-             "covered if its possibility is at least ½: the cut holds as many classes on average.)\n");
+  fmt::print(
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. A truth is\n"
+      "covered if its possibility is at least ½: the cut holds as many classes on average.)\n");
 }
 
 void print_confusion(const DataTable& data, const Outcome& outcome) {
@@ -144,8 +145,8 @@ void print_confusion(const DataTable& data, const Outcome& outcome) {
   table.print();
 }
 
-AtomicFile predictions_file(const DataTable& data, std::span<const std::size_t> fold_of_row, const std::vector<Outcome>& all,
-                       const OutputDirectory& directory) {
+AtomicFile predictions_file(const DataTable& data, std::span<const std::size_t> fold_of_row,
+                            const std::vector<Outcome>& all, const OutputDirectory& directory) {
   AtomicFile file = directory.file("predictions.csv");
   file.write("line,fold,truth,classifier,decision");
   for (const auto& name : data.classes) file.print(",{}", csv_field(name));
@@ -154,8 +155,9 @@ AtomicFile predictions_file(const DataTable& data, std::span<const std::size_t> 
     for (const Outcome& outcome : all)
       std::visit(
           [&](const auto& belief) {
-            file.print("{},{},{},{},{}", data.lines[row], fold_of_row[row] + 1, csv_field(data.classes[data.labels[row]]),
-                       csv_field(outcome.name), csv_field(data.classes[decide(belief).pattern]));
+            file.print("{},{},{},{},{}", data.lines[row], fold_of_row[row] + 1,
+                       csv_field(data.classes[data.labels[row]]), csv_field(outcome.name),
+                       csv_field(data.classes[decide(belief).pattern]));
             for (std::size_t c = 0; c < belief.size(); ++c) file.print(",{}", shortest(belief[c]));
             file.write("\n");
           },
@@ -175,9 +177,8 @@ AtomicFile confusion_file(const DataTable& data, const std::vector<Outcome>& all
 }
 
 Json as_json(const Outcome& outcome, const Outcome& first) {
-  Json json = {{"accuracy", confusion(outcome).accuracy()},
-               {"macro_f1", confusion(outcome).macro_f1()},
-               {"ties", outcome.ties}};
+  Json json = {
+      {"accuracy", confusion(outcome).accuracy()}, {"macro_f1", confusion(outcome).macro_f1()}, {"ties", outcome.ties}};
   if (&outcome != &first)
     json["accuracy_minus_that_of_sigma"] = apps::as_json(paired_interval(correct(outcome), correct(first)));
   if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
@@ -237,7 +238,8 @@ void evaluate_and_report(const EvaluateOptions& options) {
     if (outcome.excluded > 0)
       fmt::print("{}: {} rows excluded every class and were judged by the prior\n", outcome.name, outcome.excluded);
   if (options.learning.misread == 0.0)
-    fmt::print("(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)\n");
+    fmt::print(
+        "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)\n");
   print_confusion(data, all[0]);
   print_confusion(data, all[1]);
 

@@ -78,17 +78,17 @@ LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, con
     variables.emplace_back(column.name, code.labels());
     codes.push_back(std::move(code));
   }
-  LearnedModel model{data.label, std::move(codes), Counts{RandomVariable{data.label, data.classes}, std::move(variables)},
-                     options};
+  LearnedModel model{data.label, std::move(codes),
+                     Counts{RandomVariable{data.label, data.classes}, std::move(variables)}, options};
   for (const std::size_t row : rows) model.counts.observe(data.labels[row], readings(model, data, row));
   for (std::size_t c = 0; c < data.classes.size(); ++c)
     if (model.counts.rows(c) == 0.0)
-      throw InputError(message({.where = fmt::format("{}:{}", data.file, line_of_class(data, c)),
-                                .what = fmt::format("class {} of column {}", in_quotes(data.classes[c]),
-                                                    in_quotes(data.label)),
-                                .found = "no row to learn from",
-                                .expected = "at least two in the file",
-                                .remedy = "add rows, or remove those of the class"}));
+      throw InputError(
+          message({.where = fmt::format("{}:{}", data.file, line_of_class(data, c)),
+                   .what = fmt::format("class {} of column {}", in_quotes(data.classes[c]), in_quotes(data.label)),
+                   .found = "no row to learn from",
+                   .expected = "at least two in the file",
+                   .remedy = "add rows, or remove those of the class"}));
   return model;
 }
 

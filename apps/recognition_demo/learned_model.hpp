@@ -51,15 +51,15 @@ Readings readings(const LearnedModel& model, const DataTable& data, std::size_t 
 /// The kinds of classifiers: "sigma", "max", "sigma-max".
 inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};
 
-/// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and for
-/// Dubois and Prade's transform.
+/// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and
+/// for Dubois and Prade's transform.
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds);
 
 /// "max, Dubois-Prade cannot prefer 'a': 'b' is at least as possible whatever is read", for each such class.
 std::vector<std::string> warnings(const std::vector<Contestant>& classifiers);
 
-/// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file and
-/// the place for what is no model, is truncated or of another version, or contradicts itself.
+/// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file
+/// and the place for what is no model, is truncated or of another version, or contradicts itself.
 void write_model(const LearnedModel& model, std::span<const std::string> kinds, const std::filesystem::path& path);
 struct ModelFile {
   LearnedModel model;

@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
 
   EsmOptions esm;
   esm.command = command;
-  CLI::App& esm_app = *app.add_subcommand("esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
+  CLI::App& esm_app =
+      *app.add_subcommand("esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
   esm_app.add_option("--usage", esm.usage, "How often a platform uses its emitters: equally, or drawn for each run")
       ->check(CLI::IsMember({"uniform", "dirichlet"}))
       ->capture_default_str();
@@ -102,7 +103,8 @@ int main(int argc, char** argv) {
   RegimesOptions regimes;
   regimes.command = command;
   CLI::App& regimes_app = *app.add_subcommand(
-      "regimes", "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
+      "regimes",
+      "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
   regimes_app.add_option("--reports", regimes.reports, "Reports in a run")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -114,8 +116,8 @@ int main(int argc, char** argv) {
 
   ManoeuvreOptions manoeuvre;
   manoeuvre.command = command;
-  CLI::App& manoeuvre_app = *app.add_subcommand(
-      "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
+  CLI::App& manoeuvre_app =
+      *app.add_subcommand("manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
   add_draws(manoeuvre_app, manoeuvre);
   manoeuvre_app.footer(
       "Examples:\n"
@@ -144,7 +146,8 @@ int main(int argc, char** argv) {
       ->needs(track_option)
       ->capture_default_str();
   CLI::Option* const ground_option =
-      encounter_app.add_option("--ground", encounter.ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
+      encounter_app
+          .add_option("--ground", encounter.ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
           ->needs(track_option)
           ->type_name("FT");
   add_draws(encounter_app, encounter);
@@ -157,8 +160,7 @@ int main(int argc, char** argv) {
   performance.command = command;
   CLI::App& performance_app = *app.add_subcommand(
       "performance", "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
-  performance_app
-      .add_option("data", performance.file, "type,variable,optimum,minimum,maximum,model,parameters")
+  performance_app.add_option("data", performance.file, "type,variable,optimum,minimum,maximum,model,parameters")
       ->required()
       ->type_name("PERFORMANCE.csv");
   performance_app.add_option("--draws", performance.draws, "What the quantities are drawn from")
@@ -185,7 +187,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember({"sigma", "max", "sigma-max"}))
       ->option_text("sigma,max,sigma-max [all]");
-  add_quiet(train_app, train.quiet);
+  add_quiet(train_app, train.data.quiet);
   train_app.footer(
       "Examples:\n"
       "  recognition_demo train zoo.csv --label type --ignore name --categorical all --model zoo.json\n"
@@ -216,7 +218,8 @@ int main(int argc, char** argv) {
 
   EvaluateOptions evaluate;
   evaluate.command = command;
-  CLI::App& evaluate_app = *app.add_subcommand("evaluate", "Cross-validates every kind of classifier on labelled data.");
+  CLI::App& evaluate_app =
+      *app.add_subcommand("evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(evaluate_app, evaluate);
   evaluate_app.add_option("--folds", evaluate.folds, "Parts of the data, each classified by what the others teach")
       ->check(CLI::Range(2, 1000000))
@@ -244,6 +247,7 @@ int main(int argc, char** argv) {
     } else if (classify_app.parsed()) {
       classify_and_report(classify);
     } else if (evaluate_app.parsed()) {
+      evaluate.data.quiet = evaluate.quiet;
       evaluate_and_report(evaluate);
     } else if (manoeuvre_app.parsed()) {
       manoeuvre_and_report(manoeuvre);

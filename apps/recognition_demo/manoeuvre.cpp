@@ -27,7 +27,8 @@ struct Pairing {
 
 std::vector<Pairing> pairings(const ManoeuvreScenario& scenario) {
   const auto probable = invert(scenario.target_given_manoeuvre_p(), uninformative(scenario.manoeuvre)).relation;
-  const auto possible = invert(scenario.target_given_manoeuvre_pi(), uninformative(as_fuzzy(scenario.manoeuvre))).relation;
+  const auto possible =
+      invert(scenario.target_given_manoeuvre_pi(), uninformative(as_fuzzy(scenario.manoeuvre))).relation;
   const SigmaClassifier sigma{uninformative(scenario.target), probable};
   const MaxClassifier max{uninformative(as_fuzzy(scenario.target)), possible};
   return {{{"sigma, of the IMM", sigma}, false},
@@ -44,8 +45,8 @@ struct TargetScores {
 void print(const ManoeuvreScenario& scenario, const std::vector<TargetScores>& all) {
   std::vector<TextTable::Column> columns = {{"right, % after the last sample", Align::left}};
   for (const TargetScores& target : all)
-    columns.push_back({fmt::format("{} ({} m/s²)", scenario.target.label(target.target),
-                                   scenario.acceleration[target.target])});
+    columns.push_back(
+        {fmt::format("{} ({} m/s²)", scenario.target.label(target.target), scenario.acceleration[target.target])});
   for (const TargetScores& target : all) columns.push_back({"p or π of " + scenario.target.label(target.target)});
   columns.push_back({"runs that end in a tie, %"});
   TextTable table(columns);
@@ -154,7 +155,8 @@ void manoeuvre_and_report(const ManoeuvreOptions& options) {
   progress.finish();
 
   fmt::print(
-      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at {} m/s,\n"
+      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
+      "{} m/s,\n"
       "accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}.\n"
       "From sample {} on their mode weights are the reports: cv weak, ±3 g medium, ±5 g strong.\n\n",
       options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position, Scenario::start_m,

@@ -76,9 +76,9 @@ ManoeuvreRun fly(const ManoeuvreScenario& scenario, double acceleration, RandomS
       v += T * a;
     }
     run.positions.push_back(x + Scenario::sigma_position * random.normal());
-    points.push_back({T * static_cast<double>(k - 1),
-                      {Vector<1>(run.positions.back()),
-                       SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
+    points.push_back(
+        {T * static_cast<double>(k - 1),
+         {Vector<1>(run.positions.back()), SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
   }
   const auto random_transition = transition(scenario);
   run.imm = mode_weights(scenario, random_transition, points);

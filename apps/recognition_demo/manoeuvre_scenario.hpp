@@ -41,8 +41,8 @@ struct ManoeuvreScenario {
   Relation<Fuzzy, Fuzzy> target_given_manoeuvre_pi() const;
 };
 
-/// A run: measured positions, and after each sample the logarithms of the weights of both filters' modes; none before the
-/// filters start, from samples 1 and 2.
+/// A run: measured positions, and after each sample the logarithms of the weights of both filters' modes; none before
+/// the filters start, from samples 1 and 2.
 struct ManoeuvreRun {
   std::vector<double> positions;
   std::vector<std::vector<double>> imm;

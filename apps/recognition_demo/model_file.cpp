@@ -35,7 +35,8 @@ class Node {
   std::vector<Node> list(std::string_view of_what) const {
     if (!json_.is_array()) throw error(fmt::format("a list of {}", of_what));
     std::vector<Node> result;
-    for (std::size_t i = 0; i < json_.size(); ++i) result.emplace_back(json_[i], file_, fmt::format("{}[{}]", path_, i));
+    for (std::size_t i = 0; i < json_.size(); ++i)
+      result.emplace_back(json_[i], file_, fmt::format("{}[{}]", path_, i));
     return result;
   }
   std::vector<Node> list(std::string_view of_what, std::size_t size) const {
@@ -147,8 +148,16 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
       feature["counts"].push_back(std::vector<double>(counts.of(i, c).begin(), counts.of(i, c).end()));
     json["features"].push_back(feature);
   }
+  std::string text;
+  try {
+    text = json.dump(1);
+  } catch (const Json::type_error&) {  // a name that came from the data is no UTF-8
+    throw InputError(message({.where = path.native(),
+                              .what = "cannot be written: a name in the data is not UTF-8",
+                              .remedy = "convert the data to UTF-8"}));
+  }
   AtomicFile file{path};
-  file.write(json.dump(1) + "\n");
+  file.write(text + "\n");
   file.commit();
 }
 
@@ -161,12 +170,13 @@ ModelFile read_model(const std::filesystem::path& path) {
     throw root.at("version").error(fmt::format("version {}", format_version),
                                    "train the model again with this program");
 
-  ModelFile result{{root.at("label").text(), {}, Counts{RandomVariable{"-", 1}, {RandomVariable{"-", 1}}}, {}},
-                   names(root.at("kinds"), "kinds of classifiers")};
+  // Whole before they are put together: if a later part of an aggregate throws, g++ 12 destroys the earlier ones twice.
+  const std::string label = root.at("label").text();
+  std::vector<std::string> kinds = names(root.at("kinds"), "kinds of classifiers");
   for (const Node& kind : root.at("kinds").list("kinds"))
     if (std::find(std::begin(kind_names), std::end(kind_names), kind.text()) == std::end(kind_names))
       throw kind.error(fmt::format("one of {}", fmt::join(kind_names, ", ")));
-  LearningOptions& options = result.model.options;
+  LearningOptions options;
   options.smoothing = root.at("smoothing").number(0.0, 1e9, "a number that is not negative");
   options.misread = root.at("misread").number(0.0, 1.0, "a probability below one");
   options.equal_prior = root.at("equal_prior").boolean();
@@ -184,12 +194,15 @@ ModelFile read_model(const std::filesystem::path& path) {
 
   const auto features = root.at("features").list("features");
   if (features.empty()) throw root.at("features").error("at least one feature");
+  std::vector<FeatureCode> codes;
   std::vector<RandomVariable> variables;
+  std::set<std::string> feature_names;
   for (const Node& feature : features) {
-    result.model.features.push_back(feature_code(feature));
-    variables.emplace_back(result.model.features.back().name, result.model.features.back().labels());
+    codes.push_back(feature_code(feature));
+    if (!feature_names.insert(codes.back().name).second) throw feature.at("name").error("names that differ");
+    variables.emplace_back(codes.back().name, codes.back().labels());
   }
-  Counts counts{RandomVariable{result.model.label, classes}, variables};
+  Counts counts{RandomVariable{label, classes}, variables};
   const std::vector<std::size_t> nothing(features.size(), missing);
   for (std::size_t c = 0; c < classes.size(); ++c) counts.observe(c, nothing, rows[c]);
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -203,14 +216,13 @@ ModelFile read_model(const std::filesystem::path& path) {
         sum += times;
       }
       if (sum > rows[c])
-        throw tables[c].error(fmt::format("counts with a sum of at most {}, the rows of class {}", rows[c],
-                                          in_quotes(classes[c])));
-      if (sum == 0.0 && options.smoothing == 0.0)
-        throw tables[c].error("a count above zero, as there is no smoothing");
+        throw tables[c].error(
+            fmt::format("counts with a sum of at most {}, the rows of class {}", rows[c], in_quotes(classes[c])));
+      if (sum == 0.0 && options.smoothing == 0.0) throw tables[c].error("a count above zero, as there is no smoothing");
     }
   }
-  result.model.counts = std::move(counts);
-  return result;
+  LearnedModel model{label, std::move(codes), std::move(counts), options};
+  return {std::move(model), std::move(kinds)};
 }
 
 }  // namespace sigmax::apps

@@ -45,7 +45,8 @@ FittedDensity density(const CsvRow& row, std::size_t model, std::size_t column, 
     require_positive(p[0]);
     if (p[2] == 0.0 && p[0] > 1.0 && optimum > p[1]) {
       p[2] = (optimum - p[1]) / (p[0] - 1.0);
-      remarks.push_back(fmt::format("line {}: a scale printed as 0 is rebuilt from the mode, {:.4f}", row.line(), p[2]));
+      remarks.push_back(
+          fmt::format("line {}: a scale printed as 0 is rebuilt from the mode, {:.4f}", row.line(), p[2]));
     }
     require_positive(p[2]);
     return FittedDensity::gamma(p[0], p[1], p[2]);
@@ -85,7 +86,7 @@ double FittedDensity::cdf(double x) const {
 
 double FittedDensity::quantile(double u) const {
   return location_ +
-      scale_ * std::visit([u](const auto& standard) { return boost::math::quantile(standard, u); }, standard_);
+         scale_ * std::visit([u](const auto& standard) { return boost::math::quantile(standard, u); }, standard_);
 }
 
 PerformanceData read_performance(const std::filesystem::path& path) {
@@ -117,18 +118,17 @@ PerformanceData read_performance(const std::filesystem::path& path) {
     remember(data.variables, of_variable);
   }
   if (data.types.size() < 2)
-    throw InputError(message({.where = reader.file(),
-                              .found = fmt::format("{} types", data.types.size()),
-                              .expected = "at least two"}));
+    throw InputError(message(
+        {.where = reader.file(), .found = fmt::format("{} types", data.types.size()), .expected = "at least two"}));
   for (const auto& of_variable : data.variables) {
     auto& row = data.table.emplace_back();
     for (const auto& of_type : data.types) {
       const auto found = cells.find({of_type, of_variable});
       if (found == cells.end())
-        throw InputError(message({.where = reader.file(),
-                                  .what = fmt::format("type {} has no quantity {}", in_quotes(of_type),
-                                                      in_quotes(of_variable)),
-                                  .remedy = "add the row, or remove the quantity from all types"}));
+        throw InputError(
+            message({.where = reader.file(),
+                     .what = fmt::format("type {} has no quantity {}", in_quotes(of_type), in_quotes(of_variable)),
+                     .remedy = "add the row, or remove the quantity from all types"}));
       row.push_back(found->second);
     }
   }

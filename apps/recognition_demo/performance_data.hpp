@@ -52,8 +52,8 @@ struct PerformanceData {
   std::vector<std::string> remarks;             ///< what had to be mended, with its line
 };
 
-/// Reads type,variable,optimum,minimum,maximum,model,parameters; other columns are ignored. Throws InputError with file,
-/// line, column and value for what cannot be, and for a quantity that a type lacks.
+/// Reads type,variable,optimum,minimum,maximum,model,parameters; other columns are ignored. Throws InputError with
+/// file, line, column and value for what cannot be, and for a quantity that a type lacks.
 PerformanceData read_performance(const std::filesystem::path& path);
 
 }  // namespace sigmax::apps

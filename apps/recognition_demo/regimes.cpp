@@ -44,15 +44,17 @@ struct SettingScores {
 };
 
 /// Sigma, sigma-max and max inference from the same knowledge.
-std::vector<Contestant> equally_informed(const Relation<Random, Random>& probable, const Relation<Fuzzy, Fuzzy>& possible,
-                                         const Relation<Random, Random>& sensor, std::size_t sensors) {
+std::vector<Contestant> equally_informed(const Relation<Random, Random>& probable,
+                                         const Relation<Fuzzy, Fuzzy>& possible, const Relation<Random, Random>& sensor,
+                                         std::size_t sensors) {
   const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
   return {sigma_contestant("sigma", probable, {sensors, sensor}),
           sigma_max_contestant("sigma-max", possible, {sensors, sensor}),
           max_contestant("max, Dubois-Prade", possible, {sensors, dubois_prade})};
 }
 
-/// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion, (35).
+/// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion,
+/// (35).
 std::vector<Contestant> from_the_lists(const EsmWorld& world, double hit, double elsewhere, std::size_t sensors) {
   const auto possible = world.carries(elsewhere);
   const auto probable = with_random_condition(to_probability(possible, RatioScale{}));
@@ -67,8 +69,8 @@ std::vector<Contestant> learned(const EsmWorld& world, const Usage& usage, std::
     for (std::size_t k = 0; k < seen; ++k) counts.observe_value(c, 0, draw(random, earlier));
   }
   const auto sensor = world.sensor(believed_hit);
-  auto all =
-      equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(), sensor, 1);
+  auto all = equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(),
+                              sensor, 1);
   all.push_back(sigma_max_contestant("sigma-max, p(f|c) by Dubois-Prade",
                                      learned_relations(counts, 1.0, DuboisPrade{}).front(), {sensor}));
   return all;
@@ -112,11 +114,12 @@ std::vector<Regime> regimes(const EsmWorld& world) {
   all.push_back(std::move(sensor));
 
   for (const double alpha : {0.5, 0.1}) {
-    Regime few{fmt::format("learned_{}", alpha),
-               fmt::format("Usage is Dirichlet({0}); p(f|c) is learned from n labelled reports of each platform, under an "
-                           "earlier draw of the usage",
-                           alpha),
-               {}};
+    Regime few{
+        fmt::format("learned_{}", alpha),
+        fmt::format("Usage is Dirichlet({0}); p(f|c) is learned from n labelled reports of each platform, under an "
+                    "earlier draw of the usage",
+                    alpha),
+        {}};
     const Usage usages{Usage::Kind::dirichlet, alpha};
     for (const std::size_t seen : {1U, 3U, 10U, 30U, 100U, 1000U})
       few.settings.push_back(
@@ -180,7 +183,8 @@ void print_verdict(const std::vector<SettingScores>& all) {
       }
     }
   fmt::print(
-      "\nOf {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} better (one in forty would\n"
+      "\nOf {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} better (one in forty "
+      "would\n"
       "be by chance){}\n{}",
       better_count + worse + level, worse, level, better_count, better.empty() ? "." : ":", better);
 }
@@ -228,9 +232,10 @@ void regimes_and_report(const RegimesOptions& options) {
     }
   progress.finish();
 
-  fmt::print("Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. Differences are\n"
-             "points ± 95 % by paired runs\n",
-             options.runs, options.reports, options.seed);
+  fmt::print(
+      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. Differences are\n"
+      "points ± 95 % by paired runs\n",
+      options.runs, options.reports, options.seed);
   std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
     print_regime(regime, rest.first(regime.settings.size()));

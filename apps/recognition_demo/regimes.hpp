@@ -17,8 +17,8 @@ struct RegimesOptions {
   std::string command;  ///< as typed, for the record
 };
 
-/// The synthetic emitter world in which what the classifiers believe is wrong in several ways: where is max inference, or
-/// sigma-max inference, the better one?
+/// The synthetic emitter world in which what the classifiers believe is wrong in several ways: where is max inference,
+/// or sigma-max inference, the better one?
 void regimes_and_report(const RegimesOptions& options);
 
 }  // namespace sigmax::apps

@@ -13,7 +13,8 @@ namespace sigmax::apps {
 std::string described(const DataTable& data) {
   const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
   return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.labels.size(),
-                     data.classes.size(), data.columns.size(), static_cast<long>(data.columns.size()) - numeric, numeric);
+                     data.classes.size(), data.columns.size(), static_cast<long>(data.columns.size()) - numeric,
+                     numeric);
 }
 
 std::string described(const LearningOptions& options) {
@@ -37,7 +38,9 @@ void train_and_report(const TrainOptions& options) {
   for (const FeatureCode& feature : model.features) {
     const auto labels = feature.labels();
     constexpr std::size_t shown = 6;
-    std::string list = fmt::format("{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(std::min(shown, labels.size())), ", "));
+    std::string list = fmt::format(
+        "{}",
+        fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(std::min(shown, labels.size())), ", "));
     if (labels.size() > shown) list += ", …";
     table.row({feature.name, fmt::format("{}", labels.size()), list});
   }

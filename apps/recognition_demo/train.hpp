@@ -15,7 +15,6 @@ struct TrainOptions {
   LearningOptions learning;
   std::vector<std::string> kinds;  ///< of `kind_names`
   std::string model;               ///< the file to write
-  bool quiet = false;
 };
 
 /// Learns a model from all rows of a file and writes it.

@@ -67,8 +67,11 @@ struct Reader {
   }
 
   void read(const toml::node& node, std::int64_t& value) const {
-    // toml++ converts a number only where nothing is lost, so that 1e3 is an integer and 0.5 is none.
-    const auto integer = node.is_number() ? node.value<std::int64_t>() : std::nullopt;
+    // toml++ converts a number only where nothing is lost, so that 1e3 is an integer and 0.5 is none; but 1e300, which
+    // no integer can hold, it converts all the same, and that is undefined behaviour.
+    const auto* fractional = node.as_floating_point();
+    const bool fits = fractional ? std::abs(fractional->get()) < 0x1p63 : node.is_number();
+    const auto integer = fits ? node.value<std::int64_t>() : std::nullopt;
     if (!integer) throw error(node, "an integer", as_in("3"));
     value = *integer;
   }

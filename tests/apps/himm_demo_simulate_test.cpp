@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/temporary_directory.hpp"
@@ -71,6 +74,103 @@ TEST(HimmDemoSimulate, AFilterTableOverridesAKeyForOneFilter) {
   EXPECT_EQ(plain.at("imm"), wider.at("imm"));
   EXPECT_NE(plain.at("himm"), wider.at("himm"));
   EXPECT_EQ(rmse({"sigma_w=5"}).at("himm"), wider.at("himm"));
+}
+
+/// The lines of a text that begin with that word and a comma, or hold it after the first comma.
+std::vector<std::string> lines_of(const std::string& text, const std::string& word, std::size_t column) {
+  std::vector<std::string> result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+    if (cell == word) result.push_back(line);
+  }
+  return result;
+}
+
+const std::vector<std::string> all_filters = {"imm",
+                                              "imm_correct",
+                                              "imm_released",
+                                              "imm_most_likely",
+                                              "imm_as_printed",
+                                              "gpb1",
+                                              "gpb2",
+                                              "himm",
+                                              "himm_selected",
+                                              "himm_own",
+                                              "himm_own_recentred",
+                                              "himm_released",
+                                              "himm_global",
+                                              "himm_possibility",
+                                              "viterbi",
+                                              "static_random",
+                                              "static_fuzzy"};
+
+TEST(HimmDemoSimulate, AllPrintsEveryFilterAsARowOfOneTable) {
+  const TemporaryDirectory directory;
+  const auto ending = simulate(directory.path(), {"--runs", "3", "--set", "filters=all"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  for (const auto& filter : all_filters) {
+    const auto at = ending.output.find("\n" + filter + " ");
+    ASSERT_NE(at, std::string::npos) << filter << "\n" << ending.output;
+    EXPECT_EQ(ending.output.find("\n" + filter + " ", at + 1), std::string::npos) << filter;
+  }
+  EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
+  const auto table = contents(directory.path() / "filters.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + static_cast<long>(all_filters.size()));
+  const auto summary = nlohmann::json::parse(contents(directory.path() / "summary.json"));
+  for (const auto& filter : all_filters) EXPECT_GT(summary.at("not_reproducible").at("ns_per_step").at(filter), 0.0);
+}
+
+TEST(HimmDemoSimulate, EachRowOfAllIsThatOfTheFilterAlone) {
+  const TemporaryDirectory directory;
+  for (const std::string preset : {"paper_text", "released"}) {
+    const auto all = directory.path() / preset;
+    ASSERT_EQ(simulate(all, {"--runs", "3", "--preset", preset, "--set", "filters=all"}).status, 0);
+    for (const auto& filter : all_filters) {
+      const auto alone = directory.path() / (preset + filter);
+      ASSERT_EQ(simulate(alone, {"--runs", "3", "--preset", preset, "--set", "filters=" + filter}).status, 0);
+      for (const auto& [file, column] : {std::pair{"filters.csv", 0U}, {"rmse.csv", 1U}, {"weights.csv", 1U}}) {
+        const auto rows = lines_of(contents(alone / file), filter, column);
+        EXPECT_FALSE(rows.empty()) << file;
+        EXPECT_EQ(lines_of(contents(all / file), filter, column), rows) << file << ", " << filter;
+      }
+    }
+  }
+}
+
+TEST(HimmDemoSimulate, TheNumberOfThreadsChangesNoByteOfAllFilters) {
+  const TemporaryDirectory directory;
+  for (const std::string threads : {"1", "3"})
+    ASSERT_EQ(
+        simulate(directory.path() / threads, {"--runs", "5", "--threads", threads, "--set", "filters=all"}).status, 0);
+  for (const char* file : {"filters.csv", "rmse.csv", "weights.csv"})
+    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+}
+
+TEST(HimmDemoSimulate, TheFigureOfAPhaseIsTheDistanceOfItsAxes) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(simulate(directory.path(), {"--runs", "4"}).status, 0);
+  const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results");
+  for (const char* filter : {"measurement", "imm", "himm"})
+    for (const char* phase : {"before", "during", "after"}) {
+      const auto& rmse = results.at(filter).at("phases").at(phase).at("rmse_m");
+      const double x = rmse.at("x"), y = rmse.at("y"), z = rmse.at("z");
+      EXPECT_NEAR(rmse.at("distance"), std::hypot(x, y, z), 1e-9);
+    }
+}
+
+TEST(HimmDemoSimulate, OtherModelsThanThePapersRun) {
+  const TemporaryDirectory directory;
+  const auto ending =
+      simulate(directory.path(), {"--runs", "2", "--set", "models=[cwna,singer]", "--set", "sigma_w=[3,30]"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_TRUE(contents(directory.path() / "weights.csv").starts_with("sample,filter,weight_cwna,weight_singer\n"));
+  // Without a velocity there is nothing to say of its NEES.
+  const auto still = simulate(directory.path(), {"--runs", "2", "--set", "models=ou_position", "--set", "sigma_w=1e5"});
+  ASSERT_EQ(still.status, 0) << still.output;
+  EXPECT_EQ(still.output.find("nan"), std::string::npos) << still.output;
 }
 
 TEST(HimmDemoSimulate, AnUnwritableDirectoryIsKnownBeforeTheWork) {

@@ -86,7 +86,7 @@ auto expected(const Polar& about, const Polar& sigma, const Function& function) 
 
 const std::array<std::pair<Polar, Polar>, 3> scenes{{{{100.0, 0.7, 0.4}, {5.0, 0.2, 0.1}},
                                                      {{50.0, -2.5, -1.0}, {1.0, 0.05, 0.4}},
-                                                     {{10.0, 3.1, 1.2}, {3.0, 0.3, 0.3}}}};
+                                                     {{10.0, 3.1, 1.2}, {1.0, 0.3, 0.3}}}};
 
 TEST(ConvertedMeasurement, TheUnbiasedOneIsUnbiasedAndItsCovarianceIsTheMeanSquareError) {
   for (const auto& [m, sigma] : scenes) {
@@ -185,7 +185,7 @@ Study nees_at(double angle_deg) {
   const double angle = angle_deg * degree;
   const Polar truth = to_polar({120e3, 80e3, 20e3}), in_plane{truth.range, truth.azimuth, 0.0};
   const Polar sigma{100.0, angle, angle}, sigma_in_plane{100.0, angle, 0.0};
-  std::mt19937_64 generator(1);
+  std::mt19937_64 generator(4);
   std::normal_distribution<double> normal;
   Study sum;
   for (int i = 0; i < draws; ++i) {

@@ -1,6 +1,7 @@
 // The filter over models that are nothing but matrices: components that are not nested, and states without memory.
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <random>
 
 #include <sigmax/estimation/fixed_step_model.hpp>
@@ -14,7 +15,11 @@ namespace {
 
 using support::agrees;
 using support::dense;
+using support::holds;
+using support::Interacting;
 using support::near;
+using support::number_between;
+using support::SecondOrder;
 using support::throws;
 
 using Model = FixedStepModel<3, 1>;
@@ -27,7 +32,7 @@ restatement::Model restated(const Model& model) {
 
 template <class Filter>
 void step(Filter& filter, const std::optional<Measured>& z) {
-  if constexpr (std::is_same_v<Filter, restatement::Filter>)
+  if constexpr (std::derived_from<Filter, restatement::Filter>)
     z ? filter.step(1.0, {z->mean(0)}, {1, 1, {z->covariance(0, 0)}}) : filter.step(1.0);
   else
     z ? filter.step(1.0, *z) : filter.step(1.0);
@@ -50,19 +55,19 @@ const Model turning{"turning",
 const Gaussian<3> of_accelerating{Vector<3>{1, 2, 0.5}, SquareMatrix<3>{{4, 1, 0.5}, {1, 3, 1}, {0.5, 1, 2}}};
 const Gaussian<3> of_turning{Vector<3>{0.1, 1.5, 1.5}, SquareMatrix<3>{{1, 0.2, 0.1}, {0.2, 5, 1}, {0.1, 1, 4}}};
 
-template <Uncertainty Kind>
+template <class Order, Uncertainty Kind>
 void mixes_as_the_restatement(const Interaction<Kind>& interaction) {
   const Variable<Kind> mode{"mode", {"accelerating", "turning"}};
   const double stay = std::is_same_v<Kind, Random> ? 0.8 : 1.0;
   const double move = std::is_same_v<Kind, Random> ? 0.2 : 0.5;
   const Relation<Kind, Kind> transition{mode, mode, {{stay, move}, {move, stay}}};
-  InteractingMultipleModel filter{std::tuple{accelerating, turning}, transition,
-                                  std::tuple{of_accelerating, of_turning}, interaction};
-  restatement::Filter expected{{restated(accelerating), restated(turning)},
-                               support::restate(transition),
-                               {support::restate(of_accelerating), support::restate(of_turning)},
-                               {1.0, 1.0},
-                               support::restate(interaction)};
+  typename Order::template Filter<std::tuple<Model, Model>, Kind> filter{
+      std::tuple{accelerating, turning}, transition, std::tuple{of_accelerating, of_turning}, interaction};
+  typename Order::Restated expected{{restated(accelerating), restated(turning)},
+                                    support::restate(transition),
+                                    {support::restate(of_accelerating), support::restate(of_turning)},
+                                    {1.0, 1.0},
+                                    support::restate(interaction)};
   EXPECT_EQ(filter.components(), (std::vector<std::string>{"x", "vx", "ax", "turn_rate"}));
   std::mt19937_64 generator(5);
   std::normal_distribution<double> normal;
@@ -81,11 +86,13 @@ void mixes_as_the_restatement(const Interaction<Kind>& interaction) {
 
 TEST(InteractingFixedStepModels, ComponentsThatAreNotNestedMixAsInTheRestatement) {
   for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
-    mixes_as_the_restatement<Random>({lift, {MixingWeights::correct}, Tie::stay});
-    mixes_as_the_restatement<Random>({lift, {MixingWeights::released}, Tie::stay});
+    mixes_as_the_restatement<Interacting, Random>({lift, {MixingWeights::correct}, Tie::stay});
+    mixes_as_the_restatement<Interacting, Random>({lift, {MixingWeights::released}, Tie::stay});
+    mixes_as_the_restatement<SecondOrder, Random>({lift, {}, Tie::stay});
+    mixes_as_the_restatement<SecondOrder, Fuzzy>({lift, {}, Tie::stay});
     for (const auto reading :
          {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred, MixedCovariance::released})
-      mixes_as_the_restatement<Fuzzy>({lift, {reading}, Tie::stay});
+      mixes_as_the_restatement<Interacting, Fuzzy>({lift, {reading}, Tie::stay});
   }
 }
 
@@ -107,7 +114,7 @@ double log_normal(double z, double mean, double variance) {
 
 /// The weights of the modes by brute force over all paths: each path is scored whole, and of the paths to one mode the
 /// sum or the maximum counts.
-template <Uncertainty Kind>
+template <class Order, Uncertainty Kind>
 void weighs_as_all_paths_together() {
   constexpr std::size_t modes = 3, scans = 6;
   const std::vector<double> means{-1.0, 0.5, 2.0}, variances{1.0, 4.0, 0.5};
@@ -122,7 +129,8 @@ void weighs_as_all_paths_together() {
   std::vector<Model> models;
   for (std::size_t j = 0; j < modes; ++j) models.push_back(forgetful(means[j], variances[j]));
   const Gaussian<3> anywhere{Vector<3>{3, 1, 4}, 9.0 * SquareMatrix<3>::Identity()};
-  InteractingMultipleModel filter{models, transition, std::vector<Gaussian<3>>(modes, anywhere)};
+  typename Order::template Filter<std::vector<Model>, Kind> filter{models, transition,
+                                                                   std::vector<Gaussian<3>>(modes, anywhere)};
 
   for (std::size_t k = 1; k <= scans; ++k) {
     filter.step(1.0, Measured{Vector<1>{measurements[k - 1]}, SquareMatrix<1>{R}});
@@ -151,11 +159,80 @@ void weighs_as_all_paths_together() {
   }
 }
 
-TEST(InteractingFixedStepModels, WithoutMemoryImmWeightsAreTheForwardPassOverAllPaths) {
-  weighs_as_all_paths_together<Random>();
+TEST(InteractingFixedStepModels, WithoutMemoryWeightsOfARandomModeAreTheForwardPassOverAllPaths) {
+  weighs_as_all_paths_together<Interacting, Random>();
+  weighs_as_all_paths_together<SecondOrder, Random>();
 }
-TEST(InteractingFixedStepModels, WithoutMemoryHimmWeightsAreViterbisOverAllPaths) {
-  weighs_as_all_paths_together<Fuzzy>();
+TEST(InteractingFixedStepModels, WithoutMemoryWeightsOfAFuzzyModeAreViterbisOverAllPaths) {
+  weighs_as_all_paths_together<Interacting, Fuzzy>();
+  weighs_as_all_paths_together<SecondOrder, Fuzzy>();
+}
+
+/// Of models with memory the filters keep one Gaussian a mode. As long as that is exact, from one start for all models
+/// over two scans, they must know what all histories together know.
+template <Uncertainty Kind>
+void knows_what_all_histories_know(bool selects) {
+  const auto scalar = [](const std::string& name, double F, double Q, double u) {
+    return FixedStepModel<1, 1>{name,        {"x"}, 1.0, SquareMatrix<1>{F}, SquareMatrix<1>{Q}, SquareMatrix<1>{1.0},
+                                Vector<1>{u}};
+  };
+  holds([&] {
+    constexpr std::size_t modes = 3;
+    std::vector<FixedStepModel<1, 1>> models;
+    std::vector<double> F, Q, u;
+    std::vector<std::vector<double>> rows(modes);
+    for (std::size_t j = 0; j < modes; ++j) {
+      F.push_back(number_between(-1.5, 1.5));
+      Q.push_back(number_between(0.1, 4.0));
+      u.push_back(number_between(-3.0, 3.0));
+      models.push_back(scalar("any", F[j], Q[j], u[j]));
+      for (std::size_t i = 0; i < modes; ++i) rows[j].push_back(i == j ? 1.0 : number_between(0.0, 1.0));
+      if (!selects) {
+        const double sum = rows[j][0] + rows[j][1] + rows[j][2];
+        for (double& value : rows[j]) value /= sum;
+      }
+    }
+    const Variable<Kind> mode{"mode", modes};
+    SecondOrderMultipleModel filter{models, Relation<Kind, Kind>{mode, mode, rows},
+                                    std::vector<Gaussian<1>>(modes, {Vector<1>{1.0}, SquareMatrix<1>{2.0}})};
+    const double R = 0.5;
+    const std::vector<double> z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
+    for (const double measured : z) filter.step(1.0, Measured{Vector<1>{measured}, SquareMatrix<1>{R}});
+
+    double best = -1.0, total = 0.0, mean = 0.0, square = 0.0, best_mean = 0.0, best_variance = 0.0;
+    for (std::size_t before = 0; before < modes; ++before)  // r_0: of no account for the state
+      for (std::size_t first = 0; first < modes; ++first)
+        for (std::size_t second = 0; second < modes; ++second) {
+          double weight = rows[before][first] * rows[first][second], x = 1.0, P = 2.0;
+          for (const auto& [j, seen] : {std::pair{first, z[0]}, std::pair{second, z[1]}}) {
+            x = F[j] * x + u[j];
+            P = F[j] * P * F[j] + Q[j];
+            weight *= std::exp(log_normal(seen, x, P + R));
+            const double W = P / (P + R);
+            x += W * (seen - x);
+            P *= 1.0 - W;
+          }
+          total += weight;
+          mean += weight * x;
+          square += weight * (P + x * x);
+          if (weight > best * (1.0 + 1e-12)) {
+            best = weight;
+            best_mean = x;
+            best_variance = P;
+          }
+        }
+    mean /= total;
+    const auto found = filter.estimate();
+    support::require_near(found.mean(0), selects ? best_mean : mean, 1e-9);
+    support::require_near(found.covariance(0, 0), selects ? best_variance : square / total - mean * mean, 1e-9);
+  });
+}
+
+TEST(InteractingFixedStepModels, Gpb2KnowsTheMomentsOfAllHistoriesOfTwoScans) {
+  knows_what_all_histories_know<Random>(false);
+}
+TEST(InteractingFixedStepModels, TheViterbiFilterFindsTheBestOfAllHistoriesOfTwoScans) {
+  knows_what_all_histories_know<Fuzzy>(true);
 }
 
 TEST(InteractingFixedStepModels, AVectorOfThemMayNotHaveMoreComponentsThanItsTypeAllows) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -59,11 +60,17 @@ std::vector<std::pair<std::string, Column>> columns_of(const std::filesystem::pa
   return columns;
 }
 
-class CategoricalNB : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+struct DataSet {
+  std::string name;
+  std::string label;
+  friend std::ostream& operator<<(std::ostream& out, const DataSet& data) { return out << data.name; }
+};
+
+class CategoricalNB : public testing::TestWithParam<DataSet> {};
 
 TEST_P(CategoricalNB, OfScikitLearnHasTheSamePosteriors) {
   const auto [name, label] = GetParam();
-  const auto data = std::filesystem::path(SIGMAX_DATA) / "recognition" / (std::string(name) + ".csv");
+  const auto data = std::filesystem::path(SIGMAX_DATA) / "recognition" / (name + ".csv");
   if (!std::filesystem::exists(data)) GTEST_SKIP() << "no " << data;
   const apps::TemporaryDirectory directory;
   const auto output = directory.path() / "posteriors";
@@ -101,9 +108,9 @@ TEST_P(CategoricalNB, OfScikitLearnHasTheSamePosteriors) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, CategoricalNB,
-                         testing::Values(std::pair{"mushroom", "edible"}, std::pair{"car", "LABEL"},
-                                         std::pair{"letter", "letter"}),
-                         [](const auto& test) { return std::string(test.param.first); });
+                         testing::Values(DataSet{"mushroom", "edible"}, DataSet{"car", "LABEL"},
+                                         DataSet{"letter", "letter"}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace sigmax

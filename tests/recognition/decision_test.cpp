@@ -49,7 +49,8 @@ TEST(Decide, GivesATieToTheFirst) {
   EXPECT_EQ(exact.tied, 2U);
   EXPECT_EQ(exact.margin, 0.0);
   EXPECT_EQ(decide(Belief{Distribution{target, {1.0 - 5e-10, 1.0, 0.0}}}).pattern, 0U);  // within the tolerance
-  EXPECT_EQ(decide(Belief{Distribution{target, {1.0 - 2e-9, 1.0, 0.0}}}).pattern, 1U);   // and beyond it
+  EXPECT_EQ(decide(Belief{Distribution{target, {1.0 - 5e-10, 1.0, 0.0}}}).margin, 0.0);
+  EXPECT_EQ(decide(Belief{Distribution{target, {1.0 - 2e-9, 1.0, 0.0}}}).pattern, 1U);  // and beyond it
   EXPECT_EQ(decide(Belief{uninformative(animal)}).tied, 3U);
 }
 

@@ -26,16 +26,16 @@ struct SoakReport {
   std::string failure;
 };
 
-/// Whether a covariance is symmetric to the bit and, scaled to a unit diagonal, has no eigenvalue below −1e-9. It must
-/// be scaled since variances of 1e-9 and of 1e28 stand in one matrix, the one in (m/s²)², the other in m². Below
-/// 1e-290, where numbers have fewer digits, a variance counts as 1e-290.
+/// Whether a covariance is symmetric to the bit and, scaled to a unit diagonal, has no eigenvalue below −1e-9 of its
+/// trace. It must be scaled since variances of 1e-9 and of 1e28 stand in one matrix, the one in (m/s²)², the other in
+/// m². Below 1e-290, where numbers have fewer digits, a variance counts as 1e-290.
 template <class Covariance>
 bool symmetric_and_semi_definite(const Covariance& P) {
   using Matrix = std::remove_cvref_t<decltype(P.eval())>;
   if (!P.allFinite() || !(P == P.transpose()) || !(P.diagonal().array() >= 0.0).all()) return false;
   const auto scale = P.diagonal().array().max(1e-290).rsqrt().matrix().eval();
   Matrix scaled = scale.asDiagonal() * P * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-9;
+  scaled.diagonal().array() += 1e-9 * static_cast<double>(P.rows());
   return Eigen::LLT<Matrix>(scaled).info() == Eigen::Success;
 }
 

@@ -17,6 +17,7 @@ template <int N, int MaxN>
 SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN, MaxN>& P, std::string_view model) {
   const Eigen::Index n = P.rows();
   const double rounding = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  constexpr double accumulated = 1e-10;  // of earlier rounding, relative to the variance
   const auto refuse = [&](Eigen::Index k) {
     throw std::domain_error("the covariance of model '" + std::string(model) +
                             "' is not positive semi-definite, as its component " + std::to_string(k + 1) + " shows");
@@ -25,7 +26,7 @@ SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN,
   for (Eigen::Index k = 0; k < n; ++k) {
     double pivot = P(k, k);
     for (Eigen::Index j = 0; j < k; ++j) pivot -= L(k, j) * L(k, j);
-    if (!(pivot >= -rounding * P(k, k) && pivot < std::numeric_limits<double>::infinity())) refuse(k);
+    if (!(pivot >= -accumulated * P(k, k) && pivot < std::numeric_limits<double>::infinity())) refuse(k);
     const bool zero = pivot <= rounding * P(k, k);
     if (!zero) L(k, k) = std::sqrt(pivot);
     for (Eigen::Index i = k + 1; i < n; ++i) {
@@ -33,7 +34,7 @@ SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN,
       for (Eigen::Index j = 0; j < k; ++j) entry -= L(i, j) * L(k, j);
       if (!zero)
         L(i, k) = entry / L(k, k);
-      else if (!(entry * entry <= rounding * P(k, k) * P(i, i)))  // no covariance without variance
+      else if (!(entry * entry <= accumulated * P(k, k) * P(i, i)))  // no covariance without variance
         refuse(i);
     }
   }

@@ -18,7 +18,7 @@ namespace sigmax {
 /// integral)
 ///
 ///   F = [I  T(sin θ/θ I + (1−cos θ)/θ J); 0  cos θ I + sin θ J],  J a quarter turn,
-///   Q = q [2T³ s I, T² (c I + θ s J); ·, T I],  s = (θ − sin θ)/θ³,  c = (1 − cos θ)/θ².
+///   Q = q [2T³ s I, T² (c I − θ s J); ·, T I],  s = (θ − sin θ)/θ³,  c = (1 − cos θ)/θ².
 ///
 /// ω = 0 is CWNA.
 template <int Axes>

@@ -91,10 +91,13 @@ struct Propagated {
   }
 };
 
-/// Only a negative weight can take the definiteness of a sum of squares away.
+/// Returns a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
+/// if it did.
 template <SigmaPointMember Filter>
-void require_semidefinite(const Filter& member, const EstimateOf<Filter>& estimate) {
-  if (member.weights().centre_of_covariance < 0.0) covariance_root(estimate.covariance, member.name());
+auto proved_semidefinite(const Filter& member, SquareMatrix<Filter::state_size, Filter::max_state_size> covariance) {
+  mirror_lower(covariance);
+  if (member.weights().centre_of_covariance < 0.0) covariance_root(covariance, member.name());
+  return covariance;
 }
 
 }  // namespace detail
@@ -109,11 +112,9 @@ void predict(const Filter& member, const EstimateOf<Filter>& prior, double dt, E
   } else {
     const SigmaPoints<Filter> points(member, prior);
     const detail::Propagated<Filter> images(member, points, prior.mean, dt);
+    result.covariance = detail::proved_semidefinite(
+        member, points.covariance(images.deviations, images.deviations) + member.model().process_covariance(dt));
     result.mean = images.mean;
-    result.covariance = points.covariance(images.deviations, images.deviations);
-    result.covariance += member.model().process_covariance(dt);
-    mirror_lower(result.covariance);
-    detail::require_semidefinite(member, result);
   }
 }
 
@@ -157,11 +158,9 @@ Innovation<Filter::measurement_size> update(const Filter& member, const Estimate
 
   const typename SigmaPoints<Filter>::template Columns<N, max_N> rest = points.offsets() - W.lazyProduct(seen);
   const RectangularMatrix<N, M, max_N, M> WR = W.lazyProduct(measurement.covariance);
+  posterior.covariance =
+      detail::proved_semidefinite(member, points.covariance(rest, rest) + WR.lazyProduct(W.transpose()));
   posterior.mean = prior.mean + W * innovation.residual;
-  posterior.covariance = points.covariance(rest, rest);
-  posterior.covariance += WR.lazyProduct(W.transpose());
-  mirror_lower(posterior.covariance);
-  detail::require_semidefinite(member, posterior);
   return innovation;
 }
 

@@ -3,6 +3,5 @@
 namespace sigmax::apps {
 
 template class ModeFilter<AnyBank<2>>;
-template class ModeFilter<AnyBank<3>>;
 
 }  // namespace sigmax::apps

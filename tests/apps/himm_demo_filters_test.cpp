@@ -1,0 +1,313 @@
+// The filters that have names, and the models that a filter can have, in himm_demo.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/start.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+
+#include "apps/recordings.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/near.hpp"
+#include "support/program.hpp"
+#include "support/second_order_restatement.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using support::near;
+
+struct Point {
+  double time;
+  std::vector<double> z;
+};
+
+std::string csv(const std::vector<Point>& points) {
+  std::string text = points.front().z.size() == 3 ? "time_s,x_m,y_m,z_m\n" : "time_s,x_m,y_m\n";
+  for (const auto& point : points) {
+    text += exact(point.time);
+    for (const double z : point.z) text += "," + exact(z);
+    text += "\n";
+  }
+  return text;
+}
+
+/// A target that flies straight, accelerates and flies on, seen to 10 m at irregular times.
+std::vector<Point> accelerating_target() {
+  std::mt19937_64 engine(11);
+  std::normal_distribution<double> noise(0.0, 10.0);
+  std::uniform_real_distribution<double> step(0.1, 0.4);
+  std::vector<double> x = {1200.0, 800.0, 300.0};
+  std::vector<double> v = {-100.0, -80.0, 0.0};
+  std::vector<Point> points;
+  double time = 3.0;
+  for (int k = 0; k < 150; ++k) {
+    const std::vector<double> a = k >= 50 && k < 90 ? std::vector{-30.0, -50.0, 4.0} : std::vector{0.0, 0.0, 0.0};
+    const double dt = step(engine);
+    time += dt;
+    Point point{time, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] += dt * v[i] + 0.5 * dt * dt * a[i];
+      v[i] += dt * a[i];
+      point.z.push_back(x[i] + noise(engine));
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// What a name stands for, in the restatement's terms.
+struct Named {
+  std::string name;
+  restatement::Options options;
+  bool second_order = false;
+  bool independent = false;
+};
+
+std::vector<Named> named_filters() {
+  using namespace restatement;
+  const auto filter = [](Kind kind, auto change) {
+    Options options;
+    options.kind = kind;
+    options.mixed_covariance = MixedCovariance::own_recentred;
+    options.lift = Lift::borrowed_variance;
+    change(options);
+    return options;
+  };
+  const auto imm = [&](auto change) { return filter(Kind::imm, change); };
+  const auto himm = [&](auto change) { return filter(Kind::himm, change); };
+  const auto as_it_is = [](Options&) {};
+  return {
+      {"imm", imm(as_it_is)},
+      {"imm_correct", imm(as_it_is)},
+      {"imm_released", imm([](Options& own) { own.mixing_weights = Weights::released; })},
+      {"imm_as_printed", imm([](Options& own) { own.output_spread_omitted = true; })},
+      {"gpb1", imm([](Options& own) { own.common_start = true; })},
+      {"gpb2", imm(as_it_is), true},
+      {"static_random", imm(as_it_is), false, true},
+      {"himm", himm(as_it_is)},
+      {"himm_selected", himm([](Options& own) { own.mixed_covariance = MixedCovariance::selected; })},
+      {"himm_own", himm([](Options& own) { own.mixed_covariance = MixedCovariance::own; })},
+      {"himm_own_recentred", himm(as_it_is)},
+      {"himm_released", himm([](Options& own) { own.mixed_covariance = MixedCovariance::released; })},
+      {"himm_global", himm([](Options& own) { own.common_start = true; })},
+      {"himm_possibility", himm([](Options& own) { own.possibilistic = true; })},
+      {"viterbi", himm(as_it_is), true},
+      {"static_fuzzy", himm(as_it_is), false, true},
+  };
+}
+
+const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
+const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
+
+template <class Filter>
+void expect_restated(const Named& named, const std::vector<Point>& points, const std::vector<TextRow>& found) {
+  using restatement::Index;
+  std::vector<restatement::State> starts;
+  for (const Index n : {6U, 9U}) {
+    restatement::State start{restatement::Vector(n), restatement::Matrix(n, n)};
+    for (Index i = 0; i < n; ++i) {
+      start.mean[i] = start_mean[i];
+      start.covariance(i, i) = start_variance[i];
+    }
+    starts.push_back(start);
+  }
+  const bool fuzzy = named.options.kind == restatement::Kind::himm;
+  const restatement::Matrix transition =
+      named.independent
+          ? restatement::identity(2)
+          : restatement::Matrix(2, 2, fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9});
+  Filter filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition, starts, {1.0, 1.0}, named.options);
+  restatement::Matrix R(3, 3);
+  for (Index i = 0; i < 3; ++i) R(i, i) = 100.0;
+
+  ASSERT_EQ(found.size(), points.size());
+  double time = 2.5;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    filter.step(points[k].time - time, points[k].z, R);
+    time = points[k].time;
+    const auto estimate = filter.estimate();
+    SCOPED_TRACE(named.name + ", step " + std::to_string(k));
+    const std::vector<const char*> means = {"x_m",    "y_m",     "z_m",     "vx_mps", "vy_mps",
+                                            "vz_mps", "ax_mps2", "ay_mps2", "az_mps2"};
+    for (Index i = 0; i < 9; ++i) ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(means[i])), estimate.mean[i], 1e-9);
+    const std::vector<const char*> sigmas = {"sigma_x_m",    "sigma_y_m",    "sigma_z_m",
+                                             "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps"};
+    for (Index i = 0; i < 6; ++i)
+      ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(sigmas[i])), std::sqrt(estimate.covariance(i, i)), 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("nis")), *filter.nis(), 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
+  }
+}
+
+program::Ending himm_demo(std::vector<std::string> arguments, const std::vector<std::string>& sets = {}) {
+  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  return program::run(SIGMAX_HIMM_DEMO, arguments);
+}
+
+std::vector<TextRow> of_filter(const std::vector<TextRow>& all, const std::string& filter) {
+  std::vector<TextRow> own;
+  for (const auto& row : all)
+    if (row.at("filter") == filter) own.push_back(row);
+  return own;
+}
+
+TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
+  const auto points = accelerating_target();
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  const auto ending =
+      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
+                {"filters=all", "start=given", "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
+                 "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]", "start_time_s=2.5", "sigma_w=[3,4]",
+                 "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(out / "estimates.csv"));
+  for (const auto& named : named_filters()) {
+    if (named.second_order)
+      expect_restated<restatement::SecondOrderFilter>(named, points, of_filter(found, named.name));
+    else
+      expect_restated<restatement::Filter>(named, points, of_filter(found, named.name));
+  }
+  // The one that the restatement does not know: the estimate of the more likely mode, with the IMM's weights.
+  const auto imm = of_filter(found, "imm");
+  const auto likely = of_filter(found, "imm_most_likely");
+  ASSERT_EQ(imm.size(), likely.size());
+  for (std::size_t k = 0; k < imm.size(); ++k) EXPECT_EQ(imm[k].at("weight_dwna"), likely[k].at("weight_dwna"));
+  EXPECT_EQ(found.size(), points.size() * (named_filters().size() + 1)) << "all names are known here";
+}
+
+/// A target that flies straight and then on a circle, at 1 Hz, seen to 5 m.
+std::vector<Point> turning_target() {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> noise(0.0, 5.0);
+  double x = 0.0, y = 0.0, heading = 0.3;
+  std::vector<Point> points;
+  for (int k = 0; k < 100; ++k) {
+    points.push_back({static_cast<double>(k), {x + noise(engine), y + noise(engine)}});
+    x += 50.0 * std::cos(heading);
+    y += 50.0 * std::sin(heading);
+    if (k >= 30) heading += 0.06;
+  }
+  return points;
+}
+
+TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
+  const auto points = turning_target();
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  const auto ending =
+      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
+                {"filters=imm", "models=[dwna,ct]", "member=ukf", "sigma_w=[1,0.5]", "turn_drift_deg_s=0.3",
+                 "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(out / "estimates.csv"));
+  ASSERT_EQ(found.size(), points.size() - 3);
+
+  const auto measured = [&](std::size_t k) {
+    return Gaussian<2>{Vector<2>(points[k].z[0], points[k].z[1]), 25.0 * SquareMatrix<2>::Identity()};
+  };
+  const double degree = std::numbers::pi / 180.0;
+  const std::tuple models{dwna<2>(1.0), Unscented{CoordinatedTurn<2>(0.25, 0.09 * degree * degree)}};
+  const auto straight = two_point_start<2>({1.0, measured(1)}, {2.0, measured(2)});
+  Gaussian<5> turning{Vector<5>::Zero(), SquareMatrix<5>::Zero()};
+  turning.mean.head<4>() = straight.mean;
+  turning.covariance.topLeftCorner<4, 4>() = straight.covariance;
+  turning.covariance(4, 4) = 16.0 * degree * degree;
+  const RandomVariable mode{"mode", 2};
+  InteractingMultipleModel filter{models, Relation{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}},
+                                  std::tuple{straight, turning}};
+  for (std::size_t k = 3; k < points.size(); ++k) {
+    filter.step(1.0, measured(k));
+    const auto estimate = filter.estimate();
+    const auto& row = found[k - 3];
+    SCOPED_TRACE("step " + std::to_string(k));
+    const std::vector<const char*> means = {"x_m", "y_m", "vx_mps", "vy_mps"};
+    const std::vector<const char*> sigmas = {"sigma_x_m", "sigma_y_m", "sigma_vx_mps", "sigma_vy_mps"};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto n = static_cast<Eigen::Index>(i);
+      ASSERT_PRED_FORMAT3(near, std::stod(row.at(means[i])), estimate.mean(n), 1e-9);
+      ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[i])), std::sqrt(estimate.covariance(n, n)), 1e-9);
+    }
+    EXPECT_EQ(row.at("ax_mps2"), "");
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), filter.belief()[0], 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), filter.nis(), 1e-9);
+  }
+}
+
+TEST(HimmDemoFilters, EveryModelWithEveryMemberTracksOnTwoAxesAndThree) {
+  const TemporaryDirectory directory;
+  for (const auto& points : {turning_target(), accelerating_target()})
+    for (const std::string member : {"ekf", "ukf", "ckf"}) {
+      const auto ending =
+          himm_demo({"track", directory.write("recording.csv", csv(points))},
+                    {"models=[dwna,dwpa,cwna,cwpa,singer,ou_position,ou_velocity,known_turn,ct]",
+                     "sigma_w=[1,1,1,1,5,1000,100,1,1]", "member=" + member, "filters=[imm,himm,gpb2,viterbi]"});
+      EXPECT_EQ(ending.status, 0) << ending.output;
+      EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
+    }
+}
+
+TEST(HimmDemoFilters, ALinearModelIsTheSameWhateverTheMember) {
+  const TemporaryDirectory directory;
+  const auto input = directory.write("recording.csv", csv(turning_target()));
+  const auto estimates = [&](const std::string& member) {
+    const auto ending =
+        himm_demo({"track", input, "--out", directory.path() / member}, {"models=[cwna,singer]", "member=" + member});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    return contents(directory.path() / member / "estimates.csv");
+  };
+  const auto kf = estimates("kf");
+  for (const std::string member : {"ekf", "ukf", "ckf"}) EXPECT_EQ(estimates(member), kf);
+}
+
+TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
+  const TemporaryDirectory directory;
+  const std::vector<std::vector<std::string>> cases = {
+      {"filters=all"},
+      {"models=[singer,ou_velocity,ou_position]", "tau_s=[7,30,0.1]", "sigma_w=[2,3,4]"},
+      {"models=[known_turn,known_turn,cwna]", "turn_deg_s=[3,-2.7,0]", "filters=[gpb2]"},
+      {"models=[ct,cwpa]", "turn_drift_deg_s=0.3", "start_sigma_turn_deg_s=4.1", "member=ckf"},
+      {"filters=[fast]", "filter.fast.kind=fuzzy", "filter.fast.scheme=second_order", "likelihood=possibility"},
+      {"filters=[imm]", "output_spread=omitted", "output=most_likely", "scheme=common_start"},
+  };
+  for (const auto& sets : cases) {
+    const auto first = himm_demo({"simulate", "--print-config"}, sets);
+    ASSERT_EQ(first.status, 0) << first.output;
+    const auto again = himm_demo({"simulate", "--print-config", "--config", directory.write("c.toml", first.output)});
+    EXPECT_EQ(again.output, first.output);
+  }
+  const auto turns = himm_demo({"simulate", "--print-config"}, cases[3]);
+  for (const std::string line : {"models = [\"ct\", \"cwpa\"]\n", "turn_drift_deg_s = [0.3, 0.3]\n",
+                                 "member = \"ckf\"\n", "start_sigma_turn_deg_s = 4.1\n"})
+    EXPECT_NE(turns.output.find(line), std::string::npos) << turns.output;
+}
+
+TEST(HimmDemoFilters, WhatCannotBeIsRefusedWithARemedy) {
+  const auto refusal = [](const std::vector<std::string>& sets) {
+    const auto ending = himm_demo({"simulate"}, sets);
+    EXPECT_EQ(ending.status, 3) << ending.output;
+    return ending.output;
+  };
+  EXPECT_NE(refusal({"models=[dwna,ct]", "member=kf"}).find("ekf, ukf or ckf, since the model ct is not linear"),
+            std::string::npos);
+  EXPECT_NE(refusal({"models=[dwna,turn]"}).find("names out of dwna, dwpa, cwna"), std::string::npos);
+  EXPECT_NE(refusal({"tau_s=0"}).find("positive times"), std::string::npos);
+  EXPECT_NE(refusal({"turn_deg_s=[1,2,3]"}).find("one number, or one for each model"), std::string::npos);
+  EXPECT_NE(refusal({"filters=[viterby]"}).find("viterbi"), std::string::npos);
+  EXPECT_NE(refusal({"membre=ukf"}).find("did you mean 'member'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sigmax::apps

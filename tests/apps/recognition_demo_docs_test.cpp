@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "apps/recognition_demo_support.hpp"
+#include "apps/temporary_directory.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+struct Shown {
+  std::string command;
+  std::string output;
+};
+
+/// The indented commands of docs/recognition_demo.md, each with the block of text that follows it.
+std::vector<Shown> shown() {
+  std::istringstream lines(contents(std::filesystem::path(SIGMAX_SOURCE) / "docs" / "recognition_demo.md"));
+  std::vector<Shown> all;
+  bool in_block = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("    recognition_demo"))
+      all.push_back({line.substr(4), ""});
+    else if (line == "```text")
+      in_block = !all.empty();
+    else if (line == "```")
+      in_block = false;
+    else if (in_block)
+      all.back().output += line + "\n";
+  }
+  return all;
+}
+
+TEST(RecognitionDemoDocs, ShowWhatTheProgramPrints) {
+  const std::filesystem::path data = SIGMAX_DATA;
+  if (!std::filesystem::exists(data / "recognition")) GTEST_SKIP() << data << " is absent";
+  const TemporaryDirectory directory;
+  for (const char* folder : {"recognition", "tracking"})
+    for (const auto& file : std::filesystem::directory_iterator(data / folder))
+      if (file.path().extension() == ".csv")
+        std::filesystem::create_symlink(file.path(), directory.path() / file.path().filename());
+  const auto all = shown();
+  EXPECT_GE(all.size(), 15U);
+  for (const auto& [command, output] : all) {
+    const std::string arguments = command.substr(command.find(' ') + 1);
+    const auto ending = program::run("/bin/sh", {"-c", "cd " + program::quoted(directory.path()) + " && exec " +
+                                                           program::quoted(SIGMAX_RECOGNITION_DEMO) + " " +
+                                                           (arguments == command ? "" : arguments)});
+    EXPECT_EQ(ending.status, 0) << command;
+    EXPECT_EQ(ending.output, output) << command;
+  }
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/recognition_demo_support.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/near.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using support::near;
+
+/// The world of docs/recognition_demo.md once more: T1{e1,e2}, T2{e2,e3}, T3{e1,e3,e4}, T4{e2,e4,e5}.
+const Matrix carried = {{1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}, {1, 0, 1, 1, 0}, {0, 1, 0, 1, 1}};
+
+Matrix equal_usage() {
+  return each_row(carried, [](const Numbers& row) { return divided(row, sum(row)); });
+}
+
+Matrix sensor(double right, double wrong) {
+  Matrix rows(5, Numbers(5, wrong));
+  for (std::size_t f = 0; f < 5; ++f) rows[f][f] = right;
+  return rows;
+}
+
+struct Inference {
+  std::string name;
+  Matrix emitter_given_platform;
+  Matrix reading_given_emitter;
+  bool feature_by_max;
+  bool pattern_by_max;
+};
+
+std::vector<Inference> inferences() {
+  const Matrix p = sensor(0.7, 0.075), ratio = sensor(1.0, 0.075 / 0.7), dubois_prade = sensor(1.0, 0.3);
+  return {{"sigma", equal_usage(), p, false, false},
+          {"max, ratio scale", carried, ratio, true, true},
+          {"max, Dubois-Prade", carried, dubois_prade, true, true},
+          {"sigma-max", carried, p, true, true},
+          {"max-sigma, ratio scale", equal_usage(), ratio, false, false},
+          {"max-sigma, Dubois-Prade", equal_usage(), dubois_prade, false, false}};
+}
+
+/// What is believed after one more reading: b(c) ⊗ ⊕_f L(z|f) L(f|c), divided by its ⊕.
+Numbers believed(const Inference& inference, const Numbers& before, std::size_t reading) {
+  Numbers after;
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    double likelihood = 0.0;
+    for (std::size_t f = 0; f < 5; ++f) {
+      const double term = inference.reading_given_emitter[f][reading] * inference.emitter_given_platform[c][f];
+      likelihood = inference.feature_by_max ? std::max(likelihood, term) : likelihood + term;
+    }
+    after.push_back(before[c] * likelihood);
+  }
+  return divided(after, inference.pattern_by_max ? greatest(after) : sum(after));
+}
+
+double credit(const Numbers& belief, std::size_t truth) {
+  const auto ties = [&](double value) { return value >= greatest(belief) * (1.0 - 1e-9); };
+  if (!ties(belief[truth])) return 0.0;
+  return 1.0 / static_cast<double>(std::count_if(belief.begin(), belief.end(), ties));
+}
+
+std::size_t number_after(char letter, const std::string& word) {
+  EXPECT_EQ(word.at(0), letter);
+  return std::stoul(word.substr(1)) - 1;
+}
+
+program::Ending esm(const std::filesystem::path& out, std::vector<std::string> more) {
+  std::vector<std::string> arguments = {"esm", "--quiet", "--out", out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return recognition_demo(arguments);
+}
+
+class Esm : public testing::TestWithParam<std::string> {};
+
+TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
+  const TemporaryDirectory directory;
+  const auto ending = esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  std::map<std::string, Numbers> accuracy;
+  const auto runs = rows_of(directory.path() / "runs.csv");
+  ASSERT_EQ(runs.size(), 60U);
+  for (const auto& run : runs)
+    for (const auto& inference : inferences()) {
+      const std::size_t truth = number_after('T', run.at("platform"));
+      Numbers belief(4, inference.pattern_by_max ? 1.0 : 0.25);
+      Numbers& of_runs = accuracy[inference.name];
+      of_runs.resize(15, 0.0);
+      std::istringstream readings(run.at("readings"));
+      std::string word;
+      for (std::size_t k = 0; readings >> word; ++k) {
+        belief = believed(inference, belief, number_after('e', word));
+        of_runs.at(k) += credit(belief, truth) / 60.0;
+      }
+      Numbers found;
+      for (const char* platform : {"T1", "T2", "T3", "T4"})
+        found.push_back(std::stod(run.at(inference.name + ": " + platform)));
+      EXPECT_PRED_FORMAT3(near, found, belief, 1e-9) << inference.name << ", run " << run.at("run");
+    }
+  std::size_t compared = 0;
+  for (const auto& row : rows_of(directory.path() / "curves.csv"))
+    if (const auto curve = accuracy.find(row.at("classifier")); curve != accuracy.end()) {
+      EXPECT_PRED_FORMAT3(near, std::stod(row.at("accuracy")), curve->second.at(std::stoul(row.at("report")) - 1), 1e-9)
+          << row.at("classifier") << ", report " << row.at("report");
+      ++compared;
+    }
+  EXPECT_EQ(compared, 6U * 15U);
+}
+
+INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("uniform", "dirichlet"));
+
+TEST(RecognitionDemoEsm, TheNumberOfThreadsChangesNoByte) {
+  const TemporaryDirectory directory;
+  for (const std::string threads : {"1", "3"})
+    ASSERT_EQ(esm(directory.path() / threads,
+                  {"--usage", "dirichlet", "--runs", "300", "--reports", "3", "--threads", threads})
+                  .status,
+              0);
+  for (const char* file : {"runs.csv", "curves.csv"})
+    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+}
+
+TEST(RecognitionDemoEsm, TheSeedChoosesTheRuns) {
+  const TemporaryDirectory directory;
+  for (const std::string seed : {"1", "2"})
+    ASSERT_EQ(esm(directory.path() / seed, {"--runs", "5", "--seed", seed}).status, 0);
+  EXPECT_NE(contents(directory.path() / "1" / "runs.csv"), contents(directory.path() / "2" / "runs.csv"));
+}
+
+TEST(RecognitionDemoEsm, IsWhatTheProgramRunsWithoutArguments) {
+  const auto plain = recognition_demo({});
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_EQ(plain.output, recognition_demo({"esm"}).output);
+  EXPECT_TRUE(plain.output.starts_with("Synthetic emitter world, not recorded data")) << plain.output;
+}
+
+TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(esm(directory.path() / "esm", {"--runs", "20", "--reports", "4", "--seed", "7"}).status, 0);
+  const auto regimes = recognition_demo(
+      {"regimes", "--runs", "20", "--reports", "4", "--seed", "7", "--quiet", "--out", directory.path() / "regimes"});
+  ASSERT_EQ(regimes.status, 0) << regimes.output;
+  std::map<std::string, std::string> last;
+  for (const auto& row : rows_of(directory.path() / "esm" / "curves.csv"))
+    if (row.at("report") == "4") last[row.at("classifier")] = row.at("accuracy");
+  std::size_t compared = 0;
+  for (const auto& row : rows_of(directory.path() / "regimes" / "regimes.csv"))
+    if (row.at("regime") == "usage" && row.at("setting") == "equal") {
+      EXPECT_EQ(row.at("accuracy"), last.at(row.at("classifier"))) << row.at("classifier");
+      ++compared;
+    }
+  EXPECT_EQ(compared, 3U);
+  const auto summary = nlohmann::json::parse(contents(directory.path() / "regimes" / "summary.json"));
+  EXPECT_EQ(summary.at("regimes").at("conflict").size(), 4U);
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,117 @@
+// Every member of the Kalman family is a mode of a multiple-model filter.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/observed.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/sensors.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+
+#include "support/matrices.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::near_matrix;
+
+template <Uncertainty Kind>
+Relation<Kind, Kind> transition() {
+  const Variable<Kind> mode{"mode", 3};
+  return std::is_same_v<Kind, Random>
+             ? Relation<Kind, Kind>{mode, mode, {{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}}}
+             : Relation<Kind, Kind>{mode, mode, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
+}
+
+Gaussian<9> start() {
+  Gaussian<9> result{Vector<9>::Zero(), 100.0 * SquareMatrix<9>::Identity()};
+  result.mean.head<6>() << 1000.0, 2000.0, 300.0, 50.0, -60.0, 1.0;
+  return result;
+}
+Gaussian<3> measurement(int k) {
+  const double t = 0.5 * (k + 1);
+  return {Vector<3>(1000.0 + 50.0 * t + 4.0 * t * t, 2000.0 - 60.0 * t + 3.0 * std::sin(5.0 * t), 300.0 + t),
+          25.0 * SquareMatrix<3>::Identity()};
+}
+
+template <Uncertainty Kind>
+void linear_members_are_the_kalman_filter() {
+  const PositionSensor<3> sensor;
+  InteractingMultipleModel expected{std::tuple{dwna<3>(3.0), dwpa<3>(1.0), singer<3>(0.2, 2.0)}, transition<Kind>(),
+                                    start()};
+  InteractingMultipleModel found{
+      std::tuple{Extended{Observed{dwna<3>(3.0), sensor}}, Unscented{Observed{dwpa<3>(1.0), sensor}},
+                 Cubature{Observed{singer<3>(0.2, 2.0), sensor}}},
+      transition<Kind>(), start()};
+  for (int k = 0; k < 40; ++k) {
+    if (k % 7 == 3) {
+      expected.step(0.5);
+      found.step(0.5);
+    } else {
+      expected.step(0.5, measurement(k));
+      found.step(0.5, measurement(k));
+      ASSERT_PRED_FORMAT3(near, found.nis(), expected.nis(), 1e-9);
+    }
+    ASSERT_PRED_FORMAT3(near, found.belief().logs(), expected.belief().logs(), 1e-9);
+    ASSERT_PRED_FORMAT3(near_matrix, found.estimate().mean, expected.estimate().mean, 1e-9);
+    ASSERT_PRED_FORMAT3(near_matrix, found.estimate().covariance, expected.estimate().covariance, 1e-9);
+  }
+}
+
+TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilterInAnImm) { linear_members_are_the_kalman_filter<Random>(); }
+TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilterInAHimm) { linear_members_are_the_kalman_filter<Fuzzy>(); }
+
+TEST(MembersAsModes, OneAloneIsItself) {
+  const Unscented member{Observed{CoordinatedTurn<3>{1.0, 1e-4}, PolarSensor<3>{}}};
+  const FuzzyVariable mode{"mode", 1};
+  Gaussian<7> x{Vector<7>(1e3, 2e3, 300.0, 50.0, -60.0, 1.0, 0.1), 100.0 * SquareMatrix<7>::Identity()};
+  x.covariance(6, 6) = 0.01;
+  InteractingMultipleModel filter{std::tuple{member}, Relation{mode, mode, {{1.0}}}, x};
+  for (int k = 0; k < 20; ++k) {
+    const Polar seen = to_polar(measurement(k).mean);
+    const auto z = PolarSensor<3>::measurement(seen, {5.0, 0.005, 0.005});
+    predict(member, x, 0.5, x);
+    const auto innovation = update(member, x, z, x);
+    filter.step(0.5, z);
+    EXPECT_EQ(filter.innovations()[0].log_likelihood, innovation.log_likelihood);
+    EXPECT_EQ(std::get<0>(filter.estimates()).mean, x.mean);
+  }
+}
+
+TEST(MembersAsModes, ATurnIsRecognisedAndItsRateIsFound) {
+  // A target flies straight, then turns at 0.1 rad/s; a radar sees it without errors, across ±180° of azimuth.
+  const RandomVariable mode{"mode", {"straight", "turn"}};
+  const Relation transition{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}};
+  const PolarSensor<2> radar;
+  Gaussian<5> x{Vector<5>(-8e3, 500.0, 0.0, -100.0, 0.0), 100.0 * SquareMatrix<5>::Identity()};
+  x.covariance(4, 4) = 0.01;
+  InteractingMultipleModel filter{
+      std::tuple{Extended{Observed{dwna<2>(0.1), radar}}, Unscented{Observed{CoordinatedTurn<2>{0.1, 1e-5}, radar}}},
+      transition, x};
+  const CoordinatedTurn<2> truth{0.0, 0.0};
+  Vector<5> state = x.mean;
+  for (int k = 0; k < 30; ++k) {
+    state(4) = k < 10 ? 0.0 : 0.1;
+    state = truth.propagate(state, 1.0);
+    filter.step(1.0, {radar.measure(Vector<2>(state.head<2>())), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-6}}});
+    if (k == 9) EXPECT_EQ(filter.most_likely_mode(), 0U);
+  }
+  EXPECT_EQ(filter.most_likely_mode(), 1U);
+  EXPECT_GT(filter.belief()[1], 0.9);
+  EXPECT_EQ(filter.components().back(), "omega");
+  EXPECT_NEAR(std::get<1>(filter.estimates()).mean(4), 0.1, 0.005);
+  EXPECT_NEAR(filter.estimate().mean(0), state(0), 2.0);
+  EXPECT_NEAR(filter.estimate().mean(1), state(1), 2.0);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,104 @@
+// The code of docs/models.md, and the values that it claims.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/observed.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/sensors.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include <sigmax/estimation/white_noise.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+
+#include "support/matrices.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::near_matrix;
+
+TEST(ModelsWalk, AStep) {
+  const Unscented filter{Observed{CoordinatedTurn<3>{1.0, 1e-4}, PolarSensor<3>{}}};
+  Gaussian<7> x{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.05), 100.0 * SquareMatrix<7>::Identity()};
+  x.covariance(6, 6) = 0.01;
+  const auto z = PolarSensor<3>::measurement({10.05e3, 0.65, 0.1}, {10.0, 0.002, 0.002});
+  predict(filter, x, 0.2, x);
+  const auto innovation = update(filter, x, z, x);
+  EXPECT_TRUE(std::isfinite(innovation.log_likelihood));
+  EXPECT_EQ(innovation.residual.size(), 3);
+}
+
+TEST(ModelsWalk, ModesOfAMultipleModelFilter) {
+  const FuzzyVariable mode{"mode", {"straight", "turn"}};
+  const Relation transition{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}};
+  Gaussian<7> start{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.0), 100.0 * SquareMatrix<7>::Identity()};
+  start.covariance(6, 6) = 0.01;
+  InteractingMultipleModel filter{std::tuple{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 1e-4}}}, transition, start};
+  filter.step(0.2, {Vector<3>(7990.0, 6016.0, 1000.0), 25.0 * SquareMatrix<3>::Identity()});
+  EXPECT_EQ(filter.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "omega"}));
+  EXPECT_PRED_FORMAT3(near, filter.belief()[filter.most_likely_mode()], 1.0, 1e-15);
+}
+
+/// A pendulum whose sideways deflection is seen.
+struct Pendulum {
+  static constexpr int state_size = 2;
+  static constexpr int max_state_size = 2;
+  static constexpr int measurement_size = 1;
+  Eigen::Index size() const { return 2; }
+  std::string_view name() const { return "pendulum"; }
+  std::vector<std::string> components() const { return {"angle", "rate"}; }
+  template <class Scalar>
+  Eigen::Matrix<Scalar, 2, 1> propagate(const Eigen::Matrix<Scalar, 2, 1>& x, double dt) const {
+    using std::sin;
+    const Scalar rate = x(1) - 9.81 * dt * sin(x(0));
+    return {Scalar(x(0) + dt * rate), rate};
+  }
+  SquareMatrix<2> process_covariance(double dt) const { return 0.01 * dt * SquareMatrix<2>::Identity(); }
+  template <class Scalar>
+  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 2, 1>& x) const {
+    using std::sin;
+    return Eigen::Matrix<Scalar, 1, 1>(Scalar(sin(x(0))));
+  }
+};
+
+TEST(ModelsWalk, AModelOfOnesOwn) {
+  Gaussian<2> swing{Vector<2>(1.0, 0.0), 0.1 * SquareMatrix<2>::Identity()};
+  const Extended pendulum{Pendulum{}};
+  predict(pendulum, swing, 0.01, swing);
+  update(pendulum, swing, {Vector<1>(0.8), SquareMatrix<1>(0.01)}, swing);
+  EXPECT_LT(swing.covariance(0, 0), 0.1);
+  EXPECT_PRED_FORMAT3(near_matrix, transition_jacobian(Pendulum{}, Vector<2>(0.0, 0.0), 0.1),
+                      (SquareMatrix<2>{{1.0 - 0.0981, 0.1}, {-0.981, 1.0}}), 1e-15);
+}
+
+TEST(ModelsWalk, ASensorOfOnesOwn) {
+  struct Altimeter {
+    static constexpr int axes = 3;
+    static constexpr int measurement_size = 1;
+    static Vector<1> measure(const Vector<3>& position) { return Vector<1>(position.z()); }
+    static Eigen::RowVector3d measurement_jacobian(const Vector<3>&) { return {0.0, 0.0, 1.0}; }
+  };
+  const Extended altitude{Observed{dwna<3>(3.0), Altimeter{}}};
+  Gaussian<6> x{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
+  EXPECT_EQ(update(altitude, x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, x).residual(0), 5.0);
+  EXPECT_EQ(x.mean(2), 2.5);
+}
+
+TEST(ModelsWalk, Conversion) {
+  const Gaussian<3> z = to_cartesian({145e3, 0.588, 0.138}, {100.0, 0.05, 0.05}, Conversion::unbiased);
+  EXPECT_GT(z.mean.norm(), 145e3);
+}
+
+}  // namespace
+}  // namespace sigmax
