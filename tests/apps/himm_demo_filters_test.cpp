@@ -74,7 +74,7 @@ struct Named {
 };
 
 std::vector<Named> named_filters() {
-  using namespace restatement;
+  using restatement::Kind, restatement::Lift, restatement::MixedCovariance, restatement::Options, restatement::Weights;
   const auto filter = [](Kind kind, auto change) {
     Options options;
     options.kind = kind;

@@ -330,7 +330,7 @@ TEST(HimmDemoRecording, WarnsOnceWhereTheConversionIsOutOfItsValidity) {
   EXPECT_NE(output.find("in 2 of 5 measurements"), std::string::npos) << output;
   EXPECT_NE(output.find("set sigma_range_m above 15,"), std::string::npos) << output;  // 10 · 1900/1313 = 14.47
   estimates(text, radar_settings({15.0, sigma_azimuth_deg, 1.0}), &output);
-  EXPECT_EQ(output.find("warning"), std::string::npos) << output;
+  EXPECT_EQ(output.find("σ_α²"), std::string::npos) << output;
 }
 
 TEST(HimmDemoRecording, AMeasurementThatNoFilterExpectsIsNamed) {

@@ -72,6 +72,7 @@ bool can(const Read& read) {
   }
 }
 
+/// Leaves the value in force in the narrowest type that it has.
 Types types_of(const Settings& settings, const std::string& key) {
   Types types;
   types.number = can([&] { return settings.number(key).has_value(); });
@@ -83,7 +84,8 @@ Types types_of(const Settings& settings, const std::string& key) {
   types.matrix = can([&] { return settings.matrix(key).has_value(); });
   types.table = can([&] { return settings.sub(key), true; });
   require(!types.number || std::isfinite(*settings.number(key)), "a number is finite");
-  require(!types.number || types.numbers, "a number is a list of one");
+  require(!types.string || settings.string(key).has_value(), "a string can be read twice");
+  require((!types.number || types.numbers) && (!types.string || types.strings), "one value is a list of one");
   require(types.number + types.boolean + types.string + types.table <= 1, "a value has one type");
   return types;
 }

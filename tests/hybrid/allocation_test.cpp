@@ -6,6 +6,8 @@
 #include <memory>
 #include <new>
 
+#include <sigmax/hybrid/mode_transition.hpp>
+
 #include "hybrid/banks.hpp"
 
 namespace {
@@ -123,6 +125,13 @@ TEST(Allocation, AnUnreachableModeAllocatesNothing) {
   const Relation only_the_first{motion, motion, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
   InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, only_the_first, starts_of(vector_bank)};
   for (int k = 0; k < 3; ++k) ASSERT_EQ(allocations_of([&] { filter.step(0.2); }), 0U);
+}
+
+TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
+  const FuzzyVariable motion{"motion", 4};
+  const TimedTransition transition{motion, rates_of_sojourns({20.0, 5.0, 3.0, 1.0})};
+  Relation relation = transition(1.0);
+  for (const double dt : {0.2, 0.0, 50.0}) ASSERT_EQ(allocations_of([&] { transition(dt, relation); }), 0U);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(FixedIntervalSmoother, OfAStaticBankSmoothsEachModelAloneAndBelievesTheSame
 
 template <class Order, Uncertainty Kind>
 void ends_as_filtered_and_stays_normalized() {
-  auto filter = tuple_filter<Order, Kind>();
+  auto filter = vector_filter<Order, Kind>();
   const auto record = flown(filter, manoeuvring_target());
   const auto smoothed = smooth(filter, record);
   ASSERT_EQ(smoothed.size(), record.size());
@@ -117,8 +117,7 @@ TEST(FixedIntervalSmoother, SmoothsATupleAsItDoesAVector) {
       ASSERT_PRED_FORMAT3(near, of_tuple[k].belief.logs(), of_vector[k].belief.logs(), 1e-9);
     }
   };
-  compare(tuple_filter<Interacting, Random>(), vector_filter<Interacting, Random>());
-  compare(tuple_filter<SecondOrder, Fuzzy>(), vector_filter<SecondOrder, Fuzzy>());
+  compare(tuple_filter<Interacting, Fuzzy>(), vector_filter<Interacting, Fuzzy>());
 }
 
 /// Models that forget their state, F = 0, so that measurements are of the mode alone: then the smoothed weights are

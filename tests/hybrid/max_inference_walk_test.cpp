@@ -53,7 +53,7 @@ TEST(MaxInference, TheGridFilter) {
     sum += std::exp(log);
     sum_x += y * std::exp(log);
   }
-  EXPECT_PRED_FORMAT3(near, log_evidence, supremum, 0.02);
+  EXPECT_PRED_FORMAT3(near, log_evidence, supremum, 0.05);  // half a cell, and the slope of the likelihood
   EXPECT_PRED_FORMAT3(near, best(0), at, 0.1);
   EXPECT_PRED_FORMAT3(near, moments.mean(0), sum_x / sum, 0.01);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <tuple>
@@ -24,6 +25,7 @@ struct Bank<std::tuple<First, Others...>> {
   static constexpr int measurement_size = First::measurement_size;
   using Estimates = std::tuple<EstimateOf<First>, EstimateOf<Others>...>;
   using Pairs = std::tuple<std::vector<EstimateOf<First>>, std::vector<EstimateOf<Others>>...>;
+  static constexpr int max_state_size = std::max({First::max_state_size, Others::max_state_size...});
   /// No bank carries more different components than all its models together.
   static constexpr int max_components = ((First::max_state_size + ... + Others::max_state_size));
 };
@@ -33,6 +35,7 @@ struct Bank<std::vector<Model>> {
   static constexpr int measurement_size = Model::measurement_size;
   using Estimates = std::vector<EstimateOf<Model>>;
   using Pairs = std::vector<std::vector<EstimateOf<Model>>>;
+  static constexpr int max_state_size = Model::max_state_size;
   static constexpr int max_components = Model::max_state_size;
 };
 

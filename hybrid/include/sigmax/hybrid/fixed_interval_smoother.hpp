@@ -53,7 +53,7 @@ class FixedIntervalSmoother {
         for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
         return;
       }
-      const FutureEvidence evidence(mode(next.predicted, j), mode(smoothed.estimates, j), name(j));
+      const Evidence evidence(of_any_size(mode(next.predicted, j)), of_any_size(mode(smoothed.estimates, j)), name(j));
       for_each_mode(filtered.estimates, [&](auto i) {
         if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j, next.dt, evidence);
       });
@@ -64,6 +64,17 @@ class FixedIntervalSmoother {
   }
 
  private:
+  // The algebra of a pair is done at run-time size: models of any two sizes then share its code.
+  static constexpr int max_size = Bank<Models>::max_state_size;
+  using Estimate = Gaussian<Eigen::Dynamic, max_size>;
+  using Matrix = SquareMatrix<Eigen::Dynamic, max_size>;
+  using Evidence = FutureEvidence<Eigen::Dynamic, max_size>;
+
+  template <int N, int MaxN>
+  static Estimate of_any_size(const Gaussian<N, MaxN>& estimate) {
+    return {estimate.mean, estimate.covariance};
+  }
+
   std::size_t modes() const { return filter_.modes(); }
   auto name(std::size_t j) const { return system_.mode_variable().label(j); }
 
@@ -74,34 +85,32 @@ class FixedIntervalSmoother {
   }
 
   /// The estimate of mode i given mode j next and all that came to be known in j; returns the evidence.
-  template <class I, class J, class Evidence>
+  template <class I, class J>
   double smooth_pair(const typename Bank<Models>::Estimates& filtered, I i, J j, double dt, const Evidence& evidence) {
     const auto& model = mode(system_.models(), j);
-    const auto& of_i = mode(filtered, i);
-    auto& start = mode(starts_, j);  // that of i, in the components of j
+    auto& start = mode(starts_, j);  // the estimate of i in the components of j
     auto& predicted = mode(predictions_, j);
-    const auto& from_i = filter_.correspondences(j)[i];
-    const Lifted read(mode(filtered, j), of_i, from_i, filter_.interaction().lift);
+    const Lifted read(mode(filtered, j), mode(filtered, i), filter_.correspondences(j)[i], filter_.interaction().lift);
     start.mean = read.mean();
     start.covariance.setZero();
     read.add_covariance(1.0, start.covariance);
     predict(model, start, dt, predicted);
-    const auto cross =
-        covariance_with(start, of_i, from_i, filter_.correspondences(i)[j], prediction_covariance(model, start, dt));
-    auto smoothed = predicted;
-    const double log_evidence = evidence.meet(predicted, smoothed);
-    step_back(of_i, cross, predicted, smoothed, model.name(), mode(pairs_, i)[j]);
+    const Estimate of_i = of_any_size(mode(filtered, i));
+    const Matrix cross = covariance_with(of_any_size(start), of_i, filter_.correspondences(j)[i],
+                                         filter_.correspondences(i)[j], prediction_covariance(model, start, dt));
+    const Estimate prediction = of_any_size(predicted);
+    Estimate smoothed = prediction;
+    const double log_evidence = evidence.meet(prediction, smoothed);
+    step_back(of_i, cross, prediction, smoothed, model.name(), smoothed);
+    mode(pairs_, i)[j] = {smoothed.mean, smoothed.covariance};
     return log_evidence;
   }
 
   /// The covariance of the state of i with what was predicted from it, where `predicted_with` is that of the start in
   /// the components of j. A component that j lacks is correlated with the prediction through those that j has.
-  template <int N, int MaxN, int M, int MaxM>
-  static RectangularMatrix<N, M, MaxN, MaxM> covariance_with(const Gaussian<M, MaxM>& start,
-                                                             const Gaussian<N, MaxN>& of_i,
-                                                             const Correspondence& from_i, const Correspondence& to_j,
-                                                             const SquareMatrix<M, MaxM>& predicted_with) {
-    RectangularMatrix<N, M, MaxN, MaxM> cross(of_i.size(), start.size());
+  static Matrix covariance_with(const Estimate& start, const Estimate& of_i, const Correspondence& from_i,
+                                const Correspondence& to_j, const Matrix& predicted_with) {
+    Matrix cross(of_i.size(), start.size());
     bool all_shared = true;
     for (Eigen::Index a = 0; a < of_i.size(); ++a) {
       const Eigen::Index in_j = to_j.in_source[static_cast<std::size_t>(a)];
@@ -109,16 +118,15 @@ class FixedIntervalSmoother {
       all_shared = all_shared && in_j >= 0;
     }
     if (all_shared) return cross;
-    const Eigen::LDLT<SquareMatrix<M, MaxM>> factor(start.covariance);
-    const SquareMatrix<M, MaxM> regression = factor.solve(predicted_with);
+    const Eigen::LDLT<Matrix> factor(start.covariance);
+    const Matrix regression = factor.solve(predicted_with);
     for (Eigen::Index a = 0; a < of_i.size(); ++a) {
       if (to_j.in_source[static_cast<std::size_t>(a)] >= 0) continue;
-      Vector<M, MaxM> with_start(start.size());
+      cross.row(a).setZero();
       for (Eigen::Index b = 0; b < start.size(); ++b) {
         const Eigen::Index in_i = from_i.in_source[static_cast<std::size_t>(b)];
-        with_start(b) = in_i >= 0 ? of_i.covariance(a, in_i) : 0.0;
+        if (in_i >= 0) cross.row(a) += of_i.covariance(a, in_i) * regression.row(b);
       }
-      cross.row(a) = with_start.transpose() * regression;
     }
     return cross;
   }

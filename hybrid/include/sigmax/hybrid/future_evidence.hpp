@@ -29,33 +29,33 @@ class FutureEvidence {
                               "' is not positive definite");
     // In the coordinates W in which the prediction is N(0, I), the smoothed covariance is diagonal, too.
     const Matrix whitening = L.matrixL().solve(identity());
-    const Matrix half = whitening * smoothed.covariance;
-    Matrix white = half * whitening.transpose();
+    const Matrix half = whitening.lazyProduct(smoothed.covariance);
+    Matrix white = half.lazyProduct(whitening.transpose());
     mirror_lower(white);
     const Eigen::SelfAdjointEigenSolver<Matrix> axes(white);
-    const Matrix W = whitening.transpose() * axes.eigenvectors();
+    const Matrix W = whitening.transpose().lazyProduct(axes.eigenvectors());
     const Vector<N, MaxN> variance = axes.eigenvalues().cwiseMax(1e-12);
-    const Vector<N, MaxN> moved = W.transpose() * (smoothed.mean - predicted.mean);
+    const Vector<N, MaxN> moved = W.transpose().lazyProduct(smoothed.mean - predicted.mean);
     const Vector<N, MaxN> gained = (variance.cwiseInverse().array() - 1.0).max(0.0).sqrt();
     root_ = W * gained.asDiagonal();
-    y_ = W * moved.cwiseQuotient(variance);
+    y_ = W.lazyProduct(moved.cwiseQuotient(variance));
   }
 
   /// The estimate in which another prediction of the state and the evidence meet; returns the logarithm of its
   /// evidence, up to a number that is the same for all predictions. `result` may be `prediction`.
   double meet(const Gaussian<N, MaxN>& prediction, Gaussian<N, MaxN>& result) const {
     const Vector<N, MaxN> u = prediction.mean - predicted_;
-    const Vector<N, MaxN> seen = root_.transpose() * u;
-    const Vector<N, MaxN> rest = y_ - root_ * seen;
-    const Matrix PR = prediction.covariance * root_;
-    Matrix G = root_.transpose() * PR;
+    const Vector<N, MaxN> seen = root_.transpose().lazyProduct(u);
+    const Vector<N, MaxN> rest = y_ - root_.lazyProduct(seen);
+    const Matrix PR = prediction.covariance.lazyProduct(root_);
+    Matrix G = root_.transpose().lazyProduct(PR);
     G += identity();
     const Eigen::LLT<Matrix> factor(G);
     const Matrix crossed = PR.transpose();
     const Matrix gain = factor.matrixL().solve(crossed);
-    result.covariance = prediction.covariance - gain.transpose() * gain;
+    result.covariance = prediction.covariance - gain.transpose().lazyProduct(gain);
     mirror_lower(result.covariance);
-    const Vector<N, MaxN> moved = result.covariance * rest;
+    const Vector<N, MaxN> moved = result.covariance.lazyProduct(rest);
     result.mean = prediction.mean + moved;
     return 0.5 * rest.dot(moved) + y_.dot(u) - 0.5 * seen.squaredNorm() -
            factor.matrixLLT().diagonal().array().log().sum();
