@@ -125,12 +125,15 @@ class EstimatesFile {
                 const RecordingReader& recording)
       : file_(directory.file("estimates.csv")), recording_(recording) {
     for (const auto& filter : filters)
+      for (const auto& motion : filter.motions) turns_ = turns_ || motion.type == MotionType::ct;
+    for (const auto& filter : filters)
       for (const auto& model : filter.models)
         if (std::find(models_.begin(), models_.end(), model) == models_.end()) models_.push_back(model);
     file_.write(recording_.has_tracks() ? "time_s,track,filter" : "time_s,filter");
     file_.write(
         ",x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_x_m,sigma_y_m,sigma_z_m,"
         "sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,nis");
+    if (turns_) file_.write(",turn_rate_deg_s");
     for (const auto& model : models_) file_.print(",weight_{}", model);
     file_.write(recording_.geodetic() ? ",most_likely,latitude_deg,longitude_deg,altitude_m\n" : ",most_likely\n");
   }
@@ -152,6 +155,10 @@ class EstimatesFile {
         cell(has(order, axis) ? std::optional(std::sqrt(estimate.covariance(i, i))) : std::nullopt);
       }
     cell(tracker.nis());
+    if (turns_) {
+      const auto rate = tracker.turn_rate();
+      cell(rate ? std::optional(*rate / degree) : std::nullopt);
+    }
     for (const auto& model : models_) {
       const auto own = std::find(settings.models.begin(), settings.models.end(), model);
       cell(own == settings.models.end()
@@ -179,6 +186,7 @@ class EstimatesFile {
   AtomicFile file_;
   const RecordingReader& recording_;
   std::vector<std::string> models_;
+  bool turns_ = false;
 };
 
 /// A stream of random numbers for each track, whichever others a file holds: the 64-bit FNV-1a of its name.

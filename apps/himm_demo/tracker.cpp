@@ -69,6 +69,18 @@ auto Tracker<Axes>::estimate() const -> Estimate {
 }
 
 template <int Axes>
+std::optional<double> Tracker<Axes>::turn_rate() const {
+  return std::visit(
+      [](const auto& filter) -> std::optional<double> {
+        const auto& names = filter.components();
+        const auto omega = std::find(names.begin(), names.end(), "omega");
+        if (omega == names.end()) return std::nullopt;
+        return filter.estimate().mean(omega - names.begin());
+      },
+      *filter_);
+}
+
+template <int Axes>
 double Tracker<Axes>::weight(std::size_t mode) const {
   return std::visit([&](const auto& filter) { return filter.weight(mode); }, *filter_);
 }

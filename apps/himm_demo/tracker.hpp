@@ -39,6 +39,8 @@ class Tracker {
 
   /// The output that the settings ask for.
   Estimate estimate() const;
+  /// The estimated rate of turn in rad/s, counter-clockwise, if a model has one.
+  std::optional<double> turn_rate() const;
   double weight(std::size_t mode) const;
   std::size_t most_likely_mode() const;
 

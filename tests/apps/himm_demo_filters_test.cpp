@@ -239,11 +239,59 @@ TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
       ASSERT_PRED_FORMAT3(near, std::stod(row.at(means[i])), estimate.mean(n), 1e-9);
       ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[i])), std::sqrt(estimate.covariance(n, n)), 1e-9);
     }
+    ASSERT_PRED_FORMAT3(near, std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
     EXPECT_EQ(row.at("ax_mps2"), "");
     ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), filter.belief()[0], 1e-9);
     ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
     ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), filter.nis(), 1e-9);
   }
+}
+
+std::string estimates_of(const std::string& text, const std::vector<std::string>& sets) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  const auto ending = himm_demo({"track", directory.write("recording.csv", text), "--quiet", "--out", out}, sets);
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  return contents(out / "estimates.csv");
+}
+
+TEST(HimmDemoFilters, AMeasurementThatTheGateTurnsAwayIsAsOneThatWasMissed) {
+  auto points = turning_target();
+  std::string missed = csv(points);
+  const auto row = missed.find("\n60,");
+  missed.replace(row, missed.find('\n', row + 1) - row, "\n60,,");
+  points[60].z[1] += 30000.0;
+  for (const std::string filters : {"filters=[imm,himm]", "filters=[gpb2,viterbi]"}) {
+    const auto gated = estimates_of(csv(points), {filters, "sigma_position_m=5", "gate_probability=0.9999999"});
+    EXPECT_EQ(gated, estimates_of(missed, {filters, "sigma_position_m=5"}));
+    EXPECT_NE(gated, estimates_of(csv(points), {filters, "sigma_position_m=5"}));
+  }
+}
+
+TEST(HimmDemoFilters, AfterALongGapATrackStartsAsIfNew) {
+  auto points = turning_target();
+  for (std::size_t k = 50; k < points.size(); ++k) points[k].time += 100.0;
+  const std::vector<Point> later(points.begin() + 50, points.end());
+  const auto all = estimates_of(csv(points), {"filters=imm", "restart_after_s=20"});
+  const auto own = estimates_of(csv(later), {"filters=imm"});
+  const auto first = own.find('\n');
+  EXPECT_EQ(all.substr(all.find("\n153,")), own.substr(first));
+  EXPECT_EQ(all.find("\n152,"), std::string::npos) << "three points make the start";
+  EXPECT_NE(estimates_of(csv(points), {"filters=imm"}).find("\n152,"), std::string::npos);
+}
+
+TEST(HimmDemoFilters, AltitudesOutOfThisWorldDoNotMoveTheTrack) {
+  const std::string file = recorded("adsb_inflight_refuelling.csv");
+  if (file.empty()) GTEST_SKIP() << "no recordings in " << SIGMAX_DATA;
+  const std::string text = contents(file);
+  std::string missed = text;
+  for (const std::string time : {"5899.0", "6011.0", "7455.0"}) {  // 107,700, 53,900 and 92,000 ft
+    const auto row = missed.find("\n" + time + ",3b7777,");
+    ASSERT_NE(row, std::string::npos);
+    missed.replace(row, missed.find('\n', row + 1) - row, "\n" + time + ",3b7777,,,,,,");
+  }
+  const std::vector<std::string> sets = {"sigma_position_m=[100,100,30]", "gate_probability=0.99999"};
+  EXPECT_EQ(estimates_of(text, sets), estimates_of(missed, sets));
 }
 
 TEST(HimmDemoFilters, EveryModelWithEveryMemberTracksOnTwoAxesAndThree) {
@@ -280,6 +328,7 @@ TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
       {"models=[known_turn,known_turn,cwna]", "turn_deg_s=[3,-2.7,0]", "filters=[gpb2]"},
       {"models=[ct,cwpa]", "turn_drift_deg_s=0.3", "start_sigma_turn_deg_s=4.1", "member=ckf"},
       {"filters=[fast]", "filter.fast.kind=fuzzy", "filter.fast.scheme=second_order", "likelihood=possibility"},
+      {"filters=[imm]", "gate_probability=0.99", "restart_after_s=12.5"},
       {"filters=[imm]", "output_spread=omitted", "output=most_likely", "scheme=common_start"},
   };
   for (const auto& sets : cases) {
