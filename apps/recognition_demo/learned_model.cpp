@@ -78,8 +78,8 @@ LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, con
     variables.emplace_back(column.name, code.labels());
     codes.push_back(std::move(code));
   }
-  LearnedModel model{data.label, std::move(codes),
-                     Counts{RandomVariable{data.label, data.classes}, std::move(variables)}, options};
+  Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
+  LearnedModel model{data.label, std::move(codes), std::move(counts), options};
   for (const std::size_t row : rows) model.counts.observe(data.labels[row], readings(model, data, row));
   for (std::size_t c = 0; c < data.classes.size(); ++c)
     if (model.counts.rows(c) == 0.0)

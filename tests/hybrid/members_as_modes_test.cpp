@@ -86,7 +86,9 @@ TEST(MembersAsModes, ATurnIsRecognisedAndItsRateIsFound) {
     state(4) = k < 10 ? 0.0 : 0.1;
     state = truth.propagate(state, 1.0);
     filter.step(1.0, {radar.measure(Vector<2>(state.head<2>())), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-6}}});
-    if (k == 9) EXPECT_EQ(filter.most_likely_mode(), 0U);
+    if (k == 9) {
+      EXPECT_EQ(filter.most_likely_mode(), 0U);
+    }
   }
   EXPECT_EQ(filter.most_likely_mode(), 1U);
   EXPECT_GT(filter.belief()[1], 0.9);
