@@ -82,13 +82,14 @@ TEST(ModelsWalk, AModelOfOnesOwn) {
                       (SquareMatrix<2>{{1.0 - 0.0981, 0.1}, {-0.981, 1.0}}), 1e-15);
 }
 
+struct Altimeter {
+  static constexpr int axes = 3;
+  static constexpr int measurement_size = 1;
+  Vector<1> measure(const Vector<3>& position) const { return Vector<1>(position.z()); }
+  Eigen::RowVector3d measurement_jacobian(const Vector<3>&) const { return {0.0, 0.0, 1.0}; }
+};
+
 TEST(ModelsWalk, ASensorOfOnesOwn) {
-  struct Altimeter {
-    static constexpr int axes = 3;
-    static constexpr int measurement_size = 1;
-    static Vector<1> measure(const Vector<3>& position) { return Vector<1>(position.z()); }
-    static Eigen::RowVector3d measurement_jacobian(const Vector<3>&) { return {0.0, 0.0, 1.0}; }
-  };
   const Extended altitude{Observed{dwna<3>(3.0), Altimeter{}}};
   Gaussian<6> x{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
   EXPECT_EQ(update(altitude, x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, x).residual(0), 5.0);
