@@ -90,9 +90,10 @@ int main(int argc, char** argv) {
   esm_app.add_option("--usage", esm.usage, "How often a platform uses its emitters: equally, or drawn for each run")
       ->check(CLI::IsMember({"uniform", "dirichlet"}))
       ->capture_default_str();
-  esm_app.add_option("--alpha", esm.alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
+  const CLI::Option* const alpha =
+      esm_app.add_option("--alpha", esm.alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
+          ->check(CLI::Range(0.01, 1000.0))
+          ->capture_default_str();
   esm_app.add_option("--reports", esm.reports, "Reports in a run")->check(CLI::Range(1, 100000))->capture_default_str();
   add_draws(esm_app, esm);
   esm_app.footer(
@@ -259,6 +260,7 @@ int main(int argc, char** argv) {
     } else if (performance_app.parsed()) {
       performance_and_report(performance);
     } else {
+      if (alpha->count() > 0 && esm.usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
       esm_and_report(esm);
     }
   });

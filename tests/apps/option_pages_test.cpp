@@ -9,11 +9,14 @@
 namespace sigmax::apps {
 namespace {
 
-TEST(OptionPages, AreWhatTheProgramPrints) {
+TEST(OptionPages, AreWhatTheProgramsPrint) {
   const std::filesystem::path source = SIGMAX_SOURCE;
-  const auto page = program::run(source / "scripts" / "option_pages", {"--print", SIGMAX_HIMM_DEMO});
-  ASSERT_EQ(page.status, 0) << page.output;
-  EXPECT_EQ(contents(source / "docs" / "himm_demo_options.md"), page.output) << "run scripts/option_pages";
+  for (const std::filesystem::path program : {SIGMAX_HIMM_DEMO, SIGMAX_RECOGNITION_DEMO}) {
+    const auto page = program::run(source / "scripts" / "option_pages", {"--print", program});
+    ASSERT_EQ(page.status, 0) << page.output;
+    EXPECT_EQ(contents(source / "docs" / (program.filename().string() + "_options.md")), page.output)
+        << "run scripts/option_pages";
+  }
 }
 
 TEST(OptionPages, EverySubcommandHasTwoExamples) {

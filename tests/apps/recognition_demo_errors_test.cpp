@@ -58,6 +58,7 @@ std::vector<Case> cases() {
   add("NoRows", "colour,size,kind\n", good_model, train, 3, {"data.csv: there is no row below the header"});
   add("LabelThatIsNoColumn", "colour,size,sort\nred,1,a\n", good_model, train, 3,
       {"there is no column 'kind'", "colour, size, sort"});
+  add("AlphaOfEqualUsage", good_csv, good_model, {"esm", "--alpha", "2"}, 2, {"--alpha needs --usage dirichlet"});
   add("IgnoredThatIsNoColumn", good_csv, good_model, with(train, {"--ignore", "weight"}), 3, {"'weight'"});
   add("CategoricalThatIsNoColumn", good_csv, good_model, with(train, {"--categorical", "weight"}), 3, {"'weight'"});
   add("NoFeature", good_csv, good_model, with(train, {"--ignore", "colour", "--ignore", "size"}), 3, {"beside 'kind'"});

@@ -8,6 +8,9 @@
 
 #include <sigmax/hybrid/mode_transition.hpp>
 
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/target.hpp>
+
 #include "hybrid/banks.hpp"
 
 namespace {
@@ -83,9 +86,9 @@ auto starts_of(const Models& models) {
   return starts;
 }
 
-template <Uncertainty Kind, class Models>
-void nothing_is_allocated(const Models& models, const Interaction<Kind>& interaction) {
-  InteractingMultipleModel<Models, Kind> filter{models, transition<Kind>(), starts_of(models), interaction};
+template <Uncertainty Kind, class Models, class Order = support::Interacting>
+void nothing_is_allocated(const Models& models, const Interaction<Kind>& interaction, Order = {}) {
+  typename Order::template Filter<Models, Kind> filter{models, transition<Kind>(), starts_of(models), interaction};
   std::size_t measured = 0, missed = 0;
   for (const auto& scan : support::manoeuvring_target(40)) {
     if (scan.z) {
@@ -118,6 +121,59 @@ TEST(Allocation, AHimmAllocatesNothing) {
     nothing_is_allocated<Fuzzy>(vector_bank, {lift, {}, Tie::stay});
     nothing_is_allocated<Fuzzy>(tuple_bank, {lift, {MixedCovariance::own_recentred, Tie::first}, Tie::last});
   }
+}
+
+TEST(Allocation, ASecondOrderFilterAllocatesNothing) {
+  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
+    nothing_is_allocated<Random>(vector_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
+    nothing_is_allocated<Random>(tuple_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
+    nothing_is_allocated<Fuzzy>(vector_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
+    nothing_is_allocated<Fuzzy>(tuple_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
+  }
+}
+
+template <Uncertainty Kind>
+void smoothing_allocates_nothing() {
+  InteractingMultipleModel<VectorBank, Kind> filter{vector_bank, transition<Kind>(), starts_of(vector_bank)};
+  std::vector record{filter.recorded(0.0)};
+  for (const auto& scan : support::manoeuvring_target(20)) {
+    step(filter, scan);
+    record.push_back(filter.recorded(scan.dt));
+  }
+  FixedIntervalSmoother<VectorBank, Kind> smoother{filter};
+  auto smoothed = record.back().state;
+  for (std::size_t k = record.size() - 1; k > 0; --k)
+    ASSERT_EQ(allocations_of([&] { smoother.step(record[k - 1].state, record[k], smoothed); }), 0U);
+}
+
+TEST(Allocation, AStepOfTheSmootherAllocatesNothing) {
+  smoothing_allocates_nothing<Random>();
+  smoothing_allocates_nothing<Fuzzy>();
+}
+
+TEST(Allocation, ATargetAllocatesNothingWhateverBecomesOfAMeasurement) {
+  const auto start = [](const Gaussian<2>& z) {
+    Gaussian<6> result{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
+    result.mean.head<2>() = z.mean;
+    return result;
+  };
+  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, transition<Fuzzy>(), starts_of(vector_bank)};
+  Target target{filter, 0.0, start, TargetRules{0.999, 2, 1e9, 3}};
+  const Gaussian<2> z{Vector<2>{12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
+  const Gaussian<2> far{Vector<2>{-12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
+  std::vector<Outcome> outcomes;
+  outcomes.reserve(16);
+  const auto take = [&](double time, const Gaussian<2>& measured) {
+    ASSERT_EQ(allocations_of([&] { outcomes.push_back(target.take(time, measured)); }), 0U);
+  };
+  take(1.0, z);
+  take(2.0, z);
+  take(1.5, z);  // late
+  take(3.0, far);
+  take(4.0, far);
+  ASSERT_EQ(allocations_of([&] { outcomes.push_back(target.take(5.0)); }), 0U);
+  EXPECT_EQ(outcomes, (std::vector{Outcome::accepted, Outcome::accepted, Outcome::accepted, Outcome::rejected,
+                                   Outcome::restarted, Outcome::missed}));
 }
 
 TEST(Allocation, AnUnreachableModeAllocatesNothing) {

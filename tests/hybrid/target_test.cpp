@@ -25,12 +25,12 @@ struct Event {
   std::optional<Gaussian<2>> z;
 };
 
-/// The manoeuvring target at absolute times; one measurement in ten is of something else.
+/// The manoeuvring target at absolute times, no two alike; one measurement in ten is of something else.
 std::vector<Event> events(std::size_t count) {
   std::vector<Event> result;
   double time = 0.0;
   for (const Scan& scan : manoeuvring_target(count)) {
-    time += scan.dt;
+    time += std::max(scan.dt, 0.05);
     result.push_back({time, scan.z});
     if (scan.z && result.size() % 10 == 7) result.back().z->mean.array() += 3000.0;
   }
