@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
   simulate_app.footer(
       "Examples:\n"
       "  himm_demo simulate --scenario 2 --group 3 --out results\n"
+      "  himm_demo simulate --set filters=all\n"
       "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
 
   TrackOptions track;

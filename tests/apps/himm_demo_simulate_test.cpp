@@ -76,7 +76,7 @@ TEST(HimmDemoSimulate, AFilterTableOverridesAKeyForOneFilter) {
   EXPECT_EQ(rmse({"sigma_w=5"}).at("himm"), wider.at("himm"));
 }
 
-/// The lines of a text that begin with that word and a comma, or hold it after the first comma.
+/// The lines of a CSV text whose cell in that column is the word.
 std::vector<std::string> lines_of(const std::string& text, const std::string& word, std::size_t column) {
   std::vector<std::string> result;
   std::istringstream lines(text);

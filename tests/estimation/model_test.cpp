@@ -28,6 +28,24 @@ struct Nameless : RandomWalk {
   void name() const {}
 };
 
+// A matrix of another size does not compile.
+struct WideTransition : RandomWalk {
+  RectangularMatrix<1, 2> transition(double) const { return RectangularMatrix<1, 2>::Zero(); }
+};
+struct TallNoise : RandomWalk {
+  RectangularMatrix<2, 1> process_covariance(double) const { return RectangularMatrix<2, 1>::Zero(); }
+};
+struct LongInput : RandomWalk {
+  Vector<2> known_input(double) const { return Vector<2>::Zero(); }
+};
+struct TallMeasurement : RandomWalk {
+  Vector<2> measurement_matrix() const { return Vector<2>::Zero(); }
+};
+static_assert(!LinearMotion<WideTransition>);
+static_assert(!LinearMotion<TallNoise>);
+static_assert(!LinearMotion<LongInput>);
+static_assert(LinearMotion<TallMeasurement> && !LinearModel<TallMeasurement>);
+
 static_assert(LinearModel<RandomWalk>);
 static_assert(LinearModel<FixedStepModel<4, 2>>);
 static_assert(LinearModel<KinematicModel<3, 2>>);

@@ -115,7 +115,8 @@ TEST(RtsSmoother, LeavesTheLastEstimateAndAnEmptyRecordAsTheyAre) {
     RC_ASSERT(smoothed.back().mean == record.back().state.mean);
     RC_ASSERT(smoothed.back().covariance == record.back().state.covariance);
   });
-  EXPECT_TRUE(smooth(Model{"any", {"a", "b"}, 1.0, {}, {}, {}}, Record{}).empty());
+  const SquareMatrix<2> I = SquareMatrix<2>::Identity();
+  EXPECT_TRUE(smooth(Model{"any", {"a", "b"}, 1.0, I, I, Eigen::RowVector2d::Ones()}, Record{}).empty());
 }
 
 TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {

@@ -2,66 +2,37 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
-
-#include <sigmax/hybrid/mode_transition.hpp>
+#include <vector>
 
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/target.hpp>
 
 #include "hybrid/banks.hpp"
-
-namespace {
-
-std::size_t allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  if (void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded)) return memory;
-  throw std::bad_alloc{};
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "support/allocations.hpp"
 
 namespace sigmax {
 namespace {
 
-/// How many allocations an action makes.
-template <class Action>
-std::size_t allocations_of(const Action& action) {
-  const std::size_t before = allocations;
-  action();
-  return allocations - before;
-}
+using support::allocations_of;
 
 TEST(Allocation, TheCounterCounts) {
-  EXPECT_EQ(allocations_of([] {}), 0U);
-  EXPECT_EQ(allocations_of([] { std::make_unique<int>(1); }), 1U);
-  EXPECT_EQ(allocations_of([] { std::vector<double>(100).resize(200); }), 2U);
   struct alignas(64) Aligned {
     char bytes[64];
   };
-  EXPECT_EQ(allocations_of([] { std::make_unique<Aligned>(); }), 1U);
+  // What outlives the action cannot be optimised away.
+  std::unique_ptr<int> one;
+  std::vector<double> many;
+  std::unique_ptr<Aligned> aligned;
+  EXPECT_EQ(allocations_of([] {}), 0U);
+  EXPECT_EQ(allocations_of([&] { one = std::make_unique<int>(1); }), 1U);
+  EXPECT_EQ(allocations_of([&] {
+              many.resize(100);
+              many.resize(200);
+            }),
+            2U);
+  EXPECT_EQ(allocations_of([&] { aligned = std::make_unique<Aligned>(); }), 1U);
 }
 
 template <Uncertainty Kind>

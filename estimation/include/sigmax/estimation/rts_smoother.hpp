@@ -23,8 +23,8 @@ struct FilteredStep {
 ///
 ///   A = Cov(x, y) P_y⁻¹,   x + A (yˢ − y),   P_x + A (Pˢ_y − P_y) Aᵀ
 ///
-/// `cross` is Cov(x, y), size of x times size of y. `result` may be any of the others. Throws std::domain_error, naming the
-/// model, if P_y is not positive semi-definite.
+/// `cross` is Cov(x, y), size of x times size of y. `result` may be any of the others. Throws std::domain_error, naming
+/// the model, if P_y is not positive semi-definite.
 template <int N, int MaxN, int M, int MaxM>
 void step_back(const Gaussian<N, MaxN>& filtered, const RectangularMatrix<N, M, MaxN, MaxM>& cross,
                const Gaussian<M, MaxM>& predicted, const Gaussian<M, MaxM>& smoothed, std::string_view model,

@@ -9,7 +9,9 @@
 namespace sigmax {
 
 /// The angle less whole turns, in [−π, π].
-inline double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+inline double wrapped(double angle) {
+  return std::abs(angle) <= std::numbers::pi ? angle : std::remainder(angle, 2.0 * std::numbers::pi);  // rarely
+}
 
 /// Measures the position itself, H = [I 0], in m.
 template <int Axes>

@@ -1,0 +1,58 @@
+// The code of docs/multiple_models.md.
+#include <gtest/gtest.h>
+
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
+#include <sigmax/hybrid/target.hpp>
+
+namespace sigmax {
+namespace {
+
+template <Uncertainty Kind>
+auto both(const Relation<Kind, Kind>& transition, const Gaussian<9>& start) {
+  const std::tuple models{dwna<3>(3.0), dwpa<3>(3.0)};
+  return std::pair{InteractingMultipleModel{models, transition, start},   // IMM or HIMM
+                   SecondOrderMultipleModel{models, transition, start}};  // GPB2 or Viterbi
+}
+
+TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
+  const FuzzyVariable mode{"mode", {"dwna", "dwpa"}};
+  const Relation transition{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}};
+  const Gaussian<9> start{Vector<9>::Zero(), 100.0 * SquareMatrix<9>::Identity()};
+  auto filter = both(transition, start).first;
+  const Gaussian<3> z{Vector<3>(1.0, 2.0, 3.0), 25.0 * SquareMatrix<3>::Identity()};
+  const std::vector<std::pair<double, Gaussian<3>>> measurements(4, {0.5, z});
+
+  std::vector record{filter.recorded(0.0)};
+  for (const auto& [dt, z] : measurements) {
+    filter.step(dt, z);
+    record.push_back(filter.recorded(dt));
+  }
+  const auto smoothed = smooth(filter, record);
+  const auto first = filter.estimate(smoothed.front());
+  EXPECT_EQ(smoothed.size(), 5U);
+  EXPECT_LT(first.covariance(0, 0), 100.0);
+
+  const auto one_point_start = [](const Gaussian<3>& z) {
+    Gaussian<9> result{Vector<9>::Zero(), 1e4 * SquareMatrix<9>::Identity()};
+    result.mean.head<3>() = z.mean;
+    result.covariance.topLeftCorner<3, 3>() = z.covariance;
+    return result;
+  };
+  TargetRules rules;
+  rules.gate_probability = 0.999;
+  rules.rejections = 3;
+  rules.longest_gap = 10.0;
+  rules.buffer = 5;
+  Target target{filter, 0.0, one_point_start, rules};
+  const Outcome outcome = target.take(0.2, z);  // accepted, rejected, restarted; take(time) is missed
+  EXPECT_EQ(outcome, Outcome::accepted);
+}
+
+}  // namespace
+}  // namespace sigmax
