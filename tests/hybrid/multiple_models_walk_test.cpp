@@ -25,8 +25,8 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   const Relation transition{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}};
   const Gaussian<9> start{Vector<9>::Zero(), 100.0 * SquareMatrix<9>::Identity()};
   auto filter = both(transition, start).first;
-  const Gaussian<3> z{Vector<3>(1.0, 2.0, 3.0), 25.0 * SquareMatrix<3>::Identity()};
-  const std::vector<std::pair<double, Gaussian<3>>> measurements(4, {0.5, z});
+  const Gaussian<3> measured{Vector<3>(1.0, 2.0, 3.0), 25.0 * SquareMatrix<3>::Identity()};
+  const std::vector<std::pair<double, Gaussian<3>>> measurements(4, {0.5, measured});
 
   std::vector record{filter.recorded(0.0)};
   for (const auto& [dt, z] : measurements) {
@@ -38,10 +38,11 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   EXPECT_EQ(smoothed.size(), 5U);
   EXPECT_LT(first.covariance(0, 0), 100.0);
 
-  const auto one_point_start = [](const Gaussian<3>& z) {
+  const Gaussian<3>& z = measured;
+  const auto one_point_start = [](const Gaussian<3>& seen) {
     Gaussian<9> result{Vector<9>::Zero(), 1e4 * SquareMatrix<9>::Identity()};
-    result.mean.head<3>() = z.mean;
-    result.covariance.topLeftCorner<3, 3>() = z.covariance;
+    result.mean.head<3>() = seen.mean;
+    result.covariance.topLeftCorner<3, 3>() = seen.covariance;
     return result;
   };
   TargetRules rules;
