@@ -62,7 +62,7 @@ TEST(Kalman, OneNumberByHand) {
   EXPECT_PRED_FORMAT3(near, innovation.squared_distance, 4.0, 1e-15);
   EXPECT_PRED_FORMAT3(near, innovation.log_likelihood, -2.0 - 0.5 * std::log(8.0 * std::numbers::pi), 1e-15);
   EXPECT_PRED_FORMAT3(near_matrix, estimate.mean, (Vector<4>{2, 0, 0, 0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near_matrix, estimate.covariance.diagonal(), (Vector<4>{1, 2, 2, 2}), 1e-15);
+  EXPECT_PRED_FORMAT3(near_matrix, estimate.covariance.diagonal(), (Vector<4>{1, 2, 2, 2}), 1e-13);
 }
 
 TEST(Kalman, PredictionIsTheFormula) {

@@ -125,8 +125,8 @@ TEST(FixedIntervalSmoother, SmoothsATupleAsItDoesAVector) {
 template <class Order, Uncertainty Kind>
 void weighs_as_all_paths_through_a_mode() {
   using Forgetful = FixedStepModel<1, 1>;
-  constexpr std::size_t modes = 3, scans = 4;
   holds([] {
+    constexpr std::size_t modes = 3, scans = 4;
     std::vector<Forgetful> models;
     std::vector<double> means, variances;
     std::vector<std::vector<double>> rows(modes);

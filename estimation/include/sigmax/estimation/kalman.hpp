@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -42,13 +43,28 @@ SquareMatrix<Model::state_size, Model::max_state_size> prediction_covariance(con
 
 namespace detail {
 
+/// What the sums and products of one update may lose of the terms that they are made of.
+inline constexpr double rounding = 128.0 * std::numeric_limits<double>::epsilon();
+
+/// Cholesky's factor of S. A pivot that drowned in the rounding of S, as where one model's spread is 10⁸ times as wide
+/// as the measurement, is lifted above it.
+template <int M>
+Eigen::LLT<SquareMatrix<M>> factorised(SquareMatrix<M>& S) {
+  Eigen::LLT<SquareMatrix<M>> factors(S);
+  if (factors.info() == Eigen::Success &&
+      (factors.matrixLLT().diagonal().array().square() >= rounding * S.diagonal().array()).all())
+    return factors;
+  S.diagonal() *= 1.0 + rounding;
+  return factors.compute(S);
+}
+
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
 /// returns S⁻¹.
 template <class Model>
 SquareMatrix<Model::measurement_size> score(const Model& model, const MeasurementOf<Model>& measurement,
                                             Innovation<Model::measurement_size>& innovation) {
   constexpr int M = Model::measurement_size;
-  const Eigen::LLT<SquareMatrix<M>> S(innovation.covariance);
+  const Eigen::LLT<SquareMatrix<M>> S = factorised<M>(innovation.covariance);
   if (S.info() != Eigen::Success)
     throw std::domain_error("the innovation covariance of model '" + std::string(model.name()) +
                             "' is not positive definite");
@@ -100,6 +116,7 @@ Innovation<Model::measurement_size> update_by(const Model& model, const Measurem
   const Gain W = PHt.lazyProduct(S_inverse);
 
   SquareMatrix<N, max_N> result;
+  Vector<N, max_N> terms(prior.size());  // of the variances in (I − WH) P (I − WH)ᵀ, before they cancel
   if constexpr (leading) {
     // I − WH = [R S⁻¹ 0; −W₂ I], so that the zeros and ones cost nothing, and I − W₁ does not cancel.
     constexpr int rest_size = N == Eigen::Dynamic ? N : N - M;
@@ -110,6 +127,8 @@ Innovation<Model::measurement_size> update_by(const Model& model, const Measurem
     AP.template topRows<M>() = A.lazyProduct(P.template topRows<M>());
     AP.bottomRows(rest) = P.bottomRows(rest);
     AP.bottomRows(rest) -= W2.lazyProduct(P.template topRows<M>());
+    terms.template head<M>() = A.cwiseAbs2() * P.diagonal().template head<M>();
+    terms.tail(rest) = P.diagonal().tail(rest) + W2.cwiseAbs2() * P.diagonal().template head<M>();
     result.resizeLike(P);
     result.template leftCols<M>() = AP.template leftCols<M>().lazyProduct(A.transpose());
     result.rightCols(rest) = AP.rightCols(rest);
@@ -118,9 +137,11 @@ Innovation<Model::measurement_size> update_by(const Model& model, const Measurem
     const SquareMatrix<N, max_N> A = SquareMatrix<N, max_N>::Identity(prior.size(), prior.size()) - W * H;
     const SquareMatrix<N, max_N> AP = A * P;
     result.noalias() = AP * A.transpose();
+    terms = A.cwiseAbs2() * P.diagonal();
   }
   const Gain WR = W.lazyProduct(R);
   result += WR.lazyProduct(W.transpose());
+  result.diagonal() += rounding * terms;
   mirror_lower(result);
 
   posterior.mean = prior.mean + W * innovation.residual;

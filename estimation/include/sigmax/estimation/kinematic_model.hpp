@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/motion.hpp>
 
@@ -124,6 +125,10 @@ void predict(const KinematicModel<Axes, Order>& model, const EstimateOf<Kinemati
     for (Eigen::Index a = 0; a < order; ++a)
       for (Eigen::Index b = a + 1; b < order; ++b) add(a * Axes, f[static_cast<std::size_t>(b - a)], b * Axes);
   };
+  auto terms = P.diagonal().eval();  // of the variances of F P Fᵀ, before they may cancel
+  for_each_term([&](Eigen::Index a, double factor, Eigen::Index b) {
+    terms.template segment<Axes>(a) += factor * factor * terms.template segment<Axes>(b);
+  });
   for_each_term([&](Eigen::Index a, double factor, Eigen::Index b) {
     x.template segment<Axes>(a) += factor * x.template segment<Axes>(b);
     P.template middleRows<Axes>(a) += factor * P.template middleRows<Axes>(b);
@@ -133,6 +138,7 @@ void predict(const KinematicModel<Axes, Order>& model, const EstimateOf<Kinemati
   });
   model.add_known_input(dt, x);
   model.add_process_covariance(dt, P);
+  P.diagonal() += detail::rounding * terms;
   mirror_lower(P);
 }
 
