@@ -93,7 +93,7 @@ class MultipleModelFilter {
   const std::vector<Innovation<measurement_size>>& innovations() const { return innovations_; }
 
   /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
-  /// asks, with the weights before the measurement. NaN-free: throws std::logic_error if the last step had no
+  /// asks, with the weights before the measurement. Throws std::logic_error if the last step had no
   /// measurement.
   double nis() const {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
