@@ -1,4 +1,6 @@
 // The laws that every member of the family obeys: Extended, Unscented, Cubature.
+#include <Eigen/LU>
+
 #include <sigmax/estimation/member.hpp>
 
 #include <gtest/gtest.h>

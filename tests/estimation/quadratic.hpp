@@ -3,6 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 #include <sigmax/estimation/nonlinear_model.hpp>
 
 #include "estimation/members.hpp"

@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>

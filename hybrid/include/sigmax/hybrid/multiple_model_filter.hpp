@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
