@@ -143,9 +143,8 @@ const Mixture<1> three{{scalar(1.0, 4.0), scalar(5.0, 2.0), scalar(3.0, 7.0)}};
 
 Gaussian<1> mixed(MixedCovariance reading, Tie tie = Tie::stay, const std::vector<double>& move_in = {0.5, 1.0, 0.2}) {
   Gaussian<1> result;
-  mix(
-      Selection{reading, tie}, three, [&](std::size_t l, std::size_t) { return move_in[l]; }, 3, 2, three.parts[2],
-      result);
+  const auto weight = [&](std::size_t l) { return move_in[l]; };
+  mix(Selection{reading, tie}, three, weight, weight, 3, 2, three.parts[2], result);
   return result;
 }
 
@@ -172,13 +171,14 @@ TEST(Mix, ATieIsBrokenInFavourOfTheReceivingMode) {
 TEST(Mix, MomentsAreMatchedWithTheRightOrWithTransposedWeights) {
   // Rows: now in mode j; columns: before in mode l.
   const double given[2][2] = {{0.75, 0.25}, {0.5, 0.5}};
-  const auto move_in = [&](std::size_t l, std::size_t j) { return given[j][l]; };
+  const auto weight = [&](std::size_t l) { return given[0][l]; };
+  const auto transposed = [&](std::size_t l) { return given[l][0]; };
   const Mixture<1> two{{scalar(0.0, 1.0), scalar(4.0, 3.0)}};
   Gaussian<1> result;
-  mix(MomentMatching{MixingWeights::correct}, two, move_in, 2, 0, two.parts[0], result);
+  mix(MomentMatching{MixingWeights::correct}, two, weight, transposed, 2, 0, two.parts[0], result);
   EXPECT_EQ(result.mean(0), 1.0);
   EXPECT_EQ(result.covariance(0, 0), 0.75 * (1.0 + 1.0) + 0.25 * (3.0 + 9.0));
-  mix(MomentMatching{MixingWeights::released}, two, move_in, 2, 0, two.parts[0], result);
+  mix(MomentMatching{MixingWeights::released}, two, weight, transposed, 2, 0, two.parts[0], result);
   EXPECT_EQ(result.mean(0), 1.0);
   EXPECT_EQ(result.covariance(0, 0), 0.75 * (1.0 + 1.0) + 0.5 * (3.0 + 9.0)) << "they sum to 1.25";
 }
