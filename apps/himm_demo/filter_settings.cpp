@@ -206,8 +206,8 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
 
 std::string as_toml(const Accuracy& accuracy) {
   return fmt::format("sigma_range_m = {}\nsigma_azimuth_deg = {}\nsigma_elevation_deg = {}\nsigma_position_m = {}\n",
-                     shortest(accuracy.radar.range), shortest(accuracy.radar.azimuth / degree),
-                     shortest(accuracy.radar.elevation / degree), toml_list(accuracy.position_m));
+                     toml_number(accuracy.radar.range), toml_number(accuracy.radar.azimuth / degree),
+                     toml_number(accuracy.radar.elevation / degree), toml_list(accuracy.position_m));
 }
 
 }  // namespace
@@ -288,15 +288,15 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
                         name_of(likelihoods, filter.likelihood), name_of(lifts, filter.lift),
                         name_of(outputs, filter.most_likely_output), name_of(ties, filter.output_tie),
                         name_of(starts, filter.start));
-    if (turns) text += fmt::format("start_sigma_turn_deg_s = {}\n", shortest(filter.start_sigma_turn_deg_s));
+    if (turns) text += fmt::format("start_sigma_turn_deg_s = {}\n", toml_number(filter.start_sigma_turn_deg_s));
     if (filter.start == Start::given) {
       text += fmt::format("start_mean = {}\nstart_covariance_diagonal = {}\n", toml_list(filter.start_mean),
                           toml_list(filter.start_covariance_diagonal));
-      if (filter.start_time_s) text += fmt::format("start_time_s = {}\n", shortest(*filter.start_time_s));
+      if (filter.start_time_s) text += fmt::format("start_time_s = {}\n", toml_number(*filter.start_time_s));
     }
     if (filter.gate_probability < 1.0)
-      text += fmt::format("gate_probability = {}\n", shortest(filter.gate_probability));
-    if (filter.restart_after_s) text += fmt::format("restart_after_s = {}\n", shortest(*filter.restart_after_s));
+      text += fmt::format("gate_probability = {}\n", toml_number(filter.gate_probability));
+    if (filter.restart_after_s) text += fmt::format("restart_after_s = {}\n", toml_number(*filter.restart_after_s));
     text += as_toml(filter.accuracy);
     for (const auto& [sensor, accuracy] : filter.sensors)
       text += fmt::format("\n[filter.{}.sensor.\"{}\"]\n{}", filter.name, sensor, as_toml(accuracy));

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <climits>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
@@ -166,6 +167,12 @@ std::string shortest(double value) {
   std::array<char, 32> text{};
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), result.ptr};
+}
+
+std::string toml_number(double value) {
+  std::string text = shortest(value);
+  if (std::abs(value) >= 0x1p63 && text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
 }
 
 }  // namespace sigmax::apps

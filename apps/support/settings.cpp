@@ -123,7 +123,7 @@ struct Reader {
   }
 };
 
-std::string written(double value) { return shortest(value); }
+std::string written(double value) { return toml_number(value); }
 std::string written(std::int64_t value) { return std::to_string(value); }
 std::string written(bool value) { return value ? "true" : "false"; }
 

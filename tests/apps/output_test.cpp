@@ -241,5 +241,14 @@ TEST(Shortest, ReadsBackAsTheSameDouble) {
   }
 }
 
+TEST(TomlNumber, HasAPointWhereAnIntegerWouldNotFit) {
+  EXPECT_EQ(toml_number(2.0), "2");
+  EXPECT_EQ(toml_number(0.1), "0.1");
+  EXPECT_EQ(toml_number(9007199254740993.0), "9007199254740992");
+  EXPECT_EQ(toml_number(92233720368547758072.5), "92233720368547758080.0");
+  EXPECT_EQ(toml_number(-92233720368547758072.5), "-92233720368547758080.0");
+  EXPECT_EQ(toml_number(1e300), "1e+300");
+}
+
 }  // namespace
 }  // namespace sigmax::apps
