@@ -508,7 +508,7 @@ TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
   const long small = peak_memory(file_of("small.csv", 10'000));
   const std::string large = file_of("large.csv", 200'000);
   ASSERT_GT(std::filesystem::file_size(large), 4U << 20U);
-  EXPECT_LT(peak_memory(large) - small, 1024);
+  EXPECT_LT(peak_memory(large) - small, 4096);  // KiB, less than the file; of them a sanitizer's allocator takes 3000
 }
 
 TEST(HimmDemoRecording, RecordedShipsAreTrackedOneByOneAndAllAtOnce) {
