@@ -26,7 +26,8 @@ namespace sigmax {
 ///
 /// The smoothed belief of k is ⊕ⱼ w(i, j), and the j of each i collapse: moments if the mode is random, selection if it
 /// is fuzzy. So one Gaussian a mode is kept backwards, as it is forwards (compare Kim 1994; Helmick, Blair, Hoffman
-/// 1995). With one model it is the smoother of Rauch, Tung and Striebel.
+/// 1995). Ties of the most likely mode are broken by the output rule, whose previous winner is that of k + 1. With one
+/// model it is the smoother of Rauch, Tung and Striebel.
 template <class Models, Uncertainty Kind>
 class FixedIntervalSmoother {
  public:
