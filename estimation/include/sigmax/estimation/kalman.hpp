@@ -22,15 +22,32 @@ struct Innovation {
   double log_likelihood = 0.0;    ///< log N(ν; 0, S)
 };
 
+namespace detail {
+
+/// What the sums and products of one step may lose of the terms that they are made of.
+inline constexpr double rounding = 128.0 * std::numeric_limits<double>::epsilon();
+
+/// P = F P Fᵀ + Q, each variance with the rounding of the terms of F P Fᵀ, before they may cancel. `result` may be
+/// `prior`.
+template <class Transition, class Noise, int N, int MaxN>
+void predict_covariance(const Transition& F, const Noise& Q, const SquareMatrix<N, MaxN>& prior,
+                        SquareMatrix<N, MaxN>& result) {
+  const Vector<N, MaxN> terms = F.cwiseAbs2() * prior.diagonal();
+  const SquareMatrix<N, MaxN> FP = F * prior;
+  result.noalias() = FP * F.transpose();
+  result += Q;
+  result.diagonal() += rounding * terms;
+  mirror_lower(result);
+}
+
+}  // namespace detail
+
 /// Prediction, (27) and (28): x = F x + u, P = F P Fᵀ + G Q Gᵀ. `result` may be `prior`.
 template <LinearMotion Model>
 void predict(const Model& model, const EstimateOf<Model>& prior, double dt, EstimateOf<Model>& result) {
   const auto& F = model.transition(dt);
-  const typename std::remove_cvref_t<decltype(prior.covariance)> FP = F * prior.covariance;
   result.mean = (F * prior.mean).eval() + model.known_input(dt);
-  result.covariance.noalias() = FP * F.transpose();
-  result.covariance += model.process_covariance(dt);
-  mirror_lower(result.covariance);
+  detail::predict_covariance(F, model.process_covariance(dt), prior.covariance, result.covariance);
 }
 
 /// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, n × n: what a smoother needs of a prediction beside its result.
@@ -42,9 +59,6 @@ SquareMatrix<Model::state_size, Model::max_state_size> prediction_covariance(con
 }
 
 namespace detail {
-
-/// What the sums and products of one update may lose of the terms that they are made of.
-inline constexpr double rounding = 128.0 * std::numeric_limits<double>::epsilon();
 
 /// Cholesky's factor of S. A pivot that drowned in the rounding of S, as where one model's spread is 10⁸ times as wide
 /// as the measurement, is lifted above it.
