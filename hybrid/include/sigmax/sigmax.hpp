@@ -34,6 +34,7 @@
 #include <sigmax/core/variable.hpp>
 #include <sigmax/core/witness.hpp>
 #include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>

@@ -123,6 +123,27 @@ measurement_jacobian(const Model& model, const StateOf<Model>& x) {
   return detail::require_finite(jacobian_at(), "the Jacobian of h", model, x);
 }
 
+/// f(x) of any motion; of a linear one F x + u.
+template <class Motion, class State>
+  requires(LinearMotion<Motion> || NonlinearMotion<Motion>)
+auto moved(const Motion& motion, const State& x, double dt) {
+  if constexpr (LinearMotion<Motion>)
+    return StateOf<Motion>(motion.transition(dt) * x + motion.known_input(dt));
+  else
+    return motion.propagate(x, dt);
+}
+
+/// ∂f/∂x of any motion; of a linear one F. Throws std::domain_error unless that of another is finite.
+template <class Motion>
+  requires(LinearMotion<Motion> || NonlinearMotion<Motion>)
+SquareMatrix<Motion::state_size, Motion::max_state_size> tangent(const Motion& motion, const StateOf<Motion>& x,
+                                                                 double dt) {
+  if constexpr (LinearMotion<Motion>)
+    return motion.transition(dt);
+  else
+    return transition_jacobian(motion, x, dt);
+}
+
 /// z − predicted, by the model's own difference if it has one.
 template <NonlinearModel Model>
 Vector<Model::measurement_size> measurement_difference(const Model& model, const Vector<Model::measurement_size>& z,

@@ -62,17 +62,9 @@ class Observed {
 
   template <class Scalar>
   auto propagate(const Eigen::Matrix<Scalar, state_size, 1, 0, max_state_size, 1>& x, double dt) const {
-    if constexpr (LinearMotion<Motion>)
-      return State(motion_.transition(dt) * x + motion_.known_input(dt));
-    else
-      return motion_.propagate(x, dt);
+    return moved(motion_, x, dt);
   }
-  Matrix transition_jacobian(const State& x, double dt) const {
-    if constexpr (LinearMotion<Motion>)
-      return motion_.transition(dt);
-    else
-      return sigmax::transition_jacobian(motion_, x, dt);
-  }
+  Matrix transition_jacobian(const State& x, double dt) const { return tangent(motion_, x, dt); }
 
   template <class Scalar>
   auto measure(const Eigen::Matrix<Scalar, state_size, 1, 0, max_state_size, 1>& x) const {

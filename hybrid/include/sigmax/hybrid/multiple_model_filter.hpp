@@ -86,7 +86,8 @@ class MultipleModelFilter {
   Estimate estimate(const State& state) const { return output(interaction_.collapse, state); }
 
   /// The estimate of the most likely mode alone, whatever the mode's kind.
-  Estimate most_likely_estimate() const { return output(Selection{}, state()); }
+  Estimate most_likely_estimate() const { return most_likely_estimate(state()); }
+  Estimate most_likely_estimate(const State& state) const { return output(Selection{}, state); }
 
   /// Whether the last step had a measurement, and took it.
   bool measured() const { return measured_; }
