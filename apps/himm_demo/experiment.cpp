@@ -46,17 +46,21 @@ std::array<double, 3> squares(const Vector<3>& error) {
   return {error.x() * error.x(), error.y() * error.y(), error.z() * error.z()};
 }
 
-void record(const Tracker<3>& tracker, const Vector<6>& truth, std::size_t sample, Trace& trace) {
-  const auto estimate = tracker.estimate();
+void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Trace& trace) {
+  const auto& estimate = point.estimate;
   trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
   trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
                                                                estimate.covariance.topLeftCorner<3, 3>());
   if (estimate.size() >= 6)
     trace.nees_velocity[sample] =
         normalized_error_squared<6, 6>(estimate.mean.head<6>() - truth, estimate.covariance.topLeftCorner<6, 6>());
-  trace.nis[sample] = tracker.nis().value_or(nan);
-  const std::size_t models = tracker.settings().models.size();
-  for (std::size_t j = 0; j < models; ++j) trace.weights[sample].push_back(tracker.weight(j));
+  trace.nis[sample] = point.nis.value_or(nan);
+  trace.weights[sample] = std::move(point.weights);
+}
+
+/// What the experiment's radar saw, as the filter takes it.
+Reading<3> reading(const Polar& seen, const FilterSettings& filter) {
+  return radar_reading<3>(seen, filter.accuracy.radar, Vector<3>::Zero(), filter.radar_measurement);
 }
 
 Run run_once(const Experiment& experiment, std::uint64_t number) {
@@ -70,17 +74,24 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
     result.measurement.squared_error[k] = squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
 
   for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
-    Tracker<3> tracker(experiment.filters[f]);
+    const FilterSettings& filter = experiment.filters[f];
+    Tracker<3> tracker(filter);
+    const auto note = [&](TrackPoint<3> point) {
+      const auto sample = std::lround(point.time / experiment.scenario.step_s);
+      if (sample < 0) return;  // a given start
+      const auto k = static_cast<std::size_t>(sample);
+      record(std::move(point), recording.truth[k], k, result.filters[f]);
+    };
     for (std::size_t k = 0; k < samples; ++k) {
       try {
-        const auto z = to_cartesian(recording.measured[k], tracker.settings().accuracy.radar);
         bool stepped_now = false;
-        tracker.take(time_of(k), z, [&](double time) {
+        tracker.take(time_of(k), reading(recording.measured[k], filter), [&](double) {
           stepped_now = true;
-          const auto sample = static_cast<std::size_t>(std::lround(time / experiment.scenario.step_s));
-          record(tracker, recording.truth[sample], sample, result.filters[f]);
+          if (!filter.smooth) note(tracker.now());
         });
-        if (tracker.running() && !stepped_now) record(tracker, recording.truth[k], k, result.filters[f]);  // the start
+        if (tracker.running() && !stepped_now && !filter.smooth) note(tracker.now());  // the start
+        if (k + 1 == samples)
+          for (auto& point : tracker.smoothed()) note(std::move(point));
       } catch (const std::exception& error) {
         throw std::runtime_error(fmt::format("filter '{}', run {}, sample {}: {}", experiment.filters[f].name,
                                              number + 1, k + 1, error.what()));
@@ -292,9 +303,9 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
     std::vector<double> times;
     for (int number = 0; number < std::min(most_runs, experiment.runs); ++number) {
       RandomStream random(experiment.seed, static_cast<std::uint64_t>(number));
-      std::vector<Gaussian<3>> measurements;
+      std::vector<Reading<3>> measurements;
       for (const Polar& seen : simulate(experiment.scenario, experiment.group.data, random).measured)
-        measurements.push_back(to_cartesian(seen, filter.accuracy.radar));
+        measurements.push_back(reading(seen, filter));
       Tracker<3> tracker(filter);
       double start = 0.0;
       int steps = -1;  // the first only warms up
@@ -302,6 +313,7 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
         if (steps == 0) start = cpu_time();
         tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], [&](double) { ++steps; });
       }
+      tracker.smoothed();
       times.push_back((cpu_time() - start) / steps);
     }
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());

@@ -37,6 +37,10 @@ const Names<MemberType> members = {
 const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
                                            {"possibility", LikelihoodForm::possibility}};
 const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
+const Names<RadarForm> radar_forms = {{"standard", RadarForm::standard},
+                                      {"unbiased", RadarForm::unbiased},
+                                      {"debiased", RadarForm::debiased},
+                                      {"polar", RadarForm::polar}};
 const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
 
 /// A filter with a name of its own: the kind of its mode, and what it has by default.
@@ -148,10 +152,16 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   filter.motions = read_motions(settings, defaults.sigma_w);
   filter.models = names_of(filter.motions);
   filter.member = settings.choice("member", members, MemberType::ekf);
-  for (std::size_t i = 0; i < filter.motions.size(); ++i)
-    if (filter.member == MemberType::kf && !filter.motions[i].linear())
-      throw settings.error("member", fmt::format("ekf, ukf or ckf, since the model {} is not linear", filter.models[i]),
-                           "linear models have the Kalman filter whatever the member is");
+  filter.radar_measurement = settings.choice("radar_measurement", radar_forms, RadarForm::standard);
+  if (filter.member == MemberType::kf) {
+    const auto refuse = [&](const std::string& what) {
+      return settings.error("member", fmt::format("ekf, ukf or ckf, since {} not linear", what),
+                            "linear models have the Kalman filter whatever the member is");
+    };
+    for (std::size_t i = 0; i < filter.motions.size(); ++i)
+      if (!filter.motions[i].linear()) throw refuse(fmt::format("the model {} is", filter.models[i]));
+    if (filter.radar_measurement == RadarForm::polar) throw refuse("radar_measurement = \"polar\" is");
+  }
   const std::size_t modes = filter.models.size();
 
   // Both transitions are asked for, so that one for the other kind of filter is no unknown key.
@@ -161,6 +171,14 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   const auto possibility = settings.matrix("transition_possibility", transition_of(modes, 1.0, defaults.possibility));
   filter.transition = fuzzy ? possibility : probability;
   refuse_bad_transition(settings, fuzzy ? "transition_possibility" : "transition_probability", filter);
+
+  filter.sojourn_s = settings.numbers("sojourn_s", {});
+  if (!filter.sojourn_s.empty()) {
+    if (modes < 2 || filter.sojourn_s.size() != modes)
+      throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
+    for (const double time : filter.sojourn_s)
+      if (!(time > 0.0)) throw settings.error("sojourn_s", "positive times, in s; inf for a model that is never left");
+  }
 
   filter.mixed_covariance = settings.choice("mixed_covariance", mixed_covariances, defaults.mixed_covariance);
   filter.imm_mixing = settings.choice("imm_mixing", mixing_weights, defaults.imm_mixing);
@@ -195,6 +213,8 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
   filter.restart_after_s = settings.number("restart_after_s");
   if (filter.restart_after_s && !(*filter.restart_after_s > 0.0))
     throw settings.error("restart_after_s", "a positive time, in s");
+
+  filter.smooth = settings.boolean("smooth", false);
 
   Accuracy usual{defaults.sigma_radar, {10.0}};
   filter.accuracy = read_accuracy(settings, usual);
@@ -270,8 +290,11 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
     text += as_toml(filter.motions);
     const bool turns = std::any_of(filter.motions.begin(), filter.motions.end(),
                                    [](const Motion& motion) { return !motion.linear(); });
-    if (turns) text += fmt::format("member = \"{}\"\n", name_of(members, filter.member));
-    if (filter.scheme != Scheme::independent) {
+    if (turns || filter.radar_measurement == RadarForm::polar)
+      text += fmt::format("member = \"{}\"\n", name_of(members, filter.member));
+    if (filter.scheme != Scheme::independent && !filter.sojourn_s.empty()) {
+      text += fmt::format("sojourn_s = {}\n", toml_list(filter.sojourn_s));
+    } else if (filter.scheme != Scheme::independent) {
       std::vector<std::string> rows;
       for (const auto& row : filter.transition) rows.push_back(toml_list(row));
       text += fmt::format("{} = [{}]\n", filter.fuzzy ? "transition_possibility" : "transition_probability",
@@ -297,6 +320,8 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
     if (filter.gate_probability < 1.0)
       text += fmt::format("gate_probability = {}\n", toml_number(filter.gate_probability));
     if (filter.restart_after_s) text += fmt::format("restart_after_s = {}\n", toml_number(*filter.restart_after_s));
+    if (filter.smooth) text += "smooth = true\n";
+    text += fmt::format("radar_measurement = \"{}\"\n", name_of(radar_forms, filter.radar_measurement));
     text += as_toml(filter.accuracy);
     for (const auto& [sensor, accuracy] : filter.sensors)
       text += fmt::format("\n[filter.{}.sensor.\"{}\"]\n{}", filter.name, sensor, as_toml(accuracy));

@@ -10,6 +10,7 @@
 #include <sigmax/hybrid/interaction.hpp>
 
 #include "himm_demo/motion.hpp"
+#include "himm_demo/reading.hpp"
 #include "himm_demo/scenario.hpp"
 #include "support/settings.hpp"
 
@@ -44,7 +45,8 @@ struct FilterSettings {
   std::vector<Motion> motions;
   std::vector<std::string> models;  ///< their names, all different
   MemberType member = MemberType::ekf;
-  std::vector<std::vector<double>> transition;
+  std::vector<std::vector<double>> transition;  ///< per scan
+  std::vector<double> sojourn_s;                ///< of each mode on average; if given, the transition follows the time
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
   Lift lift = Lift::zero;
@@ -60,6 +62,8 @@ struct FilterSettings {
   std::optional<double> start_time_s;
   double gate_probability = 1.0;          ///< that a right measurement passes the gate; 1 is no gate
   std::optional<double> restart_after_s;  ///< without a measurement that passes
+  bool smooth = false;                    ///< whether the output is of the whole recording rather than the past
+  RadarForm radar_measurement = RadarForm::standard;
   Accuracy accuracy;
   std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
 

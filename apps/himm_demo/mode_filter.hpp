@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -26,22 +28,39 @@ class ModeFilter {
   /// A measurement whose NIS is above the gate counts as missed. Returns whether there was one that passed.
   bool step(double dt, const std::optional<Measurement>& z, double gate);
 
-  /// The output that the settings ask for, in `components()`.
-  Estimate estimate() const;
+  /// The names of what `Output::estimate` estimates.
   const std::vector<std::string>& components() const;
-  double weight(std::size_t mode) const;
-  std::size_t most_likely_mode() const;
+
+  /// The output that the settings ask for, of one time.
+  struct Output {
+    Estimate estimate;
+    std::vector<double> weights;
+    std::size_t most_likely_mode;
+  };
+  Output output() const;
 
   /// The normalised innovation squared of the last step, if it had a measurement.
   std::optional<double> nis() const;
+
+  /// Records the state as it is, `dt` after the one recorded before, for `smoothed`: an output for each record.
+  void record(double dt);
+  std::vector<Output> smoothed() const;
 
  private:
   using Filter = std::variant<InteractingMultipleModel<Models, Random>, InteractingMultipleModel<Models, Fuzzy>,
                               SecondOrderMultipleModel<Models, Random>, SecondOrderMultipleModel<Models, Fuzzy>>;
 
+  template <class Kind>
+  using Record = std::vector<RecordedStep<Models, Kind>>;
+
   static Filter made(const FilterSettings& settings, const Models& models, const Starts& starts);
 
+  /// Of the filter's own state, or a smoothed one.
+  template <class AnyFilter>
+  Output output_of(const AnyFilter& filter, const typename AnyFilter::State& state) const;
+
   Filter filter_;
+  std::tuple<Record<Random>, Record<Fuzzy>> record_;
   bool most_likely_output_;
 };
 

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/mode_transition.hpp>
+
 #include "himm_demo/mode_filter.hpp"
 
 namespace sigmax::apps {
@@ -7,10 +13,11 @@ namespace sigmax::apps {
 // Included only by the files that instantiate it: several, since that is most of the program's compile time.
 
 template <Uncertainty Kind>
-Relation<Kind, Kind> transition_of(const FilterSettings& settings) {
+ModeTransition<Kind> transition_of(const FilterSettings& settings) {
   const Variable<Kind> mode{"mode", settings.models};
   if (settings.scheme == Scheme::independent) return identity(mode);
-  return {mode, mode, settings.transition};
+  if (!settings.sojourn_s.empty()) return TimedTransition<Kind>(mode, rates_of_sojourns(settings.sojourn_s));
+  return Relation<Kind, Kind>{mode, mode, settings.transition};
 }
 
 template <Uncertainty Kind>
@@ -57,31 +64,50 @@ bool ModeFilter<Models>::step(double dt, const std::optional<Measurement>& z, do
 }
 
 template <class Models>
-auto ModeFilter<Models>::estimate() const -> Estimate {
-  return std::visit(
-      [&](const auto& filter) { return most_likely_output_ ? filter.most_likely_estimate() : filter.estimate(); },
-      filter_);
-}
-
-template <class Models>
 const std::vector<std::string>& ModeFilter<Models>::components() const {
   return std::visit([](const auto& filter) -> const std::vector<std::string>& { return filter.components(); }, filter_);
 }
 
 template <class Models>
-double ModeFilter<Models>::weight(std::size_t mode) const {
-  return std::visit([&](const auto& filter) { return filter.belief()[mode]; }, filter_);
+template <class AnyFilter>
+auto ModeFilter<Models>::output_of(const AnyFilter& filter, const typename AnyFilter::State& state) const -> Output {
+  Output output{most_likely_output_ ? filter.most_likely_estimate(state) : filter.estimate(state),
+                std::vector<double>(filter.modes()), state.most_likely_mode};
+  for (std::size_t j = 0; j < filter.modes(); ++j) output.weights[j] = state.belief[j];
+  return output;
 }
 
 template <class Models>
-std::size_t ModeFilter<Models>::most_likely_mode() const {
-  return std::visit([](const auto& filter) { return filter.most_likely_mode(); }, filter_);
+auto ModeFilter<Models>::output() const -> Output {
+  return std::visit([&](const auto& filter) { return output_of(filter, filter.state()); }, filter_);
 }
 
 template <class Models>
 std::optional<double> ModeFilter<Models>::nis() const {
   return std::visit([](const auto& filter) { return filter.measured() ? std::optional(filter.nis()) : std::nullopt; },
                     filter_);
+}
+
+template <class Models>
+void ModeFilter<Models>::record(double dt) {
+  std::visit(
+      [&](const auto& filter) {
+        auto step = filter.recorded(dt);
+        std::get<std::vector<decltype(step)>>(record_).push_back(std::move(step));
+      },
+      filter_);
+}
+
+template <class Models>
+auto ModeFilter<Models>::smoothed() const -> std::vector<Output> {
+  return std::visit(
+      [&](const auto& filter) {
+        std::vector<Output> outputs;
+        for (const auto& state : smooth(filter, std::get<std::vector<decltype(filter.recorded(0.0))>>(record_)))
+          outputs.push_back(output_of(filter, state));
+        return outputs;
+      },
+      filter_);
 }
 
 }  // namespace sigmax::apps

@@ -1,20 +1,24 @@
 #pragma once
 
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 
+#include "himm_demo/row_sensor.hpp"
 #include "support/settings.hpp"
 
 namespace sigmax::apps {
@@ -57,13 +61,17 @@ std::vector<std::string> names_of(const std::vector<Motion>& motions);
 template <int Axes>
 using KinematicBank = std::vector<KinematicModel<Axes, Eigen::Dynamic>>;
 
-/// The bank of all models.
+/// The bank of all models, seen by any sensor.
+template <int Axes>
+using AnyMotionOf = AnyMotion<3 * Axes + 1, KinematicModel<Axes, 2>, KinematicModel<Axes, 3>,
+                              IndependentAxes<Axes, WhiteNoise<2>>, IndependentAxes<Axes, WhiteNoise<3>>,
+                              IndependentAxes<Axes, OrnsteinUhlenbeck<1>>, IndependentAxes<Axes, OrnsteinUhlenbeck<2>>,
+                              IndependentAxes<Axes, OrnsteinUhlenbeck<3>>, KnownTurn<Axes>, CoordinatedTurn<Axes>>;
+template <int Axes>
+using SeenMotion = Observed<AnyMotionOf<Axes>, RowSensor<Axes>>;
 template <int Axes>
 using AnyBank = std::vector<
-    AnyModel<3 * Axes + 1, KinematicModel<Axes, 2>, KinematicModel<Axes, 3>, IndependentAxes<Axes, WhiteNoise<2>>,
-             IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
-             IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>, KnownTurn<Axes>,
-             Extended<CoordinatedTurn<Axes>>, Unscented<CoordinatedTurn<Axes>>, Cubature<CoordinatedTurn<Axes>>>>;
+    AnyModel<3 * Axes + 1, Extended<SeenMotion<Axes>>, Unscented<SeenMotion<Axes>>, Cubature<SeenMotion<Axes>>>>;
 
 /// Whether the fast bank has all models.
 bool kinematic(const std::vector<Motion>& motions);
@@ -76,7 +84,7 @@ KinematicBank<Axes> kinematic_bank(const std::vector<Motion>& motions) {
 }
 
 template <int Axes>
-typename AnyBank<Axes>::value_type any_model(const Motion& motion, MemberType member) {
+AnyMotionOf<Axes> any_motion(const Motion& motion) {
   constexpr double degree = std::numbers::pi / 180.0;
   const double sigma = motion.sigma_w;
   switch (motion.type) {
@@ -100,16 +108,25 @@ typename AnyBank<Axes>::value_type any_model(const Motion& motion, MemberType me
       break;
   }
   const double drift = motion.turn_drift_deg_s * degree;
-  const CoordinatedTurn<Axes> turn(sigma * sigma, drift * drift);
-  if (member == MemberType::ukf) return Unscented{turn};
-  if (member == MemberType::ckf) return Cubature{turn};
-  return Extended{turn};
+  return CoordinatedTurn<Axes>(sigma * sigma, drift * drift);
 }
 
+/// `linear` is the member of linear motions, `other` that of the others. `radar` is the one that measured the row at
+/// hand, if one did and it is taken in its own space.
 template <int Axes>
-AnyBank<Axes> any_bank(const std::vector<Motion>& motions, MemberType member) {
+AnyBank<Axes> any_bank(const std::vector<Motion>& motions, MemberType linear, MemberType other,
+                       const std::shared_ptr<const typename RowSensor<Axes>::Radar>& radar) {
   AnyBank<Axes> bank;
-  for (const auto& motion : motions) bank.push_back(any_model<Axes>(motion, member));
+  for (const auto& motion : motions) {
+    const SeenMotion<Axes> seen(any_motion<Axes>(motion), RowSensor<Axes>(radar));
+    const MemberType member = motion.linear() ? linear : other;
+    if (member == MemberType::ukf)
+      bank.push_back(Unscented{seen});
+    else if (member == MemberType::ckf)
+      bank.push_back(Cubature{seen});
+    else
+      bank.push_back(Extended{seen});  // the Kalman filter, where motion and sensor are linear
+  }
   return bank;
 }
 

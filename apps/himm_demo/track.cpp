@@ -70,6 +70,7 @@ struct Validity {
     ++measurements;
     double worst = 0.0;
     for (const auto& filter : filters) {
+      if (filter.radar_measurement != RadarForm::standard) continue;
       const Polar& sigma = filter.accuracy_of(fix.sensor).radar;
       const double value = conversion_validity(seen.range, sigma);
       worst = std::max(worst, value);
@@ -87,7 +88,7 @@ struct Validity {
     return fmt::format(
         "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements holds "
         "below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance covers "
-        "the error of the conversion, or measure the azimuth better",
+        "the error of the conversion, or radar_measurement=polar, which converts nothing",
         file, first_line, first_value, first_range, limit, outside, measurements,
         std::ceil(sigma_range_needed / unit) * unit);
   }
@@ -139,11 +140,10 @@ class EstimatesFile {
   }
 
   template <int Axes>
-  void add(double time, const std::string& track, const Tracker<Axes>& tracker) {
-    const auto& settings = tracker.settings();
-    const auto estimate = tracker.estimate();
+  void add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point) {
+    const auto& estimate = point.estimate;
     const auto has = [&](int order, int axis) { return axis < Axes && order * Axes + axis < estimate.size(); };
-    file_.write(shortest(time));
+    file_.write(shortest(point.time));
     if (recording_.has_tracks()) file_.print(",{}", csv_field(track));
     file_.print(",{}", csv_field(settings.name));
     for (int order = 0; order < 3; ++order)
@@ -154,26 +154,23 @@ class EstimatesFile {
         const int i = order * Axes + axis;
         cell(has(order, axis) ? std::optional(std::sqrt(estimate.covariance(i, i))) : std::nullopt);
       }
-    cell(tracker.nis());
-    if (turns_) {
-      const auto rate = tracker.turn_rate();
-      cell(rate ? std::optional(*rate / degree) : std::nullopt);
-    }
+    cell(point.nis);
+    if (turns_) cell(point.turn_rate ? std::optional(*point.turn_rate / degree) : std::nullopt);
     for (const auto& model : models_) {
       const auto own = std::find(settings.models.begin(), settings.models.end(), model);
       cell(own == settings.models.end()
                ? std::nullopt
-               : std::optional(tracker.weight(static_cast<std::size_t>(own - settings.models.begin()))));
+               : std::optional(point.weights[static_cast<std::size_t>(own - settings.models.begin())]));
     }
-    file_.print(",{}", settings.models[tracker.most_likely_mode()]);
+    file_.print(",{}", settings.models[point.most_likely_mode]);
     if (recording_.geodetic()) {
       const double east = estimate.mean(0), north = estimate.mean(1);
       const LocalFrame& frame = recording_.frame();
-      const Geodetic point =
+      const Geodetic place =
           Axes == 3 ? frame.to_geodetic({east, north, estimate.mean(Axes - 1)}) : frame.to_surface(east, north);
-      cell(point.latitude_deg());
-      cell(point.longitude_deg());
-      cell(Axes == 3 ? std::optional(point.altitude) : std::nullopt);
+      cell(place.latitude_deg());
+      cell(place.longitude_deg());
+      cell(Axes == 3 ? std::optional(place.altitude) : std::nullopt);
     }
     file_.write("\n");
   }
@@ -201,7 +198,7 @@ std::uint64_t stream_of(std::string_view track) {
 template <int Axes>
 struct Target {
   Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
-      : trackers(filters.begin(), filters.end()), random(random_stream) {}
+      : trackers(filters.begin(), filters.end()), random(random_stream), rows(filters.size()) {}
 
   bool all_started() const {
     return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
@@ -210,7 +207,8 @@ struct Target {
   std::vector<Tracker<Axes>> trackers;
   RandomStream random;
   Fix now;
-  Fix before;  // a start may wait for the row after it
+  Fix before;                          // a start may wait for the row after it
+  std::vector<std::vector<Fix>> rows;  // of the steps of each filter that waits to be smoothed
 };
 
 /// All filters on all targets of one recording.
@@ -235,6 +233,7 @@ class TrackRun {
       done = recording_.csv().bytes_read();
     }
     progress.finish();
+    for (auto& [name, target] : targets_) smooth(target);
     for (const auto& [name, target] : targets_)
       if (!target.all_started()) never_started_.push_back(name);
     if (never_started_.size() == targets_.size()) refuse_nothing();
@@ -281,14 +280,17 @@ class TrackRun {
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
       auto& tracker = target.trackers[f];
       try {
-        tracker.take(fix.time_s, measurement(fix, tracker.settings()), [&](double time) { record(target, f, time); });
+        tracker.take(fix.time_s, reading(fix, tracker.settings()), [&](double time) {
+          const Fix& row = time == target.now.time_s ? target.now : target.before;
+          if (tracker.settings().smooth)
+            target.rows[f].push_back(row);
+          else
+            record(row, f, tracker.now());
+        });
       } catch (const InputError&) {
         throw;  // of the output
       } catch (const std::exception& error) {
-        throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
-                                  .what = fmt::format("filter '{}' at time {} s: {}", tracker.settings().name,
-                                                      shortest(fix.time_s), error.what()),
-                                  .remedy = "look for an outlier here, and at the filter's settings"}));
+        refuse_failure(f, fix, "", error);
       }
     }
     std::optional<double> least;  // of the filters' NIS
@@ -316,21 +318,33 @@ class TrackRun {
     fix.seen = seen;
   }
 
+  /// The steps of a target whose rows have all been read, as smoothing sees them.
+  void smooth(Target<Axes>& target) {
+    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
+      std::vector<TrackPoint<Axes>> points;
+      try {
+        points = target.trackers[f].smoothed();
+      } catch (const std::exception& error) {
+        refuse_failure(f, target.now, "smoothed back from the end ", error);
+      }
+      auto row = target.rows[f].begin();
+      for (const auto& point : points)
+        if (!point.is_start) record(*row++, f, point);
+    }
+    target.rows.clear();
+  }
+
   /// What a row measures, with the covariance that a filter believes.
-  std::optional<Gaussian<Axes>> measurement(const Fix& fix, const FilterSettings& settings) const {
+  std::optional<Reading<Axes>> reading(const Fix& fix, const FilterSettings& settings) const {
     if (!fix.measured()) return std::nullopt;
     const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-    if (fix.seen) {
-      const Gaussian<3> position = to_cartesian(*fix.seen, accuracy.radar);
-      const Vector<3> moved = position.mean + radar_at_;
-      return Gaussian<Axes>{moved.template head<Axes>(), position.covariance.template topLeftCorner<Axes, Axes>()};
-    }
+    if (fix.seen) return radar_reading<Axes>(*fix.seen, accuracy.radar, radar_at_, settings.radar_measurement);
     Gaussian<Axes> z{fix.position->template head<Axes>(), SquareMatrix<Axes>::Zero()};
     for (Eigen::Index axis = 0; axis < Axes; ++axis) {
       const auto& sigma = accuracy.position_m;
       z.covariance(axis, axis) = std::pow(sigma.size() == 1 ? sigma[0] : sigma[static_cast<std::size_t>(axis)], 2);
     }
-    return z;
+    return Reading<Axes>{z, std::nullopt};
   }
 
   template <class Add>
@@ -339,13 +353,10 @@ class TrackRun {
       if (parts[p].holds(roll)) add(sums[p]);
   }
 
-  /// Takes down filter f's estimate at a time: that of this row, or of the one before where a start waited for it.
-  void record(const Target<Axes>& target, std::size_t f, double time) {
-    const auto& tracker = target.trackers[f];
-    const Fix& fix = time == target.now.time_s ? target.now : target.before;
-    if (estimates_) estimates_->add(time, fix.track, tracker);
-    const auto estimate = tracker.estimate();
-    const auto nis = tracker.nis();
+  /// Takes down what filter f says of a row.
+  void record(const Fix& fix, std::size_t f, const TrackPoint<Axes>& point) {
+    if (estimates_) estimates_->add(fix.track, filters_[f], point);
+    const auto& estimate = point.estimate;
     add_by_part(sums_[f], fix.roll_deg, [&](Sums& sums) {
       ++sums.count;
       for (Eigen::Index axis = 0; axis < Axes; ++axis)
@@ -355,12 +366,20 @@ class TrackRun {
         error.template head<Axes>() = estimate.mean.template head<Axes>() - fix.truth->template head<Axes>();
         add_error(sums, error);
       }
-      for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += tracker.weight(j);
-      if (nis) {
-        sums.nis += *nis;
+      for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
+      if (point.nis) {
+        sums.nis += *point.nis;
         ++sums.nis_count;
       }
     });
+  }
+
+  [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const char* doing,
+                                   const std::exception& error) const {
+    throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
+                              .what = fmt::format("filter '{}' {}at time {} s: {}", filters_[f].name, doing,
+                                                  shortest(fix.time_s), error.what()),
+                              .remedy = "look for an outlier here, and at the filter's settings"}));
   }
 
   [[noreturn]] void refuse_nothing() const {
@@ -425,10 +444,15 @@ void describe(TrackReport& report, const TrackOptions& options, const RecordingR
   if (recording.has_tracks()) summary["tracks"] = {{"count", run.tracks()}, {"never_started", run.never_started()}};
   summary["settings_toml"] = as_toml(filters);
 
+  const bool converted = std::none_of(filters.begin(), filters.end(), [](const FilterSettings& filter) {
+    return filter.radar_measurement == RadarForm::polar;
+  });
   std::string& text = report.text;
   text = fmt::format("{}: {} rows, {} measurements, {} axes{}{}\n", run.file(), run.rows(), run.measurements(), Axes,
                      recording.geodetic() ? ", geodetic to local east-north-up" : "",
-                     recording.polar() ? ", a radar's measurements converted" : "");
+                     !recording.polar() ? ""
+                     : converted        ? ", a radar's measurements converted"
+                                        : ", a radar's measurements");
   if (recording.has_sensors()) {
     std::vector<std::string> counts;
     for (const auto& [sensor, count] : run.sensors()) counts.push_back(fmt::format("{} {}", sensor, count));

@@ -24,31 +24,50 @@ Start widened(const Estimate& estimate, bool turns, double sigma_turn) {
   return start;
 }
 
+/// An output of a filter, whose rate of turn is no derivative of the position.
+template <int Axes, class Filter>
+TrackPoint<Axes> point(const Filter& filter, const typename Filter::Output& output) {
+  TrackPoint<Axes> point;
+  const auto& names = filter.components();  // those of the largest model lead
+  const auto omega = std::find(names.begin(), names.end(), "omega");
+  const auto n = static_cast<Eigen::Index>(names.size()) - (omega == names.end() ? 0 : 1);
+  point.estimate = {output.estimate.mean.head(n), output.estimate.covariance.topLeftCorner(n, n)};
+  if (omega != names.end()) point.turn_rate = output.estimate.mean(omega - names.begin());
+  point.weights = output.weights;
+  point.most_likely_mode = output.most_likely_mode;
+  return point;
+}
+
 }  // namespace
 
 template <int Axes>
 Tracker<Axes>::Tracker(FilterSettings settings)
     : settings_(std::move(settings)),
+      radar_(std::make_shared<typename RowSensor<Axes>::Radar>()),
       gate_(settings_.gate_probability < 1.0 ? chi_square_quantile(settings_.gate_probability, Axes) : no_gate) {}
 
 template <int Axes>
-void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
+void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& reading,
                          const std::function<void(double time)>& stepped) {
-  if (running() && settings_.restart_after_s && time - last_measured_ > *settings_.restart_after_s) filter_.reset();
+  if (running() && settings_.restart_after_s && time - last_measured_ > *settings_.restart_after_s) {
+    smoothed_ = smoothed();
+    recorded_.clear();
+    filter_.reset();
+  }
   if (running()) {
-    step(time, z);
+    step(time, reading);
     stepped(time);
   } else if (given()) {
-    waiting_.push_back({time, z});
+    waiting_.push_back({time, reading});
     if (!settings_.start_time_s && waiting_.size() < 2) return;
     start(settings_.start_time_s ? *settings_.start_time_s : 2.0 * waiting_[0].first - waiting_[1].first);
-    for (const auto& [waited, measurement] : waiting_) {
-      step(waited, measurement);
+    for (const auto& [waited, waiting] : waiting_) {
+      step(waited, waiting);
       stepped(waited);
     }
     waiting_.clear();
-  } else if (z) {
-    points_.push_back({time, *z});
+  } else if (reading) {
+    points_.push_back({time, reading->position});
     if (points_.size() < 3) return;
     start(time);
     points_.clear();
@@ -56,38 +75,30 @@ void Tracker<Axes>::take(double time, const std::optional<Measurement>& z,
 }
 
 template <int Axes>
-auto Tracker<Axes>::estimate() const -> Estimate {
-  return std::visit(
-      [](const auto& filter) -> Estimate {
-        const auto all = filter.estimate();
-        const auto& names = filter.components();  // those of the largest model lead; a rate of turn is no derivative
-        const Eigen::Index n =
-            std::count_if(names.begin(), names.end(), [](const auto& name) { return name != "omega"; });
-        return {all.mean.head(n), all.covariance.topLeftCorner(n, n)};
+auto Tracker<Axes>::now() const -> Point {
+  Point now = std::visit([](const auto& filter) { return point<Axes>(filter, filter.output()); }, *filter_);
+  now.time = time_;
+  now.nis = nis();
+  return now;
+}
+
+template <int Axes>
+auto Tracker<Axes>::smoothed() const -> std::vector<Point> {
+  std::vector<Point> all = smoothed_;
+  if (!running() || !settings_.smooth) return all;
+  std::visit(
+      [&](const auto& filter) {
+        auto known = recorded_.begin();
+        for (const auto& output : filter.smoothed()) {
+          auto& smoothed = all.emplace_back(point<Axes>(filter, output));
+          smoothed.time = known->time;
+          smoothed.nis = known->nis;
+          smoothed.is_start = known->is_start;
+          ++known;
+        }
       },
       *filter_);
-}
-
-template <int Axes>
-std::optional<double> Tracker<Axes>::turn_rate() const {
-  return std::visit(
-      [](const auto& filter) -> std::optional<double> {
-        const auto& names = filter.components();
-        const auto omega = std::find(names.begin(), names.end(), "omega");
-        if (omega == names.end()) return std::nullopt;
-        return filter.estimate().mean(omega - names.begin());
-      },
-      *filter_);
-}
-
-template <int Axes>
-double Tracker<Axes>::weight(std::size_t mode) const {
-  return std::visit([&](const auto& filter) { return filter.weight(mode); }, *filter_);
-}
-
-template <int Axes>
-std::size_t Tracker<Axes>::most_likely_mode() const {
-  return std::visit([](const auto& filter) { return filter.most_likely_mode(); }, *filter_);
+  return all;
 }
 
 template <int Axes>
@@ -96,11 +107,25 @@ std::optional<double> Tracker<Axes>::nis() const {
 }
 
 template <int Axes>
-void Tracker<Axes>::step(double time, const std::optional<Measurement>& z) {
-  const bool measured = std::visit([&](auto& filter) { return filter.step(time - time_, z, gate_); }, *filter_);
+void Tracker<Axes>::step(double time, const std::optional<Reading<Axes>>& reading) {
+  *radar_ = reading && reading->seen ? std::optional(reading->seen->radar) : std::nullopt;
+  const std::optional<Gaussian<Axes>> z = reading ? std::optional(reading->z()) : std::nullopt;
+  const double dt = time - time_;
+  const bool measured = std::visit([&](auto& filter) { return filter.step(dt, z, gate_); }, *filter_);
   time_ = time;
   if (measured) last_measured_ = time;
   if (z && !measured) ++rejected_;
+  record(dt, false);
+}
+
+template <int Axes>
+void Tracker<Axes>::record(double dt, bool is_start) {
+  if (!settings_.smooth) return;
+  std::visit([&](auto& filter) { filter.record(dt); }, *filter_);
+  auto& known = recorded_.emplace_back();
+  known.time = time_;
+  known.nis = nis();
+  known.is_start = is_start;
 }
 
 template <int Axes>
@@ -116,11 +141,13 @@ void Tracker<Axes>::start(double time) {
           widened<typename Starts::value_type>(start_of(motion), motion.type == MotionType::ct, sigma_turn));
     filter_.emplace(ModeFilter<Models>(settings_, bank, starts));
   };
-  if (kinematic(settings_.motions))
+  const bool polar = settings_.radar_measurement == RadarForm::polar;
+  if (kinematic(settings_.motions) && !polar)
     start_bank(kinematic_bank<Axes>(settings_.motions));
   else
-    start_bank(any_bank<Axes>(settings_.motions, settings_.member));
+    start_bank(any_bank<Axes>(settings_.motions, polar ? settings_.member : MemberType::kf, settings_.member, radar_));
   ++starts_;
+  record(0.0, true);
 }
 
 template <int Axes>

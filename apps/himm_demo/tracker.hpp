@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -10,25 +11,38 @@
 #include <sigmax/estimation/start.hpp>
 
 #include "himm_demo/mode_filter.hpp"
+#include "himm_demo/reading.hpp"
+#include "himm_demo/row_sensor.hpp"
 
 namespace sigmax::apps {
+
+/// What a filter says of one time.
+template <int Axes>
+struct TrackPoint {
+  double time = 0.0;
+  Gaussian<Eigen::Dynamic, 3 * Axes> estimate;  ///< position, velocity and acceleration, as far as the models have them
+  std::optional<double> turn_rate;              ///< in rad/s, counter-clockwise, if a model estimates it
+  std::vector<double> weights;
+  std::size_t most_likely_mode = 0;
+  std::optional<double> nis;  ///< of the step, if it had a measurement that passed the gate
+  bool is_start = false;
+};
 
 /// One filter on one stream of timed measurements: it starts as its settings say, then steps. After too long without a
 /// measurement that passes the gate it starts again, from the next three.
 template <int Axes>
 class Tracker {
  public:
-  using Measurement = Gaussian<Axes>;
-  /// Position, velocity and acceleration, as far as the models have them.
-  using Estimate = Gaussian<Eigen::Dynamic, 3 * Axes>;
+  using Point = TrackPoint<Axes>;
 
   explicit Tracker(FilterSettings settings);
+  Tracker(Tracker&&) = default;  // no copies: the models of one filter look through one sensor
 
   const FilterSettings& settings() const { return settings_; }
 
   /// Takes one measurement, or none at that time, and calls `stepped(time)` after each step that this completes. A
   /// given start without a time waits for the second row: it is one step before the first.
-  void take(double time, const std::optional<Measurement>& z, const std::function<void(double time)>& stepped);
+  void take(double time, const std::optional<Reading<Axes>>& reading, const std::function<void(double time)>& stepped);
 
   /// Whether there is an estimate, and how often there began to be one.
   bool running() const { return filter_.has_value(); }
@@ -37,23 +51,26 @@ class Tracker {
   /// How many measurements the gate has turned away.
   std::size_t rejected() const { return rejected_; }
 
-  /// The output that the settings ask for.
-  Estimate estimate() const;
-  /// The estimated rate of turn in rad/s, counter-clockwise, if a model has one.
-  std::optional<double> turn_rate() const;
-  double weight(std::size_t mode) const;
-  std::size_t most_likely_mode() const;
-
   /// The normalised innovation squared of the last step, if it had a measurement.
   std::optional<double> nis() const;
 
+  /// The output now, as the settings ask for it.
+  Point now() const;
+
+  /// All points, given what came after them: of each step, and of each start before its steps. Only if the settings ask
+  /// for smoothing, which keeps all steps.
+  std::vector<Point> smoothed() const;
+
  private:
+  using Estimate = Gaussian<Eigen::Dynamic, 3 * Axes>;
   using Points = std::vector<TimedMeasurement<Axes>>;
+  using Filter = std::variant<ModeFilter<KinematicBank<Axes>>, ModeFilter<AnyBank<Axes>>>;
 
   /// Whether the start to come is the given one.
   bool given() const { return settings_.start == Start::given && starts_ == 0; }
-  void step(double time, const std::optional<Measurement>& z);
+  void step(double time, const std::optional<Reading<Axes>>& reading);
   void start(double time);
+  void record(double dt, bool is_start);
   /// Where a model starts.
   Estimate start_of(const Motion& motion) const;
   Estimate start_from_points(const Motion& motion) const;
@@ -61,13 +78,16 @@ class Tracker {
 
   FilterSettings settings_;
   Points points_;
-  std::vector<std::pair<double, std::optional<Measurement>>> waiting_;
-  std::optional<std::variant<ModeFilter<KinematicBank<Axes>>, ModeFilter<AnyBank<Axes>>>> filter_;
+  std::vector<std::pair<double, std::optional<Reading<Axes>>>> waiting_;
+  std::shared_ptr<typename RowSensor<Axes>::Radar> radar_;  ///< of the row at hand
+  std::optional<Filter> filter_;
   double gate_;
   double time_ = 0.0;
   double last_measured_ = 0.0;
   std::size_t starts_ = 0;
   std::size_t rejected_ = 0;
+  std::vector<Point> recorded_;  ///< since the last start: time, NIS and whether it is the start
+  std::vector<Point> smoothed_;  ///< before the last start
 };
 
 extern template class Tracker<2>;

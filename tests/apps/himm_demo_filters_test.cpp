@@ -4,10 +4,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <sigmax/estimation/coordinated_turn.hpp>
@@ -15,6 +13,7 @@
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
+#include "apps/manoeuvring_targets.hpp"
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
@@ -25,45 +24,6 @@ namespace sigmax::apps {
 namespace {
 
 using support::near;
-
-struct Point {
-  double time;
-  std::vector<double> z;
-};
-
-std::string csv(const std::vector<Point>& points) {
-  std::string text = points.front().z.size() == 3 ? "time_s,x_m,y_m,z_m\n" : "time_s,x_m,y_m\n";
-  for (const auto& point : points) {
-    text += exact(point.time);
-    for (const double z : point.z) text += "," + exact(z);
-    text += "\n";
-  }
-  return text;
-}
-
-/// A target that flies straight, accelerates and flies on, seen to 10 m at irregular times.
-std::vector<Point> accelerating_target() {
-  std::mt19937_64 engine(11);
-  std::normal_distribution<double> noise(0.0, 10.0);
-  std::uniform_real_distribution<double> step(0.1, 0.4);
-  std::vector<double> x = {1200.0, 800.0, 300.0};
-  std::vector<double> v = {-100.0, -80.0, 0.0};
-  std::vector<Point> points;
-  double time = 3.0;
-  for (int k = 0; k < 150; ++k) {
-    const std::vector<double> a = k >= 50 && k < 90 ? std::vector{-30.0, -50.0, 4.0} : std::vector{0.0, 0.0, 0.0};
-    const double dt = step(engine);
-    time += dt;
-    Point point{time, {}};
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[i] += dt * v[i] + 0.5 * dt * dt * a[i];
-      v[i] += dt * a[i];
-      point.z.push_back(x[i] + noise(engine));
-    }
-    points.push_back(point);
-  }
-  return points;
-}
 
 /// What a name stands for, in the restatement's terms.
 struct Named {
@@ -106,9 +66,6 @@ std::vector<Named> named_filters() {
   };
 }
 
-const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
-const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
-
 template <class Filter>
 void expect_restated(const Named& named, const std::vector<Point>& points, const std::vector<TextRow>& found) {
   using restatement::Index;
@@ -131,7 +88,7 @@ void expect_restated(const Named& named, const std::vector<Point>& points, const
   for (Index i = 0; i < 3; ++i) R(i, i) = 100.0;
 
   ASSERT_EQ(found.size(), points.size());
-  double time = 2.5;
+  double time = start_time;
   for (std::size_t k = 0; k < points.size(); ++k) {
     filter.step(points[k].time - time, points[k].z, R);
     time = points[k].time;
@@ -145,21 +102,14 @@ void expect_restated(const Named& named, const std::vector<Point>& points, const
     for (Index i = 0; i < 6; ++i)
       ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(sigmas[i])), std::sqrt(estimate.covariance(i, i)), 1e-9);
     ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("nis")), *filter.nis(), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
+    ASSERT_PRED_FORMAT3(near, number(found[k].at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+    ASSERT_PRED_FORMAT3(near, number(found[k].at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
   }
 }
 
 program::Ending himm_demo(std::vector<std::string> arguments, const std::vector<std::string>& sets = {}) {
   for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
   return program::run(SIGMAX_HIMM_DEMO, arguments);
-}
-
-std::vector<TextRow> of_filter(const std::vector<TextRow>& all, const std::string& filter) {
-  std::vector<TextRow> own;
-  for (const auto& row : all)
-    if (row.at("filter") == filter) own.push_back(row);
-  return own;
 }
 
 TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
@@ -185,21 +135,6 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
   ASSERT_EQ(imm.size(), likely.size());
   for (std::size_t k = 0; k < imm.size(); ++k) EXPECT_EQ(imm[k].at("weight_dwna"), likely[k].at("weight_dwna"));
   EXPECT_EQ(found.size(), points.size() * (named_filters().size() + 1)) << "all names are known here";
-}
-
-/// A target that flies straight and then on a circle, at 1 Hz, seen to 5 m.
-std::vector<Point> turning_target() {
-  std::mt19937_64 engine(5);
-  std::normal_distribution<double> noise(0.0, 5.0);
-  double x = 0.0, y = 0.0, heading = 0.3;
-  std::vector<Point> points;
-  for (int k = 0; k < 100; ++k) {
-    points.push_back({static_cast<double>(k), {x + noise(engine), y + noise(engine)}});
-    x += 50.0 * std::cos(heading);
-    y += 50.0 * std::sin(heading);
-    if (k >= 30) heading += 0.06;
-  }
-  return points;
 }
 
 TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
@@ -330,6 +265,8 @@ TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
       {"filters=[fast]", "filter.fast.kind=fuzzy", "filter.fast.scheme=second_order", "likelihood=possibility"},
       {"filters=[imm]", "gate_probability=0.99", "restart_after_s=12.5"},
       {"filters=[imm]", "output_spread=omitted", "output=most_likely", "scheme=common_start"},
+      {"filters=[imm,himm]", "sojourn_s=[100,12.5]", "smooth=true"},
+      {"filters=[himm]", "radar_measurement=polar", "member=ukf"},
   };
   for (const auto& sets : cases) {
     const auto first = himm_demo({"simulate", "--print-config"}, sets);
@@ -351,6 +288,11 @@ TEST(HimmDemoFilters, WhatCannotBeIsRefusedWithARemedy) {
   };
   EXPECT_NE(refusal({"models=[dwna,ct]", "member=kf"}).find("ekf, ukf or ckf, since the model ct is not linear"),
             std::string::npos);
+  EXPECT_NE(refusal({"radar_measurement=polar", "member=kf"}).find("since radar_measurement = \"polar\" is not linear"),
+            std::string::npos);
+  EXPECT_NE(refusal({"radar_measurement=Polar"}).find("standard, unbiased, debiased, polar"), std::string::npos);
+  EXPECT_NE(refusal({"sojourn_s=[1,2,3]"}).find("for each of two models or more"), std::string::npos);
+  EXPECT_NE(refusal({"sojourn_s=[1,0]"}).find("positive times"), std::string::npos);
   EXPECT_NE(refusal({"models=[dwna,turn]"}).find("names out of dwna, dwpa, cwna"), std::string::npos);
   EXPECT_NE(refusal({"tau_s=0"}).find("positive times"), std::string::npos);
   EXPECT_NE(refusal({"turn_deg_s=[1,2,3]"}).find("one number, or one for each model"), std::string::npos);

@@ -2,11 +2,10 @@
 
 #include <cmath>
 #include <map>
-#include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "apps/manoeuvring_targets.hpp"
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
@@ -17,47 +16,6 @@ namespace sigmax::apps {
 namespace {
 
 using support::near;
-
-struct Point {
-  double time;
-  std::vector<double> z;
-};
-
-/// A target on two or three axes that flies straight, turns hard and flies on, seen to 10 m at irregular times.
-std::vector<Point> recording(std::size_t axes) {
-  std::mt19937_64 engine(7);
-  std::normal_distribution<double> noise(0.0, 10.0);
-  std::uniform_real_distribution<double> step(0.1, 0.4);
-  std::vector<double> x = {1200.0, 800.0, 300.0};
-  std::vector<double> v = {-100.0, -80.0, 0.0};
-  std::vector<Point> points;
-  double time = 3.0;
-  for (int k = 0; k < 220; ++k) {
-    const std::vector<double> a = k >= 80 && k < 130 ? std::vector{-30.0, -50.0, 4.0} : std::vector{0.0, 0.0, 0.0};
-    const double dt = step(engine);
-    time += dt;
-    Point point{time, {}};
-    for (std::size_t i = 0; i < axes; ++i) {
-      x[i] += dt * v[i] + 0.5 * dt * dt * a[i];
-      v[i] += dt * a[i];
-      point.z.push_back(x[i] + noise(engine));
-    }
-    points.push_back(point);
-  }
-  return points;
-}
-
-std::string csv(const std::vector<Point>& points) {
-  std::ostringstream text;
-  text.precision(17);
-  text << (points.front().z.size() == 3 ? "time_s,x_m,y_m,z_m\n" : "time_s,x_m,y_m\n");
-  for (const auto& point : points) {
-    text << point.time;
-    for (const double z : point.z) text << ',' << z;
-    text << '\n';
-  }
-  return text.str();
-}
 
 struct Case {
   std::string name;
@@ -117,15 +75,11 @@ std::vector<Case> cases() {
   return result;
 }
 
-const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
-const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
-constexpr double start_time = 2.5;
-
 class Track : public testing::TestWithParam<Case> {};
 
 TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
   const Case& c = GetParam();
-  const auto points = recording(c.axes);
+  const auto points = accelerating_target(c.axes);
   const TemporaryDirectory directory;
   const auto input = directory.write("recording.csv", csv(points));
   const auto out = directory.path() / "out";
@@ -249,7 +203,7 @@ TEST(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
 }
 
 TEST(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
-  const auto text = csv(recording(3));
+  const auto text = csv(accelerating_target());
   const TemporaryDirectory directory;
   const auto run = [&](const std::string& out, const std::string& seed) {
     const auto ending =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -42,6 +43,9 @@ inline std::string exact(double value) {
   text << value;
   return text.str();
 }
+
+/// The number that a cell holds; unlike std::stod this takes one that is no normal number, too.
+inline double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
 
 /// A recorded track outside the project, or nothing.
 inline std::string recorded(const std::string& name) {

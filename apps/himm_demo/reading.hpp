@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/gaussian.hpp>
+#include <sigmax/estimation/sensors.hpp>
+
+namespace sigmax::apps {
+
+/// How a filter takes a radar's measurements: converted to positions, or in the radar's own space.
+enum class RadarForm { standard, unbiased, debiased, polar };
+
+/// What a row measured, as a filter takes it.
+template <int Axes>
+struct Reading {
+  /// Range, azimuth and with three axes elevation, and the radar that measured them.
+  struct Seen {
+    PolarSensor<Axes> radar;
+    Gaussian<Axes> z;
+  };
+
+  Gaussian<Axes> position;   ///< of a radar: converted
+  std::optional<Seen> seen;  ///< by a radar, if the filter takes that in the radar's own space
+
+  /// What the filter steps with.
+  const Gaussian<Axes>& z() const { return seen ? seen->z : position; }
+};
+
+/// What a radar at `radar_at` with these standard deviations measured. With two axes there is no elevation.
+template <int Axes>
+Reading<Axes> radar_reading(const Polar& measured, Polar sigma, const Vector<3>& radar_at, RadarForm form) {
+  if constexpr (Axes == 2) sigma.elevation = 0.0;
+  Conversion conversion = Conversion::standard;
+  if (form == RadarForm::unbiased) conversion = Conversion::unbiased;
+  if (form == RadarForm::debiased) conversion = Conversion::debiased;
+  const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
+  const Vector<3> mean = position.mean + radar_at;
+  Reading<Axes> reading{{mean.head<Axes>(), position.covariance.topLeftCorner<Axes, Axes>()}, std::nullopt};
+  if (form == RadarForm::polar)
+    reading.seen = {PolarSensor<Axes>(Vector<Axes>(radar_at.head<Axes>())),
+                    PolarSensor<Axes>::measurement(measured, sigma)};
+  return reading;
+}
+
+}  // namespace sigmax::apps
