@@ -127,8 +127,10 @@ std::optional<double> first_crossing(int onset, int samples, const Difference& d
   return std::nullopt;
 }
 
-/// The model that stands for the manoeuvre: the last that does, if another does not.
+/// The model that stands for the manoeuvre: the last that does, if another does not. Its crossing is a delay; a
+/// smoothed filter has none, since it knows of the manoeuvre before that begins.
 std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
+  if (filter.smooth) return std::nullopt;
   const auto& motions = filter.motions;
   std::optional<std::size_t> model;
   for (std::size_t j = 0; j < motions.size(); ++j)
@@ -212,10 +214,10 @@ class Tally {
     result.weights = weights_;
     for (auto& weights : result.weights)
       for (double& weight : weights) weight /= runs;
-    result.cross_time.runs_crossed = crossings_.size();
     if (!crossings_.empty()) result.cross_time.mean_of_runs = mean_interval(crossings_);
     if (filter_) {
       if (const auto model = manoeuvre_model(*filter_)) {
+        result.cross_time.runs_crossed = crossings_.size();
         auto crossing = first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
           return weight_difference(result.weights[static_cast<std::size_t>(k - 1)], *model);
         });

@@ -19,10 +19,12 @@ struct Interval {
   bool above_zero() const { return estimate - half_width > 0.0; }
 };
 
-/// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples.
+/// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples. None
+/// of it holds for a filter without a manoeuvre model, or a smoothed one, which knows of the manoeuvre before it
+/// begins.
 struct CrossTime {
   std::optional<Interval> mean_of_runs;  ///< over the runs that crossed
-  std::size_t runs_crossed = 0;
+  std::optional<std::size_t> runs_crossed;
   std::optional<double> of_averaged_curves;
 };
 

@@ -57,7 +57,8 @@ struct Report {
   const FilterSettings& filter(std::size_t f) const { return experiment.filters[f]; }
 };
 
-/// Every fuzzy filter against every random one of its scheme; without both, every filter against the first.
+/// Every fuzzy filter against every random one of its scheme, both smoothed or neither; without such a pair, every
+/// filter against the first.
 std::vector<Comparison> compare(const Experiment& experiment, const Outcome& outcome) {
   std::vector<Comparison> comparisons;
   const auto add = [&](std::size_t filter, std::size_t reference) {
@@ -71,16 +72,20 @@ std::vector<Comparison> compare(const Experiment& experiment, const Outcome& out
   const auto& filters = experiment.filters;
   for (std::size_t f = 0; f < filters.size(); ++f)
     for (std::size_t r = 0; r < filters.size(); ++r)
-      if (filters[f].fuzzy && !filters[r].fuzzy && filters[f].scheme == filters[r].scheme) add(f, r);
+      if (filters[f].fuzzy && !filters[r].fuzzy && filters[f].scheme == filters[r].scheme &&
+          filters[f].smooth == filters[r].smooth)
+        add(f, r);
   if (comparisons.empty())
     for (std::size_t f = 1; f < filters.size(); ++f) add(f, 0);
   return comparisons;
 }
 
+/// Whether the paper has such a filter.
+bool in_the_paper(const FilterSettings& filter) { return filter.scheme == Scheme::interacting && !filter.smooth; }
+
 /// What the paper's claims are about: HIMM against IMM.
 bool judged(const FilterSettings& filter, const FilterSettings& reference) {
-  return filter.fuzzy && !reference.fuzzy && filter.scheme == Scheme::interacting &&
-         reference.scheme == Scheme::interacting;
+  return filter.fuzzy && !reference.fuzzy && in_the_paper(filter) && in_the_paper(reference);
 }
 
 std::string fixed(double value) { return std::isnan(value) ? "–" : fmt::format("{:.2f}", value); }
@@ -182,7 +187,7 @@ void print_nees(const Report& report) {
 }
 
 std::optional<double> paper_cross_time(const Report& report, const FilterSettings& filter) {
-  if (report.options.group != 1 || filter.scheme != Scheme::interacting) return std::nullopt;
+  if (report.options.group != 1 || !in_the_paper(filter)) return std::nullopt;
   return paper_cross_times[static_cast<std::size_t>(report.options.scenario - 1)][filter.fuzzy ? 1 : 0];
 }
 
@@ -199,7 +204,7 @@ void print_cross_times(const Report& report) {
                time.mean_of_runs
                    ? fmt::format("{:.2f} ± {:.2f}", time.mean_of_runs->estimate, time.mean_of_runs->half_width)
                    : "–",
-               fmt::format("{} of {}", time.runs_crossed, report.experiment.runs),
+               time.runs_crossed ? fmt::format("{} of {}", *time.runs_crossed, report.experiment.runs) : "–",
                time.of_averaged_curves ? fixed(*time.of_averaged_curves) : "–", paper ? fixed(*paper) : "–"});
   }
   table.print();
@@ -292,7 +297,7 @@ Json json(const Performance& performance, const Experiment& experiment, bool fil
     const auto& time = performance.cross_time;
     result["cross_time"] = {
         {"mean_of_runs", time.mean_of_runs ? json(*time.mean_of_runs) : Json(nullptr)},
-        {"runs_crossed", time.runs_crossed},
+        {"runs_crossed", time.runs_crossed ? Json(*time.runs_crossed) : Json(nullptr)},
         {"of_averaged_curves", time.of_averaged_curves ? Json(*time.of_averaged_curves) : Json(nullptr)}};
   }
   return result;
@@ -356,7 +361,7 @@ AtomicFile filters_file(const Report& report, const OutputDirectory& directory) 
     const CrossTime& time = performance.cross_time;
     cell(time.mean_of_runs ? std::optional(time.mean_of_runs->estimate) : std::nullopt);
     cell(time.mean_of_runs ? std::optional(time.mean_of_runs->half_width) : std::nullopt);
-    file.print(",{}", filter ? std::to_string(time.runs_crossed) : "");
+    file.print(",{}", time.runs_crossed ? std::to_string(*time.runs_crossed) : "");
     cell(time.of_averaged_curves);
     file.write("\n");
   };
