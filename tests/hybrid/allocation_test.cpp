@@ -132,19 +132,19 @@ TEST(Allocation, ATargetAllocatesNothingWhateverBecomesOfAMeasurement) {
   Target target{filter, 0.0, start, TargetRules{0.999, 2, 1e9, 3}};
   const Gaussian<2> z{Vector<2>{12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
   const Gaussian<2> far{Vector<2>{-12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
-  std::vector<Outcome> outcomes;
-  outcomes.reserve(16);
+  std::vector<Verdict> verdicts;
+  verdicts.reserve(16);
   const auto take = [&](double time, const Gaussian<2>& measured) {
-    ASSERT_EQ(allocations_of([&] { outcomes.push_back(target.take(time, measured)); }), 0U);
+    ASSERT_EQ(allocations_of([&] { verdicts.push_back(target.take(time, measured)); }), 0U);
   };
   take(1.0, z);
   take(2.0, z);
   take(1.5, z);  // late
   take(3.0, far);
   take(4.0, far);
-  ASSERT_EQ(allocations_of([&] { outcomes.push_back(target.take(5.0)); }), 0U);
-  EXPECT_EQ(outcomes, (std::vector{Outcome::accepted, Outcome::accepted, Outcome::accepted, Outcome::rejected,
-                                   Outcome::restarted, Outcome::missed}));
+  ASSERT_EQ(allocations_of([&] { verdicts.push_back(target.take(5.0)); }), 0U);
+  EXPECT_EQ(verdicts, (std::vector{Verdict::accepted, Verdict::accepted, Verdict::accepted, Verdict::rejected,
+                                   Verdict::restarted, Verdict::missed}));
 }
 
 TEST(Allocation, AnUnreachableModeAllocatesNothing) {

@@ -51,8 +51,8 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   rules.longest_gap = 10.0;
   rules.buffer = 5;
   Target target{filter, 0.0, one_point_start, rules};
-  const Outcome outcome = target.take(0.2, z);  // accepted, rejected, restarted; take(time) is missed
-  EXPECT_EQ(outcome, Outcome::accepted);
+  const Verdict verdict = target.take(0.2, z);  // accepted, rejected, restarted; take(time) is missed
+  EXPECT_EQ(verdict, Verdict::accepted);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::vector<Event> events(std::size_t count) {
 }
 
 template <class AnyTarget>
-Outcome take(AnyTarget& target, const Event& event) {
+Verdict take(AnyTarget& target, const Event& event) {
   return event.z ? target.take(event.time, *event.z) : target.take(event.time);
 }
 
@@ -54,17 +54,17 @@ TEST(Target, TakesWhatIsInsideTheGateAndMissesTheRest) {
   double last = 0.0;
   std::size_t rejected = 0;
   for (const Event& event : events(110)) {
-    const Outcome outcome = take(target, event);
+    const Verdict verdict = take(target, event);
     auto missing = filter;
     missing.step(event.time - last);
     if (event.z) {
       filter.step(event.time - last, *event.z);
-      ASSERT_EQ(outcome, filter.nis() <= gate ? Outcome::accepted : Outcome::rejected);
-      if (outcome == Outcome::rejected) ++rejected;
+      ASSERT_EQ(verdict, filter.nis() <= gate ? Verdict::accepted : Verdict::rejected);
+      if (verdict == Verdict::rejected) ++rejected;
     } else {
-      ASSERT_EQ(outcome, Outcome::missed);
+      ASSERT_EQ(verdict, Verdict::missed);
     }
-    if (outcome != Outcome::accepted) filter = missing;
+    if (verdict != Verdict::accepted) filter = missing;
     last = event.time;
     require_same<Interacting, Random>(target.filter(), filter);
     ASSERT_EQ(target.time(), event.time);
@@ -76,16 +76,16 @@ template <class Order, Uncertainty Kind>
 void starts_again_after_rejections() {
   auto target = target_with<Order, Kind>({0.999, 3});
   const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
-  EXPECT_EQ(target.take(0.2, far), Outcome::rejected);
-  EXPECT_EQ(target.take(0.4), Outcome::missed);
-  EXPECT_EQ(target.take(0.6, far), Outcome::rejected);
+  EXPECT_EQ(target.take(0.2, far), Verdict::rejected);
+  EXPECT_EQ(target.take(0.4), Verdict::missed);
+  EXPECT_EQ(target.take(0.6, far), Verdict::rejected);
   EXPECT_EQ(target.accepted_time(), 0.0);
-  EXPECT_EQ(target.take(0.8, far), Outcome::restarted);
+  EXPECT_EQ(target.take(0.8, far), Verdict::restarted);
   EXPECT_EQ(target.accepted_time(), 0.8);
   auto expected = vector_filter<Order, Kind>();
   expected.restart(one_point_start(far));
   require_same<Order, Kind>(target.filter(), expected);
-  EXPECT_EQ(target.take(1.0, far), Outcome::accepted);
+  EXPECT_EQ(target.take(1.0, far), Verdict::accepted);
 }
 
 TEST(Target, StartsAgainAfterSoManyRejectionsInARow) {
@@ -98,8 +98,8 @@ TEST(Target, AnAcceptedMeasurementForgivesTheRejectionsBefore) {
   const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
   const Gaussian<2> near_by{Vector<2>{12000, 7990}, 1e4 * SquareMatrix<2>::Identity()};
   for (double time = 0.1; time < 1.0; time += 0.2) {
-    EXPECT_EQ(target.take(time, far), Outcome::rejected);
-    EXPECT_EQ(target.take(time + 0.1, near_by), Outcome::accepted);
+    EXPECT_EQ(target.take(time, far), Verdict::rejected);
+    EXPECT_EQ(target.take(time + 0.1, near_by), Verdict::accepted);
   }
 }
 
@@ -107,13 +107,13 @@ TEST(Target, StartsAgainAfterAGap) {
   auto target = target_with<Interacting, Random>({0.999, 3, 5.0});
   const Gaussian<2> z{Vector<2>{11500, 7500}, 100.0 * SquareMatrix<2>::Identity()};
   const Gaussian<2> near_by{Vector<2>{12000, 7990}, 1e4 * SquareMatrix<2>::Identity()};
-  EXPECT_EQ(target.take(0.5, near_by), Outcome::accepted);
-  EXPECT_EQ(target.take(3.0), Outcome::missed);
-  EXPECT_EQ(target.take(5.75, z), Outcome::restarted);
+  EXPECT_EQ(target.take(0.5, near_by), Verdict::accepted);
+  EXPECT_EQ(target.take(3.0), Verdict::missed);
+  EXPECT_EQ(target.take(5.75, z), Verdict::restarted);
   auto expected = vector_filter<Interacting, Random>();
   expected.restart(one_point_start(z));
   require_same<Interacting, Random>(target.filter(), expected);
-  EXPECT_EQ(target.take(10.75, z), Outcome::accepted) << "a gap of 5 s is not longer than 5 s";
+  EXPECT_EQ(target.take(10.75, z), Verdict::accepted) << "a gap of 5 s is not longer than 5 s";
 }
 
 /// Whatever comes late by no more than the buffer: the result is that of the right order, to the bit.

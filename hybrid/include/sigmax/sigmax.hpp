@@ -76,6 +76,7 @@
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
+#include <sigmax/hybrid/sound.hpp>
 #include <sigmax/hybrid/target.hpp>
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>

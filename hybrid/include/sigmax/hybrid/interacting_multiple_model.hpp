@@ -8,6 +8,7 @@
 #include <sigmax/core/update.hpp>
 #include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
+#include <sigmax/hybrid/sound.hpp>
 
 namespace sigmax {
 
@@ -63,7 +64,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
         auto& estimate = mode(this->next().estimates, j);
         predict(model, estimate, dt, mode(predicted_, j));
         innovations_[j] = update(model, mode(predicted_, j), z, estimate);
-        this->require_sound(model, estimate);
+        check::sound(model, estimate);
         likelihood_.set_log(j, this->log_likelihood(j, innovations_[j]));
       });
       update(prior_, likelihood_, this->next().belief);  // step 3, (62), (63)
@@ -82,7 +83,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
         auto& estimate = mode(this->next().estimates, j);
         predict(model, estimate, dt, mode(predicted_, j));
         estimate = mode(predicted_, j);
-        this->require_sound(model, estimate);
+        check::sound(model, estimate);
       });
     });
     this->next().belief = prior_;

@@ -18,6 +18,7 @@
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
 #include <sigmax/hybrid/mixture.hpp>
+#include <sigmax/hybrid/sound.hpp>
 
 namespace sigmax {
 
@@ -56,7 +57,7 @@ class MultipleModelFilter {
   /// Goes on from another state, as a step back or a smoother may want. Throws std::invalid_argument if it does not fit
   /// the models or is not finite.
   void restore(const State& state) {
-    require_starts(state.estimates);
+    check::starts(system_.models(), state.estimates);
     check::same(system_.mode_variable(), state.belief.variable(), "restore");
     states_[current_] = state;
     measured_ = false;
@@ -111,7 +112,7 @@ class MultipleModelFilter {
         prior_(uninformative(system_.mode_variable())),
         components_(system_.models()),
         states_{State{start, prior_}, State{start, prior_}} {
-    require_starts(start);
+    check::starts(system_.models(), start);
     states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
   }
 
@@ -139,19 +140,6 @@ class MultipleModelFilter {
     if (std::isnan(log))
       throw std::domain_error("the likelihood in mode '" + system_.mode_variable().label(j) + "' is not a number");
     return log;
-  }
-
-  /// Throws std::domain_error, naming the model, unless its next estimate is finite and no variance is negative beyond
-  /// rounding: what a lost definiteness shows first, and costs next to nothing to see.
-  template <class Model>
-  static void require_sound(const Model& model, const EstimateOf<Model>& estimate) {
-    const auto variances = estimate.covariance.diagonal().array();
-    const double rounding = 1e-12 * variances.abs().sum();  // not a number if one of them is not
-    if (!estimate.mean.allFinite() || !std::isfinite(rounding))
-      throw std::domain_error("the estimate of model '" + std::string(model.name()) + "' is not finite");
-    if ((variances < -rounding).any())
-      throw std::domain_error("the covariance of model '" + std::string(model.name()) +
-                              "' is not positive semi-definite");
   }
 
   /// The NIS of the step being taken, as soon as its innovations are known.
@@ -219,22 +207,6 @@ class MultipleModelFilter {
         rule, mixture(receiver, components_.of_all(), state.estimates), [&](std::size_t j) { return state.belief[j]; },
         state.most_likely_mode, result);
     return result;
-  }
-
-  void require_starts(const Estimates& starts) const {
-    if (mode_count(starts) != modes())
-      throw std::invalid_argument("there are " + std::to_string(modes()) + " models, but " +
-                                  std::to_string(mode_count(starts)) + " starts");
-    for_each_mode(starts, [&](auto j) {
-      const auto& model = mode(system_.models(), j);
-      const auto& start = mode(starts, j);
-      if (start.mean.size() != model.size() || start.covariance.rows() != model.size())
-        throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' has " +
-                                    std::to_string(start.mean.size()) + " components; expected " +
-                                    std::to_string(model.size()));
-      if (!all_finite(start))
-        throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
-    });
   }
 
  protected:

@@ -7,6 +7,7 @@
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
+#include <sigmax/hybrid/sound.hpp>
 
 namespace sigmax {
 
@@ -116,7 +117,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   void merge(const Pairs& pairs, Estimates& merged) {
     this->next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
     collapse_predecessors(pairs, merged);
-    for_each_mode(merged, [&](auto j) { this->require_sound(mode(system_.models(), j), mode(merged, j)); });
+    for_each_mode(merged, [&](auto j) { check::sound(mode(system_.models(), j), mode(merged, j)); });
   }
 
   /// By sum and moments or by selection.

@@ -24,7 +24,7 @@ struct TargetRules {
 };
 
 /// What became of a measurement.
-enum class Outcome { accepted, rejected, restarted, missed };
+enum class Verdict { accepted, rejected, restarted, missed };
 
 /// One target as it is met in practice: any multiple-model filter with a gate, restarts, and late measurements.
 ///
@@ -57,8 +57,8 @@ class Target {
   /// Takes a measurement, or the news that there was none at that time.
   /// Throws std::invalid_argument, naming the times, if it is older than all that the buffer can roll back, and
   /// whatever the filter's step throws; the target is then what it was before.
-  Outcome take(double time, const Measurement& z) { return take_event(time, z); }
-  Outcome take(double time) { return take_event(time, std::nullopt); }
+  Verdict take(double time, const Measurement& z) { return take_event(time, z); }
+  Verdict take(double time) { return take_event(time, std::nullopt); }
 
   const Filter& filter() const { return filter_; }
 
@@ -89,7 +89,7 @@ class Target {
     rejected_ = before.rejected;
   }
 
-  Outcome take_event(double time, const std::optional<Measurement>& z) {
+  Verdict take_event(double time, const std::optional<Measurement>& z) {
     if (!std::isfinite(time)) throw std::invalid_argument("a measurement of a time that is not finite");
     std::size_t place = kept_;  // behind all that is not later
     while (place > 0 && entry(place - 1).time > time) --place;
@@ -102,9 +102,9 @@ class Target {
     for (std::size_t k = kept_; k > place; --k) move_event(entry(k - 1), entry(k));
     entry(place).time = time;
     entry(place).z = z;
-    Outcome outcome = Outcome::missed;
+    Verdict verdict = Verdict::missed;
     try {
-      outcome = replay(place);
+      verdict = replay(place);
       for (std::size_t k = place + 1; k <= kept_; ++k) replay(k);
     } catch (...) {  // back to what was, which succeeded before
       restore(entry(place).before);
@@ -118,7 +118,7 @@ class Target {
       first_ = (first_ + 1) % buffer_.size();
       --kept_;
     }
-    return outcome;
+    return verdict;
   }
 
   static void move_event(const Entry& from, Entry& to) {
@@ -127,37 +127,37 @@ class Target {
   }
 
   /// Takes an entry of the buffer, from where the target stands.
-  Outcome replay(std::size_t k) {
+  Verdict replay(std::size_t k) {
     Entry& event = entry(k);
     event.before.state = filter_.state();
     event.before.time = time_;
     event.before.accepted_time = accepted_time_;
     event.before.rejected = rejected_;
-    const Outcome outcome = process(event.time, event.z);
+    const Verdict verdict = process(event.time, event.z);
     time_ = event.time;
-    return outcome;
+    return verdict;
   }
 
-  Outcome process(double time, const std::optional<Measurement>& z) {
+  Verdict process(double time, const std::optional<Measurement>& z) {
     if (!z) {
       filter_.step(time - time_);
-      return Outcome::missed;
+      return Verdict::missed;
     }
     if (time - accepted_time_ > rules_.longest_gap) return restart(time, *z);
     filter_.step(time - time_, *z, gate_);
     if (filter_.measured()) {
       accepted_time_ = time;
       rejected_ = 0;
-      return Outcome::accepted;
+      return Verdict::accepted;
     }
-    return ++rejected_ < rules_.rejections ? Outcome::rejected : restart(time, *z);
+    return ++rejected_ < rules_.rejections ? Verdict::rejected : restart(time, *z);
   }
 
-  Outcome restart(double time, const Measurement& z) {
+  Verdict restart(double time, const Measurement& z) {
     filter_.restart(start_(z));
     accepted_time_ = time;
     rejected_ = 0;
-    return Outcome::restarted;
+    return Verdict::restarted;
   }
 
   Filter filter_;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include <sigmax/estimation/model.hpp>
+#include <sigmax/hybrid/bank.hpp>
+
+/// What a filter does not go on with, whoever made it.
+namespace sigmax::check {
+
+/// There is a start for each model, of its size and finite. Throws std::invalid_argument, naming the model.
+template <class Models>
+void starts(const Models& models, const typename Bank<Models>::Estimates& starts) {
+  if (mode_count(starts) != mode_count(models))
+    throw std::invalid_argument("there are " + std::to_string(mode_count(models)) + " models, but " +
+                                std::to_string(mode_count(starts)) + " starts");
+  for_each_mode(starts, [&](auto j) {
+    const auto& model = mode(models, j);
+    const auto& start = mode(starts, j);
+    if (start.mean.size() != model.size() || start.covariance.rows() != model.size())
+      throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' has " +
+                                  std::to_string(start.mean.size()) + " components; expected " +
+                                  std::to_string(model.size()));
+    if (!all_finite(start))
+      throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
+  });
+}
+
+/// The estimate is finite and no variance is negative beyond rounding: what a lost definiteness shows first, and costs
+/// next to nothing to see. Throws std::domain_error, naming the model.
+template <class Model>
+void sound(const Model& model, const EstimateOf<Model>& estimate) {
+  const auto variances = estimate.covariance.diagonal().array();
+  const double rounding = 1e-12 * variances.abs().sum();  // not a number if one of them is not
+  if (!estimate.mean.allFinite() || !std::isfinite(rounding))
+    throw std::domain_error("the estimate of model '" + std::string(model.name()) + "' is not finite");
+  if ((variances < -rounding).any())
+    throw std::domain_error("the covariance of model '" + std::string(model.name()) +
+                            "' is not positive semi-definite");
+}
+
+}  // namespace sigmax::check
