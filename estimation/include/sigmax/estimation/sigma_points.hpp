@@ -142,8 +142,11 @@ Innovation<Filter::measurement_size> update(const Filter& member, const Estimate
   const SigmaPoints<Filter> points(member, prior);
 
   typename SigmaPoints<Filter>::template Columns<M> seen(M, points.size());
-  for (Eigen::Index i = 0; i < points.size(); ++i)
+  const auto see = [&](Eigen::Index i) {
     seen.col(i) = predicted_measurement(model, StateOf<Filter>(prior.mean + points.offsets().col(i)));
+  };
+  see(0);  // which there is, as a compiler may not see
+  for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
   const Vector<M> predicted = measurement_mean(model, seen, points.mean_weights());
   for (Eigen::Index i = 0; i < points.size(); ++i)
     seen.col(i) = measurement_difference(model, Vector<M>(seen.col(i)), predicted);
