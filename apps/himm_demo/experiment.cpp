@@ -91,7 +91,7 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
         });
         if (tracker.running() && !stepped_now && !filter.smooth) note(tracker.now());  // the start
         if (k + 1 == samples)
-          for (auto& point : tracker.smoothed()) note(std::move(point));
+          for (auto& point : tracker.finish()) note(std::move(point));
       } catch (const std::exception& error) {
         throw std::runtime_error(fmt::format("filter '{}', run {}, sample {}: {}", experiment.filters[f].name,
                                              number + 1, k + 1, error.what()));
@@ -315,7 +315,7 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
         if (steps == 0) start = cpu_time();
         tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], [&](double) { ++steps; });
       }
-      tracker.smoothed();
+      tracker.finish();
       times.push_back((cpu_time() - start) / steps);
     }
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());

@@ -177,7 +177,7 @@ FilterSettings read_filter(const Settings& settings, const std::string& name, bo
     if (modes < 2 || filter.sojourn_s.size() != modes)
       throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
     for (const double time : filter.sojourn_s)
-      if (!(time > 0.0)) throw settings.error("sojourn_s", "positive times, in s; inf for a model that is never left");
+      if (!(time > 0.0 && std::isfinite(1.0 / time))) throw settings.error("sojourn_s", "positive times, in s");
   }
 
   filter.mixed_covariance = settings.choice("mixed_covariance", mixed_covariances, defaults.mixed_covariance);

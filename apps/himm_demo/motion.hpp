@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -111,11 +110,10 @@ AnyMotionOf<Axes> any_motion(const Motion& motion) {
   return CoordinatedTurn<Axes>(sigma * sigma, drift * drift);
 }
 
-/// `linear` is the member of linear motions, `other` that of the others. `radar` is the one that measured the row at
-/// hand, if one did and it is taken in its own space.
+/// `linear` is the member of linear motions, `other` that of the others; all look through `radar`.
 template <int Axes>
 AnyBank<Axes> any_bank(const std::vector<Motion>& motions, MemberType linear, MemberType other,
-                       const std::shared_ptr<const typename RowSensor<Axes>::Radar>& radar) {
+                       const typename RowSensor<Axes>::Radar& radar) {
   AnyBank<Axes> bank;
   for (const auto& motion : motions) {
     const SeenMotion<Axes> seen(any_motion<Axes>(motion), RowSensor<Axes>(radar));

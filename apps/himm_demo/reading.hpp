@@ -9,7 +9,8 @@
 
 namespace sigmax::apps {
 
-/// How a filter takes a radar's measurements: converted to positions, or in the radar's own space.
+/// How a filter takes a radar's measurements: converted to positions, or in the radar's own space; there only the start
+/// is from positions, by the unbiased conversion.
 enum class RadarForm { standard, unbiased, debiased, polar };
 
 /// What a row measured, as a filter takes it.
@@ -21,7 +22,7 @@ struct Reading {
     Gaussian<Axes> z;
   };
 
-  Gaussian<Axes> position;   ///< of a radar: converted
+  Gaussian<Axes> position;   ///< of a radar: converted, if only for the start
   std::optional<Seen> seen;  ///< by a radar, if the filter takes that in the radar's own space
 
   /// What the filter steps with.
@@ -33,7 +34,7 @@ template <int Axes>
 Reading<Axes> radar_reading(const Polar& measured, Polar sigma, const Vector<3>& radar_at, RadarForm form) {
   if constexpr (Axes == 2) sigma.elevation = 0.0;
   Conversion conversion = Conversion::standard;
-  if (form == RadarForm::unbiased) conversion = Conversion::unbiased;
+  if (form == RadarForm::unbiased || form == RadarForm::polar) conversion = Conversion::unbiased;
   if (form == RadarForm::debiased) conversion = Conversion::debiased;
   const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
   const Vector<3> mean = position.mean + radar_at;

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include <sigmax/estimation/sensors.hpp>
 
 namespace sigmax::apps {
 
 /// The sensor of the row at hand: a radar in its own space, or else one that measures positions. All models of a
-/// filter look at the same, which changes from row to row.
+/// filter look through the same `radar`, which changes from row to row and outlives them.
 template <int Axes>
 class RowSensor {
  public:
@@ -17,7 +15,7 @@ class RowSensor {
   static constexpr int measurement_size = Axes;
   using Radar = std::optional<PolarSensor<Axes>>;
 
-  explicit RowSensor(std::shared_ptr<const Radar> radar) : radar_(std::move(radar)) {}
+  explicit RowSensor(const Radar& radar) : radar_(&radar) {}
 
   Vector<Axes> measure(const Vector<Axes>& position) const { return *radar_ ? (*radar_)->measure(position) : position; }
   SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>& position) const {
@@ -28,7 +26,7 @@ class RowSensor {
   }
 
  private:
-  std::shared_ptr<const Radar> radar_;
+  const Radar* radar_;
 };
 
 }  // namespace sigmax::apps

@@ -57,7 +57,13 @@ struct Report {
   const FilterSettings& filter(std::size_t f) const { return experiment.filters[f]; }
 };
 
-/// Every fuzzy filter against every random one of its scheme, both smoothed or neither; without such a pair, every
+/// Whether two filters take the same and make the same of it, but for the kind of the mode.
+bool alike(const FilterSettings& a, const FilterSettings& b) {
+  return a.scheme == b.scheme && a.smooth == b.smooth && a.radar_measurement == b.radar_measurement &&
+         a.sojourn_s == b.sojourn_s;
+}
+
+/// Every fuzzy filter against every random one like it; without such a pair, every
 /// filter against the first.
 std::vector<Comparison> compare(const Experiment& experiment, const Outcome& outcome) {
   std::vector<Comparison> comparisons;
@@ -72,16 +78,17 @@ std::vector<Comparison> compare(const Experiment& experiment, const Outcome& out
   const auto& filters = experiment.filters;
   for (std::size_t f = 0; f < filters.size(); ++f)
     for (std::size_t r = 0; r < filters.size(); ++r)
-      if (filters[f].fuzzy && !filters[r].fuzzy && filters[f].scheme == filters[r].scheme &&
-          filters[f].smooth == filters[r].smooth)
-        add(f, r);
+      if (filters[f].fuzzy && !filters[r].fuzzy && alike(filters[f], filters[r])) add(f, r);
   if (comparisons.empty())
     for (std::size_t f = 1; f < filters.size(); ++f) add(f, 0);
   return comparisons;
 }
 
 /// Whether the paper has such a filter.
-bool in_the_paper(const FilterSettings& filter) { return filter.scheme == Scheme::interacting && !filter.smooth; }
+bool in_the_paper(const FilterSettings& filter) {
+  return filter.scheme == Scheme::interacting && !filter.smooth && filter.sojourn_s.empty() &&
+         filter.radar_measurement == RadarForm::standard;
+}
 
 /// What the paper's claims are about: HIMM against IMM.
 bool judged(const FilterSettings& filter, const FilterSettings& reference) {

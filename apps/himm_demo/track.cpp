@@ -88,7 +88,7 @@ struct Validity {
     return fmt::format(
         "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements holds "
         "below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance covers "
-        "the error of the conversion, or radar_measurement=polar, which converts nothing",
+        "the error of the conversion, or radar_measurement=polar, which converts only for the start",
         file, first_line, first_value, first_range, limit, outside, measurements,
         std::ceil(sigma_range_needed / unit) * unit);
   }
@@ -290,7 +290,7 @@ class TrackRun {
       } catch (const InputError&) {
         throw;  // of the output
       } catch (const std::exception& error) {
-        refuse_failure(f, fix, "", error);
+        refuse_failure(f, fix, error);
       }
     }
     std::optional<double> least;  // of the filters' NIS
@@ -323,9 +323,9 @@ class TrackRun {
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
       std::vector<TrackPoint<Axes>> points;
       try {
-        points = target.trackers[f].smoothed();
+        points = target.trackers[f].finish();
       } catch (const std::exception& error) {
-        refuse_failure(f, target.now, "smoothed back from the end ", error);
+        refuse_failure(f, target.now, error);
       }
       auto row = target.rows[f].begin();
       for (const auto& point : points)
@@ -374,12 +374,11 @@ class TrackRun {
     });
   }
 
-  [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const char* doing,
-                                   const std::exception& error) const {
-    throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
-                              .what = fmt::format("filter '{}' {}at time {} s: {}", filters_[f].name, doing,
-                                                  shortest(fix.time_s), error.what()),
-                              .remedy = "look for an outlier here, and at the filter's settings"}));
+  [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const std::exception& error) const {
+    throw InputError(message(
+        {.where = fmt::format("{}:{}", file(), fix.line),
+         .what = fmt::format("filter '{}' at time {} s: {}", filters_[f].name, shortest(fix.time_s), error.what()),
+         .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
   }
 
   [[noreturn]] void refuse_nothing() const {

@@ -1,10 +1,14 @@
 #include "himm_demo/tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include <sigmax/estimation/chi_square.hpp>
+
+#include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -43,17 +47,13 @@ TrackPoint<Axes> point(const Filter& filter, const typename Filter::Output& outp
 template <int Axes>
 Tracker<Axes>::Tracker(FilterSettings settings)
     : settings_(std::move(settings)),
-      radar_(std::make_shared<typename RowSensor<Axes>::Radar>()),
+      radar_(std::make_unique<typename RowSensor<Axes>::Radar>()),
       gate_(settings_.gate_probability < 1.0 ? chi_square_quantile(settings_.gate_probability, Axes) : no_gate) {}
 
 template <int Axes>
 void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& reading,
                          const std::function<void(double time)>& stepped) {
-  if (running() && settings_.restart_after_s && time - last_measured_ > *settings_.restart_after_s) {
-    smoothed_ = smoothed();
-    recorded_.clear();
-    filter_.reset();
-  }
+  if (running() && settings_.restart_after_s && time - last_measured_ > *settings_.restart_after_s) end();
   if (running()) {
     step(time, reading);
     stepped(time);
@@ -83,22 +83,34 @@ auto Tracker<Axes>::now() const -> Point {
 }
 
 template <int Axes>
-auto Tracker<Axes>::smoothed() const -> std::vector<Point> {
-  std::vector<Point> all = smoothed_;
-  if (!running() || !settings_.smooth) return all;
-  std::visit(
-      [&](const auto& filter) {
-        auto known = recorded_.begin();
-        for (const auto& output : filter.smoothed()) {
-          auto& smoothed = all.emplace_back(point<Axes>(filter, output));
-          smoothed.time = known->time;
-          smoothed.nis = known->nis;
-          smoothed.is_start = known->is_start;
-          ++known;
-        }
-      },
-      *filter_);
-  return all;
+auto Tracker<Axes>::finish() -> std::vector<Point> {
+  if (running()) end();
+  return std::exchange(smoothed_, {});
+}
+
+template <int Axes>
+void Tracker<Axes>::end() {
+  if (settings_.smooth) {
+    try {
+      std::visit(
+          [&](const auto& filter) {
+            auto known = recorded_.begin();
+            for (const auto& output : filter.smoothed()) {
+              auto& smoothed = smoothed_.emplace_back(point<Axes>(filter, output));
+              smoothed.time = known->time;
+              smoothed.nis = known->nis;
+              smoothed.is_start = known->is_start;
+              ++known;
+            }
+          },
+          *filter_);
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(fmt::format("smoothing back to the start at {} s, which needs variances above 0: {}",
+                                          shortest(recorded_.front().time), error.what()));
+    }
+    recorded_.clear();
+  }
+  filter_.reset();
 }
 
 template <int Axes>
@@ -122,10 +134,7 @@ template <int Axes>
 void Tracker<Axes>::record(double dt, bool is_start) {
   if (!settings_.smooth) return;
   std::visit([&](auto& filter) { filter.record(dt); }, *filter_);
-  auto& known = recorded_.emplace_back();
-  known.time = time_;
-  known.nis = nis();
-  known.is_start = is_start;
+  recorded_.push_back({time_, nis(), is_start});
 }
 
 template <int Axes>
@@ -145,7 +154,7 @@ void Tracker<Axes>::start(double time) {
   if (kinematic(settings_.motions) && !polar)
     start_bank(kinematic_bank<Axes>(settings_.motions));
   else
-    start_bank(any_bank<Axes>(settings_.motions, polar ? settings_.member : MemberType::kf, settings_.member, radar_));
+    start_bank(any_bank<Axes>(settings_.motions, polar ? settings_.member : MemberType::kf, settings_.member, *radar_));
   ++starts_;
   record(0.0, true);
 }

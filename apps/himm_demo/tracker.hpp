@@ -36,7 +36,6 @@ class Tracker {
   using Point = TrackPoint<Axes>;
 
   explicit Tracker(FilterSettings settings);
-  Tracker(Tracker&&) = default;  // no copies: the models of one filter look through one sensor
 
   const FilterSettings& settings() const { return settings_; }
 
@@ -57,9 +56,9 @@ class Tracker {
   /// The output now, as the settings ask for it.
   Point now() const;
 
-  /// All points, given what came after them: of each step, and of each start before its steps. Only if the settings ask
-  /// for smoothing, which keeps all steps.
-  std::vector<Point> smoothed() const;
+  /// Ends the track. If the settings ask for smoothing, which keeps all steps, gives a point for each step, and for
+  /// each start before its steps, with all that came after it up to the next start.
+  std::vector<Point> finish();
 
  private:
   using Estimate = Gaussian<Eigen::Dynamic, 3 * Axes>;
@@ -71,6 +70,8 @@ class Tracker {
   void step(double time, const std::optional<Reading<Axes>>& reading);
   void start(double time);
   void record(double dt, bool is_start);
+  /// Ends what began with the last start. Throws std::domain_error, saying so, if it cannot be smoothed.
+  void end();
   /// Where a model starts.
   Estimate start_of(const Motion& motion) const;
   Estimate start_from_points(const Motion& motion) const;
@@ -79,14 +80,20 @@ class Tracker {
   FilterSettings settings_;
   Points points_;
   std::vector<std::pair<double, std::optional<Reading<Axes>>>> waiting_;
-  std::shared_ptr<typename RowSensor<Axes>::Radar> radar_;  ///< of the row at hand
+  std::unique_ptr<typename RowSensor<Axes>::Radar> radar_;  ///< of the row at hand
   std::optional<Filter> filter_;
   double gate_;
   double time_ = 0.0;
   double last_measured_ = 0.0;
   std::size_t starts_ = 0;
   std::size_t rejected_ = 0;
-  std::vector<Point> recorded_;  ///< since the last start: time, NIS and whether it is the start
+  /// What smoothing leaves of a recorded step as it was.
+  struct Known {
+    double time;
+    std::optional<double> nis;
+    bool is_start;
+  };
+  std::vector<Known> recorded_;  ///< since the last start
   std::vector<Point> smoothed_;  ///< before the last start
 };
 

@@ -280,11 +280,16 @@ struct Settings::Layer {
     return layer;
   }
 
+  void require_table_if_any(std::string_view key) const {
+    const auto* node = table->get(key);
+    if (node && !node->is_table())
+      throw reader(key).error(*node, "a table", fmt::format("write [{0}{1}], or {0}{1}.KEY = value", prefix, key));
+  }
+
+  /// After `require_table_if_any`.
   std::shared_ptr<Layer> child(std::string_view key) {
     const auto* node = table->get(key);
     if (!node) return nullptr;
-    if (!node->is_table())
-      throw reader(key).error(*node, "a table", fmt::format("write [{0}{1}], or {0}{1}.KEY = value", prefix, key));
     auto& known = children[std::string{key}];
     if (!known) {
       known = std::make_shared<Layer>();
@@ -390,6 +395,8 @@ std::string Settings::choice(std::string_view key, std::span<const std::string_v
 
 Settings Settings::sub(std::string_view key) const {
   find(key);
+  for (const auto& layer : layers_)
+    layer->require_table_if_any(key);  // all, before the keys of one are to be asked for
   Settings settings;
   for (const auto& layer : layers_)
     if (auto child = layer->child(key)) settings.layers_.push_back(std::move(child));

@@ -162,7 +162,7 @@ void equals_own_space_by_hand(const std::string& member) {
   const Member seen{Observed{dwna<Axes>(2.0), radar}};
   equals_by_hand<Axes>(
       passing_target(Axes, true), {"models=[dwna]", "sigma_w=2", "radar_measurement=polar", "member=" + member},
-      Conversion::standard, [&](const Row& row, auto& estimate) {
+      Conversion::unbiased, [&](const Row& row, auto& estimate) {
         if (!row.by_radar)
           return update(dwna<Axes>(2.0), estimate, converted<Axes>(row, Conversion::standard), estimate)
               .squared_distance;
@@ -186,8 +186,8 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
   const PolarSensor<2> radar{Vector<2>(radar_at.head<2>())};
   const std::tuple models{Unscented{Observed{dwna<2>(2.0), radar}},
                           Unscented{Observed{CoordinatedTurn<2>(0.25, 0.09 * degree * degree), radar}}};
-  const auto straight = two_point_start<2>({rows[1].time, converted<2>(rows[1], Conversion::standard)},
-                                           {rows[2].time, converted<2>(rows[2], Conversion::standard)});
+  const auto straight = two_point_start<2>({rows[1].time, converted<2>(rows[1], Conversion::unbiased)},
+                                           {rows[2].time, converted<2>(rows[2], Conversion::unbiased)});
   Gaussian<5> turning{Vector<5>::Zero(), SquareMatrix<5>::Zero()};
   turning.mean.head<4>() = straight.mean;
   turning.covariance.topLeftCorner<4, 4>() = straight.covariance;
@@ -205,6 +205,31 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
     ASSERT_PRED_FORMAT3(near, std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
     ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
   }
+}
+
+/// The rows of a text whose time is `from` or later.
+std::string later(const std::string& text, double from) {
+  std::string result = text.substr(0, text.find('\n') + 1);
+  for (auto line = result.size(); line < text.size(); line = text.find('\n', line) + 1)
+    if (std::stod(text.substr(line)) >= from) result += text.substr(line, text.find('\n', line) + 1 - line);
+  return result;
+}
+
+TEST(HimmDemoRadar, InItsOwnSpaceAMissedRowIsAPredictionAndAfterAGapItStartsAgain) {
+  auto rows = passing_target(2, true);
+  for (std::size_t k = 45; k < rows.size(); ++k) rows[k].time += 100.0;
+  const double again = rows[45].time;
+  std::string text = csv(rows, 2);
+  const auto missed = text.find("\n" + exact(rows[60].time) + ",");  // by the radar
+  text.replace(missed, text.find('\n', missed + 1) - missed, "\n" + exact(rows[60].time) + ",radar,,,,");
+  const std::vector<std::string> sets = {"models=[dwna,ct]", "member=ckf", "radar_measurement=polar",
+                                         "restart_after_s=50"};
+  auto all = tracked(text, sets);
+  std::erase_if(all, [&](const TextRow& row) { return std::stod(row.at("time_s")) < again; });
+  EXPECT_EQ(all, tracked(later(text, again), sets));
+  ASSERT_EQ(all.size(), rows.size() - 45 - 3);
+  EXPECT_EQ(all[60 - 48].at("nis"), "");
+  EXPECT_NE(all[61 - 48].at("nis"), "");
 }
 
 }  // namespace

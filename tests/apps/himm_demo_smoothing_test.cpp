@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -38,7 +39,7 @@ std::string estimates(const std::string& text, const std::vector<std::string>& s
   return contents(out / "estimates.csv");
 }
 
-/// `given` holds the estimates of a file with a start at `start_time`.
+/// `found` are the rows of a filter that started at `start_time`.
 template <class Order>
 void expect_restated(const restatement::Options& options, const std::vector<Point>& points,
                      const std::vector<TextRow>& found) {
@@ -116,6 +117,28 @@ TEST(HimmDemoSmoothing, IsOfEachFilterThatAsksForIt) {
   EXPECT_EQ(named, smoothed);
   EXPECT_EQ(smoothed.back(), filtered.back()) << "of the last row nothing more is known";
   EXPECT_NE(smoothed.front(), filtered.front());
+}
+
+TEST(HimmDemoSmoothing, TakesTheRowsThatWaitForAGivenStart) {
+  const auto points = turning_target();  // whose first step is 1 s
+  const std::vector<std::string> sets = {"filters=imm", "smooth=true", "start=given",
+                                         "start_mean=[0,0,0,40,15,0,0,0,0]",
+                                         "start_covariance_diagonal=[100,100,1,400,400,1,9,9,1]"};
+  auto timed = sets;
+  timed.push_back("start_time_s=-1");
+  const auto found = estimates(csv(points), sets);
+  EXPECT_EQ(found, estimates(csv(points), timed));
+  EXPECT_EQ(rows(found).size(), points.size());
+}
+
+TEST(HimmDemoSmoothing, SaysThatItFailedAndWhere) {
+  const TemporaryDirectory directory;
+  const auto ending = himm_demo({"track", directory.write("recording.csv", csv(turning_target()))},
+                                {"filters=imm", "smooth=true", "models=[dwna]", "sigma_w=0", "start=given",
+                                 "start_mean=[0,0,0,0,0,0,0,0,0]", "start_covariance_diagonal=[0,0,0,0,0,0,0,0,0]"});
+  EXPECT_EQ(ending.status, 3);
+  for (const char* said : {"filter 'imm'", "smoothing back to the start at -1 s", "variances above 0", "'dwna'"})
+    EXPECT_NE(ending.output.find(said), std::string::npos) << ending.output;
 }
 
 TEST(HimmDemoSmoothing, DoesNotReachOverARestart) {

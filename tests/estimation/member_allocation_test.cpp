@@ -1,6 +1,7 @@
 // Prediction and update of every member allocate nothing.
 #include <gtest/gtest.h>
 
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/estimation/observed.hpp>
@@ -42,9 +43,13 @@ TEST(MemberAllocation, OverLinearMotionsIsNone) {
   with_a_radar(dwpa<3>(1.0));
   with_a_radar(singer<3>(0.1, 1.0));
   with_a_radar(KinematicModel<3, Eigen::Dynamic>{dwna<3>(1.0)});
+  with_a_radar(AnyMotion<10, KinematicModel<3, 3>, CoordinatedTurn<3>>{dwpa<3>(1.0)});
 }
 
-TEST(MemberAllocation, OverATurnIsNone) { with_a_radar(CoordinatedTurn<3>{1.0, 0.01}); }
+TEST(MemberAllocation, OverATurnIsNone) {
+  with_a_radar(CoordinatedTurn<3>{1.0, 0.01});
+  with_a_radar(AnyMotion<10, KinematicModel<3, 3>, CoordinatedTurn<3>>{CoordinatedTurn<3>{1.0, 0.01}});
+}
 
 /// Has no Jacobians, so they are differentiated automatically.
 struct Hidden : CoordinatedTurn<3> {

@@ -43,7 +43,7 @@ bool symmetric_and_semi_definite(const Covariance& P) {
   return Eigen::LLT<Matrix>(scaled).info() == Eigen::Success;
 }
 
-/// Any linear motion whose position is measured.
+/// Any linear motion along independent axes.
 template <int Axes>
 using SoakModel = AnyModel<3 * Axes, KinematicModel<Axes, Eigen::Dynamic>, IndependentAxes<Axes, WhiteNoise<2>>,
                            IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,

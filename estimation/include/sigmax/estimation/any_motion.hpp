@@ -49,10 +49,10 @@ class AnyMotion {
   /// As the motion that it is; of a linear one f(x) = F x + u. Throws std::invalid_argument for a state of another
   /// size.
   State propagate(const State& x, double dt) const {
-    return visit([&](const auto& motion) -> State { return moved(motion, own(motion, x), dt); });
+    return visit([&](const auto& motion) -> State { return detail::moved(motion, own(motion, x), dt); });
   }
   Matrix transition_jacobian(const State& x, double dt) const {
-    return visit([&](const auto& motion) -> Matrix { return tangent(motion, own(motion, x), dt); });
+    return visit([&](const auto& motion) -> Matrix { return detail::tangent(motion, own(motion, x), dt); });
   }
   Matrix process_covariance(double dt) const {
     return visit([&](const auto& motion) -> Matrix { return motion.process_covariance(dt); });

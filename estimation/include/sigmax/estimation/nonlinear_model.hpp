@@ -123,7 +123,9 @@ measurement_jacobian(const Model& model, const StateOf<Model>& x) {
   return detail::require_finite(jacobian_at(), "the Jacobian of h", model, x);
 }
 
-/// f(x) of any motion; of a linear one F x + u.
+namespace detail {
+
+/// f(x) of any motion as it gives it, finite or not; of a linear one F x + u.
 template <class Motion, class State>
   requires(LinearMotion<Motion> || NonlinearMotion<Motion>)
 auto moved(const Motion& motion, const State& x, double dt) {
@@ -143,6 +145,8 @@ SquareMatrix<Motion::state_size, Motion::max_state_size> tangent(const Motion& m
   else
     return transition_jacobian(motion, x, dt);
 }
+
+}  // namespace detail
 
 /// z − predicted, by the model's own difference if it has one.
 template <NonlinearModel Model>

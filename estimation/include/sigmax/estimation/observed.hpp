@@ -62,9 +62,9 @@ class Observed {
 
   template <class Scalar>
   auto propagate(const Eigen::Matrix<Scalar, state_size, 1, 0, max_state_size, 1>& x, double dt) const {
-    return moved(motion_, x, dt);
+    return detail::moved(motion_, x, dt);
   }
-  Matrix transition_jacobian(const State& x, double dt) const { return tangent(motion_, x, dt); }
+  Matrix transition_jacobian(const State& x, double dt) const { return detail::tangent(motion_, x, dt); }
 
   template <class Scalar>
   auto measure(const Eigen::Matrix<Scalar, state_size, 1, 0, max_state_size, 1>& x) const {

@@ -8,7 +8,7 @@
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/hybrid/bank.hpp>
 
-/// What a filter does not go on with, whoever made it.
+/// What a filter asks of its starts, and of every new estimate.
 namespace sigmax::check {
 
 /// There is a start for each model, of its size and finite. Throws std::invalid_argument, naming the model.
