@@ -171,7 +171,7 @@ std::string shortest(double value) {
 
 std::string toml_number(double value) {
   std::string text = shortest(value);
-  if (std::abs(value) >= 0x1p63 && text.find_first_of(".en") == std::string::npos) text += ".0";
+  if (std::abs(value) >= 0x1p53 && text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
 

@@ -75,7 +75,7 @@ class OutputDirectory {
 /// The shortest decimal number that reads back as the same double.
 std::string shortest(double value);
 
-/// The same as TOML reads it back: with a point where it would be an integer that 64 bits cannot hold.
+/// The same as TOML reads it back: with a point where it would be an integer that no double may stand for.
 std::string toml_number(double value);
 
 }  // namespace sigmax::apps
