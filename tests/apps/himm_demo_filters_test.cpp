@@ -69,15 +69,7 @@ std::vector<Named> named_filters() {
 template <class Filter>
 void expect_restated(const Named& named, const std::vector<Point>& points, const std::vector<TextRow>& found) {
   using restatement::Index;
-  std::vector<restatement::State> starts;
-  for (const Index n : {6U, 9U}) {
-    restatement::State start{restatement::Vector(n), restatement::Matrix(n, n)};
-    for (Index i = 0; i < n; ++i) {
-      start.mean[i] = start_mean[i];
-      start.covariance(i, i) = start_variance[i];
-    }
-    starts.push_back(start);
-  }
+  const std::vector starts = {restated_start(6), restated_start(9)};
   const bool fuzzy = named.options.kind == restatement::Kind::himm;
   const restatement::Matrix transition =
       named.independent

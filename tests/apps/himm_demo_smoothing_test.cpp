@@ -44,15 +44,7 @@ template <class Order>
 void expect_restated(const restatement::Options& options, const std::vector<Point>& points,
                      const std::vector<TextRow>& found) {
   using restatement::Index;
-  std::vector<restatement::State> starts;
-  for (const Index n : {6U, 9U}) {
-    restatement::State start{restatement::Vector(n), restatement::Matrix(n, n)};
-    for (Index i = 0; i < n; ++i) {
-      start.mean[i] = start_mean[i];
-      start.covariance(i, i) = start_variance[i];
-    }
-    starts.push_back(start);
-  }
+  const std::vector starts = {restated_start(6), restated_start(9)};
   const bool fuzzy = options.kind == restatement::Kind::himm;
   const restatement::Matrix transition(2, 2,
                                        fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9});

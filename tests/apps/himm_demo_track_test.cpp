@@ -110,15 +110,7 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
   std::size_t first = 0;
   double time = start_time;
   if (c.start == "given") {
-    for (const Index orders : {2U, 3U}) {
-      const Index n = c.axes * orders;
-      restatement::State state{restatement::Vector(n), restatement::Matrix(n, n)};
-      for (Index i = 0; i < n; ++i) {
-        state.mean[i] = start_mean[i];
-        state.covariance(i, i) = start_variance[i];
-      }
-      states.push_back(state);
-    }
+    states = {restated_start(2 * c.axes), restated_start(3 * c.axes)};
   } else {
     const auto at = [&](std::size_t i) { return restatement::Position{points[i].z, R}; };
     const double T12 = points[1].time - points[0].time;

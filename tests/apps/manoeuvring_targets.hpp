@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/recordings.hpp"
+#include "support/restatement.hpp"
 
 namespace sigmax::apps {
 
@@ -69,6 +70,16 @@ inline std::vector<Point> turning_target() {
 inline const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
 inline const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
 inline constexpr double start_time = 2.5;
+
+/// The given start of a model with that many components, as the restatement takes it.
+inline restatement::State restated_start(std::size_t components) {
+  restatement::State start{restatement::Vector(components), restatement::Matrix(components, components)};
+  for (std::size_t i = 0; i < components; ++i) {
+    start.mean[i] = start_mean[i];
+    start.covariance(i, i) = start_variance[i];
+  }
+  return start;
+}
 
 /// The rows of estimates.csv that are one filter's.
 inline std::vector<TextRow> of_filter(const std::vector<TextRow>& all, const std::string& filter) {
