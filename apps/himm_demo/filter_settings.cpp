@@ -279,6 +279,14 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
   return filters;
 }
 
+std::vector<std::string> model_names(const std::vector<FilterSettings>& filters) {
+  std::vector<std::string> names;
+  for (const auto& filter : filters)
+    for (const auto& model : filter.models)
+      if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
+  return names;
+}
+
 std::string as_toml(const std::vector<FilterSettings>& filters) {
   std::vector<std::string> names;
   for (const auto& filter : filters) names.push_back("\"" + filter.name + "\"");

@@ -100,6 +100,9 @@ bool asks_for_all(const Settings& settings);
 /// InputError, with the key, for what cannot be.
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
 
+/// The models of all filters, each once, in order.
+std::vector<std::string> model_names(const std::vector<FilterSettings>& filters);
+
 /// The settings of all filters in TOML: what is in force. It reads back as the same.
 std::string as_toml(const std::vector<FilterSettings>& filters);
 
