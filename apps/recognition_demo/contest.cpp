@@ -11,7 +11,7 @@
 #include <sigmax/core/compose.hpp>
 #include <sigmax/recognition/decision.hpp>
 
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -113,7 +113,7 @@ std::vector<Score> score(const std::vector<Contestant>& contestants, std::size_t
 Interval paired_difference(const Score& a, const Score& b) { return paired_interval(a.final_credits, b.final_credits); }
 
 std::string points(const Interval& difference) {
-  return fmt::format("{:+.2f} ± {:.2f}", 100.0 * difference.mean, 50.0 * (difference.upper - difference.lower));
+  return fmt::format("{:+.2f} ± {:.2f}", 100.0 * difference.mean, 100.0 * difference.half_width);
 }
 
 std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share); }
