@@ -38,8 +38,8 @@ class Cell {
   Cell(Count count) : value_(static_cast<std::int64_t>(count)) {}
 
   /// Nothing is known where there could be something: "–", null in JSON.
-  template <class Value>
-  Cell(const std::optional<Value>& value);
+  template <class T>
+  Cell(const std::optional<T>& value);
 
   using Value = std::variant<std::monostate, std::string, double, std::int64_t, Interval>;
   const Value& value() const { return value_; }
@@ -110,8 +110,8 @@ class ResultTable {
 /// The interval as JSON: {"mean", "lower", "upper"}.
 nlohmann::ordered_json as_json(const Interval& interval);
 
-template <class Value>
-Cell::Cell(const std::optional<Value>& value) {
+template <class T>
+Cell::Cell(const std::optional<T>& value) {
   if (value)
     *this = Cell(*value);
   else
