@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "support/angle.hpp"
 
 namespace sigmax::apps {
-namespace {
-constexpr double degree = std::numbers::pi / 180.0;
-}  // namespace
-
 EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
                              const RecordingReader& recording)
     : file_(directory.file("estimates.csv")), recording_(recording) {

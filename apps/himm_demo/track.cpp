@@ -1,13 +1,13 @@
 #include "himm_demo/track.hpp"
 
 #include <cstdio>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
+#include "support/angle.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
@@ -29,8 +29,7 @@ void track_and_report(const TrackOptions& options) {
   const Settings settings = Settings::read(options.config, options.sets);
   FilterDefaults defaults;
   const auto sigma = options.radar.value_or(std::array{10.0, 0.1, 0.1});
-  constexpr double degree = std::numbers::pi / 180.0;
-  defaults.sigma_radar = {sigma[0], sigma[1] * degree, sigma[2] * degree};
+  defaults.filter.accuracy.radar = {sigma[0], sigma[1] * degree, sigma[2] * degree};
   const auto filters = read_filters(settings, defaults);
   settings.refuse_unknown();
   if (options.print_config) {

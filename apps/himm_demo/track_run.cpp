@@ -1,7 +1,6 @@
 #include "himm_demo/track_run.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,14 +9,13 @@
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/scenario.hpp"
 #include "himm_demo/tracker.hpp"
+#include "support/angle.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 void add_error(Sums& sums, const Vector<3>& error) {
   for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));
