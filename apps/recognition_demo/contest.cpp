@@ -62,9 +62,9 @@ bool is_fuzzy(const Contestant& contestant) { return std::holds_alternative<MaxC
 
 double credit_of(std::span<const double> logs, std::size_t truth) {
   const double greatest = *std::max_element(logs.begin(), logs.end());
-  const auto ties = [&](double log) { return log >= greatest - tie_tolerance; };
-  if (!ties(logs[truth])) return 0.0;
-  return 1.0 / static_cast<double>(std::count_if(logs.begin(), logs.end(), ties));
+  if (!ties(logs[truth], greatest)) return 0.0;
+  const auto tied = std::count_if(logs.begin(), logs.end(), [greatest](double log) { return ties(log, greatest); });
+  return 1.0 / static_cast<double>(tied);
 }
 
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports) {
