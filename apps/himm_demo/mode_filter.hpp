@@ -60,6 +60,7 @@ class ModeFilter {
   Output output_of(const AnyFilter& filter, const typename AnyFilter::State& state) const;
 
   Filter filter_;
+  std::optional<Measurement> z_;  ///< of the last step
   std::tuple<Record<Random>, Record<Fuzzy>> record_;
   bool most_likely_output_;
 };

@@ -52,6 +52,7 @@ auto ModeFilter<Models>::made(const FilterSettings& settings, const Models& mode
 
 template <class Models>
 bool ModeFilter<Models>::step(double dt, const std::optional<Measurement>& z, double gate) {
+  z_ = z;
   return std::visit(
       [&](auto& filter) {
         if (z)
@@ -92,7 +93,7 @@ template <class Models>
 void ModeFilter<Models>::record(double dt) {
   std::visit(
       [&](const auto& filter) {
-        auto step = filter.recorded(dt);
+        auto step = z_ ? filter.recorded(dt, *z_) : filter.recorded(dt);
         std::get<std::vector<decltype(step)>>(record_).push_back(std::move(step));
       },
       filter_);

@@ -105,8 +105,8 @@ void Tracker<Axes>::end() {
           },
           *filter_);
     } catch (const std::domain_error& error) {
-      throw std::domain_error(fmt::format("smoothing back to the start at {} s, which needs variances above 0: {}",
-                                          shortest(recorded_.front().time), error.what()));
+      throw std::domain_error(
+          fmt::format("smoothing back to the start at {} s: {}", shortest(recorded_.front().time), error.what()));
     }
     recorded_.clear();
   }

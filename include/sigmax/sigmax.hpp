@@ -51,6 +51,7 @@
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/nonlinear_model.hpp>
@@ -68,6 +69,7 @@
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/fixed_lag_smoother.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/interaction.hpp>

@@ -12,7 +12,7 @@
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interaction.hpp>
@@ -149,6 +149,25 @@ class MultipleModelFilter {
         Collapse<Kind>{}, InnovationMixture<measurement_size>{innovations_},
         [this](std::size_t j) { return prior_[j]; }, predicted_mode_, predicted);
     return squared_distance(predicted);
+  }
+
+  /// The state with what a measurement tells each mode, linearised where the mode predicted it.
+  RecordedStep<Models, Kind> recorded_by(double dt, const Measurement& z, const Estimates& predicted) const {
+    RecordedStep<Models, Kind> result{dt, state(), {}};
+    if (!measured_) return result;
+    for_each_mode(system_.models(), [&](auto j) {
+      const auto seen = linearised_measurement(mode(system_.models(), j), mode(predicted, j), z);
+      auto& evidence = result.seen.emplace_back();
+      const Eigen::LLT<SquareMatrix<measurement_size>> root = detail::noise_root(seen);
+      evidence.R = root.matrixL().solve(seen.H);
+      evidence.r =
+          root.matrixL().solve(seen.residual) - evidence.R * (mode(estimates(), j).mean - mode(predicted, j).mean);
+    });
+    return result;
+  }
+  RecordedStep<Models, Kind> recorded_as_missed(double dt) const {
+    if (measured_) throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
+    return {dt, state(), {}};
   }
 
   /// The next state becomes the state; its most likely mode is (64).
