@@ -109,8 +109,7 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
   check::same(left.from(), right.variable(), "compose");
   check::same(left.to(), result.variable(), "compose");
   if (&right == &result) {
-    const Belief<Kind> before = right;
-    compose(left, before, result);
+    compose(left, Belief<Kind>(right), result);
     return;
   }
   const auto assign_from = [&](const auto& columns) {
