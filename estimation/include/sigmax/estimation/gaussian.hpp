@@ -45,6 +45,21 @@ void mirror_lower(Eigen::MatrixBase<Derived>& covariance) {
     for (Eigen::Index row = 0; row < column; ++row) covariance(row, column) = covariance(column, row);
 }
 
+/// Tells an estimate in other coordinates: p → A p + b of the position, which leads the state, and A p of its
+/// derivatives, which follow; what is left over, such as a rate of turn, stays.
+template <int Axes, int N, int MaxN>
+void transform(const SquareMatrix<Axes>& A, const Vector<Axes>& b, Gaussian<N, MaxN>& estimate) {
+  for (Eigen::Index d = 0; d + Axes <= estimate.size(); d += Axes) {
+    estimate.mean.template segment<Axes>(d) = (A * estimate.mean.template segment<Axes>(d)).eval();
+    auto rows = estimate.covariance.template middleRows<Axes>(d);
+    rows = (A * rows).eval();
+    auto columns = estimate.covariance.template middleCols<Axes>(d);
+    columns = (columns * A.transpose()).eval();
+  }
+  estimate.mean.template head<Axes>() += b;
+  mirror_lower(estimate.covariance);
+}
+
 /// A size that the compiler knows if N is fixed, else n: for blocks of matrices that may be either.
 template <int N>
 constexpr auto extent([[maybe_unused]] Eigen::Index n) {

@@ -16,6 +16,7 @@ namespace sigmax {
 ///   law.transition(dt)         F_s, upper triangular
 ///   law.process_covariance(dt) Q_s
 ///   law.input_gain(dt)         what a known input of one adds to the derivatives
+///   Law::unit_diagonal         optional: true if the diagonal of F_s is all ones, which then costs nothing
 template <class Law>
 concept MotionLaw = requires(const Law& law, double dt) {
   { law.name() } -> std::convertible_to<std::string_view>;
@@ -24,8 +25,9 @@ concept MotionLaw = requires(const Law& law, double dt) {
   { law.input_gain(dt) } -> MatrixOf<Law::order>;
 };
 
-/// Motion along independent axes that follow one law: F = F_s ⊗ I, Q = Q_s ⊗ I, with states ordered by derivative as in
-/// KinematicModel. It measures the position.
+/// Motion along `Axes` independent axes that follow one law. States are ordered by derivative: x, y, z, vx, vy, vz, ax,
+/// ay, az, in SI units. So F = F_s ⊗ I, Q = Q_s ⊗ I, and a motion of lower order has the leading states of one of
+/// higher order.
 template <int Axes, MotionLaw Law>
 class IndependentAxes {
   static_assert(Axes >= 1 && Axes <= 3, "one to three axes");
@@ -35,8 +37,6 @@ class IndependentAxes {
   static constexpr int order = Law::order;
   static constexpr int state_size = Axes * order;
   static constexpr int max_state_size = state_size;
-  static constexpr int measurement_size = Axes;
-  static constexpr bool measures_leading_components = true;
 
   using State = Vector<state_size>;
   using Matrix = SquareMatrix<state_size>;
@@ -45,6 +45,7 @@ class IndependentAxes {
       : law_(law), input_(known_input) {}
 
   const Law& law() const { return law_; }
+  const Vector<Axes>& input() const { return input_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return law_.name(); }
   std::vector<std::string> components() const { return motion_components(Axes, order); }
@@ -56,9 +57,6 @@ class IndependentAxes {
     State u;
     for (Eigen::Index a = 0; a < order; ++a) u.template segment<Axes>(a * Axes) = gain(a) * input_;
     return u;
-  }
-  RectangularMatrix<Axes, state_size> measurement_matrix() const {
-    return RectangularMatrix<Axes, state_size>::Identity();
   }
 
  private:
@@ -74,30 +72,33 @@ class IndependentAxes {
   Vector<Axes> input_;
 };
 
-/// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular. `result` may be `prior`.
+/// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular: blocks are added, nothing is multiplied by
+/// zero. `result` may be `prior`.
 template <int Axes, class Law>
 void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
              EstimateOf<IndependentAxes<Axes, Law>>& result) {
-  constexpr int order = Law::order;
-  const SquareMatrix<order> f = model.law().transition(dt);
-  const SquareMatrix<order> q = model.law().process_covariance(dt);
+  constexpr Eigen::Index order = Law::order;
+  constexpr bool unit_diagonal = requires { requires Law::unit_diagonal; };
+  const SquareMatrix<Law::order> f = model.law().transition(dt);
+  const SquareMatrix<Law::order> q = model.law().process_covariance(dt);
   if (&result != &prior) result = prior;
   auto& x = result.mean;
   auto& P = result.covariance;
   auto terms = P.diagonal().eval();           // of the variances of F P Fᵀ, before they may cancel
   for (Eigen::Index a = 0; a < order; ++a) {  // later blocks are still unchanged
-    terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
-    for (Eigen::Index b = a + 1; b < order; ++b)
-      terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
-    x.template segment<Axes>(a * Axes) *= f(a, a);
-    P.template middleRows<Axes>(a * Axes) *= f(a, a);
+    if constexpr (!unit_diagonal) {
+      terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
+      x.template segment<Axes>(a * Axes) *= f(a, a);
+      P.template middleRows<Axes>(a * Axes) *= f(a, a);
+    }
     for (Eigen::Index b = a + 1; b < order; ++b) {
+      terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
       x.template segment<Axes>(a * Axes) += f(a, b) * x.template segment<Axes>(b * Axes);
       P.template middleRows<Axes>(a * Axes) += f(a, b) * P.template middleRows<Axes>(b * Axes);
     }
   }
   for (Eigen::Index a = 0; a < order; ++a) {
-    P.template middleCols<Axes>(a * Axes) *= f(a, a);
+    if constexpr (!unit_diagonal) P.template middleCols<Axes>(a * Axes) *= f(a, a);
     for (Eigen::Index b = a + 1; b < order; ++b)
       P.template middleCols<Axes>(a * Axes) += f(a, b) * P.template middleCols<Axes>(b * Axes);
   }
@@ -108,5 +109,18 @@ void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<Independe
   P.diagonal() += detail::rounding * terms;
   mirror_lower(P);
 }
+
+namespace detail {
+
+/// F_s(a, b) = Tᵇ⁻ᵃ/(b−a)!: every derivative is the integral of the next.
+template <int Order>
+SquareMatrix<Order> taylor_transition(double dt) {
+  SquareMatrix<Order> F = SquareMatrix<Order>::Identity();
+  for (Eigen::Index a = 0; a + 1 < Order; ++a) F(a, a + 1) = dt;
+  if constexpr (Order == 3) F(0, 2) = 0.5 * dt * dt;
+  return F;
+}
+
+}  // namespace detail
 
 }  // namespace sigmax

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include <sigmax/estimation/gaussian.hpp>
+#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/radar.hpp>
+#include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
 
@@ -16,7 +18,7 @@ inline double wrapped(double angle) {
 /// Measures the position itself, H = [I 0], in m.
 template <int Axes>
 struct PositionSensor {
-  static constexpr int axes = Axes;
+  static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
   static constexpr bool measures_leading_components = true;
 
@@ -24,7 +26,24 @@ struct PositionSensor {
   Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
     return position;
   }
-  SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>&) const { return SquareMatrix<Axes>::Identity(); }
+
+  /// What a measurement tells of the position.
+  Gaussian<Axes> position(const Gaussian<Axes>& z) const { return z; }
+};
+
+/// Measures combinations H of the leading components of the state: `M` quantities, of `N` components. Of components
+/// that a model lacks, in a bank of models of different sizes, H must say nothing.
+template <int M, int N>
+class LinearSensor {
+ public:
+  static constexpr int seen_size = N;
+  static constexpr int measurement_size = M;
+
+  explicit LinearSensor(RectangularMatrix<M, N> H) : H_(std::move(H)) {}
+  const RectangularMatrix<M, N>& measurement_matrix() const { return H_; }
+
+ private:
+  RectangularMatrix<M, N> H_;
 };
 
 /// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
@@ -35,7 +54,7 @@ class PolarSensor {
   static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
 
  public:
-  static constexpr int axes = Axes;
+  static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
 
   explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(origin) {}
@@ -80,6 +99,16 @@ class PolarSensor {
     return difference;
   }
 
+  /// What a measurement tells of the position: its unbiased conversion, which neglects correlations of its errors.
+  Gaussian<Axes> position(const Gaussian<Axes>& z) const {
+    Vector<3> seen = Vector<3>::Zero(), deviations = Vector<3>::Zero();
+    seen.head<Axes>() = z.mean;
+    deviations.head<Axes>() = z.covariance.diagonal().cwiseSqrt();
+    const Gaussian<3> converted = to_cartesian({seen(0), seen(1), seen(2)},
+                                               {deviations(0), deviations(1), deviations(2)}, Conversion::unbiased);
+    return {converted.mean.head<Axes>() + origin_, converted.covariance.topLeftCorner<Axes, Axes>()};
+  }
+
   /// What a radar with these standard deviations measured; with two axes the elevation is of no account.
   static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
     const Vector<3> z(measured.range, measured.azimuth, measured.elevation);
@@ -95,7 +124,7 @@ class PolarSensor {
 /// wrapped. One such sensor that stands still does not tell the range.
 class BearingSensor {
  public:
-  static constexpr int axes = 2;
+  static constexpr int seen_size = 2;
   static constexpr int measurement_size = 1;
 
   explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(origin) {}

@@ -21,6 +21,7 @@ class WhiteNoise {
 
  public:
   static constexpr int order = Order;
+  static constexpr bool unit_diagonal = true;
 
   /// Throws std::invalid_argument unless q is finite and not negative.
   explicit WhiteNoise(double q) : q_(motion_parameter(q, "q", name())) {}
@@ -28,13 +29,7 @@ class WhiteNoise {
   double q() const { return q_; }
   std::string_view name() const { return Order == 2 ? "cwna" : "cwpa"; }
 
-  SquareMatrix<Order> transition(double dt) const {
-    const auto taylor = powers(dt);
-    SquareMatrix<Order> F = SquareMatrix<Order>::Zero();
-    for (Eigen::Index a = 0; a < Order; ++a)
-      for (Eigen::Index b = a; b < Order; ++b) F(a, b) = taylor[static_cast<std::size_t>(b - a)];
-    return F;
-  }
+  SquareMatrix<Order> transition(double dt) const { return detail::taylor_transition<Order>(dt); }
   SquareMatrix<Order> process_covariance(double dt) const {
     const auto taylor = powers(dt);
     SquareMatrix<Order> Q;
