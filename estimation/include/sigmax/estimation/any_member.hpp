@@ -43,6 +43,16 @@ class AnyMember {
   std::variant<Extended<Moves>, Unscented<Moves>, Cubature<Moves>> member_;
 };
 
+namespace detail {
+
+/// Whether a sensor is one of several, chosen at run time: AnySensor.
+template <class Sensor>
+concept ChosenSensor = requires(const Sensor& sensor) {
+  sensor.visit([](const auto&) {});
+};
+
+}  // namespace detail
+
 /// @{
 /// As the member that it is. `result` and `posterior` may be `prior`.
 template <Motion Moves>
@@ -57,10 +67,20 @@ template <Motion Moves, SensorOf<AnyMember<Moves>> Sensor>
 InnovationOf<Sensor> update(const AnyMember<Moves>& any, const EstimateOf<Moves>& prior,
                             const MeasurementOf<Sensor>& measurement, const Sensor& sensor,
                             EstimateOf<Moves>& posterior) {
-  if constexpr (LinearSensorOf<Sensor, Moves>)
+  if constexpr (LinearSensorOf<Sensor, Moves>) {
     return update(any.motion(), prior, measurement, sensor, posterior);
-  else
+  } else if constexpr (detail::ChosenSensor<Sensor>) {
+    const auto update_as = [&]<Sensing Chosen>(const Chosen& chosen) {
+      if constexpr (LinearSensorOf<Chosen, Moves>)
+        return InnovationOf<Sensor>(
+            update(any.motion(), prior, {measurement.mean, measurement.covariance}, chosen, posterior));
+      else
+        return any.visit([&](const auto& member) { return update(member, prior, measurement, sensor, posterior); });
+    };
+    return sensor.visit(update_as);
+  } else {
     return any.visit([&](const auto& member) { return update(member, prior, measurement, sensor, posterior); });
+  }
 }
 /// @}
 

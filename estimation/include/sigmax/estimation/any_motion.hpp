@@ -12,8 +12,8 @@
 
 namespace sigmax {
 
-/// One of several motions, linear or not, chosen at run time: what a program puts, inside a member of the Kalman family,
-/// into the vector of a multiple-model filter whose models its user names.
+/// One of several motions, linear or not, chosen at run time: what a program puts, inside a member of the Kalman
+/// family, into the vector of a multiple-model filter whose models its user names.
 ///
 ///     using Moves = AnyMotion<7, CoordinatedTurn<3>, IndependentAxes<3, DiscreteWhiteNoise<2>>>;
 ///     const std::vector<AnyMember<Moves>> models = {Extended<Moves>{dwna<3>(3.0)}, …};
@@ -24,14 +24,13 @@ template <int MaxStateSize, Motion First, Motion... Others>
 class AnyMotion {
   static_assert(First::max_state_size <= MaxStateSize && ((Others::max_state_size <= MaxStateSize) && ...),
                 "a motion has more states than the bound");
-  static_assert(((axes_of<First> == axes_of<Others>) && ...), "all motions must have their position along the same axes");
   template <class Moves>
   static constexpr bool is_one = std::is_same_v<Moves, First> || (std::is_same_v<Moves, Others> || ...);
 
  public:
   static constexpr int state_size = Eigen::Dynamic;
   static constexpr int max_state_size = MaxStateSize;
-  static constexpr int axes = axes_of<First>;
+  static constexpr int axes = ((axes_of<First> == axes_of<Others>)&&...) ? axes_of<First> : 0;
   using State = Vector<state_size, max_state_size>;
   using Matrix = SquareMatrix<state_size, max_state_size>;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -54,15 +53,14 @@ class AnySensor {
   /// @}
 
   /// What a measurement tells of the position, if the sensor that it is can tell it by itself.
-  template <class Position = decltype(std::declval<First>().position(std::declval<MeasurementOf<First>>()))>
-  std::optional<Position> position(const Gaussian<measurement_size, max_measurement_size>& z) const {
-    return visit([&]<Sensing Sensor>(const Sensor& sensor) -> std::optional<Position> {
-      if constexpr (requires(const MeasurementOf<Sensor>& own) {
-                      { sensor.position(own) } -> std::same_as<Position>;
-                    })
-        return sensor.position(MeasurementOf<Sensor>{z.mean, z.covariance});
-      else
+  std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<measurement_size, max_measurement_size>& z) const {
+    return visit([&]<Sensing Sensor>(const Sensor& sensor) -> std::optional<Gaussian<Eigen::Dynamic, 3>> {
+      if constexpr (requires(const MeasurementOf<Sensor>& own) { sensor.position(own); }) {
+        const auto position = sensor.position(MeasurementOf<Sensor>{z.mean, z.covariance});
+        return Gaussian<Eigen::Dynamic, 3>{position.mean, position.covariance};
+      } else {
         return std::nullopt;
+      }
     });
   }
 

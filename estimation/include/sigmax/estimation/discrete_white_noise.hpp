@@ -19,7 +19,6 @@ class DiscreteWhiteNoise {
 
  public:
   static constexpr int order = Order;
-  static constexpr bool unit_diagonal = true;
 
   /// Throws std::invalid_argument unless σ_w is finite and not negative.
   explicit DiscreteWhiteNoise(double sigma_w) : sigma_w_(motion_parameter(sigma_w, "sigma_w", name())) {}
@@ -35,9 +34,7 @@ class DiscreteWhiteNoise {
       for (Eigen::Index b = 0; b < Order; ++b) Q(a, b) = g(a) * g(b) * sigma_w_ * sigma_w_;
     return Q;
   }
-  Vector<Order> input_gain(double dt) const {
-    return Vector<3>(0.5 * dt * dt, dt, 1.0).template head<Order>();
-  }
+  Vector<Order> input_gain(double dt) const { return Vector<3>(0.5 * dt * dt, dt, 1.0).template head<Order>(); }
 
  private:
   double sigma_w_;

@@ -43,6 +43,14 @@ void predict(const Extended<Moves>& member, const EstimateOf<Moves>& prior, doub
   }
 }
 
+/// The update of kalman.hpp.
+template <Motion Moves, SensorOf<Moves> Sensor>
+InnovationOf<Sensor> update(const Extended<Moves>& member, const EstimateOf<Moves>& prior,
+                            const MeasurementOf<Sensor>& measurement, const Sensor& sensor,
+                            EstimateOf<Moves>& posterior) {
+  return update(member.motion(), prior, measurement, sensor, posterior);
+}
+
 /// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, for smoothing.
 template <Motion Moves>
 StateMatrixOf<Moves> prediction_covariance(const Extended<Moves>& member, const EstimateOf<Moves>& prior, double dt) {

@@ -16,7 +16,6 @@ namespace sigmax {
 ///   law.transition(dt)         F_s, upper triangular
 ///   law.process_covariance(dt) Q_s
 ///   law.input_gain(dt)         what a known input of one adds to the derivatives
-///   Law::unit_diagonal         optional: true if the diagonal of F_s is all ones, which then costs nothing
 template <class Law>
 concept MotionLaw = requires(const Law& law, double dt) {
   { law.name() } -> std::convertible_to<std::string_view>;
@@ -72,42 +71,50 @@ class IndependentAxes {
   Vector<Axes> input_;
 };
 
+namespace detail {
+
 /// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular: blocks are added, nothing is multiplied by
-/// zero. `result` may be `prior`.
-template <int Axes, class Law>
-void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
-             EstimateOf<IndependentAxes<Axes, Law>>& result) {
-  constexpr Eigen::Index order = Law::order;
-  constexpr bool unit_diagonal = requires { requires Law::unit_diagonal; };
-  const SquareMatrix<Law::order> f = model.law().transition(dt);
-  const SquareMatrix<Law::order> q = model.law().process_covariance(dt);
-  if (&result != &prior) result = prior;
+/// zero or by one. The same for all laws of this order.
+template <int Axes, int Order>
+void predict_axes(const SquareMatrix<Order>& f, const SquareMatrix<Order>& q, const Vector<Axes * Order>& input,
+                  Gaussian<Axes * Order>& result) {
   auto& x = result.mean;
   auto& P = result.covariance;
   auto terms = P.diagonal().eval();           // of the variances of F P Fᵀ, before they may cancel
-  for (Eigen::Index a = 0; a < order; ++a) {  // later blocks are still unchanged
-    if constexpr (!unit_diagonal) {
+  for (Eigen::Index a = 0; a < Order; ++a) {  // later blocks are still unchanged
+    if (f(a, a) != 1.0) {
       terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
       x.template segment<Axes>(a * Axes) *= f(a, a);
       P.template middleRows<Axes>(a * Axes) *= f(a, a);
     }
-    for (Eigen::Index b = a + 1; b < order; ++b) {
+    for (Eigen::Index b = a + 1; b < Order; ++b) {
       terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
       x.template segment<Axes>(a * Axes) += f(a, b) * x.template segment<Axes>(b * Axes);
       P.template middleRows<Axes>(a * Axes) += f(a, b) * P.template middleRows<Axes>(b * Axes);
     }
   }
-  for (Eigen::Index a = 0; a < order; ++a) {
-    if constexpr (!unit_diagonal) P.template middleCols<Axes>(a * Axes) *= f(a, a);
-    for (Eigen::Index b = a + 1; b < order; ++b)
+  for (Eigen::Index a = 0; a < Order; ++a) {
+    if (f(a, a) != 1.0) P.template middleCols<Axes>(a * Axes) *= f(a, a);
+    for (Eigen::Index b = a + 1; b < Order; ++b)
       P.template middleCols<Axes>(a * Axes) += f(a, b) * P.template middleCols<Axes>(b * Axes);
   }
-  x += model.known_input(dt);
-  for (Eigen::Index a = 0; a < order; ++a)
-    for (Eigen::Index b = 0; b < order; ++b)
+  x += input;
+  for (Eigen::Index a = 0; a < Order; ++a)
+    for (Eigen::Index b = 0; b < Order; ++b)
       P.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().array() += q(a, b);
-  P.diagonal() += detail::rounding * terms;
+  P.diagonal() += rounding * terms;
   mirror_lower(P);
+}
+
+}  // namespace detail
+
+/// Prediction (27), (28) that uses the structure of F. `result` may be `prior`.
+template <int Axes, class Law>
+void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
+             EstimateOf<IndependentAxes<Axes, Law>>& result) {
+  if (&result != &prior) result = prior;
+  detail::predict_axes<Axes, Law::order>(model.law().transition(dt), model.law().process_covariance(dt),
+                                         model.known_input(dt), result);
 }
 
 namespace detail {

@@ -20,8 +20,17 @@ template <int M, int MaxM = M>
 struct Innovation {
   Vector<M, MaxM> residual;          ///< ν = z − h(x)
   SquareMatrix<M, MaxM> covariance;  ///< S, (31)
-  double squared_distance = 0.0;  ///< d² = νᵀ S⁻¹ ν, the NIS
-  double log_likelihood = 0.0;    ///< log N(ν; 0, S)
+  double squared_distance = 0.0;     ///< d² = νᵀ S⁻¹ ν, the NIS
+  double log_likelihood = 0.0;       ///< log N(ν; 0, S)
+
+  Innovation() = default;
+  /// The same in a type of other bounds.
+  template <int OtherM, int OtherMaxM>
+  explicit Innovation(const Innovation<OtherM, OtherMaxM>& other)
+      : residual(other.residual),
+        covariance(other.covariance),
+        squared_distance(other.squared_distance),
+        log_likelihood(other.log_likelihood) {}
 };
 
 /// The innovation of a sensor's measurement.
@@ -84,8 +93,7 @@ SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& mea
                             Innovation<M, MaxM>& innovation) {
   const Eigen::LLT<SquareMatrix<M, MaxM>> S = factorised<M, MaxM>(innovation.covariance);
   if (S.info() != Eigen::Success)
-    throw std::domain_error("the innovation covariance of model '" + std::string(model) +
-                            "' is not positive definite");
+    throw std::domain_error("the innovation covariance of model '" + std::string(model) + "' is not positive definite");
   // L⁻¹ column by column: for vectors of this size Eigen's triangular solver is unrolled. S⁻¹ = L⁻ᵀ L⁻¹.
   const Eigen::Index m = measurement.size();
   SquareMatrix<M, MaxM> L_inverse(m, m);
@@ -222,8 +230,7 @@ EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, con
 }
 template <StateModel Model>
   requires(axes_of<Model> > 0)
-EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior,
-                         const Gaussian<Model::axes>& measurement) {
+EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const Gaussian<Model::axes>& measurement) {
   return update(model, prior, measurement, PositionSensor<Model::axes>{});
 }
 /// @}

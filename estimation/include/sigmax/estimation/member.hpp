@@ -36,10 +36,12 @@ namespace detail {
 
 /// Whether a motion is one of several, chosen at run time: AnyMotion.
 template <class Moves>
-concept ChosenMotion = requires(const Moves& motion) { motion.visit([](const auto&) {}); };
+concept ChosenMotion = requires(const Moves& motion) {
+  motion.visit([](const auto&) {});
+};
 
-/// Calls act(own, estimate) with the member over the motion that its own is, and the prior in the type of that motion.
-/// Throws std::invalid_argument, naming the model, for a prior of another size.
+/// Calls act(own, estimate) with the member over the motion that its own is, or a linear motion itself, and the prior
+/// in the type of that motion. Throws std::invalid_argument, naming the model, for a prior of another size.
 template <class Filter, class Act>
 decltype(auto) as_chosen(const Filter& member, const EstimateOf<Filter>& prior, const Act& act) {
   return member.motion().visit([&](const auto& motion) -> decltype(auto) {
@@ -47,7 +49,11 @@ decltype(auto) as_chosen(const Filter& member, const EstimateOf<Filter>& prior, 
       throw std::invalid_argument("an estimate of model '" + std::string(motion.name()) + "' has " +
                                   std::to_string(prior.size()) + " components; expected " +
                                   std::to_string(motion.size()));
-    return act(member.over(motion), EstimateOf<std::decay_t<decltype(motion)>>(prior.mean, prior.covariance));
+    using Chosen = std::decay_t<decltype(motion)>;
+    if constexpr (LinearMotion<Chosen>)
+      return act(motion, EstimateOf<Chosen>(prior.mean, prior.covariance));
+    else
+      return act(member.over(motion), EstimateOf<Chosen>(prior.mean, prior.covariance));
   });
 }
 

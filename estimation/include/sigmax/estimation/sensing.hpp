@@ -37,7 +37,8 @@ concept SeesLeading = requires {
 /// Calls `ask` with what a sensor's functions take: the leading components that it sees, or the model and the state.
 template <class Sensor, class Model, class Scalar, class Ask>
 decltype(auto) asked(const Model& model,
-                     const Eigen::Matrix<Scalar, Model::state_size, 1, 0, Model::max_state_size, 1>& x, const Ask& ask) {
+                     const Eigen::Matrix<Scalar, Model::state_size, 1, 0, Model::max_state_size, 1>& x,
+                     const Ask& ask) {
   if constexpr (SeesLeading<Sensor>) {
     static_assert(Model::state_size == Eigen::Dynamic || Sensor::seen_size <= Model::state_size,
                   "the sensor sees more components than the model has");
@@ -68,7 +69,9 @@ using MeasurementMatrixOf = RectangularMatrix<Sensor::measurement_size, Model::s
 
 /// Whether a sensor measures the first components and nothing else, H = [I 0]; the Kalman filter then skips the zeros.
 template <class Sensor>
-inline constexpr bool measures_leading_components = requires { requires Sensor::measures_leading_components; };
+inline constexpr bool measures_leading_components = requires {
+  requires Sensor::measures_leading_components;
+};
 
 /// A sensor that can measure the state of this model, by its valid expressions; no base class is needed. Functions of
 /// another size do not compile. A sensor either says how many leading components of the state it sees, and is asked
@@ -87,26 +90,26 @@ inline constexpr bool measures_leading_components = requires { requires Sensor::
 ///
 ///   sensor.measurement_matrix()      H, m × seen_size;  or (model), m × n
 template <class Sensor, class Model>
-concept SensorOf = Sensing<Sensor> && StateModel<Model> &&
-    (measures_leading_components<Sensor> ||
-     requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-       { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
-     } ||
-     requires(const Sensor& sensor, const Model& model) {
-       { sensor.measurement_matrix(model) } -> MatrixOf<Sensor::measurement_size, Model::state_size>;
-     } ||
-     requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-       { sensor.measure(seen) } -> MatrixOf<Sensor::measurement_size>;
-     } ||
-     requires(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
-       { sensor.measure(model, x) } -> MatrixOf<Sensor::measurement_size>;
-     });
+concept SensorOf = Sensing<Sensor> && StateModel<Model> &&(
+    measures_leading_components<Sensor> ||
+    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
+      { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
+    } ||
+    requires(const Sensor& sensor, const Model& model) {
+      { sensor.measurement_matrix(model) } -> MatrixOf<Sensor::measurement_size, Model::state_size>;
+    } ||
+    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
+      { sensor.measure(seen) } -> MatrixOf<Sensor::measurement_size>;
+    } ||
+    requires(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
+      { sensor.measure(model, x) } -> MatrixOf<Sensor::measurement_size>;
+    });
 
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>
-concept LinearSensorOf = SensorOf<Sensor, Model> &&
-    (measures_leading_components<Sensor> || requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
-     requires(const Sensor& sensor, const Model& model) { sensor.measurement_matrix(model); });
+concept LinearSensorOf = SensorOf<Sensor, Model> &&(
+    measures_leading_components<Sensor> || requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
+    requires(const Sensor& sensor, const Model& model) { sensor.measurement_matrix(model); });
 
 namespace detail {
 

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <sigmax/estimation/converted_measurement.hpp>
@@ -44,6 +50,44 @@ class LinearSensor {
 
  private:
   RectangularMatrix<M, N> H_;
+};
+
+/// Measures some components of the state by themselves: an altitude, a place without one, a velocity. Which they are is
+/// known at run time; at most `MaxSize` at once.
+template <int MaxSize>
+class ComponentSensor {
+ public:
+  static constexpr int measurement_size = Eigen::Dynamic;
+  static constexpr int max_measurement_size = MaxSize;
+
+  /// Their places in the state of every model, in which the position and its derivatives lead. Throws
+  /// std::invalid_argument for none, or more than `MaxSize`.
+  explicit ComponentSensor(std::span<const int> places) : size_(static_cast<int>(places.size())) {
+    if (places.empty() || size_ > MaxSize)
+      throw std::invalid_argument("a sensor of " + std::to_string(places.size()) + " components; expected 1 to " +
+                                  std::to_string(MaxSize));
+    std::copy(places.begin(), places.end(), places_.begin());
+  }
+
+  /// Throws std::invalid_argument, naming the model, if it lacks one of the components.
+  template <StateModel Model>
+  RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> measurement_matrix(
+      const Model& model) const {
+    RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> H;
+    H.setZero(size_, model.size());
+    for (int i = 0; i < size_; ++i) {
+      const int place = places_[static_cast<std::size_t>(i)];
+      if (place < 0 || place >= model.size())
+        throw std::invalid_argument("a sensor measures component " + std::to_string(place + 1) + ", but model '" +
+                                    std::string(model.name()) + "' has " + std::to_string(model.size()));
+      H(i, place) = 1.0;
+    }
+    return H;
+  }
+
+ private:
+  std::array<int, std::size_t{MaxSize}> places_{};
+  int size_;
 };
 
 /// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
@@ -104,8 +148,8 @@ class PolarSensor {
     Vector<3> seen = Vector<3>::Zero(), deviations = Vector<3>::Zero();
     seen.head<Axes>() = z.mean;
     deviations.head<Axes>() = z.covariance.diagonal().cwiseSqrt();
-    const Gaussian<3> converted = to_cartesian({seen(0), seen(1), seen(2)},
-                                               {deviations(0), deviations(1), deviations(2)}, Conversion::unbiased);
+    const Gaussian<3> converted =
+        to_cartesian({seen(0), seen(1), seen(2)}, {deviations(0), deviations(1), deviations(2)}, Conversion::unbiased);
     return {converted.mean.head<Axes>() + origin_, converted.covariance.topLeftCorner<Axes, Axes>()};
   }
 

@@ -123,7 +123,9 @@ void predict(const Filter& member, const EstimateOf<Filter>& prior, double dt, E
 /// Cov(x_k−1, x_k | z_1:k−1) = Σ wᵢ (χᵢ − x)(f(χᵢ) − x̄)ᵀ, for smoothing.
 template <SigmaPointMember Filter>
 StateMatrixOf<Filter> prediction_covariance(const Filter& member, const EstimateOf<Filter>& prior, double dt) {
-  if constexpr (detail::ChosenMotion<typename Filter::MotionType>) {
+  if constexpr (LinearMotion<typename Filter::MotionType>) {
+    return prediction_covariance(member.motion(), prior, dt);
+  } else if constexpr (detail::ChosenMotion<typename Filter::MotionType>) {
     return detail::covariance_as_chosen(member, prior, dt);
   } else {
     const SigmaPoints<Filter> points(member, prior);
@@ -152,7 +154,8 @@ InnovationOf<Sensor> update(const Filter& member, const EstimateOf<Filter>& prio
 
     typename SigmaPoints<Filter>::template Columns<M, max_M> seen(measurement.size(), points.size());
     const auto see = [&](Eigen::Index i) {
-      seen.col(i) = predicted_measurement(member, sensor, StateOf<Filter>(prior.mean + points.offsets().col(i)));
+      seen.col(i) =
+          predicted_measurement(member.motion(), sensor, StateOf<Filter>(prior.mean + points.offsets().col(i)));
     };
     see(0);  // silences a warning of g++ 12: there is always a first point
     for (Eigen::Index i = 1; i < points.size(); ++i) see(i);

@@ -21,7 +21,6 @@ class WhiteNoise {
 
  public:
   static constexpr int order = Order;
-  static constexpr bool unit_diagonal = true;
 
   /// Throws std::invalid_argument unless q is finite and not negative.
   explicit WhiteNoise(double q) : q_(motion_parameter(q, "q", name())) {}

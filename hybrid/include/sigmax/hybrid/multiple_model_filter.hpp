@@ -84,7 +84,7 @@ class MultipleModelFilter {
 
   /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
   /// components stay. For models whose components are ordered by derivative.
-  void transform(const SquareMatrix<axes>& A, const Vector<axes>& b) requires(axes > 0) {
+  void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
     for_each_mode(system_.models(), [&](auto j) { sigmax::transform(A, b, mode(states_[current_].estimates, j)); });
   }
 
@@ -115,8 +115,8 @@ class MultipleModelFilter {
   /// measurement.
   double nis() const {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
-    return squared_distance(collapsed_innovation(innovations_, [this](std::size_t j) { return prior_[j]; },
-                                                 predicted_mode_));
+    return squared_distance(collapsed_innovation(
+        innovations_, [this](std::size_t j) { return prior_[j]; }, predicted_mode_));
   }
 
   /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
@@ -200,10 +200,7 @@ class MultipleModelFilter {
   template <int M, int MaxM>
   static void assign(const Innovation<M, MaxM>& from, AnyInnovation& to) {
     static_assert(MaxM <= max_measurement_size, "a sensor measures more quantities at once than a filter keeps");
-    to.residual = from.residual;
-    to.covariance = from.covariance;
-    to.squared_distance = from.squared_distance;
-    to.log_likelihood = from.log_likelihood;
+    to = AnyInnovation(from);
   }
 
   static auto logs_of(const Belief<Kind>& belief) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -22,16 +23,20 @@ struct Plot {
   std::size_t tag = 0;
 
   explicit Plot(double t = 0.0, std::size_t number = 0) : time(t), tag(number) {}
-  Plot(double t, const MeasurementOf<Sensor>& z, Sensor sensor = {}, std::size_t number = 0)
+  Plot(double t, const MeasurementOf<Sensor>& z, Sensor sensor, std::size_t number = 0)
       : time(t), seen{Seen{z, std::move(sensor)}}, tag(number) {}
+  Plot(double t, const MeasurementOf<Sensor>& z, std::size_t number = 0) requires std::default_initializable<Sensor>
+      : Plot(t, z, Sensor{}, number) {}
 };
 
-/// The position that a measurement tells by itself, `sensor.position(z)`, if the sensor has one to tell: what a start is
-/// made of.
+/// The position that a measurement tells by itself, `sensor.position(z)`, if the sensor has one to tell: what a start
+/// is made of.
 template <int Axes, Sensing Sensor>
 std::optional<Gaussian<Axes>> position_told(const Plot<Sensor>& plot) {
   if constexpr (requires { plot.seen->sensor.position(plot.seen->z); }) {
-    if (plot.seen) return plot.seen->sensor.position(plot.seen->z);
+    if (!plot.seen) return std::nullopt;
+    const std::optional position = plot.seen->sensor.position(plot.seen->z);  // of an AnySensor it may be nothing
+    if (position && position->size() == Axes) return Gaussian<Axes>{position->mean, position->covariance};
   }
   return std::nullopt;
 }

@@ -61,9 +61,8 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
           const std::size_t pair = j * modes() + l;
           log_fit_[pair] = log_zero;
           if (!lives(l, j)) continue;
-          this->assign(
-              update(mode(system_.models(), j), mode(predicted_, j)[l], z, sensor, mode(pairs_, j)[l]),
-              pair_innovations_[l]);
+          this->assign(update(mode(system_.models(), j), mode(predicted_, j)[l], z, sensor, mode(pairs_, j)[l]),
+                       pair_innovations_[l]);
           log_fit_[pair] = joint_(j, l) - 0.5 * pair_innovations_[l].squared_distance;
           joint_(j, l) += this->log_likelihood(j, pair_innovations_[l]);
         }
@@ -174,13 +173,16 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
     const double before = log_weight_[j];
     weigh(j);
     const double log_likelihood = before == log_zero ? pair_innovations_[j].log_likelihood : log_weight_[j] - before;
-    innovations_[j] = {predicted.mean, predicted.covariance, Filter::squared_distance(predicted), log_likelihood};
+    innovations_[j].residual = predicted.mean;
+    innovations_[j].covariance = predicted.covariance;
+    innovations_[j].squared_distance = Filter::squared_distance(predicted);
+    innovations_[j].log_likelihood = log_likelihood;
   }
 
   static double unweighted(std::size_t) { return 1.0; }
 
   Pairs predicted_;
-  Pairs pairs_;                                                         ///< of mode j: one for each predecessor
+  Pairs pairs_;                                  ///< of mode j: one for each predecessor
   std::vector<AnyInnovation> pair_innovations_;  ///< of the mode at hand
   std::vector<double> log_fit_;                  ///< of all pairs, for the gate
   std::vector<double> log_weight_;               ///< of each mode

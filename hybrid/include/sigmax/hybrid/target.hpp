@@ -16,42 +16,22 @@
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/plot.hpp>
+#include <sigmax/hybrid/target_rules.hpp>
 
 namespace sigmax {
 
-/// What to do with measurements that are late, missing or not of the target.
-struct TargetRules {
-  double gate_probability = 0.9999;  ///< of the target's own measurement to pass the gate; 1 is no gate
-  std::size_t rejections = 3;        ///< so many in a row, and the target starts again from them; 0 is never
-  double longest_gap = std::numeric_limits<double>::infinity();  ///< s; if none was accepted for longer, the next
-                                                                 ///< starts the target again
-  std::size_t buffer = 0;  ///< steps that are kept: a measurement that belongs among them may come late
-  std::size_t waiting = 16;     ///< plots that are kept for a start that wants several
-  bool record = false;          ///< whether all steps are kept, for `smoothed`
-};
-
-/// What became of a plot.
-enum class Verdict {
-  accepted,
-  rejected,
-  missed,
-  waiting,   ///< kept for a start that wants more
-  started,   ///< the target starts with it
-  restarted  ///< the same, after another start
-};
-
-/// One target as it is met in practice: any multiple-model filter with a start, a gate, restarts, late measurements, and
-/// a record for smoothing.
+/// One target as it is met in practice: any multiple-model filter with a start, a gate, restarts, late measurements,
+/// and a record for smoothing.
 ///
 ///     Target target{filter, [](const Gaussian<3>& z) { return one_point_start(z); }, rules};
 ///     target.take(0.2, z);   // started, then accepted, rejected, …
 ///     target.take(0.4);      // missed
 ///
-/// `start` gives the estimate, in the filter's `components()`, with which a target starts at one position; or it is asked
-/// with the plots that wait, `start(std::span<const Plot<Sensor>>)`, the newest last, and gives an optional StartAt:
-/// nothing if it wants more of them. A late plot is retrodicted exactly: the buffer is rolled back and what came after is
-/// taken again, so that the result is to the bit that of the right order. `take` allocates nothing, if `start` does not
-/// and nothing is recorded.
+/// `start` gives the estimate, in the filter's `components()`, with which a target starts at one position; or it is
+/// asked with the plots that wait, the newest last, and how often it has started before, `start(std::span<const
+/// Plot<Sensor>>, std::size_t)`, and gives an optional StartAt: nothing if it wants more of them. A late plot is
+/// retrodicted exactly: the buffer is rolled back and what came after is taken again, so that the result is to the bit
+/// that of the right order. `take` allocates nothing, if `start` does not and nothing is recorded.
 template <class Filter, class Start, Sensing Sensor = PositionSensor<Filter::axes>>
 class Target {
  public:
@@ -111,7 +91,7 @@ class Target {
 
   /// Tells all that is known in other coordinates, as the filter's `transform`; plots that wait or are in the buffer
   /// stay as they were measured, so a target with either is left alone: returns whether it was told.
-  bool transform(const SquareMatrix<Filter::axes>& A, const Vector<Filter::axes>& b);
+  bool transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b);
 
   /// What is kept of a step or a start, for smoothing.
   struct Kept {
@@ -282,7 +262,7 @@ Verdict Target<Filter, Start, Sensor>::try_to_start(const PlotType& plot, const 
     if (position) return begin_at(StartAt<decltype(start_(*position))>{plot.time, start_(*position)}, true);
   } else {
     const std::span<const PlotType> waiting = life_.waiting;
-    if (const auto start = start_(waiting)) return begin_at(*start, start->from_plots);
+    if (const auto start = start_(waiting, life_.starts)) return begin_at(*start, start->from_plots);
   }
   return Verdict::waiting;
 }
@@ -315,7 +295,8 @@ void Target<Filter, Start, Sensor>::record(double dt, std::size_t tag, bool is_s
 }
 
 template <class Filter, class Start, Sensing Sensor>
-bool Target<Filter, Start, Sensor>::transform(const SquareMatrix<Filter::axes>& A, const Vector<Filter::axes>& b) {
+bool Target<Filter, Start, Sensor>::transform(const SquareMatrix<Eigen::Dynamic, 3>& A,
+                                              const Vector<Eigen::Dynamic, 3>& b) {
   if (!life_.running || !life_.waiting.empty() || rules_.buffer > 0) return false;
   filter_.transform(A, b);
   std::size_t k = record_.size();
