@@ -42,14 +42,15 @@ struct FilterSettings {
   std::string name;
   bool fuzzy = false;  ///< whether the mode is fuzzy rather than random
   Scheme scheme = Scheme::interacting;
-  std::vector<Motion> motions;
+  std::vector<Motion> motions = {{MotionType::dwna}, {MotionType::dwpa}};
   std::vector<std::string> models;  ///< their names, all different
   MemberType member = MemberType::ekf;
   std::vector<std::vector<double>> transition;  ///< per scan
+  double leaving_possibility = 0.5;             ///< of a mode for each other one, unless `transition` is given
   std::vector<double> sojourn_s;                ///< of each mode on average; if given, the transition follows the time
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
-  Lift lift = Lift::zero;
+  Lift lift = Lift::borrowed_variance;
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
   LikelihoodForm likelihood = LikelihoodForm::density;
@@ -64,7 +65,7 @@ struct FilterSettings {
   std::optional<double> restart_after_s;  ///< without a measurement that passes
   bool smooth = false;                    ///< whether the output is of the whole recording rather than the past
   RadarForm radar_measurement = RadarForm::standard;
-  Accuracy accuracy;
+  Accuracy accuracy{{}, {10.0}};
   std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
 
   const Accuracy& accuracy_of(std::string_view sensor) const {
@@ -73,22 +74,10 @@ struct FilterSettings {
   }
 };
 
-/// What the keys have as defaults: the paper's, one of its presets', or the library's.
+/// What the keys have as defaults, and the filters that run by default: the library's, or those of a preset.
 struct FilterDefaults {
-  double sigma_w = 3.0;
-  double possibility = 0.5;  ///< of leaving a mode
-  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
-  MixingWeights imm_mixing = MixingWeights::correct;
-  Lift lift = Lift::borrowed_variance;
-  Tie mixing_tie = Tie::stay;
-  Tie output_tie = Tie::stay;
-  Scheme scheme = Scheme::interacting;
-  LikelihoodForm likelihood = LikelihoodForm::density;
-  OutputSpread output_spread = OutputSpread::included;
-  bool most_likely_output = false;
-  Start start = Start::points;
-  Polar sigma_radar{};
-  std::vector<std::string> filters = {"imm", "himm"};
+  FilterSettings filter;
+  std::vector<std::string> names = {"imm", "himm"};
 
   static FilterDefaults of(Preset preset);
 };
@@ -99,6 +88,9 @@ bool asks_for_all(const Settings& settings);
 /// The filters that the settings name, in order; "all" stands for those that have names of their own. Throws
 /// InputError, with the key, for what cannot be.
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
+
+/// The models of all filters, each once, in order.
+std::vector<std::string> model_names(const std::vector<FilterSettings>& filters);
 
 /// The settings of all filters in TOML: what is in force. It reads back as the same.
 std::string as_toml(const std::vector<FilterSettings>& filters);

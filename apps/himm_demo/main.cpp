@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "himm_demo/filter_keys.hpp"
 #include "himm_demo/simulate.hpp"
 #include "himm_demo/track.hpp"
 #include "support/run.hpp"
@@ -132,6 +133,9 @@ int main(int argc, char** argv) {
   add_common(simulate_app, simulate);
   add_common(track_app, track);
 
+  CLI::App& keys_app = *app.add_subcommand("keys", "Lists the keys of --config and --set.");
+  keys_app.footer("Examples:\n  himm_demo keys\n  himm_demo keys | grep -A 3 gate");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -139,6 +143,7 @@ int main(int argc, char** argv) {
   }
 
   return run_program("himm_demo", [&] {
+    if (keys_app.parsed()) return fmt::print("{}", key_table());
     if (simulate_app.parsed()) {
       if (runs_option->count() > 0) simulate.runs = runs;
       simulate_and_report(simulate);

@@ -22,22 +22,6 @@ const std::initializer_list<std::pair<std::string_view, MotionType>> types = {{"
                                                                               {"known_turn", MotionType::known_turn},
                                                                               {"ct", MotionType::ct}};
 
-std::string_view name_of(MotionType type) {
-  return std::find_if(types.begin(), types.end(), [&](const auto& entry) { return entry.second == type; })->first;
-}
-
-/// A number for each model: one, or one each.
-template <class Valid>
-std::vector<double> for_each_model(const Settings& settings, const char* key, std::size_t models, double otherwise,
-                                   const char* expected, const Valid& valid) {
-  auto values = settings.numbers(key, {otherwise});
-  if (values.size() == 1) values.resize(models, values.front());
-  if (values.size() != models) throw settings.error(key, "one number, or one for each model");
-  for (const double value : values)
-    if (!(std::isfinite(value) && valid(value))) throw settings.error(key, expected);
-  return values;
-}
-
 }  // namespace
 
 bool Motion::manoeuvres() const {
@@ -54,60 +38,19 @@ int Motion::order() const {
   return type == MotionType::dwpa || type == MotionType::cwpa || type == MotionType::singer ? 3 : 2;
 }
 
-std::vector<Motion> read_motions(const Settings& settings, double sigma_w) {
-  std::vector<Motion> motions;
-  std::vector<std::string_view> known;
-  for (const auto& [name, type] : types) known.push_back(name);
-  const std::string all = fmt::format("{}", fmt::join(known, ", "));
-  for (const auto& name : settings.strings("models", {"dwna", "dwpa"})) {
-    const auto found = std::find_if(types.begin(), types.end(), [&](const auto& entry) { return entry.first == name; });
-    if (found == types.end()) throw settings.error("models", "names out of " + all);
-    motions.emplace_back().type = found->second;
-  }
-  const Motion usual;
-  const std::size_t count = motions.size();
-  if (count == 0) throw settings.error("models", "at least one of " + all);
-
-  const auto sigmas = for_each_model(settings, "sigma_w", count, sigma_w, "numbers that are not negative",
-                                     [](double value) { return value >= 0.0; });
-  const auto taus = for_each_model(settings, "tau_s", count, usual.tau_s, "positive times, in s",
-                                   [](double value) { return value > 0.0; });
-  const auto rates = for_each_model(settings, "turn_deg_s", count, usual.turn_deg_s,
-                                    "rates in °/s, counter-clockwise from above", [](double) { return true; });
-  const auto drifts =
-      for_each_model(settings, "turn_drift_deg_s", count, usual.turn_drift_deg_s,
-                     "numbers that are not negative, in °/s", [](double value) { return value >= 0.0; });
-  for (std::size_t i = 0; i < count; ++i) {
-    motions[i].sigma_w = sigmas[i];
-    motions[i].tau_s = taus[i];
-    motions[i].turn_deg_s = rates[i];
-    motions[i].turn_drift_deg_s = drifts[i];
-  }
-  return motions;
+std::vector<std::string_view> motion_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, type] : types) names.push_back(name);
+  return names;
 }
 
-std::string as_toml(const std::vector<Motion>& motions) {
-  std::vector<std::string> names;
-  for (const auto& motion : motions) names.push_back(fmt::format("\"{}\"", name_of(motion.type)));
-  std::string text = fmt::format("models = [{}]\n", fmt::join(names, ", "));
-  const auto line = [&](const char* key, auto has, auto value) {
-    if (std::none_of(motions.begin(), motions.end(), has)) return;
-    std::vector<double> values;
-    for (const auto& motion : motions) values.push_back(value(motion));
-    text += fmt::format("{} = {}\n", key, toml_list(values));
-  };
-  line(
-      "sigma_w", [](const Motion&) { return true; }, [](const Motion& motion) { return motion.sigma_w; });
-  line(
-      "tau_s", [](const Motion& motion) { return motion.has_tau(); },
-      [](const Motion& motion) { return motion.tau_s; });
-  line(
-      "turn_deg_s", [](const Motion& motion) { return motion.type == MotionType::known_turn; },
-      [](const Motion& motion) { return motion.turn_deg_s; });
-  line(
-      "turn_drift_deg_s", [](const Motion& motion) { return motion.type == MotionType::ct; },
-      [](const Motion& motion) { return motion.turn_drift_deg_s; });
-  return text;
+std::string_view name_of(MotionType type) {
+  return std::find_if(types.begin(), types.end(), [&](const auto& entry) { return entry.second == type; })->first;
+}
+
+std::optional<MotionType> motion_type(std::string_view name) {
+  const auto found = std::find_if(types.begin(), types.end(), [&](const auto& entry) { return entry.first == name; });
+  return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::string toml_list(const std::vector<double>& numbers) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +18,7 @@
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "himm_demo/row_sensor.hpp"
-#include "support/settings.hpp"
+#include "support/angle.hpp"
 
 namespace sigmax::apps {
 
@@ -44,11 +44,10 @@ struct Motion {
   int order() const;
 };
 
-/// The keys `models`, `sigma_w`, `tau_s`, `turn_deg_s`, `turn_drift_deg_s`. Throws InputError for what cannot be.
-std::vector<Motion> read_motions(const Settings& settings, double sigma_w);
-
-/// Those keys in TOML, of those that the models have.
-std::string as_toml(const std::vector<Motion>& motions);
+/// The names of all types.
+std::vector<std::string_view> motion_names();
+std::string_view name_of(MotionType type);
+std::optional<MotionType> motion_type(std::string_view name);
 
 /// The numbers in TOML.
 std::string toml_list(const std::vector<double>& numbers);
@@ -84,7 +83,6 @@ KinematicBank<Axes> kinematic_bank(const std::vector<Motion>& motions) {
 
 template <int Axes>
 AnyMotionOf<Axes> any_motion(const Motion& motion) {
-  constexpr double degree = std::numbers::pi / 180.0;
   const double sigma = motion.sigma_w;
   switch (motion.type) {
     case MotionType::dwna:

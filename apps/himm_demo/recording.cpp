@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "support/angle.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
 #include "support/timestamp.hpp"
@@ -15,7 +15,6 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double foot = 0.3048;
 constexpr std::array<std::string_view, 17> known = {
     "time_s",           "x_m",         "y_m",     "z_m",         "latitude_deg",  "longitude_deg", "altitude_m",

@@ -1,12 +1,12 @@
 #include "himm_demo/scenario.hpp"
 
 #include <cassert>
-#include <numbers>
+
+#include "support/angle.hpp"
 
 namespace sigmax::apps {
 
 namespace {
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double data_sigma_w = 3.0;
 }  // namespace
 

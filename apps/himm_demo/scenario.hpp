@@ -10,6 +10,8 @@
 
 namespace sigmax::apps {
 
+inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+
 /// Which of two accounts of the experiment is followed, where print and program differ.
 enum class Preset { paper_text, released };
 

@@ -11,7 +11,7 @@
 #include <sigmax/core/compose.hpp>
 #include <sigmax/recognition/decision.hpp>
 
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -62,9 +62,9 @@ bool is_fuzzy(const Contestant& contestant) { return std::holds_alternative<MaxC
 
 double credit_of(std::span<const double> logs, std::size_t truth) {
   const double greatest = *std::max_element(logs.begin(), logs.end());
-  const auto ties = [&](double log) { return log >= greatest - tie_tolerance; };
-  if (!ties(logs[truth])) return 0.0;
-  return 1.0 / static_cast<double>(std::count_if(logs.begin(), logs.end(), ties));
+  if (!ties(logs[truth], greatest)) return 0.0;
+  const auto tied = std::count_if(logs.begin(), logs.end(), [greatest](double log) { return ties(log, greatest); });
+  return 1.0 / static_cast<double>(tied);
 }
 
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports) {
@@ -113,7 +113,7 @@ std::vector<Score> score(const std::vector<Contestant>& contestants, std::size_t
 Interval paired_difference(const Score& a, const Score& b) { return paired_interval(a.final_credits, b.final_credits); }
 
 std::string points(const Interval& difference) {
-  return fmt::format("{:+.2f} ± {:.2f}", 100.0 * difference.mean, 50.0 * (difference.upper - difference.lower));
+  return fmt::format("{:+.2f} ± {:.2f}", 100.0 * difference.mean, 100.0 * difference.half_width);
 }
 
 std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share); }

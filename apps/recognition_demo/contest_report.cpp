@@ -60,7 +60,7 @@ AtomicFile curves_file(const std::vector<Score>& scores, const OutputDirectory& 
 }
 
 Json as_json(const Interval& interval) {
-  return {{"mean", interval.mean}, {"lower", interval.lower}, {"upper", interval.upper}};
+  return {{"mean", interval.mean}, {"lower", interval.lower()}, {"upper", interval.upper()}};
 }
 
 Json as_json(const std::vector<Score>& scores) {

@@ -10,7 +10,7 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
 #include "recognition_demo/encounter_data.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"

@@ -9,7 +9,7 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "support/csv.hpp"
 #include "support/progress.hpp"
 

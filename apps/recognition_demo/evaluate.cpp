@@ -14,7 +14,7 @@
 #include <sigmax/recognition/folds.hpp>
 
 #include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "recognition_demo/train.hpp"
 #include "support/csv.hpp"
 #include "support/progress.hpp"

@@ -11,7 +11,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/manoeuvre_scenario.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"

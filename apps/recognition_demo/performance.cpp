@@ -12,7 +12,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "recognition_demo/performance_data.hpp"
 #include "support/progress.hpp"
 

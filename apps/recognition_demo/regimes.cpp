@@ -12,7 +12,7 @@
 #include "recognition_demo/draws.hpp"
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
-#include "recognition_demo/parallel.hpp"
+#include "support/parallel.hpp"
 #include "support/csv.hpp"
 #include "support/progress.hpp"
 #include "support/table.hpp"
@@ -175,11 +175,11 @@ void print_verdict(const std::vector<SettingScores>& all) {
     for (const Score& score : setting.scores) {
       if (!score.fuzzy) continue;
       const Interval difference = paired_difference(score, setting.scores.front());
-      if (difference.lower > 0.0) {
+      if (difference.lower() > 0.0) {
         ++better_count;
         better += fmt::format("  {}, {}: {} {}\n", setting.regime, setting.setting, score.name, points(difference));
       } else {
-        ++(difference.upper < 0.0 ? worse : level);
+        ++(difference.upper() < 0.0 ? worse : level);
       }
     }
   fmt::print(
@@ -197,7 +197,7 @@ AtomicFile regimes_file(const std::vector<SettingScores>& all, const OutputDirec
       file.print("{},{},{},{}", csv_field(setting.regime), csv_field(setting.setting), csv_field(score.name),
                  shortest(score.accuracy.back()));
       const Interval difference = paired_difference(score, setting.scores.front());
-      file.print(",{},{},{}\n", shortest(difference.mean), shortest(difference.lower), shortest(difference.upper));
+      file.print(",{},{},{}\n", shortest(difference.mean), shortest(difference.lower()), shortest(difference.upper()));
     }
   return file;
 }

@@ -1,7 +1,7 @@
 #include "support/geodesy.hpp"
+#include "support/angle.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -15,8 +15,6 @@ constexpr double f = 1.0 / 298.257223563;
 constexpr double b = a * (1.0 - f);
 constexpr double e2 = f * (2.0 - f);
 constexpr double e2_second = e2 / (1.0 - e2);
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 
 #include "support/input.hpp"
 #include "support/output.hpp"
+#include "support/spelling.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -146,40 +147,6 @@ std::string written(const std::vector<Value>& values) {
   std::string text = "[";
   for (const auto& value : values) text.append(text.size() > 1 ? ", " : "").append(written(value));
   return text += ']';
-}
-
-std::size_t levenshtein(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0U : 1U);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// "did you mean …" where a known word is near, else nothing.
-template <class Words>
-std::string nearest_word(std::string_view word, const Words& known, std::string_view prefix = {}) {
-  std::string_view nearest;
-  std::size_t least = (word.size() + 2) / 3 + 1;
-  for (const std::string_view candidate : known)
-    if (const std::size_t distance = levenshtein(word, candidate); distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  return nearest.empty() ? "" : fmt::format("did you mean {}?", in_quotes(fmt::format("{}{}", prefix, nearest)));
-}
-
-/// As `nearest_word`, but all words where none is near.
-template <class Words>
-std::string suggestion(std::string_view word, const Words& known, std::string_view prefix = {}) {
-  std::string text = nearest_word(word, known, prefix);
-  return !text.empty() || known.empty() ? text : fmt::format("the known ones are {}", fmt::join(known, ", "));
 }
 
 /// Refuses characters beyond ASCII except in comments and in strings of one line. Elsewhere they are no TOML or, in

@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace sigmax::apps {
 namespace {
@@ -51,6 +52,133 @@ void end_line(std::string& text) {
   text += '\n';
 }
 
+using Lines = std::vector<std::string>;
+
+std::size_t widest(const Lines& lines) {
+  std::size_t width = 0;
+  for (const std::string& line : lines) width = std::max(width, display_width(line));
+  return width;
+}
+
+/// The words of a line; a sign alone is no word.
+Lines words_of(std::string_view line) {
+  Lines words;
+  bool joined = false;
+  while (!line.empty()) {
+    const auto blank = std::min(line.find(' '), line.size());
+    const std::string_view word = line.substr(0, blank);
+    line.remove_prefix(std::min(blank + 1, line.size()));
+    const bool sign = word == "±" || word == "−" || word == "=";
+    if (!words.empty() && (joined || word == "±" || word == "="))
+      words.back().append(" ").append(word);
+    else
+      words.emplace_back(word);
+    joined = sign;
+  }
+  return words;
+}
+
+/// A column as it is laid out in one block.
+struct Laid {
+  Lines header;
+  std::vector<Lines> cells;  // by row; a rule has no line
+  std::size_t width = 0;
+  Align align = Align::right;
+
+  void fit() {
+    width = widest(header);
+    for (const Lines& cell : cells) width = std::max(width, widest(cell));
+  }
+};
+
+std::size_t total(const std::vector<Laid>& block) {
+  std::size_t width = (block.size() - 1) * gap.size();
+  for (const Laid& column : block) width += column.width;
+  return width;
+}
+
+/// Gives what is left of the width to the headers with the most lines.
+void relax_headers(std::vector<Laid>& block, std::size_t width) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto highest = std::max_element(
+        block.begin(), block.end(), [](const Laid& a, const Laid& b) { return a.header.size() < b.header.size(); });
+    if (highest->header.size() < 2) return;
+    const std::string header = fmt::format("{}", fmt::join(highest->header, " "));
+    const std::size_t most = highest->width + width - total(block);
+    for (std::size_t wider = highest->width + 1; wider <= most && !changed; ++wider) {
+      Lines lines = lines_of(header, wider);
+      if (lines.size() == highest->header.size()) continue;
+      highest->header = std::move(lines);
+      highest->fit();
+      changed = true;
+    }
+  }
+}
+
+/// Breaks headers where the cells below are narrower, and then, from the widest on, cells of words.
+void squeeze(std::vector<Laid>& block, std::size_t width) {
+  constexpr std::size_t least_text = 20;
+  if (total(block) <= width) return;
+  for (Laid& column : block) {
+    std::size_t needed = 1;
+    for (const Lines& cell : column.cells) needed = std::max(needed, widest(cell));
+    for (const std::string& word : words_of(column.header.front())) needed = std::max(needed, display_width(word));
+    column.header = lines_of(column.header.front(), needed);
+    column.fit();
+  }
+  for (std::size_t tries = 0; tries < block.size() && total(block) > width; ++tries) {
+    Laid* widest_text = nullptr;
+    for (Laid& column : block)
+      if (column.align == Align::left && (!widest_text || column.width > widest_text->width)) widest_text = &column;
+    const std::size_t excess = total(block) - width;
+    if (!widest_text || widest_text->width < excess + least_text) break;
+    for (Lines& cell : widest_text->cells)
+      if (!cell.empty()) cell = lines_of(cell.front(), widest_text->width - excess);
+    widest_text->header = lines_of(widest_text->header.front(), widest_text->width - excess);
+    widest_text->fit();
+  }
+  if (total(block) <= width) relax_headers(block, width);
+}
+
+void append_lines(std::string& text, const std::vector<Laid>& block, const std::vector<const Lines*>& cells,
+                  bool at_the_bottom) {
+  std::size_t height = 0;
+  for (const Lines* cell : cells) height = std::max(height, cell->size());
+  for (std::size_t k = 0; k < height; ++k) {
+    std::string line;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const std::size_t before = at_the_bottom ? height - cells[i]->size() : 0;
+      const std::string cell = k >= before && k - before < cells[i]->size() ? (*cells[i])[k - before] : "";
+      const std::string blanks(block[i].width - display_width(cell), ' ');
+      if (i > 0) line += gap;
+      line += block[i].align == Align::right ? blanks + cell : cell + blanks;
+    }
+    end_line(line);
+    text += line;
+  }
+}
+
+std::string text_of(const std::vector<Laid>& block) {
+  std::string text, rule;
+  for (const Laid& column : block) rule.append(rule.empty() ? "" : gap).append(repeated("─", column.width));
+  rule += '\n';
+  std::vector<const Lines*> cells;
+  for (const Laid& column : block) cells.push_back(&column.header);
+  append_lines(text, block, cells, true);
+  text += rule;
+  for (std::size_t row = 0; row < block.front().cells.size(); ++row) {
+    if (block.front().cells[row].empty()) {
+      text += rule;
+      continue;
+    }
+    cells.clear();
+    for (const Laid& column : block) cells.push_back(&column.cells[row]);
+    append_lines(text, block, cells, false);
+  }
+  return text;
+}
+
 }  // namespace
 
 TextTable::TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {
@@ -65,37 +193,77 @@ void TextTable::row(std::vector<std::string> cells) {
 
 void TextTable::rule() { rows_.emplace_back(); }
 
-std::string TextTable::text() const {
-  std::vector<std::size_t> widths;
-  std::vector<std::string> headers;
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    headers.push_back(columns_[i].header);
-    widths.push_back(display_width(headers[i]));
-    for (const auto& row : rows_)
-      if (!row.empty()) widths[i] = std::max(widths[i], display_width(row[i]));
-  }
-
-  std::string text;
-  const auto append = [&](const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (i > 0) line += gap;
-      const std::string cell = cells.empty() ? repeated("─", widths[i]) : cells[i];
-      const std::string blanks(widths[i] - display_width(cell), ' ');
-      line += columns_[i].align == Align::right ? blanks + cell : cell + blanks;
+std::string TextTable::text(std::size_t width) const {
+  // The first column and those from `begin` to `end`, as they stand in one block.
+  const auto laid = [&](std::size_t begin, std::size_t end) {
+    std::vector<Laid> block;
+    for (std::size_t i = 0; i < end; i = i == 0 ? begin : i + 1) {
+      const Column& column = columns_[i];
+      const bool first_of_group = !column.group.empty() && (i == begin || columns_[i - 1].group != column.group);
+      Laid& one = block.emplace_back();
+      one.header = {first_of_group ? column.group + " " + column.header : column.header};
+      one.align = column.align;
+      for (const auto& row : rows_) one.cells.push_back(row.empty() ? Lines{} : Lines{row[i]});
+      one.fit();
     }
-    end_line(line);
-    text += line;
+    if (width != any_width) squeeze(block, width);
+    return block;
   };
-  append(headers);
-  append({});
-  for (const auto& row : rows_) append(row);
+  const auto end_of_group = [&](std::size_t begin) {
+    std::size_t end = begin + 1;
+    if (columns_[begin].group.empty()) return end;
+    while (end < columns_.size() && columns_[end].group == columns_[begin].group) ++end;
+    return end;
+  };
+
+  std::vector<Laid> whole = laid(1, columns_.size());
+  if (width == any_width || total(whole) <= width || columns_.size() == 1) return text_of(whole);
+  std::string text;
+  for (std::size_t begin = 1; begin < columns_.size();) {
+    std::size_t end = end_of_group(begin);
+    while (end > begin + 1 && total(laid(begin, end)) > width) --end;  // a group that is too wide for one block
+    const bool whole_groups = end == end_of_group(begin);
+    while (whole_groups && end < columns_.size() && total(laid(begin, end_of_group(end))) <= width)
+      end = end_of_group(end);
+    text += (text.empty() ? "" : "\n") + text_of(laid(begin, end));
+    begin = end;
+  }
   return text;
 }
 
-void TextTable::print(std::FILE* file) const {
-  const std::string whole = text();
+void TextTable::print(std::FILE* file, std::size_t width) const {
+  const std::string whole = text(width);
   std::fwrite(whole.data(), 1, whole.size(), file);
+}
+
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+  Lines lines;
+  for (bool more = true; more;) {
+    const auto end = text.find('\n');
+    more = end != std::string_view::npos;
+    const std::string_view line = text.substr(0, end);
+    if (more) text.remove_prefix(end + 1);
+    if (width == any_width || display_width(line) <= width) {
+      lines.emplace_back(line);
+      continue;
+    }
+    const std::string indent(std::min(line.find_first_not_of(' '), line.size()), ' ');
+    std::string current;
+    for (const std::string& word : words_of(line.substr(indent.size()))) {
+      if (!current.empty() && display_width(current) + 1 + display_width(word) > width)
+        lines.push_back(std::exchange(current, {}));
+      current += (current.empty() ? indent : " ") + word;
+    }
+    lines.push_back(current);
+  }
+  return lines;
+}
+
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string result;
+  if (text.ends_with('\n')) text.remove_suffix(1);
+  for (const std::string& line : lines_of(text, width)) result += line + "\n";
+  return result;
 }
 
 std::size_t display_width(std::string_view text) {

@@ -53,8 +53,8 @@ void chain_of_alternating_kinds(benchmark::State& state) {
   const RandomVariable x{"x", size(state)};
   const FuzzyVariable y{"y", size(state)};
   const double chance = static_cast<double>(state.range(1)) / 100.0;
-  const Relation<Fuzzy, Random> y_given_x{y, x, transition<Fuzzy>(size(state), 1, chance).rows(), ByLaw{}};
-  const Relation<Random, Fuzzy> x_given_y{x, y, transition<Random>(size(state), 2, chance).rows(), ByLaw{}};
+  const Relation<Fuzzy, Random> y_given_x{y, x, transition<Fuzzy>(size(state), 1, chance).rows(), detail::ByLaw{}};
+  const Relation<Random, Fuzzy> x_given_y{x, y, transition<Random>(size(state), 2, chance).rows(), detail::ByLaw{}};
   for (auto _ : state) {
     Chain chain{uninformative(x)};
     for (int link = 0; link < links; link += 2) chain = compose(x_given_y, compose(y_given_x, std::move(chain)));

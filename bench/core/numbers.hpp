@@ -32,7 +32,7 @@ Relation<Kind, Kind> transition(std::size_t n, std::uint64_t seed, double chance
     condition<AlgebraOf<Kind>>(row);
     std::copy(row.begin(), row.end(), rows.row(i).begin());
   }
-  return {x, x, std::move(rows), ByLaw{}};
+  return {x, x, std::move(rows), detail::ByLaw{}};
 }
 
 }  // namespace sigmax::bench

@@ -33,6 +33,10 @@ void value(const Outcomes& variable, Row row, std::size_t index, double value, d
                                 (greatest > 2.0 ? "that is finite and not negative" : "between 0 and 1"));
 }
 
+void index(const Outcomes& variable, std::size_t index) {
+  if (index >= variable.size()) variable.label(index);  // throws
+}
+
 void ascending(const Outcomes& variable, Row row, std::size_t next_allowed, std::size_t index) {
   if (index >= variable.size())
     throw std::invalid_argument(named(variable, row) + " has " + std::to_string(variable.size()) +
@@ -48,6 +52,12 @@ void size(const Outcomes& variable, Row row, std::size_t size) {
                                 std::to_string(size) + " values were given");
 }
 
+void some_positive(const Outcomes& variable, Row row, std::span<const double> values) {
+  for (const double value : values)
+    if (value > 0.0) return;
+  throw std::invalid_argument("every weight of variable " + named(variable, row) + " is zero");
+}
+
 void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total) {
   if (!(std::abs(total - 1.0) <= normalization_tolerance))
     throw std::invalid_argument("the " + std::string(name_of_total) + " of " + named(variable, row) + " is " +
@@ -56,14 +66,11 @@ void total(const Outcomes& variable, Row row, double total, std::string_view nam
 
 void same(const Outcomes& expected, const Outcomes& found, std::string_view where) {
   if (expected == found) return;
-  std::string message =
-      std::string(where) + ": expected variable '" + expected.name() + "', found '" + found.name() + "'";
-  if (expected.name() == found.name()) message += " with other outcomes";
-  throw std::invalid_argument(message);
+  throw std::invalid_argument(std::string(where) + ": " + difference(expected, found));
 }
 
-void excluded(const Outcomes& variable) {
-  throw std::domain_error("the evidence excludes every outcome of variable '" + variable.name() + "'");
+void excluded(const Outcomes& variable, Row row) {
+  throw std::domain_error("the evidence excludes every outcome of variable " + named(variable, row));
 }
 
 }  // namespace sigmax::check

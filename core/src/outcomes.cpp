@@ -59,4 +59,24 @@ bool operator==(const Outcomes& a, const Outcomes& b) {
   return a.table_->size == b.table_->size && a.table_->name == b.table_->name && a.table_->labels == b.table_->labels;
 }
 
+std::string difference(const Outcomes& expected, const Outcomes& found) {
+  const auto both = [&](const std::string& of_expected, const std::string& of_found) {
+    return "expected variable '" + expected.name() + "'" + of_expected + ", found '" + found.name() + "'" + of_found;
+  };
+  const auto count = [](const Outcomes& variable) { return " with " + std::to_string(variable.size()) + " outcomes"; };
+  if (expected.name() != found.name()) return both("", "");
+  if (expected.size() != found.size()) return both(count(expected), count(found));
+  const auto sort = [&](const Outcomes& variable) {
+    return variable.table_->labels.empty() ? count(variable) + " that are only numbered"
+                                           : " with the outcomes " + listed(variable);
+  };
+  if (expected.table_->labels.empty() || found.table_->labels.empty()) return both(sort(expected), sort(found));
+  std::size_t i = 0;
+  while (i + 1 < found.size() && expected.table_->labels[i] == found.table_->labels[i]) ++i;
+  const auto outcome = [i](const Outcomes& variable) {
+    return " whose outcome " + std::to_string(i) + " is '" + variable.label(i) + "'";
+  };
+  return both(outcome(expected), outcome(found));
+}
+
 }  // namespace sigmax

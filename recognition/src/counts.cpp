@@ -71,7 +71,7 @@ Relation<Random, Random> learned_relation(const Counts& counts, std::size_t feat
                                   "' has a value of '" + variable.name() + "', and α is 0");
     condition<Sigma>(row);
   }
-  return {variable, counts.pattern(), std::move(rows), ByLaw{}};
+  return {variable, counts.pattern(), std::move(rows), detail::ByLaw{}};
 }
 
 std::vector<Relation<Random, Random>> learned_relations(const Counts& counts, double alpha) {

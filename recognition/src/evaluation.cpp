@@ -46,14 +46,9 @@ Interval paired_interval(std::span<const double> a, std::span<const double> b) {
   if (a.size() != b.size() || a.size() < 2)
     throw std::invalid_argument("a paired interval needs scores of the same cases, at least two, not " +
                                 std::to_string(a.size()) + " and " + std::to_string(b.size()));
-  std::vector<double> differences(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
-  const double centre = mean(differences);
-  double squares = 0.0;
-  for (const double difference : differences) squares += (difference - centre) * (difference - centre);
-  const double n = static_cast<double>(a.size());
-  const double half = 1.959963984540054 * std::sqrt(squares / (n - 1.0) / n);
-  return {centre, centre - half, centre + half};
+  RunningMean difference;
+  for (std::size_t i = 0; i < a.size(); ++i) difference.add(a[i] - b[i]);
+  return difference.interval();
 }
 
 }  // namespace sigmax

@@ -101,7 +101,7 @@ TEST(Check, SaysWhichVariableWasExpectedWhereAndWhichWasFound) {
   EXPECT_NO_THROW(check::same(mood, mood, "compose"));
   EXPECT_TRUE(throws<std::invalid_argument>([] { check::same(mood, age, "compose"); }, {"compose", "'mood'", "'age'"}));
   EXPECT_TRUE(throws<std::invalid_argument>([] { check::same(mood, FuzzyVariable("mood", 3), "update"); },
-                                            {"update", "'mood'", "'mood'", "other outcomes"}));
+                                            {"update", "'mood' with 2 outcomes", "'mood' with 3 outcomes"}));
 }
 
 }  // namespace

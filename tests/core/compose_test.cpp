@@ -156,7 +156,7 @@ TEST(Compose, RefusesAnotherVariableInTheMiddleByBothNames) {
       throws<std::invalid_argument>([&] { compose(Likelihood{age}, mood_given_age); }, {"compose", "'age'", "'mood'"}));
   const FuzzyVariable finer_mood{"mood", {"calm", "wild", "odd"}};
   EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(speed_given_mood, uninformative(finer_mood)); },
-                                            {"'mood'", "'mood'", "other outcomes"}));
+                                            {"'mood' with 2 outcomes", "'mood' with 3 outcomes"}));
 }
 
 TEST(Compose, IntoAResultIsTheSameAsTheValue) {

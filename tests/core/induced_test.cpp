@@ -48,7 +48,7 @@ Table table(std::size_t rows, std::size_t columns, const std::vector<double>& va
 }
 
 TEST(InducedRelation, HasABetaForEveryConditionThatNormalizingDividesBy) {
-  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), ByLaw{}};
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), detail::ByLaw{}};
   EXPECT_PRED_FORMAT3(near, induced.beta(1), 1.04, 1e-15);
   EXPECT_PRED_FORMAT3(near, induced.betas(), (std::vector{1.0, 1.04}), 1e-15);
   const Relation<Random, Fuzzy> normalized = induced.normalized();
@@ -57,31 +57,31 @@ TEST(InducedRelation, HasABetaForEveryConditionThatNormalizingDividesBy) {
 }
 
 TEST(InducedRelation, ReadAsALikelihoodIsNotDividedByBeta) {
-  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), ByLaw{}};
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.9, 0.14}), detail::ByLaw{}};
   const Likelihood<Fuzzy> likelihood = induced.likelihood("fast");
   EXPECT_PRED_FORMAT3(near, likelihood["young"], 0.7, 1e-15);
   EXPECT_PRED_FORMAT3(near, likelihood["old"], 0.14, 1e-15);
 }
 
 TEST(InducedRelation, OfAFuzzyVariableHasTheMaximumAsBeta) {
-  const Induced<Relation<Fuzzy, Random>> induced{age, speed, table(2, 2, {0.25, 0.5, 0.8, 0.4}), ByLaw{}};
+  const Induced<Relation<Fuzzy, Random>> induced{age, speed, table(2, 2, {0.25, 0.5, 0.8, 0.4}), detail::ByLaw{}};
   EXPECT_PRED_FORMAT3(near, induced.betas(), (std::vector{0.5, 0.8}), 1e-15);
   EXPECT_PRED_FORMAT3(near, induced.normalized().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 1e-15);
 }
 
 TEST(InducedRelation, WithAnEmptyRowHasNoDistributionReading) {
-  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.0, 0.0}), ByLaw{}};
+  const InducedRelation induced{speed, age, table(2, 2, {0.3, 0.7, 0.0, 0.0}), detail::ByLaw{}};
   EXPECT_TRUE(throws<std::domain_error>([&] { induced.normalized(); }, {"'speed'", "age", "'old'"}));
 }
 
 TEST(InducedRelation, OfSubnormalNumbersIsNormalizedAsWell) {
   const double subnormal = std::numeric_limits<double>::denorm_min();
-  const InducedRelation induced{speed, age, table(2, 2, {subnormal, subnormal, 1.0, 0.0}), ByLaw{}};
+  const InducedRelation induced{speed, age, table(2, 2, {subnormal, subnormal, 1.0, 0.0}), detail::ByLaw{}};
   EXPECT_PRED_FORMAT3(near, induced.normalized().row(0), (std::vector{0.5, 0.5}), 1e-15);
 }
 
 TEST(InducedDistribution, HasABetaThatNormalizingDividesBy) {
-  const InducedDistribution induced{speed, table(1, 2, {0.9, 0.6}), ByLaw{}};
+  const InducedDistribution induced{speed, table(1, 2, {0.9, 0.6}), detail::ByLaw{}};
   EXPECT_EQ(induced["fast"], 0.6);
   EXPECT_EQ(induced[0], 0.9);
   EXPECT_PRED_FORMAT3(near, induced.beta(), 1.5, 1e-15);

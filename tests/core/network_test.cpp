@@ -70,7 +70,7 @@ TEST(RelationNetwork, RefusesWhatItDoesNotHold) {
       [&] {
         network.index_of(FuzzyVariable{"mood", {"calm", "odd"}});
       },
-      {"'mood'", "other outcomes"}));
+      {"'mood' whose outcome 1 is 'wild'", "'mood' whose outcome 1 is 'odd'"}));
 }
 
 TEST(RelationNetwork, RefusesAParentThatIsNotDeclaredBefore) {
@@ -108,7 +108,7 @@ TEST(RelationNetwork, RefusesAParentTwiceOrOfAnotherKindOrWithOtherOutcomes) {
       [&] {
         network.declare(mood, {FuzzyVariable{"age", {"young", "grey"}}}, {{1.0, 0.5}, {0.5, 1.0}});
       },
-      {"'age'", "other outcomes"}));
+      {"'age' whose outcome 1 is 'old'", "'grey'"}));
 }
 
 TEST(RelationNetwork, NamesVariableRowAndValueOfABadTable) {

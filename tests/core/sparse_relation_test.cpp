@@ -336,12 +336,38 @@ TEST(SparseRelation, WithManyUnreachableOutcomesInvertsWithoutATable) {
 
 TEST(SparseRelation, IsTransformedAsItsTable) {
   for (const Relation<Random, Random>& step : {sparse_step(), banded_step()}) {
-    EXPECT_EQ(rows_of(to_possibility(step, RatioScale{}).table()),
-              rows_of(to_possibility(step.dense(), RatioScale{}).table()));
+    const Relation possible = to_possibility(step, RatioScale{});
+    EXPECT_EQ(possible.rows().index(), step.rows().index());
+    EXPECT_EQ(rows_of(possible.dense().table()), rows_of(to_possibility(step.dense(), RatioScale{}).table()));
+    const Relation back = to_probability(to_possibility(step, DuboisPradeSandri{}), DuboisPradeSandri{});
+    EXPECT_EQ(back.rows().index(), step.rows().index());
+    for (std::size_t from = 0; from < step.from().size(); ++from)
+      for (std::size_t to = 0; to < step.to().size(); ++to) EXPECT_NEAR(back(from, to), step(from, to), 1e-15);
     const Relation<Random, Fuzzy> read_otherwise = with_fuzzy_condition(step);
     EXPECT_EQ(read_otherwise.rows().index(), step.rows().index());
     EXPECT_EQ(rows_of(read_otherwise.dense().table()), rows_of(step.dense().table()));
   }
+}
+
+TEST(SparseRelation, SharesRowsThatATransformSeesOnce) {
+  // Nothing reaches the odd outcomes: their rows of the inverse are uninformative and stored once.
+  const RandomVariable x{"x", 6};
+  const Relation<Random, Random> even{
+      x, x, SparseRows{{{0, 1.0}}, {{0, 1.0}}, {{2, 1.0}}, {{2, 1.0}}, {{4, 1.0}}, {{4, 1.0}}}};
+  const auto inverse = invert(even, uninformative(x));
+  EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{1, 3, 5}));
+  const Relation possible = to_possibility(inverse.relation, DuboisPradeSandri{});
+  for (const std::size_t row : inverse.unreachable)
+    for (std::size_t to = 0; to < x.size(); ++to) EXPECT_EQ(possible(row, to), 1.0);
+}
+
+TEST(SparseRelation, OfAMillionOutcomesIsTransformedWithoutATable) {
+  const RandomVariable million{"million", 1000000};
+  SparseRows rows;
+  for (std::size_t i = 0; i < million.size(); ++i) rows.append({{i / 2, 0.75}, {i / 2 + 500000, 0.25}});
+  const Relation possible = to_possibility(Relation<Random, Random>{million, million, std::move(rows)}, DuboisPrade{});
+  EXPECT_EQ(possible(999999, 499999), 1.0);
+  EXPECT_EQ(possible(999999, 999999), 0.25);
 }
 
 TEST(SparseRelation, IsDeclaredInANetworkAsItsTable) {

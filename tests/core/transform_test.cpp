@@ -65,6 +65,17 @@ TEST(RatioScale, RefusesAnExponentThatIsNotPositive) {
   }
 }
 
+TEST(RatioScale, OfALargeExponentDoesNotUnderflow) {
+  const Distribution equal = to_possibility(uninformative(RandomVariable{"x", 4}), RatioScale{600.0});
+  for (const double value : equal) EXPECT_EQ(value, 1.0);
+  const Distribution p{RandomVariable{"x", 3}, {0.25, 0.5, 0.25}};
+  const Distribution possible = to_possibility(p, RatioScale{600.0});
+  EXPECT_EQ(possible[1], 1.0);
+  EXPECT_EQ(possible[0], std::pow(0.5, 600.0));
+  EXPECT_GT(possible[0], 0.0);
+  EXPECT_PRED_FORMAT3(near, to_probability(possible, RatioScale{600.0})[0], 0.25, 1e-12);
+}
+
 TEST(RatioScale, DoesNotDominate) {
   const Distribution p{weather, {0.6, 0.2, 0.2}};
   const Distribution possible = to_possibility(p, RatioScale{});
@@ -89,6 +100,16 @@ TEST(DuboisPrade, GivesTiesOnePossibility) {
                       (std::vector{0.3, 1.0, 0.3, 1.0, 0.3}), 1e-15);
   EXPECT_PRED_FORMAT3(near, to_possibility(uninformative(five), DuboisPrade{}).values(),
                       (std::vector{1.0, 1.0, 1.0, 1.0, 1.0}), 0.0);
+}
+
+TEST(DuboisPrade, TakesWhatRoundingAlonePartsForATie) {
+  const RandomVariable x{"x", 3};
+  for (const std::vector<double>& p : {std::vector{0.1 + 0.2, 0.3, 0.4}, std::vector{0.3, 0.1 + 0.2, 0.4}}) {
+    const Distribution possible = to_possibility(Distribution{x, p}, DuboisPrade{});
+    EXPECT_PRED_FORMAT3(near, possible[0], 0.6, 1e-12);
+    EXPECT_EQ(possible[0], possible[1]);
+    EXPECT_EQ(possible[2], 1.0);
+  }
 }
 
 TEST(DuboisPradeSandri, AddsTheSmallerOfEachPair) {

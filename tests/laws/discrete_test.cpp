@@ -106,7 +106,7 @@ TYPED_TEST(DiscreteLaws, ScalingARowPassesThroughCompositionAndVanishesInNormali
       for (double& value : scaled[i]) value *= factor;
       for (double& value : expected[i]) value *= factor;
     }
-    const Induced<Relation<TypeParam, TypeParam>> induced{m, y, table_of(scaled), ByLaw{}};
+    const Induced<Relation<TypeParam, TypeParam>> induced{m, y, table_of(scaled), detail::ByLaw{}};
     require_near(rows_of(compose(left, induced).table()), expected);
     require_near(rows_of(compose(left, induced).normalized().table()), rows_of(compose(left, right).table()));
   });

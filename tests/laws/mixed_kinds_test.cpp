@@ -95,7 +95,7 @@ TYPED_TEST(MixedLaws, UpdateAcrossKindsDoesNotDependOnBeta) {
     Rows scaled = rows_of(relation.table());
     for (Numbers& row : scaled)
       for (double& value : row) value *= scale;
-    const Induced<Relation<TypeParam, Unknown>> induced{x, y, table_of(scaled), ByLaw{}};
+    const Induced<Relation<TypeParam, Unknown>> induced{x, y, table_of(scaled), detail::ByLaw{}};
     for (std::size_t k = 0; k < x.size(); ++k)
       if (plain::evidence(by_kind<Unknown>, numbers_of(prior.values()), plain::column(scaled, k)) > 1e-200L)
         require_near(numbers_of(update(prior, induced.likelihood(k)).values()),

@@ -225,7 +225,7 @@ TEST(RecognitionWalk, Evaluation) {
   EXPECT_PRED_FORMAT3(near, log_loss, expected / 8, 1e-14);
   EXPECT_PRED_FORMAT3(near, necessity_of_truth, 0.5, 1e-14);
   EXPECT_EQ(difference.mean, 0.0);
-  EXPECT_EQ(difference.upper, 0.0);
+  EXPECT_EQ(difference.upper(), 0.0);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::size_t NetworkAnswer::index_of(std::initializer_list<std::string_view> labe
   return index;
 }
 
-const NetworkVariable& NetworkAnswer::only() const {
+const NetworkVariable& NetworkAnswer::only() const& {
   if (variables_.size() != 1)
     throw std::invalid_argument("the query is of " + std::to_string(variables_.size()) + " variables, not of one");
   return variables_.front();

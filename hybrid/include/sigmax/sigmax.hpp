@@ -12,6 +12,7 @@
 #include <sigmax/core/hybrid_distribution.hpp>
 #include <sigmax/core/induced.hpp>
 #include <sigmax/core/likelihood.hpp>
+#include <sigmax/core/mean_interval.hpp>
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/network.hpp>
 #include <sigmax/core/network/compose.hpp>

@@ -50,14 +50,15 @@ class BandedRows {
   void widen(std::size_t columns) { columns_ = std::max(columns_, columns); }
 
   std::size_t offset(std::size_t r) const { return rows_[r].offset; }
-  RunOfEntries entries(std::size_t r) const {
+  RunOfEntries entries(std::size_t r) const&& = delete;
+  RunOfEntries entries(std::size_t r) const& {
     return {rows_[r].first, std::span(values_).subspan(rows_[r].offset, rows_[r].size)};
   }
   double at(std::size_t r, std::size_t column) const {
     const RunOfEntries row = entries(r);
     return column >= row.first && column - row.first < row.size() ? row.value(column - row.first) : 0.0;
   }
-  std::span<double> values(std::size_t r) { return std::span(values_).subspan(rows_[r].offset, rows_[r].size); }
+  std::span<double> values(std::size_t r) & { return std::span(values_).subspan(rows_[r].offset, rows_[r].size); }
 
  private:
   struct Row {

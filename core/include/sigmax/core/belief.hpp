@@ -4,7 +4,9 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <sigmax/core/distribution.hpp>
 #include <sigmax/core/logarithm.hpp>
@@ -25,19 +27,24 @@ class Belief {
     std::transform(values.begin(), values.end(), logs_.data(), [](double value) { return std::log(value); });
   }
 
-  const Variable<Kind>& variable() const { return variable_; }
+  const Variable<Kind>& variable() const& { return variable_; }
+  Variable<Kind> variable() const&& { return variable_; }
   std::size_t size() const { return logs_.size(); }
-  std::span<const double> logs() const { return logs_.values(); }
+
+  /// A view that lives as long as the belief; of a temporary, a copy.
+  std::span<const double> logs() const& { return logs_.values(); }
+  std::vector<double> logs() const&& { return Table(logs_).values(); }
   double log(std::size_t index) const { return logs_(0, index); }
 
   /// The probability or possibility of one outcome.
   double operator[](std::size_t index) const { return std::exp(log(index)); }
+  double operator[](std::string_view label) const { return (*this)[variable_.index_of(label)]; }
 
   /// The belief as numbers; weights below the smallest double become zero here, and only here.
   Distribution<Kind> distribution() const {
     Table table(1, size());
     std::transform(logs().begin(), logs().end(), table.data(), [](double log) { return std::exp(log); });
-    return {variable_, std::move(table), ByLaw{}};
+    return {variable_, std::move(table), detail::ByLaw{}};
   }
 
   /// Replaces the logarithms by log_weight(i), normalised; returns the logarithm of the ⊕ they had.

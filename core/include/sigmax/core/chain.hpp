@@ -32,7 +32,8 @@ class Chain {
   explicit Chain(const Distribution<Kind>& start) : Chain(start.variable(), Row(start.values())) {}
   Chain(Variable<Kind> variable, Row row) : variable_(std::move(variable)), row_(std::move(row)) {}
 
-  const Variable<Kind>& variable() const { return variable_; }
+  const Variable<Kind>& variable() const& { return variable_; }
+  Variable<Kind> variable() const&& { return variable_; }
   std::size_t size() const { return row_.size(); }
 
   /// The logarithm of the number of one outcome; −∞ if it is excluded.
@@ -50,12 +51,12 @@ class Chain {
     Table values(1, size());
     row_.to_values(values.values());
     condition<AlgebraOf<Kind>>(values.values());
-    return {variable_, std::move(values), ByLaw{}};
+    return {variable_, std::move(values), detail::ByLaw{}};
   }
 
   /// The row of numbers, for the verbs.
   const Row& row() const { return row_; }
-  Row& row(ByLaw) { return row_; }
+  Row& row(detail::ByLaw) { return row_; }
 
  private:
   Variable<Kind> variable_;
@@ -67,7 +68,7 @@ template <Conditional Left, Uncertainty Kind>
   requires std::same_as<typename Left::from_kind, Kind> Chain<typename Left::to_kind> compose(const Left& left,
                                                                                               Chain<Kind> right) {
     check::same(left.from(), right.variable(), "compose");
-    auto row = std::move(right.row(ByLaw{}));
+    auto row = std::move(right.row(detail::ByLaw{}));
     std::visit([&](const auto& rows) { row.template compose<AlgebraOf<Kind>>(rows); }, left.rows());
     return {left.to(), std::move(row)};
   }
@@ -77,7 +78,7 @@ template <Conditional Left, Uncertainty Kind>
 template <Uncertainty Kind>
 Chain<Kind> update(Chain<Kind> prior, const Likelihood<Kind>& likelihood) {
   check::same(prior.variable(), likelihood.variable(), "update");
-  auto& row = prior.row(ByLaw{});
+  auto& row = prior.row(detail::ByLaw{});
   for (std::size_t i = 0; i < row.size(); ++i) row.multiply(i, likelihood.weight(i));
   if (row.is_zero()) check::excluded(prior.variable());
   return prior;

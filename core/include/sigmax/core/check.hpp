@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <sigmax/core/condition.hpp>
 #include <sigmax/core/outcomes.hpp>
 #include <sigmax/core/uncertainty.hpp>
 
@@ -16,9 +17,7 @@ inline constexpr double normalization_tolerance = 1e-9;
 /// ⊕ of numbers in the algebra of `Kind`, (2) or (3).
 template <Uncertainty Kind>
 constexpr double total(std::span<const double> values) {
-  double sum = AlgebraOf<Kind>::zero();
-  for (const double value : values) sum = AlgebraOf<Kind>::plus(sum, value);
-  return sum;
+  return detail::total<AlgebraOf<Kind>>(values);
 }
 
 /// The failures of the constructors, with the variable, the row and the value in the message. All but `excluded` throw
@@ -40,8 +39,14 @@ void value(const Outcomes& variable, Row row, std::size_t index, double value, d
 /// The stored values of a row are those of outcomes that the variable has, in ascending order.
 void ascending(const Outcomes& variable, Row row, std::size_t next_allowed, std::size_t index);
 
+/// The variable has an outcome of this index.
+void index(const Outcomes& variable, std::size_t index);
+
 /// There are as many values as the variable has outcomes.
 void size(const Outcomes& variable, Row row, std::size_t size);
+
+/// Not every value is zero.
+void some_positive(const Outcomes& variable, Row row, std::span<const double> values);
 
 /// The ⊕ of the values is one to within `normalization_tolerance`.
 void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total);
@@ -49,8 +54,8 @@ void total(const Outcomes& variable, Row row, double total, std::string_view nam
 /// Both are the same variable; `where` says who asks.
 void same(const Outcomes& expected, const Outcomes& found, std::string_view where);
 
-/// Throws std::domain_error: evidence excludes every outcome of the variable.
-[[noreturn]] void excluded(const Outcomes& variable);
+/// Throws std::domain_error: no outcome of the variable is left, whatever excluded them.
+[[noreturn]] void excluded(const Outcomes& variable, Row row = {});
 
 }  // namespace check
 
@@ -65,13 +70,11 @@ void prove_normalized(const Outcomes& variable, check::Row row, std::span<const 
 /// The same of a row that stores only some of its values.
 template <Uncertainty Kind, class Entries>
 void prove_entries_normalized(const Outcomes& variable, check::Row row, const Entries& entries) {
-  double sum = AlgebraOf<Kind>::zero();
   for (std::size_t k = 0; k < entries.size(); ++k) {
     check::ascending(variable, row, k == 0 ? 0 : entries.index(k - 1) + 1, entries.index(k));
     check::value(variable, row, entries.index(k), entries.value(k), 1.0 + normalization_tolerance);
-    sum = AlgebraOf<Kind>::plus(sum, entries.value(k));
   }
-  check::total(variable, row, sum, Kind::total);
+  check::total(variable, row, total<Kind>(entries.values), Kind::total);
 }
 
 }  // namespace sigmax

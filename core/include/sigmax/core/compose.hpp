@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cassert>
 #include <concepts>
 #include <type_traits>
 #include <utility>
@@ -31,6 +30,20 @@ using InducedBy = std::conditional_t<is_induced<Left> || is_induced<Right> ||
                                          !std::same_as<typename Left::to_kind, typename Left::from_kind>,
                                      Induced<T>, T>;
 
+namespace detail {
+
+/// The same of every row of a relation.
+template <Algebra A>
+void settle(AnyRows& rows) {
+  std::visit(
+      [](auto& all) {
+        for (std::size_t i = 0; i < all.rows(); ++i) settle<A>(all.values(i));
+      },
+      rows);
+}
+
+}  // namespace detail
+
 /// `left` after `right`, eliminating the variable m between them: ⊕ over m of left(to|m) ⊗ right(m|from), where m's
 /// kind chooses ⊕.
 ///
@@ -46,11 +59,12 @@ auto compose(const Left& left, const Right& right) {
   check::same(left.from(), right.to(), "compose");
   AnyRows rows = Table(0, 0);
   kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows);
-  return Composed{left.to(), right.from(), std::move(rows), ByLaw{}};
+  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
+  return Composed{left.to(), right.from(), std::move(rows), detail::ByLaw{}};
 }
 
-/// The same, written into an existing `result` of the same variables: for dense parts nothing is allocated. `result` is
-/// neither part.
+/// The same, written into an existing `result` of the same variables: for dense parts nothing is allocated, unless
+/// `result` is one of them.
 template <Conditional Left, Conditional Right>
   requires std::same_as<typename Left::from_kind, typename Right::to_kind>
 void compose(const Left& left, const Right& right,
@@ -58,8 +72,14 @@ void compose(const Left& left, const Right& right,
   check::same(left.from(), right.to(), "compose");
   check::same(left.to(), result.to(), "compose");
   check::same(right.from(), result.from(), "compose");
-  assert(&left.rows() != &result.rows() && &right.rows() != &result.rows());
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), result.rows(ByLaw{}));
+  using Composed = std::decay_t<decltype(result)>;
+  AnyRows& rows = result.rows(detail::ByLaw{});
+  if (&left.rows() == &rows || &right.rows() == &rows) {
+    result = compose(left, right);
+    return;
+  }
+  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows);
+  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
 }
 
 /// The distribution of `left.to()` when its condition has the distribution `right`: (5), (15), (16).
@@ -71,10 +91,13 @@ auto compose(const Left& left, const Right& right) {
   check::same(left.from(), right.variable(), "compose");
   Table table(1, left.to().size());
   kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.table(), table);
-  return InducedBy<Left, Right, Distribution<typename Left::to_kind>>{left.to(), std::move(table), ByLaw{}};
+  using Composed = InducedBy<Left, Right, Distribution<typename Left::to_kind>>;
+  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(table.values());
+  return Composed{left.to(), std::move(table), detail::ByLaw{}};
 }
 
 /// The belief about the next value of a variable after a transition, (51), (53): log b(j) = log ⊕ᵢ p(j|i) ⊗ exp b(i).
+/// `result` may be `right`.
 template <Uncertainty Kind>
 Belief<Kind> compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right) {
   Belief<Kind> result{uninformative(left.to())};
@@ -85,7 +108,11 @@ template <Uncertainty Kind>
 void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief<Kind>& result) {
   check::same(left.from(), right.variable(), "compose");
   check::same(left.to(), result.variable(), "compose");
-  assert(&right != &result);
+  if (&right == &result) {
+    const Belief<Kind> before = right;
+    compose(left, before, result);
+    return;
+  }
   const auto assign_from = [&](const auto& columns) {
     result.assign([&](std::size_t to) {
       const auto column = columns.entries(to);
@@ -113,7 +140,7 @@ Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, 
         }
       },
       right.rows());
-  return {right.from(), std::move(weights), ByLaw{}};
+  return {right.from(), std::move(weights), detail::ByLaw{}};
 }
 
 }  // namespace sigmax

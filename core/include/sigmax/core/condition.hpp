@@ -1,12 +1,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <sigmax/core/algebra.hpp>
 
 namespace sigmax {
+
+namespace detail {
+
+/// ⊕ of numbers.
+template <Algebra A>
+constexpr double total(std::span<const double> values) {
+  double sum = A::zero();
+  for (const double value : values) sum = A::plus(sum, value);
+  return sum;
+}
+
+}  // namespace detail
 
 /// Turns a joint, finite numbers that are not all zero, into the conditional: the greatest c with c ⊗ (⊕ joint) =
 /// joint.
@@ -20,14 +34,31 @@ void condition(std::span<double> joint) {
     const double greatest = *std::max_element(joint.begin(), joint.end());
     for (double& value : joint) value /= greatest;
   }
-  double sum = A::zero();
-  for (const double value : joint) sum = A::plus(sum, value);
+  const double sum = detail::total<A>(joint);
   for (double& value : joint)
     if constexpr (ScalingAlgebra<A>)
       value = A::divide(value, sum);
     else
       value = value == sum ? A::one() : value;
 }
+
+/// How far the ⊕ of a composition may lie from one before it is divided out.
+inline constexpr double drift_tolerance = 1e-12;
+
+namespace detail {
+
+/// Divides a composition of normalised parts by its ⊕ if that has drifted: the rows of the parts are one only to within
+/// `normalization_tolerance`, and that would add up along a chain of compositions. Nothing drifts where ⊗ selects.
+template <Algebra A>
+void settle(std::span<double> row) {
+  if constexpr (ScalingAlgebra<A>) {
+    const double sum = total<A>(row);
+    if (std::abs(sum - 1.0) <= drift_tolerance) return;
+    for (double& value : row) value = A::divide(value, sum);
+  }
+}
+
+}  // namespace detail
 
 /// Each of n equal numbers, conditioned: 1/n if they are added, else one.
 template <Algebra A>
@@ -39,5 +70,22 @@ double equal_share(std::size_t n) {
   else
     return A::one();
 }
+
+namespace detail {
+
+/// Conditions every row of a joint. A row without mass becomes uninformative and is listed in `unreachable`.
+template <Algebra A, class Rows>
+void condition_rows(Rows& rows, std::vector<std::size_t>& unreachable) {
+  for (std::size_t r = 0; r < rows.rows(); ++r) {
+    const std::span<double> row = rows.values(r);
+    if (std::all_of(row.begin(), row.end(), [](double value) { return value == A::zero(); }))
+      unreachable.push_back(r);
+    else
+      condition<A>(row);
+  }
+  rows.fill_rows(unreachable, equal_share<A>(rows.columns()));
+}
+
+}  // namespace detail
 
 }  // namespace sigmax

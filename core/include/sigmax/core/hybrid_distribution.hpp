@@ -69,16 +69,19 @@ class HybridDistribution {
     prove(normalization_tolerance);
   }
 
-  const Variable<Outer>& outer() const { return outer_; }
-  const Variable<Inner>& inner() const { return inner_; }
-  const Table& table() const { return table_; }
+  const Variable<Outer>& outer() const& { return outer_; }
+  Variable<Outer> outer() const&& { return outer_; }
+  const Variable<Inner>& inner() const& { return inner_; }
+  Variable<Inner> inner() const&& { return inner_; }
+  const Table& table() const& { return table_; }
+  Table table() && { return std::move(table_); }
   double operator()(std::size_t outer, std::size_t inner) const { return table_(outer, inner); }
 
   /// What is left of `outer`, (5): the marginal that the joint was built from.
   Distribution<Outer> outer_marginal() const {
     Table sums(1, outer_.size());
     for (std::size_t o = 0; o < outer_.size(); ++o) sums(0, o) = sigmax::total<Inner>(table_.row(o));
-    return {outer_, std::move(sums), ByLaw{}};
+    return {outer_, std::move(sums), detail::ByLaw{}};
   }
 
   /// What is left of `inner`: of one kind a distribution, (5); else only induced, p⁺ or π⁺ of (15), whose `.beta()` and
@@ -87,7 +90,7 @@ class HybridDistribution {
     using Marginal = std::conditional_t<std::same_as<Outer, Inner>, Distribution<Inner>, Induced<Distribution<Inner>>>;
     Table sums(1, inner_.size());
     kernels::compose<AlgebraOf<Outer>>(table_, Table(1, outer_.size(), 1.0), sums);
-    return Marginal{inner_, std::move(sums), ByLaw{}};
+    return Marginal{inner_, std::move(sums), detail::ByLaw{}};
   }
 
   /// ⊕ over outer of ⊕ over inner: one. (11) if outer is fuzzy and inner random, (10) if it is the other way round.
@@ -98,15 +101,14 @@ class HybridDistribution {
 
   /// The conditional that the joint was built from: each row of it divided by its ⊕. An outcome of `outer` without
   /// mass gets the uninformative row and is listed.
-  Inverse<Inner, Outer> inner_given_outer() const { return divided<Inner, Outer>(inner_, outer_, table_); }
+  Inverse<Inner, Outer> inner_given_outer() const { return conditioned(inner_, outer_, table_); }
 
   /// The other conditional, (14), (19), (20): each column divided by its ⊕. With `inner_marginal()` it is the joint
   /// again. An outcome of `inner` without mass gets the uninformative row and is listed.
   Inverse<Outer, Inner> outer_given_inner() const {
-    Table transposed(inner_.size(), outer_.size());
-    for (std::size_t o = 0; o < outer_.size(); ++o)
-      for (std::size_t i = 0; i < inner_.size(); ++i) transposed(i, o) = table_(o, i);
-    return divided<Outer, Inner>(outer_, inner_, std::move(transposed));
+    Table columns(0, 0);
+    kernels::transpose(table_, columns);
+    return conditioned(outer_, inner_, std::move(columns));
   }
 
  private:
@@ -129,18 +131,10 @@ class HybridDistribution {
   }
 
   template <Uncertainty To, Uncertainty From>
-  static Inverse<To, From> divided(const Variable<To>& to, const Variable<From>& from, Table rows) {
+  static Inverse<To, From> conditioned(const Variable<To>& to, const Variable<From>& from, Table rows) {
     std::vector<std::size_t> unreachable;
-    for (std::size_t r = 0; r < rows.rows(); ++r) {
-      const auto row = rows.row(r);
-      if (sigmax::total<To>(row) == 0.0) {
-        unreachable.push_back(r);
-        std::fill(row.begin(), row.end(), 1.0);
-      }
-      const double divisor = sigmax::total<To>(row);
-      for (double& value : row) value = AlgebraOf<To>::divide(value, divisor);
-    }
-    return {{to, from, std::move(rows), ByLaw{}}, std::move(unreachable)};
+    detail::condition_rows<AlgebraOf<To>>(rows, unreachable);
+    return {{to, from, std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
   }
 
   Variable<Outer> outer_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -22,20 +21,29 @@ class Induced<Distribution<Kind>> {
  public:
   using kind = Kind;
 
-  Induced(Variable<Kind> variable, Table table, ByLaw) : variable_(std::move(variable)), table_(std::move(table)) {}
+  Induced(Variable<Kind> variable, Table table, detail::ByLaw)
+      : variable_(std::move(variable)), table_(std::move(table)) {}
 
-  const Variable<Kind>& variable() const { return variable_; }
-  const Table& table() const { return table_; }
-  Table& table(ByLaw) { return table_; }
-  std::span<const double> values() const { return table_.values(); }
+  const Variable<Kind>& variable() const& { return variable_; }
+  Variable<Kind> variable() const&& { return variable_; }
+  const Table& table() const& { return table_; }
+  Table table() && { return std::move(table_); }
+  Table& table(detail::ByLaw) & { return table_; }
+
+  /// A view that lives as long as this; of a temporary, a copy.
+  std::span<const double> values() const& { return table_.values(); }
+  std::vector<double> values() const&& { return Table(table_).values(); }
   double operator[](std::size_t index) const { return table_(0, index); }
   double operator[](std::string_view label) const { return table_(0, variable_.index_of(label)); }
 
   /// The normalisation factor β of (16): the ⊕ of the values.
   double beta() const { return total<Kind>(values()); }
 
-  /// The distribution reading, (16). Throws std::invalid_argument if every value is zero.
-  Distribution<Kind> normalized() const { return sigmax::normalized(variable_, values()); }
+  /// The distribution reading, (16). Throws std::domain_error if every value is zero.
+  Distribution<Kind> normalized() const {
+    if (beta() == 0.0) check::excluded(variable_);
+    return sigmax::normalized(variable_, values());
+  }
 
  private:
   Variable<Kind> variable_;
@@ -46,7 +54,7 @@ class Induced<Distribution<Kind>> {
 template <Uncertainty To, Uncertainty From>
 class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
  public:
-  Induced(Variable<To> to, Variable<From> from, AnyRows rows, ByLaw)
+  Induced(Variable<To> to, Variable<From> from, AnyRows rows, detail::ByLaw)
       : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {}
 
   /// The normalisation factors β, one for each outcome of `from`: they differ.
@@ -63,12 +71,10 @@ class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
   Relation<To, From> normalized() const {
     AnyRows all = this->rows_;
     for (std::size_t i = 0; i < this->from_.size(); ++i) {
-      if (beta(i) == 0.0)
-        throw std::domain_error("'" + this->to_.name() + "' given " + this->from_.name() + " = '" +
-                                this->from_.label(i) + "' has no outcome left to normalise");
+      if (beta(i) == 0.0) check::excluded(this->to_, {&this->from_, i});
       std::visit([&](auto& rows) { condition<AlgebraOf<To>>(rows.values(i)); }, all);
     }
-    return {this->to_, this->from_, std::move(all), ByLaw{}};
+    return {this->to_, this->from_, std::move(all), detail::ByLaw{}};
   }
 };
 

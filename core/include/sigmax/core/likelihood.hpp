@@ -43,7 +43,7 @@ class Likelihood {
   explicit Likelihood(Variable<Kind> variable)
       : variable_(std::move(variable)), weights_(1, variable_.size(), Scale::of(1.0)) {}
 
-  Likelihood(Variable<Kind> variable, Table weights, ByLaw)
+  Likelihood(Variable<Kind> variable, Table weights, detail::ByLaw)
       : variable_(std::move(variable)), weights_(std::move(weights)) {}
 
   /// Sets the logarithm of one likelihood, −∞ for an excluded outcome. Throws std::invalid_argument for NaN or +∞.
@@ -54,9 +54,10 @@ class Likelihood {
     weights_(0, index) = log_likelihood;
   }
 
-  const Variable<Kind>& variable() const { return variable_; }
+  const Variable<Kind>& variable() const& { return variable_; }
+  Variable<Kind> variable() const&& { return variable_; }
   std::size_t size() const { return weights_.size(); }
-  std::span<const double> logs() const requires has_logs { return weights_.values(); }
+  std::vector<double> all_logs() const requires has_logs { return Table(weights_).values(); }
   double log(std::size_t index) const requires has_logs { return weights_(0, index); }
 
   /// Likelihood on the scale on which evidence adds up: `Weight<AlgebraOf<Kind>>`.

@@ -35,13 +35,19 @@ class Event {
   Event(Variable<Kind> variable, std::span<const std::size_t> indices)
       : variable_(std::move(variable)), members_(variable_.size(), false) {
     for (const std::size_t index : indices) {
-      variable_.label(index);  // throws if there is no such outcome
+      check::index(variable_, index);
       members_[index] = true;
     }
   }
 
-  const Variable<Kind>& variable() const { return variable_; }
-  bool contains(std::size_t index) const { return members_[index]; }
+  const Variable<Kind>& variable() const& { return variable_; }
+  Variable<Kind> variable() const&& { return variable_; }
+
+  /// Throws std::invalid_argument if the variable has no such outcome.
+  bool contains(std::size_t index) const {
+    check::index(variable_, index);
+    return members_[index];
+  }
   bool contains(std::string_view label) const { return members_[variable_.index_of(label)]; }
 
   /// "age in {child, youth}", for messages.

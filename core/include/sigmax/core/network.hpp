@@ -49,8 +49,12 @@ class RelationNetwork {
                const std::vector<std::vector<double>>& rows);
 
   std::size_t size() const { return vertices_.size(); }
-  std::span<const Vertex> vertices() const { return vertices_; }
-  const Vertex& operator[](std::size_t index) const { return vertices_[index]; }
+
+  /// Views that live as long as the network and nothing more is declared; of a temporary, copies.
+  std::span<const Vertex> vertices() const& { return vertices_; }
+  std::vector<Vertex> vertices() const&& { return vertices_; }
+  const Vertex& operator[](std::size_t index) const& { return vertices_[index]; }
+  Vertex operator[](std::size_t index) const&& { return vertices_[index]; }
 
   /// Throws std::invalid_argument if no such variable was declared.
   std::size_t index_of(std::string_view name) const;

@@ -17,15 +17,20 @@ class Outcomes {
   /// `size` outcomes labelled "0", "1", …; nothing is stored for them.
   Outcomes(std::string name, std::size_t size);
 
-  const std::string& name() const { return table_->name; }
+  /// A view that lives as long as some copy of the variable; of a temporary, a copy.
+  const std::string& name() const& { return table_->name; }
+  std::string name() const&& { return table_->name; }
   std::size_t size() const { return table_->size; }
   std::string label(std::size_t index) const;
 
   /// Index of an outcome; throws std::invalid_argument that names the variable and its outcomes.
   std::size_t index_of(std::string_view label) const;
 
-  /// Whether both have the same name and the same outcomes.
+  /// Whether both have the same name and the same outcomes; numbered outcomes are not those labelled "0", "1", ….
   friend bool operator==(const Outcomes& a, const Outcomes& b);
+
+  /// How the second differs from the first, for a message: "found 'x' with 3 outcomes". Both differ.
+  friend std::string difference(const Outcomes& expected, const Outcomes& found);
 
  private:
   struct Table {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <initializer_list>
 #include <span>
 #include <stdexcept>
@@ -25,30 +26,52 @@ class ConditionalTable {
   using to_kind = To;
   using from_kind = From;
 
-  const Variable<To>& to() const { return to_; }
-  const Variable<From>& from() const { return from_; }
+  const Variable<To>& to() const& { return to_; }
+  Variable<To> to() const&& { return to_; }
+  const Variable<From>& from() const& { return from_; }
+  Variable<From> from() const&& { return from_; }
 
   /// How the rows are stored: dense, sparse or banded, as they were given or as fits what they were computed from.
-  const AnyRows& rows() const { return rows_; }
+  const AnyRows& rows() const& { return rows_; }
+  AnyRows rows() && { return std::move(rows_); }
 
   /// The same, for a verb that writes its result here; it alone knows by which law the numbers are right.
-  AnyRows& rows(ByLaw) { return rows_; }
+  AnyRows& rows(detail::ByLaw) & { return rows_; }
 
   /// The table of a dense relation. Throws std::invalid_argument, naming it, if it is not: see `dense`, `for_each`.
-  const Table& table() const {
+  /// This and `row` are views that live as long as the relation; of a temporary, copies.
+  const Table& table() const& {
     if (const Table* const table = std::get_if<Table>(&rows_)) return *table;
     throw std::invalid_argument("'" + to_.name() + "' given '" + from_.name() +
                                 "' is stored sparsely, not as a table; call dense() first");
   }
+  Table table() const&& {
+    const ConditionalTable& named = *this;
+    return named.table();
+  }
 
-  /// p(to|from) by index: `from` first, as the table is written.
+  /// p(to|from) by index: `from` first, as the table is written. `at` throws std::invalid_argument if there is no such
+  /// index, () does not look.
   double operator()(std::size_t from, std::size_t to) const {
     if (const Table* const table = std::get_if<Table>(&rows_)) return (*table)(from, to);
     return std::visit([&](const auto& rows) { return rows.at(from, to); }, rows_);
   }
 
-  /// One row of a dense relation.
-  std::span<const double> row(std::size_t from) const { return table().row(from); }
+  double at(std::size_t from, std::size_t to) const {
+    check::index(from_, from);
+    check::index(to_, to);
+    return (*this)(from, to);
+  }
+
+  /// One row of a dense relation. Throws std::invalid_argument if there is no such row.
+  std::span<const double> row(std::size_t from) const& {
+    check::index(from_, from);
+    return table().row(from);
+  }
+  std::vector<double> row(std::size_t from) const&& {
+    const auto view = static_cast<const ConditionalTable&>(*this).row(from);
+    return {view.begin(), view.end()};
+  }
 
   /// action(to, value) for every number that row `from` stores, `to` ascending; what it does not store is zero.
   ///
@@ -66,7 +89,7 @@ class ConditionalTable {
   /// The column of one outcome of `to`, read as a function of `from`: a likelihood, hence without normalisation.
   Likelihood<From> likelihood(std::string_view to) const { return likelihood(to_.index_of(to)); }
   Likelihood<From> likelihood(std::size_t to) const {
-    to_.label(to);  // throws if there is no such outcome
+    check::index(to_, to);
     std::vector<double> column(from_.size());
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = (*this)(i, to);
     return {from_, column};
@@ -120,19 +143,20 @@ class Relation : public ConditionalTable<To, From> {
     this->rows_ = proved(std::move(rows));
   }
 
-  Relation(Variable<To> to, Variable<From> from, AnyRows rows, ByLaw)
+  Relation(Variable<To> to, Variable<From> from, AnyRows rows, detail::ByLaw)
       : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {
     assert(std::visit([](const auto& stored) { return stored.rows(); }, this->rows_) == this->from_.size());
     assert(std::visit([](const auto& stored) { return stored.columns(); }, this->rows_) == this->to_.size());
+    assert(is_normalized());
   }
 
   /// The distribution of `to` when `from` has this outcome.
   Distribution<To> given(std::string_view from) const { return given(this->from_.index_of(from)); }
   Distribution<To> given(std::size_t from) const {
-    this->from_.label(from);  // throws if there is no such outcome
+    check::index(this->from_, from);
     Table row(1, this->to_.size());
     this->for_each(from, [&](std::size_t to, double value) { row(0, to) = value; });
-    return {this->to_, std::move(row), ByLaw{}};
+    return {this->to_, std::move(row), detail::ByLaw{}};
   }
 
   /// Itself: generic code need not ask whether a composition was only induced.
@@ -142,10 +166,29 @@ class Relation : public ConditionalTable<To, From> {
   /// The same relation stored as a dense table.
   Relation dense() const {
     return {this->to_, this->from_, std::visit([](const auto& rows) { return dense_table(rows); }, this->rows_),
-            ByLaw{}};
+            detail::ByLaw{}};
+  }
+
+  /// Whether the variables and all numbers are the same, however they are stored.
+  friend bool operator==(const Relation& a, const Relation& b) {
+    if (!(a.to_ == b.to_ && a.from_ == b.from_)) return false;
+    for (std::size_t i = 0; i < a.from_.size(); ++i)
+      if (!(a.given(i) == b.given(i))) return false;
+    return true;
   }
 
  private:
+  bool is_normalized() const {
+    bool all = true;
+    const auto each = [&all](const auto& rows) {
+      detail::for_each_stored_row(rows, [&](std::size_t r) {
+        all = all && std::abs(total<To>(rows.entries(r).values) - 1.0) <= 4.0 * normalization_tolerance;
+      });
+    };
+    std::visit(each, this->rows_);
+    return all;
+  }
+
   void prove_number_of_rows(std::size_t rows) const {
     if (rows != this->from_.size())
       throw std::invalid_argument("the relation '" + this->to_.name() + "' given '" + this->from_.name() + "' needs " +
@@ -162,6 +205,20 @@ class Relation : public ConditionalTable<To, From> {
     return rows;
   }
 };
+
+/// A line per row: "mood given age = young: calm 0.3, wild 1".
+template <Uncertainty To, Uncertainty From>
+std::ostream& operator<<(std::ostream& out, const Relation<To, From>& relation) {
+  for (std::size_t i = 0; i < relation.from().size(); ++i) {
+    out << relation.to().name() << " given " << relation.from().name() << " = " << relation.from().label(i) << ':';
+    const char* separator = " ";
+    relation.for_each(i, [&](std::size_t to, double value) {
+      out << std::exchange(separator, ", ") << relation.to().label(to) << ' ' << value;
+    });
+    out << '\n';
+  }
+  return out;
+}
 
 template <Uncertainty To, Uncertainty From>
 Relation(Variable<To>, Variable<From>, std::initializer_list<std::initializer_list<double>>) -> Relation<To, From>;

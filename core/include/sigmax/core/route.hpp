@@ -31,10 +31,10 @@ class Routes {
   explicit Routes(const Distribution<Kind>& start) : chain_(start) {}
 
   const Chain<Kind>& chain() const { return chain_; }
-  Chain<Kind>& chain(ByLaw) { return chain_; }
+  Chain<Kind>& chain(detail::ByLaw) { return chain_; }
 
   /// Remembers from which outcome of the variable before each outcome is best reached.
-  void remember(const std::vector<kernels::Winner>& winners, ByLaw) {
+  void remember(const std::vector<kernels::Winner>& winners, detail::ByLaw) {
     starts_.push_back(winners_.size());
     winners_.insert(winners_.end(), winners.begin(), winners.end());
   }
@@ -57,20 +57,20 @@ class Routes {
 /// The routes one relation further.
 template <Uncertainty Kind>
 Routes<Kind> compose(const Relation<Kind, Kind>& left, Routes<Kind> right) {
-  Chain<Kind>& chain = right.chain(ByLaw{});
+  Chain<Kind>& chain = right.chain(detail::ByLaw{});
   check::same(left.from(), chain.variable(), "compose");
   std::vector<kernels::Winner> winners;
-  auto row = std::move(chain.row(ByLaw{}));
+  auto row = std::move(chain.row(detail::ByLaw{}));
   std::visit([&](const auto& rows) { row.template compose<AlgebraOf<Kind>>(rows, winners); }, left.rows());
   chain = Chain<Kind>{left.to(), std::move(row)};
-  right.remember(winners, ByLaw{});
+  right.remember(winners, detail::ByLaw{});
   return right;
 }
 
 /// The routes with evidence about their current outcome. Throws std::domain_error if that excludes every route.
 template <Uncertainty Kind>
 Routes<Kind> update(Routes<Kind> prior, const Likelihood<Kind>& likelihood) {
-  prior.chain(ByLaw{}) = update(std::move(prior.chain(ByLaw{})), likelihood);
+  prior.chain(detail::ByLaw{}) = update(std::move(prior.chain(detail::ByLaw{})), likelihood);
   return prior;
 }
 

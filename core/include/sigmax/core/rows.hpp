@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <variant>
+#include <vector>
 
 #include <sigmax/core/banded_rows.hpp>
 #include <sigmax/core/sparse_rows.hpp>
@@ -17,6 +18,21 @@ inline Table& as_table(AnyRows& rows) {
   if (Table* const table = std::get_if<Table>(&rows)) return *table;
   return rows.emplace<Table>(std::size_t{0}, std::size_t{0});
 }
+
+namespace detail {
+
+/// action(r) once for every row that is stored: rows without a number of their own share one.
+template <class Rows, class Action>
+void for_each_stored_row(const Rows& rows, const Action& action) {
+  std::vector<bool> done(rows.stored() + 1, false);  // by where a row begins
+  for (std::size_t r = 0; r < rows.rows(); ++r) {
+    if (done[rows.offset(r)]) continue;
+    done[rows.offset(r)] = true;
+    action(r);
+  }
+}
+
+}  // namespace detail
 
 /// The same numbers as a dense table.
 template <class Rows>

@@ -76,7 +76,8 @@ class SparseRows {
 
   /// Where row r begins among the stored numbers.
   std::size_t offset(std::size_t r) const { return extents_[r].first; }
-  ListOfEntries entries(std::size_t r) const {
+  ListOfEntries entries(std::size_t r) const&& = delete;
+  ListOfEntries entries(std::size_t r) const& {
     const auto [first, size] = extents_[r];
     return {std::span(indices_).subspan(first, size), std::span(values_).subspan(first, size)};
   }
@@ -86,7 +87,9 @@ class SparseRows {
     if (found == row.columns.end() || *found != column) return 0.0;
     return row.value(static_cast<std::size_t>(found - row.columns.begin()));
   }
-  std::span<double> values(std::size_t r) { return std::span(values_).subspan(extents_[r].first, extents_[r].second); }
+  std::span<double> values(std::size_t r) & {
+    return std::span(values_).subspan(extents_[r].first, extents_[r].second);
+  }
 
  private:
   std::size_t columns_ = 0, end_ = 0;

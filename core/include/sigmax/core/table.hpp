@@ -11,8 +11,15 @@
 
 namespace sigmax {
 
-/// Says that a law, not a check, makes a table normalised; only the verbs of core construct by it. Debug builds check.
-struct ByLaw {};
+namespace detail {
+
+/// Says that a law, not a check, makes numbers what their type promises: for the library's own verbs. Debug builds
+/// check.
+struct ByLaw {
+  explicit ByLaw() = default;
+};
+
+}  // namespace detail
 
 /// A dense rows × columns table of numbers, row by row; up to 16 of them are stored without allocation.
 class Table {
@@ -36,19 +43,24 @@ class Table {
   double* data() { return size() > inline_capacity ? heap_.data() : inline_.data(); }
   const double* data() const { return size() > inline_capacity ? heap_.data() : inline_.data(); }
 
-  std::span<double> values() { return {data(), size()}; }
-  std::span<const double> values() const { return {data(), size()}; }
-  std::span<double> row(std::size_t r) { return {data() + r * columns_, columns_}; }
-  std::span<const double> row(std::size_t r) const { return {data() + r * columns_, columns_}; }
+  /// Views that live as long as the table and its shape; of a temporary, copies.
+  std::span<double> values() & { return {data(), size()}; }
+  std::span<const double> values() const& { return {data(), size()}; }
+  std::vector<double> values() const&& { return {data(), data() + size()}; }
+  std::span<double> row(std::size_t r) & { return {data() + r * columns_, columns_}; }
+  std::span<const double> row(std::size_t r) const& { return {data() + r * columns_, columns_}; }
+  std::vector<double> row(std::size_t r) const&& { return {data() + r * columns_, data() + (r + 1) * columns_}; }
 
   /// The same as every way to store rows has it; see rows.hpp.
+  std::size_t stored() const { return size(); }
   std::size_t offset(std::size_t r) const { return r * columns_; }
-  std::span<double> values(std::size_t r) { return row(r); }
+  std::span<double> values(std::size_t r) & { return row(r); }
   void fill_rows(std::span<const std::size_t> rows, double value) {
     for (const std::size_t r : rows) std::fill_n(row(r).data(), columns_, value);
   }
   double at(std::size_t r, std::size_t column) const { return (*this)(r, column); }
-  RunOfEntries entries(std::size_t r) const { return {0, row(r)}; }
+  RunOfEntries entries(std::size_t r) const& { return {0, row(r)}; }
+  RunOfEntries entries(std::size_t r) const&& = delete;
 
   double& operator()(std::size_t r, std::size_t c) {
     assert(r < rows_ && c < columns_);

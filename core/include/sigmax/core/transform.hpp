@@ -8,11 +8,12 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/relation.hpp>
+#include <sigmax/core/tie.hpp>
 
 namespace sigmax {
 
@@ -64,9 +65,11 @@ struct RatioScale {
   }
 };
 
-/// One of the distinct values of a distribution, from the least upwards.
+namespace detail {
+
+/// One of the distinct values of a distribution, from the least upwards; values that tie are one.
 struct Level {
-  double value;       ///< the level itself
+  double value;       ///< the level itself: the least of those that tie
   double gap;         ///< how far it lies above the previous one, or above zero
   std::size_t here;   ///< how many outcomes have this value
   std::size_t above;  ///< how many have this value or a greater one
@@ -82,13 +85,15 @@ std::vector<double> sum_over_levels(std::span<const double> values, const Step& 
   double sum = 0.0, below = 0.0;
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const double value = values[order[first]];
-    while (last < order.size() && values[order[last]] == value) ++last;
+    while (last < order.size() && numbers_tie(value, values[order[last]])) ++last;
     sum += step(Level{value, value - below, last - first, order.size() - first});
     for (std::size_t k = first; k < last; ++k) result[order[k]] = sum;
     below = value;
   }
   return result;
 }
+
+}  // namespace detail
 
 /// The optimal transform of Dubois and Prade: π_i = Σ {p_j : p_j ≤ p_i}, the most specific possibility that is
 /// consistent with p and keeps its order.
@@ -98,7 +103,7 @@ std::vector<double> sum_over_levels(std::span<const double> values, const Step& 
 /// Source: Dubois, Foulloy, Mauris, Prade, Probability-possibility transformations (2004), with equal π for equal p.
 struct DuboisPrade {
   std::vector<double> possibilities(std::span<const double> p) const {
-    return sum_over_levels(p, [](const Level& at) { return at.value * static_cast<double>(at.here); });
+    return detail::sum_over_levels(p, [](const detail::Level& at) { return at.value * static_cast<double>(at.here); });
   }
 };
 
@@ -110,10 +115,10 @@ struct DuboisPrade {
 /// Source: Dubois, Prade, Sandri, On possibility/probability transformations (1993).
 struct DuboisPradeSandri {
   std::vector<double> possibilities(std::span<const double> p) const {
-    return sum_over_levels(p, [](const Level& at) { return at.gap * static_cast<double>(at.above); });
+    return detail::sum_over_levels(p, [](const detail::Level& at) { return at.gap * static_cast<double>(at.above); });
   }
   std::vector<double> probabilities(std::span<const double> pi) const {
-    return sum_over_levels(pi, [](const Level& at) { return at.gap / static_cast<double>(at.above); });
+    return detail::sum_over_levels(pi, [](const detail::Level& at) { return at.gap / static_cast<double>(at.above); });
   }
 };
 
@@ -134,25 +139,38 @@ Distribution<Random> to_probability(const Distribution<Fuzzy>& pi, const Method&
   return normalized(as_random(pi.variable()), method.probabilities(pi.values()));
 }
 
-/// A relation whose every row is in proportion to method(row).
+namespace detail {
+
+/// A relation whose every row is in proportion to method(row). Rows that store only some of their numbers go on doing
+/// so, for a transform gives zero for zero.
 template <Uncertainty To, Uncertainty Old, Uncertainty From, class Method>
 Relation<To, From> transformed(const Relation<Old, From>& relation, const Variable<To>& to, const Method& method) {
-  Table rows(relation.from().size(), to.size());
-  for (std::size_t r = 0; r < rows.rows(); ++r) {
-    const Distribution row = normalized(to, method(relation.given(r).values()));
-    std::copy_n(row.values().begin(), to.size(), rows.row(r).begin());
-  }
-  return {to, relation.from(), std::move(rows), ByLaw{}};
+  AnyRows all = relation.rows();
+  std::visit(
+      [&](auto& rows) {
+        for_each_stored_row(rows, [&](std::size_t r) {
+          const std::span<double> row = rows.values(r);
+          const std::vector<double> weights = method(std::span<const double>(row));
+          check::size(to, {&relation.from(), r}, to.size() - row.size() + weights.size());
+          prove_weights<AlgebraOf<To>>(to, {&relation.from(), r}, weights);
+          std::copy(weights.begin(), weights.end(), row.begin());
+          condition<AlgebraOf<To>>(row);
+        });
+      },
+      all);
+  return {to, relation.from(), std::move(all), ByLaw{}};
 }
+
+}  // namespace detail
 
 /// The same row by row: the condition stays as it is.
 template <Uncertainty From, PossibilityTransform Method>
 Relation<Fuzzy, From> to_possibility(const Relation<Random, From>& p, const Method& method) {
-  return transformed(p, as_fuzzy(p.to()), [&](auto row) { return method.possibilities(row); });
+  return detail::transformed(p, as_fuzzy(p.to()), [&](auto row) { return method.possibilities(row); });
 }
 template <Uncertainty From, ProbabilityTransform Method>
 Relation<Random, From> to_probability(const Relation<Fuzzy, From>& pi, const Method& method) {
-  return transformed(pi, as_random(pi.to()), [&](auto row) { return method.probabilities(row); });
+  return detail::transformed(pi, as_random(pi.to()), [&](auto row) { return method.probabilities(row); });
 }
 
 /// The same rows, with the condition read as fuzzy or as random: nothing needs normalising, a row says nothing of it.
@@ -160,11 +178,11 @@ Relation<Random, From> to_probability(const Relation<Fuzzy, From>& pi, const Met
 ///     with_fuzzy_condition(to_possibility(transition, RatioScale{}))   // (49) as (50)
 template <Uncertainty To, Uncertainty From>
 Relation<To, Fuzzy> with_fuzzy_condition(const Relation<To, From>& relation) {
-  return {relation.to(), as_fuzzy(relation.from()), relation.rows(), ByLaw{}};
+  return {relation.to(), as_fuzzy(relation.from()), relation.rows(), detail::ByLaw{}};
 }
 template <Uncertainty To, Uncertainty From>
 Relation<To, Random> with_random_condition(const Relation<To, From>& relation) {
-  return {relation.to(), as_random(relation.from()), relation.rows(), ByLaw{}};
+  return {relation.to(), as_random(relation.from()), relation.rows(), detail::ByLaw{}};
 }
 
 }  // namespace sigmax

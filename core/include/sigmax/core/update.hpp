@@ -41,7 +41,7 @@ Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind
   if (row(0, index_of_greatest(row.values())) == Scale::excluded) check::excluded(prior.variable());
   Scale::to_values(row.values());
   condition<AlgebraOf<Kind>>(row.values());
-  return {prior.variable(), std::move(row), ByLaw{}};
+  return {prior.variable(), std::move(row), detail::ByLaw{}};
 }
 
 /// What `invert` gives: "from given to", and the outcomes of `to` that nothing reaches.
@@ -91,7 +91,7 @@ Inverse<From, To> invert(const Relation<To, From>& relation, const Belief<From>&
   std::vector<std::size_t> unreachable;
   const auto weight = [&](std::size_t i) { return prior.log(i); };
   invert_into(relation, prior.variable(), weight, rows, unreachable);
-  return {{relation.from(), relation.to(), std::move(rows), ByLaw{}}, std::move(unreachable)};
+  return {{relation.from(), relation.to(), std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
 }
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Distribution<From>& prior) {
@@ -99,7 +99,7 @@ Inverse<From, To> invert(const Relation<To, From>& relation, const Distribution<
   std::vector<std::size_t> unreachable;
   const auto weight = [&](std::size_t i) { return Weight<AlgebraOf<From>>::of(prior[i]); };
   invert_into(relation, prior.variable(), weight, rows, unreachable);
-  return {{relation.from(), relation.to(), std::move(rows), ByLaw{}}, std::move(unreachable)};
+  return {{relation.from(), relation.to(), std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
 }
 
 /// The same, written into an existing `result` of the same variables.
@@ -108,7 +108,7 @@ void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inver
   check::same(relation.from(), result.relation.to(), "invert");
   check::same(relation.to(), result.relation.from(), "invert");
   const auto weight = [&](std::size_t i) { return prior.log(i); };
-  invert_into(relation, prior.variable(), weight, result.relation.rows(ByLaw{}), result.unreachable);
+  invert_into(relation, prior.variable(), weight, result.relation.rows(detail::ByLaw{}), result.unreachable);
 }
 
 }  // namespace sigmax

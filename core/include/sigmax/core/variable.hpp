@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include <sigmax/core/outcomes.hpp>
 #include <sigmax/core/uncertainty.hpp>
 
@@ -17,6 +19,11 @@ class Variable : public Outcomes {
   using kind = Kind;
   using Outcomes::Outcomes;
 };
+
+/// Variables of different kinds are not compared: one is never the other.
+template <Uncertainty A, Uncertainty B>
+  requires(!std::same_as<A, B>)
+bool operator==(const Variable<A>&, const Variable<B>&) = delete;
 
 using RandomVariable = Variable<Random>;
 using FuzzyVariable = Variable<Fuzzy>;

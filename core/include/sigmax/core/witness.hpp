@@ -14,11 +14,12 @@ namespace sigmax {
 template <class Composed>
 class Witnessed {
  public:
-  Witnessed(Composed relation, std::vector<kernels::Winner> winners, ByLaw)
+  Witnessed(Composed relation, std::vector<kernels::Winner> winners, detail::ByLaw)
       : relation_(std::move(relation)), winners_(std::move(winners)) {}
 
   /// What `compose` gives.
-  const Composed& relation() const { return relation_; }
+  const Composed& relation() const& { return relation_; }
+  Composed relation() && { return std::move(relation_); }
 
   /// Through which outcome of the variable between the best way leads `from` → `to`: the first on a tie. It is 0 if no
   /// way does, for then all tie.
@@ -59,7 +60,9 @@ auto compose_with_witness(const Left& left, const Right& right) {
   AnyRows rows = Table(0, 0);
   std::vector<kernels::Winner> winners;
   kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows, winners);
-  return Witnessed<Composed>{Composed{left.to(), right.from(), std::move(rows), ByLaw{}}, std::move(winners), ByLaw{}};
+  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
+  return Witnessed<Composed>{Composed{left.to(), right.from(), std::move(rows), detail::ByLaw{}}, std::move(winners),
+                             detail::ByLaw{}};
 }
 
 }  // namespace sigmax

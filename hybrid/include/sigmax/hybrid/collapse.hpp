@@ -23,11 +23,11 @@ template <class LogWeight>
 std::size_t select(std::size_t modes, const LogWeight& log_weight, std::size_t current, Tie tie) {
   double greatest = log_weight(0);
   for (std::size_t i = 1; i < modes; ++i) greatest = std::max(greatest, log_weight(i));
-  const auto ties = [&](std::size_t i) { return log_weight(i) >= greatest - tie_tolerance; };
-  if (tie == Tie::stay && ties(current)) return current;
+  const auto tied = [&](std::size_t i) { return ties(log_weight(i), greatest); };
+  if (tie == Tie::stay && tied(current)) return current;
   std::size_t winner = 0;
   for (std::size_t i = 0; i < modes; ++i)
-    if (ties(i)) {
+    if (tied(i)) {
       winner = i;
       if (tie != Tie::last) break;
     }

@@ -94,7 +94,7 @@ template <Uncertainty Kind>
 Relation<Kind, Kind> identity(const Variable<Kind>& mode) {
   Table table(mode.size(), mode.size());
   for (std::size_t i = 0; i < mode.size(); ++i) table(i, i) = AlgebraOf<Kind>::one();
-  return {mode, mode, std::move(table), ByLaw{}};
+  return {mode, mode, std::move(table), detail::ByLaw{}};
 }
 
 }  // namespace sigmax

@@ -77,7 +77,7 @@ class TimedTransition {
 
   /// The transition over `dt` ≥ 0 seconds; the identity if that is zero.
   Relation<Kind, Kind> operator()(double dt) const {
-    Relation<Kind, Kind> result{mode_, mode_, Table(mode_.size(), mode_.size()), ByLaw{}};
+    Relation<Kind, Kind> result{mode_, mode_, Table(mode_.size(), mode_.size()), detail::ByLaw{}};
     (*this)(dt, result);
     return result;
   }
@@ -96,7 +96,7 @@ class TimedTransition {
     const int doublings = std::max(0, rate_exponent + time_exponent + 1);
     const double a = std::ldexp(mantissas, rate_exponent + time_exponent - doublings);
 
-    Table& P = as_table(result.rows(ByLaw{}));
+    Table& P = as_table(result.rows(detail::ByLaw{}));
     Table product(0, 0);
     sum_of_jumps(a, P, product);
     for (int k = 0; k < doublings; ++k) {

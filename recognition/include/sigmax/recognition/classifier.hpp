@@ -72,7 +72,7 @@ class Classifier {
       add_log_likelihood(report, logs.values());
       weight *= forgetting_;
     }
-    observe_likelihood({prior_.variable(), std::move(logs), ByLaw{}}, weight);
+    observe_likelihood({prior_.variable(), std::move(logs), detail::ByLaw{}}, weight);
   }
 
   /// Takes a graded report with p(f_k|z_{1:k−1}) supplied for this step, as (43) and (46) are printed: p(f_k|c) is
@@ -161,7 +161,7 @@ class Classifier {
         if (*reading != missing) add<1>({features_[i].log_likelihoods(*reading).data()}, logs);
       } else {
         const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), features_[i].relation());
-        add<1>({graded.logs().data()}, logs);
+        add<1>({graded.all_logs().data()}, logs);
       }
     }
   }
@@ -170,7 +170,7 @@ class Classifier {
   Likelihood<Pattern> likelihood_of(const SomeReport& report) const {
     Table logs(1, prior_.size());
     add_log_likelihood(report, logs.values());
-    return {prior_.variable(), std::move(logs), ByLaw{}};
+    return {prior_.variable(), std::move(logs), detail::ByLaw{}};
   }
 
   void observe_likelihood(const Likelihood<Pattern>& report) { observe_likelihood(report, forgetting_); }

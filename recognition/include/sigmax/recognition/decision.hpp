@@ -24,14 +24,13 @@ struct Decision {
 /// possibility is one, 1 − π(second) = N({winner}). It is zero on a tie, and of a lone pattern its value, one.
 template <Uncertainty Kind>
 Decision decide(const Belief<Kind>& belief) {
-  const double least = belief.log(index_of_greatest(belief.logs())) - tie_tolerance;
-  const auto ties = [&](double log) { return log >= least; };
-  const auto winner = std::find_if(belief.logs().begin(), belief.logs().end(), ties);
-  const auto pattern = static_cast<std::size_t>(winner - belief.logs().begin());
+  const std::size_t pattern = first_of_tied(belief.logs());
+  const double greatest = belief.log(index_of_greatest(belief.logs()));
   double second = 0.0;
   for (std::size_t c = 0; c < belief.size(); ++c)
     if (c != pattern) second = std::max(second, belief[c]);
-  const auto tied = static_cast<std::size_t>(std::count_if(belief.logs().begin(), belief.logs().end(), ties));
+  const auto tied = static_cast<std::size_t>(std::count_if(
+      belief.logs().begin(), belief.logs().end(), [greatest](double log) { return ties(log, greatest); }));
   return {pattern, tied == 1 ? belief[pattern] - second : 0.0, tied};
 }
 
@@ -53,8 +52,8 @@ std::vector<std::size_t> best_patterns(const Belief<Kind>& belief, std::size_t k
                    [&](std::size_t a, std::size_t b) { return belief.log(a) > belief.log(b); });
   // Runs of equal weights, each measured from its best, go in the order of declaration.
   for (auto first = order.begin(); first != order.end();) {
-    const double least = belief.log(*first) - tie_tolerance;
-    const auto last = std::find_if(first, order.end(), [&](std::size_t c) { return belief.log(c) < least; });
+    const double greatest = belief.log(*first);
+    const auto last = std::find_if(first, order.end(), [&](std::size_t c) { return !ties(belief.log(c), greatest); });
     std::sort(first, last);
     first = last;
   }

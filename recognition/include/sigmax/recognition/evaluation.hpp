@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <sigmax/core/mean_interval.hpp>
 #include <sigmax/recognition/decision.hpp>
 
 namespace sigmax {
@@ -107,18 +108,10 @@ class Evaluation {
   std::vector<double> correct_, log_losses_, briers_, necessities_, covered_, cut_sizes_;
 };
 
-/// A mean with its interval of 95 % confidence.
-struct Interval {
-  double mean;
-  double lower;
-  double upper;
-};
-
 /// Mean of scores. Throws std::domain_error if there is none.
 double mean(std::span<const double> scores);
 
-/// The mean of a − b over the same cases, and mean ± 1.96 s/√n with s the standard deviation of the differences
-/// (divided by n − 1): normal approximation of the paired t interval, for some thirty cases or more.
+/// The mean of a − b over the same cases with its interval, see `mean_interval`.
 ///
 /// Of cross-validation it holds for the classifiers as trained in these folds; it does not count that other training
 /// data would have made others. Throws std::invalid_argument if the numbers of cases differ or are below two.

@@ -93,9 +93,7 @@ Contribution contribution(const FeatureModel<Pattern, Feature>& feature, const F
 
   std::vector<double> terms(feature.feature().size());
   for (std::size_t f = 0; f < terms.size(); ++f) terms[f] = evidence.log(f) + std::log(feature.relation()(pattern, f));
-  const double least = terms[index_of_greatest(terms)] - tie_tolerance;
-  std::size_t value = 0;
-  while (terms[value] < least) ++value;
+  const std::size_t value = first_of_tied(terms);
 
   Contribution result{};
   result.reading = reading ? feature.readings().label(*reading) : "";

@@ -50,13 +50,16 @@ SparseRows columns_of(const Rows& rows) {
   return transposed(rows);
 }
 
+inline void transpose(const Table& table, Table& columns) {
+  columns.reshape(table.columns(), table.rows());
+  for (std::size_t r = 0; r < table.rows(); ++r)
+    for (std::size_t c = 0; c < table.columns(); ++c) columns(c, r) = table(r, c);
+}
+
 /// Rows as columns, written into `result`: dense if they are, and then nothing is allocated that has room.
 inline void transpose(const AnyRows& rows, AnyRows& result) {
   if (const Table* const table = std::get_if<Table>(&rows)) {
-    Table& columns = as_table(result);
-    columns.reshape(table->columns(), table->rows());
-    for (std::size_t r = 0; r < table->rows(); ++r)
-      for (std::size_t c = 0; c < table->columns(); ++c) columns(c, r) = (*table)(r, c);
+    transpose(*table, as_table(result));
   } else if (const auto* const sparse = std::get_if<SparseRows>(&rows)) {
     result = transposed(*sparse);
   } else {

@@ -23,21 +23,25 @@ class ComposedRelation {
         induced_(induced),
         unreachable_(std::move(unreachable)) {}
 
-  const NetworkVariable& to() const { return to_; }
-  const NetworkVariable& from() const { return from_; }
-  const Table& table() const { return table_; }  ///< a row per outcome of `from`
+  const NetworkVariable& to() const& { return to_; }
+  NetworkVariable to() const&& { return to_; }
+  const NetworkVariable& from() const& { return from_; }
+  NetworkVariable from() const&& { return from_; }
+  const Table& table() const& { return table_; }  ///< a row per outcome of `from`
+  Table table() && { return std::move(table_); }
 
   /// Whether the rows are only induced, (17), (18): not normalised, each with its own β.
   bool induced() const { return induced_; }
 
   /// The outcomes of `from` that nothing reaches; their rows are uninformative, as those of `invert`.
-  const std::vector<std::size_t>& unreachable() const { return unreachable_; }
+  const std::vector<std::size_t>& unreachable() const& { return unreachable_; }
+  std::vector<std::size_t> unreachable() const&& { return unreachable_; }
 
   /// The same with the kinds that the caller knows: a Relation, or what is only induced of one.
   template <NetworkKind To, NetworkKind From>
   std::variant<Relation<To, From>, Induced<Relation<To, From>>> relation() const {
-    if (induced_) return Induced<Relation<To, From>>{to_.as<To>(), from_.as<From>(), table_, ByLaw{}};
-    return Relation<To, From>{to_.as<To>(), from_.as<From>(), table_, ByLaw{}};
+    if (induced_) return Induced<Relation<To, From>>{to_.as<To>(), from_.as<From>(), table_, detail::ByLaw{}};
+    return Relation<To, From>{to_.as<To>(), from_.as<From>(), table_, detail::ByLaw{}};
   }
 
  private:

@@ -39,7 +39,7 @@ class Evidence {
 
   template <NetworkKind Kind>
   Evidence& observe(const Likelihood<Kind>& likelihood) {
-    likelihoods_.push_back({likelihood.variable(), {likelihood.logs().begin(), likelihood.logs().end()}});
+    likelihoods_.push_back({likelihood.variable(), likelihood.all_logs()});
     return *this;
   }
 

@@ -33,8 +33,11 @@ class NetworkAnswer {
         induced_(induced),
         elimination_(std::move(elimination)) {}
 
-  std::span<const NetworkVariable> variables() const { return variables_; }
-  std::span<const ScaledNumber> values() const { return values_; }  ///< the last variable varies fastest
+  /// Views that live as long as the answer; of a temporary, copies. In `values` the last variable varies fastest.
+  std::span<const NetworkVariable> variables() const& { return variables_; }
+  std::vector<NetworkVariable> variables() const&& { return variables_; }
+  std::span<const ScaledNumber> values() const& { return values_; }
+  std::vector<ScaledNumber> values() const&& { return values_; }
 
   /// The number of one outcome, a label per variable. Throws std::invalid_argument if there is no such outcome.
   ScaledNumber operator[](std::initializer_list<std::string_view> labels) const { return values_[index_of(labels)]; }
@@ -64,13 +67,14 @@ class NetworkAnswer {
     return result;
   }
 
-  const Elimination& elimination() const { return elimination_; }
+  const Elimination& elimination() const& { return elimination_; }
+  Elimination elimination() const&& { return elimination_; }
 
  private:
   std::size_t index_of(std::initializer_list<std::string_view> labels) const;
-  const NetworkVariable& only() const;
+  const NetworkVariable& only() const&;
   template <NetworkKind Kind>
-  const Variable<Kind>& only() const {
+  const Variable<Kind>& only() const& {
     return only().template as<Kind>();
   }
 

@@ -35,20 +35,30 @@ class NetworkVariable {
 
   /// Throws std::invalid_argument if the variable is of the other kind.
   template <NetworkKind Kind>
-  const Variable<Kind>& as() const {
+  const Variable<Kind>& as() const& {
     if (const auto* const variable = std::get_if<Variable<Kind>>(&variable_)) return *variable;
     throw std::invalid_argument("variable '" + name() + "' is " + std::string(kind_name()) + ", not " +
                                 std::string(Kind::name));
+  }
+
+  template <NetworkKind Kind>
+  Variable<Kind> as() const&& {
+    const NetworkVariable& named = *this;
+    return named.as<Kind>();
   }
 
   /// "random" or "fuzzy".
   std::string_view kind_name() const {
     return visit([]<class Kind>(const Variable<Kind>&) { return Kind::name; });
   }
-  const Outcomes& outcomes() const {
+  const Outcomes& outcomes() const& {
     return visit([](const Outcomes& outcomes) -> const Outcomes& { return outcomes; });
   }
-  const std::string& name() const { return outcomes().name(); }
+  Outcomes outcomes() const&& {
+    return visit([](const Outcomes& outcomes) { return outcomes; });
+  }
+  const std::string& name() const& { return outcomes().name(); }
+  std::string name() const&& { return outcomes().name(); }
   std::size_t size() const { return outcomes().size(); }
   std::string label(std::size_t index) const { return outcomes().label(index); }
   std::size_t index_of(std::string_view label) const { return outcomes().index_of(label); }

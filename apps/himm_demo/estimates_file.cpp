@@ -1,0 +1,65 @@
+#include "himm_demo/estimates_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/angle.hpp"
+
+namespace sigmax::apps {
+EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
+                             const RecordingReader& recording)
+    : file_(directory.file("estimates.csv")), recording_(recording) {
+  for (const auto& filter : filters)
+    for (const auto& motion : filter.motions) turns_ = turns_ || motion.type == MotionType::ct;
+  models_ = model_names(filters);
+  file_.write(recording_.has_tracks() ? "time_s,track,filter" : "time_s,filter");
+  file_.write(
+      ",x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_x_m,sigma_y_m,sigma_z_m,"
+      "sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,nis");
+  if (turns_) file_.write(",turn_rate_deg_s");
+  for (const auto& model : models_) file_.print(",weight_{}", model);
+  file_.write(recording_.geodetic() ? ",most_likely,latitude_deg,longitude_deg,altitude_m\n" : ",most_likely\n");
+}
+
+template <int Axes>
+void EstimatesFile::add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point) {
+  const auto& estimate = point.estimate;
+  const auto has = [&](int order, int axis) { return axis < Axes && order * Axes + axis < estimate.size(); };
+  file_.write(shortest(point.time));
+  if (recording_.has_tracks()) file_.print(",{}", csv_field(track));
+  file_.print(",{}", csv_field(settings.name));
+  for (int order = 0; order < 3; ++order)
+    for (int axis = 0; axis < 3; ++axis)
+      cell(has(order, axis) ? std::optional(estimate.mean(order * Axes + axis)) : std::nullopt);
+  for (int order = 0; order < 2; ++order)
+    for (int axis = 0; axis < 3; ++axis) {
+      const int i = order * Axes + axis;
+      cell(has(order, axis) ? std::optional(std::sqrt(estimate.covariance(i, i))) : std::nullopt);
+    }
+  cell(point.nis);
+  if (turns_) cell(point.turn_rate ? std::optional(*point.turn_rate / degree) : std::nullopt);
+  for (const auto& model : models_) {
+    const auto own = std::find(settings.models.begin(), settings.models.end(), model);
+    cell(own == settings.models.end()
+             ? std::nullopt
+             : std::optional(point.weights[static_cast<std::size_t>(own - settings.models.begin())]));
+  }
+  file_.print(",{}", settings.models[point.most_likely_mode]);
+  if (recording_.geodetic()) {
+    const double east = estimate.mean(0), north = estimate.mean(1);
+    const LocalFrame& frame = recording_.frame();
+    const Geodetic place =
+        Axes == 3 ? frame.to_geodetic({east, north, estimate.mean(Axes - 1)}) : frame.to_surface(east, north);
+    cell(place.latitude_deg());
+    cell(place.longitude_deg());
+    cell(Axes == 3 ? std::optional(place.altitude) : std::nullopt);
+  }
+  file_.write("\n");
+}
+
+void EstimatesFile::cell(std::optional<double> value) { file_.print(",{}", value ? shortest(*value) : ""); }
+
+template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<2>&);
+template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<3>&);
+
+}  // namespace sigmax::apps

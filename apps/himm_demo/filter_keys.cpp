@@ -1,0 +1,337 @@
+#include "himm_demo/filter_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "support/angle.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using FilterKey = Key<FilterSettings>;
+
+template <class Value>
+using Names = std::initializer_list<std::pair<std::string_view, Value>>;
+
+const Names<Scheme> schemes = {{"interacting", Scheme::interacting},
+                               {"common_start", Scheme::common_start},
+                               {"second_order", Scheme::second_order},
+                               {"independent", Scheme::independent}};
+const Names<MemberType> members = {
+    {"kf", MemberType::kf}, {"ekf", MemberType::ekf}, {"ukf", MemberType::ukf}, {"ckf", MemberType::ckf}};
+const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
+                                                  {"own", MixedCovariance::own},
+                                                  {"own_recentred", MixedCovariance::own_recentred},
+                                                  {"released", MixedCovariance::released}};
+const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
+                                             {"released", MixingWeights::released}};
+const Names<Lift> lifts = {
+    {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
+const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
+const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
+                                           {"possibility", LikelihoodForm::possibility}};
+const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
+const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
+const Names<Start> starts = {{"points", Start::points}, {"released", Start::released}, {"given", Start::given}};
+const Names<RadarForm> radar_forms = {{"standard", RadarForm::standard},
+                                      {"unbiased", RadarForm::unbiased},
+                                      {"debiased", RadarForm::debiased},
+                                      {"polar", RadarForm::polar}};
+
+/// What a number must be.
+struct Range {
+  std::string_view expected;
+  bool (*holds)(double);
+  std::string_view remedy = {};
+
+  void require(const Settings& settings, std::string_view key, double value) const {
+    if (!(std::isfinite(value) && holds(value))) throw settings.error(key, expected, remedy);
+  }
+};
+
+bool positive(double value) { return value > 0.0; }
+bool not_negative(double value) { return value >= 0.0; }
+bool any(double) { return true; }
+
+constexpr std::string_view small_sigma = "a covariance is positive definite: give a small one rather than 0";
+
+/// One out of several names.
+template <class Value>
+FilterKey choice(std::string name, std::string meaning, Value FilterSettings::*member, Names<Value> names) {
+  std::vector<std::string_view> values;
+  for (const auto& [word, value] : names) values.push_back(word);
+  return {name, std::move(meaning), fmt::format("{}", fmt::join(values, ", ")),
+          [=](const Settings& settings, FilterSettings& filter) {
+            filter.*member = settings.choice(name, names, filter.*member);
+          },
+          [=](const FilterSettings& filter) {
+            const auto found = std::find_if(names.begin(), names.end(),
+                                            [&](const auto& entry) { return entry.second == filter.*member; });
+            return fmt::format("\"{}\"", found->first);
+          }};
+}
+
+/// A number, which `of` finds in its owner in another unit.
+template <class Owner, class Of>
+Key<Owner> number(std::string name, std::string meaning, Of of, Range range, double unit = 1.0) {
+  return {name, std::move(meaning), std::string(range.expected),
+          [=](const Settings& settings, Owner& owner) {
+            const double value = settings.number(name, std::invoke(of, owner) / unit);
+            range.require(settings, name, value);
+            std::invoke(of, owner) = value * unit;
+          },
+          [=](Owner owner) { return toml_number(std::invoke(of, owner) / unit); }};
+}
+
+/// The same where there may be none.
+FilterKey optional_number(std::string name, std::string meaning, std::optional<double> FilterSettings::*member,
+                          Range range) {
+  return {name,
+          std::move(meaning),
+          std::string(range.expected),
+          [=](const Settings& settings, FilterSettings& filter) {
+            if (const auto value = settings.number(name)) filter.*member = value;
+            if (filter.*member) range.require(settings, name, *(filter.*member));
+          },
+          [=](const FilterSettings& filter) { return filter.*member ? toml_number(*(filter.*member)) : ""; },
+          [=](const FilterSettings& filter) { return (filter.*member).has_value(); }};
+}
+
+/// A list of numbers.
+template <class Owner>
+Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Owner::*member, Range range) {
+  return {name,
+          std::move(meaning),
+          std::string(range.expected),
+          [=](const Settings& settings, Owner& owner) {
+            owner.*member = settings.numbers(name, owner.*member);
+            for (const double value : owner.*member) range.require(settings, name, value);
+          },
+          [=](const Owner& owner) { return (owner.*member).empty() ? "" : toml_list(owner.*member); },
+          [=](const Owner& owner) { return !(owner.*member).empty(); }};
+}
+
+/// A number for each model: one for all, or one each.
+FilterKey per_model(std::string name, std::string meaning, double Motion::*member, Range range,
+                    bool (*has)(const Motion&)) {
+  const auto values = [=](const FilterSettings& filter) {
+    std::vector<double> result;
+    for (const auto& motion : filter.motions) result.push_back(motion.*member);
+    return result;
+  };
+  return {name,
+          std::move(meaning),
+          std::string(range.expected) + "; one, or one a model",
+          [=](const Settings& settings, FilterSettings& filter) {
+            auto given = settings.numbers(name, {filter.motions.front().*member});
+            if (given.size() == 1) given.resize(filter.motions.size(), given.front());
+            if (given.size() != filter.motions.size()) throw settings.error(name, "one number, or one for each model");
+            for (std::size_t i = 0; i < given.size(); ++i) {
+              range.require(settings, name, given[i]);
+              filter.motions[i].*member = given[i];
+            }
+          },
+          [=](const FilterSettings& filter) { return toml_list(values(filter)); },
+          [=](const FilterSettings& filter) { return std::any_of(filter.motions.begin(), filter.motions.end(), has); }};
+}
+
+/// The models themselves; each new one is as the first of those that were there.
+FilterKey models() {
+  return {"models", "The motions that the target may follow.", fmt::format("{}", fmt::join(motion_names(), ", ")),
+          [](const Settings& settings, FilterSettings& filter) {
+            std::vector<std::string> names;
+            for (const auto& motion : filter.motions) names.emplace_back(name_of(motion.type));
+            const Motion usual = filter.motions.front();
+            filter.motions.clear();
+            const std::string known = fmt::format("{}", fmt::join(motion_names(), ", "));
+            for (const auto& name : settings.strings("models", names)) {
+              const auto type = motion_type(name);
+              if (!type) throw settings.error("models", "names out of " + known);
+              filter.motions.push_back(usual);
+              filter.motions.back().type = *type;
+            }
+            if (filter.motions.empty()) throw settings.error("models", "at least one of " + known);
+            filter.models = names_of(filter.motions);
+          },
+          [](const FilterSettings& filter) {
+            std::vector<std::string> names;
+            for (const auto& motion : filter.motions) names.push_back(fmt::format("\"{}\"", name_of(motion.type)));
+            return fmt::format("[{}]", fmt::join(names, ", "));
+          }};
+}
+
+/// The transition of one kind of mode. That of the other kind is read too, so that it is no unknown key.
+FilterKey transition(std::string name, std::string meaning, std::string values, std::string by_default, bool fuzzy) {
+  return {name,
+          std::move(meaning),
+          std::move(values),
+          [=](const Settings& settings, FilterSettings& filter) {
+            const std::size_t modes = filter.models.size();
+            const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
+            const double leaves = fuzzy ? filter.leaving_possibility : 0.05 / others;
+            std::vector<std::vector<double>> rows(modes, std::vector<double>(modes, leaves));
+            for (std::size_t i = 0; i < modes; ++i) rows[i][i] = fuzzy || modes == 1 ? 1.0 : 0.95;
+            rows = settings.matrix(name, rows);
+            if (filter.fuzzy == fuzzy) filter.transition = rows;
+          },
+          [](const FilterSettings& filter) {
+            std::vector<std::string> rows;
+            for (const auto& row : filter.transition) rows.push_back(toml_list(row));
+            return fmt::format("[{}]", fmt::join(rows, ", "));
+          },
+          [=](const FilterSettings& filter) {
+            return filter.fuzzy == fuzzy && filter.scheme != Scheme::independent && filter.sojourn_s.empty();
+          },
+          std::move(by_default)};
+}
+
+FilterKey smooth() {
+  return {"smooth",
+          "Whether the output is of the whole recording rather than of what came before.",
+          "true, false",
+          [](const Settings& settings, FilterSettings& filter) {
+            filter.smooth = settings.boolean("smooth", filter.smooth);
+          },
+          [](const FilterSettings& filter) { return filter.smooth ? "true" : "false"; },
+          [](const FilterSettings& filter) { return filter.smooth; }};
+}
+
+/// The key where `applies`.
+FilterKey only(bool (*applies)(const FilterSettings&), FilterKey key) {
+  const auto before = key.applies;
+  key.applies = [=](const FilterSettings& filter) { return applies(filter) && before(filter); };
+  return key;
+}
+
+bool turns(const FilterSettings& filter) {
+  return std::any_of(filter.motions.begin(), filter.motions.end(),
+                     [](const Motion& motion) { return !motion.linear(); });
+}
+bool mixes(const FilterSettings& filter) {
+  return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
+}
+bool given(const FilterSettings& filter) { return filter.start == Start::given; }
+
+std::vector<FilterKey> made_filter_keys() {
+  using F = FilterSettings;
+  return {
+      choice("scheme", "When several modes become one Gaussian.", &F::scheme, schemes),
+      models(),
+      per_model("sigma_w", "Strength of the noise; its unit depends on the model.", &Motion::sigma_w,
+                {"numbers that are not negative", not_negative}, [](const Motion&) { return true; }),
+      per_model("tau_s", "How long singer, ou_velocity and ou_position remember.", &Motion::tau_s,
+                {"positive times, in s", positive}, [](const Motion& motion) { return motion.has_tau(); }),
+      per_model("turn_deg_s", "The rate of known_turn.", &Motion::turn_deg_s,
+                {"rates in °/s, counter-clockwise from above", any},
+                [](const Motion& motion) { return motion.type == MotionType::known_turn; }),
+      per_model("turn_drift_deg_s", "Standard deviation of what the rate of ct changes in one second.",
+                &Motion::turn_drift_deg_s, {"numbers that are not negative, in °/s", not_negative},
+                [](const Motion& motion) { return motion.type == MotionType::ct; }),
+      only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
+           choice("member",
+                  "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
+                  "have the Kalman filter, and kf refuses others.",
+                  &F::member, members)),
+      only(
+          [](const F& f) { return f.scheme != Scheme::independent; },
+          numbers("sojourn_s",
+                  "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
+                  "time between two rows, and Π that P on the ratio scale.",
+                  &F::sojourn_s, {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
+      transition("transition_probability", "P, from one row to the next. For a random mode.",
+                 "rows of numbers that sum to 1", ".95 on the diagonal", false),
+      transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
+                 "rows of numbers whose maximum is 1", "1 on the diagonal, else 1/2; preset released: 1/5", true),
+      only([](const F& f) { return f.fuzzy && mixes(f); },
+           choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
+                  mixed_covariances)),
+      only([](const F& f) { return f.fuzzy && f.scheme != Scheme::independent; },
+           choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
+                  ties)),
+      only([](const F& f) { return !f.fuzzy && mixes(f); },
+           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, mixing_weights)),
+      only([](const F& f) { return !f.fuzzy; },
+           choice("output_spread",
+                  "Whether the output's covariance (68) has the spread of the means, or omits it as printed. For a "
+                  "random mode.",
+                  &F::output_spread, spreads)),
+      choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
+             &F::likelihood, likelihoods),
+      choice("lift", "What stands for a component that a model lacks.", &F::lift, lifts),
+      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output, outputs),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties),
+      choice("start",
+             "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
+             "given.",
+             &F::start, starts),
+      only(turns,
+           number<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
+                     &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
+      only(given, numbers("start_mean", "The mean of a given start.", &F::start_mean,
+                          {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
+      only(given,
+           numbers("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
+                   {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
+      only(given, optional_number("start_time_s",
+                                  "When a given start holds; without it, one step before the first measurement.",
+                                  &F::start_time_s, {"a time, in s", any})),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           number<F>("gate_probability",
+                     "The probability that a right measurement passes the gate. What does not pass counts as missed. 1 "
+                     "is no gate.",
+                     &F::gate_probability,
+                     {"a probability above 0; 1 is no gate", [](double p) { return p > 0.0 && p <= 1.0; }})),
+      optional_number("restart_after_s",
+                      "After so long without a measurement that passes, the filter starts again from the next three.",
+                      &F::restart_after_s, {"a positive time, in s", positive}),
+      smooth(),
+      choice("radar_measurement",
+             "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
+             "own space.",
+             &F::radar_measurement, radar_forms)};
+}
+
+std::vector<Key<Accuracy>> made_accuracy_keys() {
+  constexpr Range sigma{"a positive standard deviation", positive, small_sigma};
+  auto position = numbers("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
+                          &Accuracy::position_m, {"positive standard deviations", positive, small_sigma});
+  position.read = [read = position.read](const Settings& settings, Accuracy& accuracy) {
+    read(settings, accuracy);
+    if (accuracy.position_m.size() != 1 && accuracy.position_m.size() != 3)
+      throw settings.error("sigma_position_m", "one standard deviation, or one for each of x, y, z");
+  };
+  const auto radar = [&](const char* name, const char* of, double& (*in)(Accuracy&), double unit) {
+    auto key = number<Accuracy>(name, fmt::format("Accuracy of a radar's {}, as the filters believe it.", of), in,
+                                sigma, unit);
+    key.by_default = "that of --radar, or of the group";
+    return key;
+  };
+  return {radar(
+              "sigma_range_m", "range", [](Accuracy& a) -> double& { return a.radar.range; }, 1.0),
+          radar(
+              "sigma_azimuth_deg", "azimuth", [](Accuracy& a) -> double& { return a.radar.azimuth; }, degree),
+          radar(
+              "sigma_elevation_deg", "elevation", [](Accuracy& a) -> double& { return a.radar.elevation; }, degree),
+          std::move(position)};
+}
+
+}  // namespace
+
+const std::vector<FilterKey>& filter_keys() {
+  static const std::vector<FilterKey> keys = made_filter_keys();
+  return keys;
+}
+
+const std::vector<Key<Accuracy>>& accuracy_keys() {
+  static const std::vector<Key<Accuracy>> keys = made_accuracy_keys();
+  return keys;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,190 @@
+#include "himm_demo/track_report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "support/output.hpp"
+#include "support/table.hpp"
+#include "version.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Makes the report part by part; text and data grow together.
+class Reporter {
+ public:
+  Reporter(const TrackOptions& options, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
+           const TrackOutcome& outcome)
+      : options_(options), recording_(recording), filters_(filters), outcome_(outcome) {}
+
+  TrackReport made() {
+    describe_run();
+    describe_recording();
+    describe_starts();
+    warn();
+    const std::size_t part_count = recording_.has_roll() ? parts.size() : 1;
+    for (std::size_t p = 0; p < part_count; ++p) tabulate(p);
+    return {text_, summary_.dump(2) + "\n", warnings_};
+  }
+
+ private:
+  void describe_run() {
+    summary_ = {{"version", version}, {"command", options_.command}, {"file", file_}};
+    summary_["seed"] = options_.seed;
+    if (options_.radar) {
+      summary_["radar"] = {{"sigma_range_m", (*options_.radar)[0]},
+                           {"sigma_azimuth_deg", (*options_.radar)[1]},
+                           {"sigma_elevation_deg", (*options_.radar)[2]}};
+    }
+    if (options_.radar || recording_.polar()) summary_["radar"]["at_m"] = radar_at();
+    if (recording_.geodetic()) {
+      const Geodetic& origin = recording_.frame().origin();
+      summary_["origin"] = {{"latitude_deg", origin.latitude_deg()},
+                            {"longitude_deg", origin.longitude_deg()},
+                            {"altitude_m", origin.altitude}};
+    }
+    summary_["rows"] = outcome_.rows;
+    summary_["measurements"] = outcome_.measurements;
+    summary_["skipped"] = recording_.skipped();
+    if (recording_.has_sensors()) summary_["sensors"] = outcome_.sensors;
+    if (recording_.has_tracks())
+      summary_["tracks"] = {{"count", outcome_.tracks}, {"never_started", outcome_.never_started}};
+    summary_["settings_toml"] = as_toml(filters_);
+  }
+
+  void describe_recording() {
+    const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
+      return filter.radar_measurement == RadarForm::polar;
+    });
+    text_ = fmt::format("{}: {} rows, {} measurements, {} axes{}{}\n", file_, outcome_.rows, outcome_.measurements,
+                        recording_.axes(), recording_.geodetic() ? ", geodetic to local east-north-up" : "",
+                        !recording_.polar() ? ""
+                        : converted         ? ", a radar's measurements converted"
+                                            : ", a radar's measurements");
+    if (recording_.has_sensors()) {
+      std::vector<std::string> counts;
+      for (const auto& [sensor, count] : outcome_.sensors) counts.push_back(fmt::format("{} {}", sensor, count));
+      text_ += fmt::format("Rows by sensor: {}\n", fmt::join(counts, ", "));
+    }
+    if (recording_.has_tracks()) {
+      text_ += fmt::format("{} tracks by {}", outcome_.tracks, options_.recording.track_id);
+      if (!outcome_.never_started.empty())
+        text_ += fmt::format(", {} of them too short for every filter to start", outcome_.never_started.size());
+      text_ += "\n";
+    }
+    if (recording_.skipped() > 0)
+      text_ += fmt::format("Skipped {} rows whose time was not after that of the row before\n", recording_.skipped());
+  }
+
+  void describe_starts() {
+    const auto by_filter = [&](const char* key, const char* what, std::size_t FilterOutcome::*count) {
+      std::vector<std::string> counts;
+      for (std::size_t f = 0; f < filters_.size(); ++f)
+        if (const std::size_t total = outcome_.filters[f].*count; total > 0) {
+          counts.push_back(fmt::format("{} {}", filters_[f].name, total));
+          summary_[key][filters_[f].name] = total;
+        }
+      if (!counts.empty()) text_ += fmt::format("{}: {}\n", what, fmt::join(counts, ", "));
+    };
+    by_filter("rejected", "Measurements that the gate turned away", &FilterOutcome::rejected);
+    by_filter("restarts", "Starts after a gap", &FilterOutcome::restarts);
+    if (!options_.radar) return;
+    const auto& sigma = *options_.radar;
+    const auto at = radar_at();
+    text_ += fmt::format(
+        "The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed "
+        "{}\n",
+        shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]), shortest(at[2]),
+        options_.seed);
+  }
+
+  void warn() {
+    if (outcome_.validity.broken()) warnings_.push_back(outcome_.validity.warning(file_));
+    if (outcome_.outliers.any()) warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements));
+    for (const auto& filter : filters_)
+      for (const auto& [sensor, accuracy] : filter.sensors)
+        if (!outcome_.sensors.contains(sensor))
+          warnings_.push_back(fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", sensor,
+                                          filter.name, file_));
+    if (!warnings_.empty()) summary_["warnings"] = warnings_;
+  }
+
+  /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
+  void tabulate(std::size_t p) {
+    const bool truth_known = options_.radar || recording_.has_truth();
+    std::vector<TextTable::Column> columns = {{std::string(parts[p].name), Align::left}, {"rows"}};
+    const auto add_columns = [&](std::string_view label) {
+      for (std::size_t axis = 0; axis < axes(); ++axis)
+        columns.push_back({fmt::format("{}{}", axis == 0 ? label : "", axis_names[axis])});
+    };
+    if (truth_known) add_columns("RMSE, m: ");
+    add_columns("σ, m: ");
+    columns.push_back({"mean NIS"});
+    columns.push_back({"mean weights", Align::left});
+    TextTable table(columns);
+    Json part;
+    if (truth_known) row(table, part, "measurement", outcome_.raw[p], nullptr, truth_known);
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      row(table, part, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
+    text_ += "\n" + table.text();
+    summary_["results"][std::string(parts[p].name)] = part;
+  }
+
+  void row(TextTable& table, Json& part, const std::string& name, const Sums& sums, const FilterSettings* filter,
+           bool truth_known) const {
+    std::vector<std::string> cells = {name};
+    Json result;
+    const std::size_t count = filter ? sums.count : sums.error[0].count();
+    result["rows"] = count;
+    cells.push_back(std::to_string(count));
+    const auto add_cells = [&](const char* key, const std::array<RootMeanSquare, 3>& values) {
+      for (std::size_t axis = 0; axis < axes(); ++axis) {
+        const bool known = values[axis].count() > 0;
+        cells.push_back(known ? fmt::format("{:.2f}", values[axis].value()) : filter ? "–" : "");
+        if (known) result[key][axis_names[axis]] = values[axis].value();
+      }
+    };
+    if (truth_known) add_cells("rmse_m", sums.error);
+    add_cells("sigma_m", sums.sigma);
+    std::string weights;
+    if (filter) {
+      if (sums.nis_count > 0) result["mean_nis"] = sums.nis / static_cast<double>(sums.nis_count);
+      for (std::size_t j = 0; j < filter->models.size() && count > 0; ++j) {
+        const double weight = sums.weights[j] / static_cast<double>(count);
+        weights += fmt::format("{}{} {:.3f}", j ? ", " : "", filter->models[j], weight);
+        result["mean_weight"][filter->models[j]] = weight;
+      }
+    }
+    cells.push_back(filter && sums.nis_count > 0 ? fmt::format("{:.2f}", sums.nis / static_cast<double>(sums.nis_count))
+                                                 : "");
+    cells.push_back(weights);
+    table.row(cells);
+    part[name] = result;
+  }
+
+  std::size_t axes() const { return static_cast<std::size_t>(recording_.axes()); }
+  std::array<double, 3> radar_at() const { return options_.radar_at.value_or(std::array{0.0, 0.0, 0.0}); }
+
+  const TrackOptions& options_;
+  const RecordingReader& recording_;
+  const std::vector<FilterSettings>& filters_;
+  const TrackOutcome& outcome_;
+  const std::string& file_ = recording_.csv().file();
+  std::string text_;
+  Json summary_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+TrackReport report(const TrackOptions& options, const RecordingReader& recording,
+                   const std::vector<FilterSettings>& filters, const TrackOutcome& outcome) {
+  return Reporter(options, recording, filters, outcome).made();
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,242 @@
+#include "himm_demo/track_run.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "himm_demo/estimates_file.hpp"
+#include "himm_demo/scenario.hpp"
+#include "himm_demo/tracker.hpp"
+#include "support/angle.hpp"
+#include "support/output.hpp"
+#include "support/progress.hpp"
+#include "support/random.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+void add_error(Sums& sums, const Vector<3>& error) {
+  for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));
+}
+
+/// A stream of random numbers for each track, whichever others a file holds: the 64-bit FNV-1a of its name.
+std::uint64_t stream_of(std::string_view track) {
+  if (track.empty()) return 0;
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  for (const char byte : track) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+  return hash;
+}
+
+/// One target of a recording, followed by every filter.
+template <int Axes>
+struct Target {
+  Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
+      : trackers(filters.begin(), filters.end()), random(random_stream), rows(filters.size()) {}
+
+  bool all_started() const {
+    return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
+  }
+
+  std::vector<Tracker<Axes>> trackers;
+  RandomStream random;
+  Fix now;
+  Fix before;                          // a start may wait for the row after it
+  std::vector<std::vector<Fix>> rows;  // of the steps of each filter that waits to be smoothed
+};
+
+/// All filters on all targets of one recording.
+template <int Axes>
+class TrackRun {
+ public:
+  TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
+           EstimatesFile* estimates)
+      : options_(options), recording_(recording), filters_(filters), estimates_(estimates) {
+    outcome_.filters.resize(filters.size());
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      for (auto& part : outcome_.filters[f].sums) part.weights.assign(filters[f].models.size(), 0.0);
+    if (options.radar_at) radar_at_ = Vector<3>(options.radar_at->data());
+  }
+
+  TrackOutcome run() {
+    const auto total = recording_.csv().bytes_total();
+    Progress progress(file(), total.value_or(1), options_.quiet || !total);
+    std::uint64_t done = 0;
+    for (Fix fix; recording_.next(fix);) {
+      take(fix);
+      progress.advance(recording_.csv().bytes_read() - done);
+      done = recording_.csv().bytes_read();
+    }
+    progress.finish();
+    for (auto& [name, target] : targets_) smooth(target);
+    outcome_.tracks = targets_.size();
+    for (const auto& [name, target] : targets_) count(name, target);
+    if (outcome_.never_started.size() == targets_.size()) refuse_nothing();
+    return std::move(outcome_);
+  }
+
+ private:
+  const std::string& file() const { return recording_.csv().file(); }
+
+  void count(const std::string& name, const Target<Axes>& target) {
+    if (!target.all_started()) outcome_.never_started.push_back(name);
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      const Tracker<Axes>& tracker = target.trackers[f];
+      outcome_.filters[f].rejected += tracker.rejected();
+      outcome_.filters[f].restarts += tracker.starts() > 0 ? tracker.starts() - 1 : 0;
+    }
+  }
+
+  void take(Fix fix) {
+    ++outcome_.rows;
+    if (fix.measured()) ++outcome_.measurements;
+    if (recording_.has_sensors()) ++outcome_.sensors[fix.sensor];
+    auto target = targets_.find(fix.track);
+    if (target == targets_.end())
+      target = targets_.try_emplace(fix.track, filters_, RandomStream(options_.seed, stream_of(fix.track))).first;
+    if (options_.radar && fix.position) see_by_radar(fix, target->second.random);
+    if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
+    if (fix.truth && fix.measured())
+      add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
+        add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
+      });
+    step(target->second, fix);
+  }
+
+  void step(Target<Axes>& target, const Fix& fix) {
+    target.before = std::exchange(target.now, fix);
+    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
+      auto& tracker = target.trackers[f];
+      try {
+        tracker.take(fix.time_s, reading(fix, tracker.settings()), [&](double time) {
+          const Fix& row = time == target.now.time_s ? target.now : target.before;
+          if (tracker.settings().smooth)
+            target.rows[f].push_back(row);
+          else
+            record(row, f, tracker.now());
+        });
+      } catch (const InputError&) {
+        throw;  // of the output
+      } catch (const std::exception& error) {
+        refuse_failure(f, fix, error);
+      }
+    }
+    std::optional<double> least;  // of the filters' NIS
+    for (const auto& tracker : target.trackers) {
+      const auto nis = tracker.running() ? tracker.nis() : std::nullopt;
+      if (nis && (!least || *nis < *least)) least = nis;
+    }
+    if (least) outcome_.outliers.add(fix.line, *least);
+  }
+
+  /// Takes the position for the truth and sees it by the simulated radar.
+  void see_by_radar(Fix& fix, RandomStream& random) const {
+    const auto& [range, azimuth, elevation] = *options_.radar;
+    const Polar seen =
+        measure(to_polar(*fix.position - radar_at_), {range, azimuth * degree, elevation * degree}, random);
+    if (!(seen.range > 0.0))
+      throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
+                                .what = "the simulated radar",
+                                .found = fmt::format("a range of {} m", shortest(seen.range)),
+                                .expected = "a positive one",
+                                .remedy = "put the radar farther from the track with --radar-at=E,N,U"}));
+    fix.truth = std::exchange(fix.position, std::nullopt);
+    fix.seen = seen;
+  }
+
+  /// The steps of a target whose rows have all been read, as smoothing sees them.
+  void smooth(Target<Axes>& target) {
+    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
+      std::vector<TrackPoint<Axes>> points;
+      try {
+        points = target.trackers[f].finish();
+      } catch (const std::exception& error) {
+        refuse_failure(f, target.now, error);
+      }
+      auto row = target.rows[f].begin();
+      for (const auto& point : points)
+        if (!point.is_start) record(*row++, f, point);
+    }
+    target.rows.clear();
+  }
+
+  /// What a row measures, with the covariance that a filter believes.
+  std::optional<Reading<Axes>> reading(const Fix& fix, const FilterSettings& settings) const {
+    if (!fix.measured()) return std::nullopt;
+    const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
+    if (fix.seen) return radar_reading<Axes>(*fix.seen, accuracy.radar, radar_at_, settings.radar_measurement);
+    Gaussian<Axes> z{fix.position->template head<Axes>(), SquareMatrix<Axes>::Zero()};
+    for (Eigen::Index axis = 0; axis < Axes; ++axis) {
+      const auto& sigma = accuracy.position_m;
+      z.covariance(axis, axis) = std::pow(sigma.size() == 1 ? sigma[0] : sigma[static_cast<std::size_t>(axis)], 2);
+    }
+    return Reading<Axes>{z, std::nullopt};
+  }
+
+  template <class Add>
+  static void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (parts[p].holds(roll)) add(sums[p]);
+  }
+
+  /// Takes down what filter f says of a row.
+  void record(const Fix& fix, std::size_t f, const TrackPoint<Axes>& point) {
+    if (estimates_) estimates_->add(fix.track, filters_[f], point);
+    const auto& estimate = point.estimate;
+    add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
+      ++sums.count;
+      for (Eigen::Index axis = 0; axis < Axes; ++axis)
+        sums.sigma[static_cast<std::size_t>(axis)].add_square(estimate.covariance(axis, axis));
+      if (fix.truth) {
+        Vector<3> error = Vector<3>::Zero();
+        error.template head<Axes>() = estimate.mean.template head<Axes>() - fix.truth->template head<Axes>();
+        add_error(sums, error);
+      }
+      for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
+      if (point.nis) {
+        sums.nis += *point.nis;
+        ++sums.nis_count;
+      }
+    });
+  }
+
+  [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const std::exception& error) const {
+    throw InputError(message(
+        {.where = fmt::format("{}:{}", file(), fix.line),
+         .what = fmt::format("filter '{}' at time {} s: {}", filters_[f].name, shortest(fix.time_s), error.what()),
+         .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
+  }
+
+  [[noreturn]] void refuse_nothing() const {
+    if (outcome_.rows == 0 && !options_.recording.select.empty())
+      throw InputError(message({.where = file(),
+                                .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
+                                .remedy = "see how the file writes the value"}));
+    throw InputError(
+        message({.where = file(),
+                 .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
+                                             : "there is too little for every filter to start",
+                 .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
+                 .expected = "at least three measurements (two rows if the start is given)",
+                 .remedy = "give more rows, or start = \"given\" with start_time_s"}));
+  }
+
+  const TrackOptions& options_;
+  RecordingReader& recording_;
+  const std::vector<FilterSettings>& filters_;
+  EstimatesFile* estimates_;
+  std::map<std::string, Target<Axes>, std::less<>> targets_;
+  TrackOutcome outcome_;
+  Vector<3> radar_at_ = Vector<3>::Zero();
+};
+
+}  // namespace
+
+TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
+                       const std::vector<FilterSettings>& filters, EstimatesFile* estimates) {
+  if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, estimates).run();
+  return TrackRun<2>(options, recording, filters, estimates).run();
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/metrics.hpp>
+
+#include "himm_demo/track.hpp"
+#include "himm_demo/track_warnings.hpp"
+
+namespace sigmax::apps {
+
+class EstimatesFile;
+
+/// Rows that are judged together: all, or by the aircraft's bank where the recording tells it.
+struct Part {
+  std::string_view name;
+  bool (*holds)(std::optional<double> roll_deg);
+};
+inline constexpr std::array<Part, 3> parts = {{
+    {"all", [](std::optional<double>) { return true; }},
+    {"|roll| > 15°", [](std::optional<double> roll) { return roll && std::abs(*roll) > 15.0; }},
+    {"|roll| < 3°", [](std::optional<double> roll) { return roll && std::abs(*roll) < 3.0; }},
+}};
+
+/// What is added up over the rows of one part.
+struct Sums {
+  std::array<RootMeanSquare, 3> error;
+  std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
+  std::vector<double> weights;
+  double nis = 0.0;
+  std::size_t nis_count = 0;
+  std::size_t count = 0;
+};
+using SumsByPart = std::array<Sums, parts.size()>;
+
+/// What one filter made of the recording.
+struct FilterOutcome {
+  SumsByPart sums;
+  std::size_t rejected = 0;  ///< by the gate
+  std::size_t restarts = 0;  ///< after a gap
+};
+
+/// What all filters made of all targets of one recording.
+struct TrackOutcome {
+  std::vector<FilterOutcome> filters;
+  SumsByPart raw;  ///< of the measurements, where the truth is known
+  std::size_t rows = 0;
+  std::size_t measurements = 0;
+  std::size_t tracks = 0;
+  std::vector<std::string> never_started;      ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;  ///< the rows of each
+  Validity validity;
+  Outliers outliers;
+};
+
+/// Runs all filters over a recording. `estimates` may be null. Throws InputError with file and line.
+TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
+                       const std::vector<FilterSettings>& filters, EstimatesFile* estimates);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,57 @@
+#include "himm_demo/track_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace sigmax::apps {
+namespace {
+constexpr double validity_limit = 0.4;
+constexpr double nis_limit = 30.0;
+}  // namespace
+
+void Validity::add(const Fix& fix, const Polar& seen, const std::vector<FilterSettings>& filters) {
+  ++measurements_;
+  double worst = 0.0;
+  for (const auto& filter : filters) {
+    if (filter.radar_measurement != RadarForm::standard) continue;
+    const Polar& sigma = filter.accuracy_of(fix.sensor).radar;
+    const double value = conversion_validity(seen.range, sigma);
+    worst = std::max(worst, value);
+    if (value >= validity_limit)
+      sigma_range_needed_ = std::max(sigma_range_needed_, value * sigma.range / validity_limit);
+  }
+  if (worst < validity_limit) return;
+  if (outside_++ > 0) return;
+  first_line_ = fix.line;
+  first_value_ = worst;
+  first_range_ = seen.range;
+}
+
+std::string Validity::warning(const std::string& file) const {
+  const double unit = std::pow(10.0, std::floor(std::log10(sigma_range_needed_)) - 1.0);
+  return fmt::format(
+      "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements holds "
+      "below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance covers "
+      "the error of the conversion, or radar_measurement=polar, which converts only for the start",
+      file, first_line_, first_value_, first_range_, validity_limit, outside_, measurements_,
+      std::ceil(sigma_range_needed_ / unit) * unit);
+}
+
+void Outliers::add(std::size_t line, double nis) {
+  if (nis <= nis_limit) return;
+  ++count_;
+  if (nis <= worst_nis_) return;
+  worst_line_ = line;
+  worst_nis_ = nis;
+}
+
+std::string Outliers::warning(const std::string& file, std::size_t measurements) const {
+  return fmt::format(
+      "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
+      "or raise sigma_w or the sensor's sigmas",
+      file, worst_line_, worst_nis_, nis_limit, count_, measurements);
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <sigmax/core/mean_interval.hpp>
+
+#include "support/table.hpp"
+
+namespace sigmax::apps {
+
+/// A number with so many digits after the point. Great numbers come as 1.5e+150, NaN as "–".
+std::string number_text(double value, int digits, bool sign = false);
+
+/// As `number_text`, but what would be 0.00 keeps two digits that count: 0.0012, 3.4e-07.
+std::string sized_text(double value, int digits, bool sign = false);
+
+/// What a cell of a result holds: nothing, words, a number, a count, or a mean with its interval.
+class Cell {
+ public:
+  Cell() = default;
+  Cell(std::string words) : value_(std::move(words)) {}
+  Cell(std::string_view words) : value_(std::string(words)) {}
+  Cell(const char* words) : value_(std::string(words)) {}
+  Cell(double number) : value_(number) {}
+  Cell(Interval interval) : value_(interval) {}
+  template <std::integral Count>
+  Cell(Count count) : value_(static_cast<std::int64_t>(count)) {}
+
+  /// Nothing is known where there could be something: "–", null in JSON.
+  template <class T>
+  Cell(const std::optional<T>& value);
+
+  using Value = std::variant<std::monostate, std::string, double, std::int64_t, Interval>;
+  const Value& value() const { return value_; }
+
+ private:
+  Value value_;
+};
+
+/// How a column is named, and how its numbers are shown.
+struct ResultColumn {
+  std::string key{};      ///< in CSV and JSON; empty if the column is for the terminal only
+  std::string header{};   ///< on the terminal; empty if the column is for files only
+  std::string unit{};     ///< on the terminal, after the header and a comma
+  int digits = 2;         ///< after the point, on the terminal
+  double scale = 1.0;     ///< the terminal shows scale × the number: 100 for per cent
+  bool sign = false;      ///< the terminal shows a + before what is positive
+  bool sized = false;     ///< see `sized_text`
+  bool interval = false;  ///< its numbers are intervals: three columns in CSV
+  Align align = Align::right;
+  std::string group{};  ///< see `TextTable::Column`
+};
+
+/// Results as rows, which print themselves as text, CSV and JSON.
+///
+///     ResultTable table{{{.key = "filter", .header = "filter", .align = Align::left},
+///                        {.key = "rmse_m", .header = "RMSE", .unit = "m"}}};
+///     table.row({"IMM", 12.3});
+///     table.print(terminal_width);
+///     file.write(table.csv());
+///     summary["filters"] = table.json();   // {"IMM": {"rmse_m": 12.3}}
+///
+/// An interval is "+1.25 ± 0.40" on the terminal; in CSV it takes three columns, key, key_lower and key_upper; in JSON
+/// it is {"mean", "lower", "upper"}. If its numbers were all zero there is no spread to judge by: it is "none differs",
+/// and has no bounds.
+class ResultTable {
+ public:
+  explicit ResultTable(std::vector<ResultColumn> columns);
+
+  /// Adds a row with a cell a column; throws std::invalid_argument for another number.
+  void row(std::vector<Cell> cells);
+
+  /// Adds a rule below the rows so far; it is for the terminal only.
+  void rule();
+
+  bool empty() const { return rows_.empty(); }
+
+  /// The columns with a header. See `TextTable` for what does not fit; `any_width` fits all.
+  std::string text(std::size_t width = terminal_width) const;
+  void print(std::size_t width = terminal_width) const;
+
+  /// The columns with a key, below their keys.
+  std::string csv() const;
+
+  /// An object of each row by its first cell: those of its other columns that have a key, but for empty cells.
+  nlohmann::ordered_json json() const;
+
+  /// CSV for rows that are too many to keep: the first line, and a line of one row. Both end with a line break.
+  std::string csv_header() const;
+  std::string csv_line(const std::vector<Cell>& cells) const;
+
+ private:
+  void check(const std::vector<Cell>& cells) const;
+
+  std::vector<ResultColumn> columns_;
+  std::vector<std::vector<Cell>> rows_;  // a rule is a row without cells
+};
+
+/// The interval as JSON: {"mean", "lower", "upper"}.
+nlohmann::ordered_json as_json(const Interval& interval);
+
+template <class T>
+Cell::Cell(const std::optional<T>& value) {
+  if (value)
+    *this = Cell(*value);
+  else
+    value_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace sigmax::apps
