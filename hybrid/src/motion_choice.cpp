@@ -8,10 +8,14 @@ namespace sigmax {
 namespace {
 
 constexpr std::array<KnownParameter, 4> parameters{{
-    {"sigma_w", 3.0, [](double value) { return value >= 0.0; }, "numbers that are not negative"},
-    {"tau_s", 10.0, [](double value) { return value > 0.0; }, "positive times, in s"},
-    {"turn_deg_s", 3.0, [](double) { return true; }, "rates in °/s, counter-clockwise from above"},
-    {"turn_drift_deg_s", 0.2, [](double value) { return value >= 0.0; }, "numbers that are not negative, in °/s"},
+    {"sigma_w", "Strength of the noise; its unit depends on the model.", 3.0, [](double value) { return value >= 0.0; },
+     "numbers that are not negative"},
+    {"tau_s", "How long singer, ou_velocity and ou_position remember.", 10.0, [](double value) { return value > 0.0; },
+     "positive times, in s"},
+    {"turn_deg_s", "The rate of known_turn.", 3.0, [](double) { return true; },
+     "rates in °/s, counter-clockwise from above"},
+    {"turn_drift_deg_s", "Standard deviation of what the rate of ct changes in one second.", 0.2,
+     [](double value) { return value >= 0.0; }, "numbers that are not negative, in °/s"},
 }};
 
 constexpr auto motions = std::apply(

@@ -14,6 +14,7 @@ enum class MotionParameter { sigma_w, tau, turn_rate, turn_drift };
 /// What is to be known of a parameter.
 struct KnownParameter {
   std::string_view key;       ///< "tau_s"
+  std::string_view meaning;   ///< in a sentence
   double otherwise;           ///< if nobody says
   bool (*valid)(double);      ///< of a finite value
   std::string_view expected;  ///< what is valid, in words
@@ -46,8 +47,10 @@ struct MotionChoice {
   double& operator[](MotionParameter parameter) { return parameters[static_cast<std::size_t>(parameter)]; }
   double operator[](MotionParameter parameter) const { return parameters[static_cast<std::size_t>(parameter)]; }
 
-  /// Throws std::invalid_argument, naming it, for a motion that is not known.
+  /// Throws std::invalid_argument, naming it, for a motion that is not known; so do the others.
   const KnownMotion& known() const;
+  bool linear() const { return known().linear; }
+  bool manoeuvres() const { return known().manoeuvres; }
 };
 
 }  // namespace sigmax
