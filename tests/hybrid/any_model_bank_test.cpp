@@ -15,7 +15,7 @@ namespace {
 using support::near_matrix;
 
 using Turn = Extended<CoordinatedTurn<2>>;
-using Any = AnyModel<7, KinematicModel<2, 2>, KinematicModel<2, 3>, Turn>;
+using Any = AnyModel<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
 
 /// A bank whose models are named at run time against the same bank known to the compiler; the models differ in their
 /// components, and no one has all of them.

@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 namespace sigmax {
 namespace {
 
-using Dwna = KinematicModel<3, 2>;
-using Dwpa = KinematicModel<3, 3>;
+using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
+using Dwpa = IndependentAxes<3, DiscreteWhiteNoise<3>>;
 using RunTime = KinematicModel<3, Eigen::Dynamic>;
 
 static_assert(Bank<std::tuple<Dwna, Dwpa>>::measurement_size == 3);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/metrics.hpp>
 
 #include "hybrid/laws.hpp"

@@ -4,7 +4,7 @@
 #include <concepts>
 #include <random>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "hybrid/banks.hpp"

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "support/throws.hpp"
 

@@ -11,9 +11,8 @@
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>

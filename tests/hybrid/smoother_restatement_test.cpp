@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 
 #include "hybrid/laws.hpp"

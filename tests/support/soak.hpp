@@ -13,7 +13,7 @@
 #include <Eigen/Cholesky>
 
 #include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
