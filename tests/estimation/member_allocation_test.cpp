@@ -62,12 +62,18 @@ struct HiddenTurn : CoordinatedTurn<3> {
   void transition_jacobian() const {}
 };
 struct HiddenRadar : PolarSensor<3> {
+  using PolarSensor<3>::PolarSensor;
   void measurement_jacobian() const {}
 };
+template <class Moves>
+concept GivesTransitionJacobian = requires(const Moves& motion, const StateOf<Moves>& x) {
+  motion.transition_jacobian(x, 1.0);
+};
+template <class Sensor>
+concept GivesMeasurementJacobian = requires(const Sensor& sensor, const Vector<3>& p) { sensor.measurement_jacobian(p); };
+static_assert(!GivesTransitionJacobian<HiddenTurn> && !GivesMeasurementJacobian<HiddenRadar>);
 
 TEST(MemberAllocation, OfAutomaticDifferentiationIsNone) {
-  static_assert(!requires(const HiddenTurn& turn, const Vector<7>& x) { turn.transition_jacobian(x, 1.0); });
-  static_assert(!requires(const HiddenRadar& sensor, const Vector<3>& p) { sensor.measurement_jacobian(p); });
   const Gaussian<7> start{Vector<7>(8e3, 6e3, 1e3, 10.0, 20.0, 1.0, 0.1), SquareMatrix<7>::Identity()};
   nothing_is_allocated(Extended{HiddenTurn{1.0, 0.01}}, start, radar, HiddenRadar{});
 }

@@ -16,7 +16,7 @@ namespace {
 using support::near;
 
 TEST(MaxInference, GaussianPossibilityFunctions) {
-  const IndependentAxes<1, DiscreteWhiteNoise<2>> model{0.5};
+  const auto model = dwna<1>(0.5);
   GaussianPossibility<2> pi{Gaussian<2>{Vector<2>{0.0, 1.0}, SquareMatrix<2>::Identity()}};
   pi = predict(model, pi, 2.0);
   pi = update(model, pi, {Vector<1>{2.5}, SquareMatrix<1>{0.25}});
