@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
@@ -138,8 +138,9 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
   grid.assign([&](std::size_t i) { return parabola(grid.node(i) - 0.4, 1.2); });
   GaussianPossibility<1> pi{{Vector<1>{0.4}, SquareMatrix<1>{1.2}}};
   for (const Step& step : steps) {
-    const FixedStepModel<1, 1> model("walk", {"x"}, 1.0, SquareMatrix<1>{step.F}, SquareMatrix<1>{step.Q},
-                                     SquareMatrix<1>{step.H}, Vector<1>{step.u});
+    const FixedStepMotion<1> model("walk", {"x"}, 1.0, SquareMatrix<1>{step.F}, SquareMatrix<1>{step.Q},
+                                   Vector<1>{step.u});
+    const LinearSensor<1, 1> sensor{SquareMatrix<1>{step.H}};
     const SupremumOnGrid prior = grid;
     grid.assign([&](std::size_t to) {
       const auto joint = [&](std::size_t from) {
@@ -154,8 +155,8 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
       const double supremum = grid.vertex([&](std::size_t i) { return grid[i]; }).value;
       grid.assign([&](std::size_t i) { return grid[i] - supremum; });
       Gaussian<1> unused;
-      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), z, unused)), supremum, 1e-9);
-      pi = update(model, pi, z);
+      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), z, sensor, unused)), supremum, 1e-9);
+      pi = update(model, pi, z, sensor);
     }
     const auto peak = grid.vertex([&](std::size_t i) { return grid[i]; });
     EXPECT_PRED_FORMAT3(near, pi.mean()(0), peak.at, 1e-9);
@@ -165,21 +166,22 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
   }
 }
 
-using Model = FixedStepModel<3, 2>;
+using Model = FixedStepMotion<3>;
 Model generated_model() {
   return {"model",
           {"a", "b", "c"},
           1.0,
           fixed<3, 3>(generated(3, 3)),
-          fixed<3, 3>(generated_covariance(3)),
-          fixed<2, 3>(generated(2, 3))};
+          fixed<3, 3>(generated_covariance(3))};
 }
+LinearSensor<2, 3> generated_sensor() { return LinearSensor<2, 3>{fixed<2, 3>(generated(2, 3))}; }
 
 /// First (34), then (36) and (37); or first (23) and (24), then (34): with both numbers of (34) written as ratios of
 /// the filter's own densities.
 TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
   holds([] {
     const auto model = generated_model();
+    const auto sensor = generated_sensor();
     Gaussian<3> density = generated_gaussian<3>();
     GaussianPossibility<3> pi{density};
     for (int k = 0; k < 3; ++k) {
@@ -187,8 +189,8 @@ TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
       pi = predict(model, pi, 1.0);
       if (*rc::gen::inRange(0, 2) == 1) {
         const auto z = generated_gaussian<2>();
-        update(model, density, z, density);
-        pi = update(model, pi, z);
+        update(model, density, z, sensor, density);
+        pi = update(model, pi, z, sensor);
       }
       const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
       const auto offset = generated(3, 1);
@@ -201,11 +203,12 @@ TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
 TEST(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
   holds([] {
     const auto model = generated_model();
+    const auto sensor = generated_sensor();
     Gaussian<3> posterior;
     const auto prior = generated_gaussian<3>();
     const auto z = generated_gaussian<2>();
-    const auto innovation = update(model, prior, z, posterior);
-    const auto H = dense(model.measurement_matrix());
+    const auto innovation = update(model, prior, z, sensor, posterior);
+    const auto H = dense(sensor.measurement_matrix());
     const auto S = H * dense(prior.covariance) * transposed(H) + dense(z.covariance);
     const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
     require_near(log_possibility(innovation) - innovation.log_likelihood,

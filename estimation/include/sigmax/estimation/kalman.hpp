@@ -186,8 +186,6 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
                             EstimateOf<Model>& posterior) {
   if constexpr (measures_leading_components<Sensor>) {
     constexpr int M = Sensor::measurement_size;
-    static_assert(Model::state_size == Eigen::Dynamic || M <= Model::state_size,
-                  "the sensor sees more components than the model has");
     if (Model::state_size == Eigen::Dynamic && prior.size() < M)
       throw std::invalid_argument("a sensor sees " + std::to_string(M) + " components, but model '" +
                                   std::string(model.name()) + "' has " + std::to_string(prior.size()));
