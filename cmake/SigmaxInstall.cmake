@@ -1,4 +1,4 @@
-# What `cmake --install` adds to the libraries and programs: the CMake package, sigmax.pc, and Debian packages by CPack.
+# What `cmake --install` adds to the libraries and programs: the CMake package, files for pkg-config, and Debian packages by CPack.
 # Components: dev (to link the library) and tools (the programs). Nothing installed holds an absolute path.
 include(CMakePackageConfigHelpers)
 
@@ -22,8 +22,14 @@ foreach(library IN LISTS libraries)
     string(PREPEND link_flags " -l${library}")  # rooms are added before those that need them
   endif()
 endforeach()
-configure_file("${CMAKE_CURRENT_LIST_DIR}/sigmax.pc.in" sigmax.pc @ONLY)
-install(FILES "${CMAKE_CURRENT_BINARY_DIR}/sigmax.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+# sigmax_pc(NAME PART REQUIRES LIBRARIES): NAME.pc
+function(sigmax_pc pc_name pc_part pc_requires pc_libraries)
+  configure_file("${SIGMAX_PC_IN}" ${pc_name}.pc @ONLY)
+  install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${pc_name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+endfunction()
+set(SIGMAX_PC_IN "${CMAKE_CURRENT_LIST_DIR}/sigmax.pc.in")
+sigmax_pc(sigmax "" "eigen3 >= 3.4" "${link_flags}")
+sigmax_pc(sigmax-core ": the part that does without Eigen" "" " -lsigmax_core")
 
 # Debian packages: `cpack -G DEB` in the build directory. What Debian wants in every package is installed in packages only.
 foreach(package libsigmax-dev:dev sigmax-tools:tools)

@@ -18,8 +18,7 @@ using support::near_matrix;
 using support::throws;
 
 using Turn = CoordinatedTurn<2>;
-using Moves =
-    AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
+using Moves = AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
 using Any = AnyMember<Moves>;
 
 static_assert(StateModel<Any> && axes_of<Any> == 2);
@@ -106,7 +105,10 @@ TEST(AnyMember, RefusesASensorOfMoreThanThereIs) {
   EstimateOf<Any> x{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
   const LinearSensor<1, 5> acceleration{RectangularMatrix<1, 5>(0.0, 0.0, 0.0, 0.0, 1.0)};
   EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] { update(dwna_now, x, {Vector<1>(0.0), SquareMatrix<1>(1.0)}, acceleration, x); }, {"sees 5", "dwna", "4"}));
+      [&] {
+        update(dwna_now, x, {Vector<1>(0.0), SquareMatrix<1>(1.0)}, acceleration, x);
+      },
+      {"sees 5", "dwna", "4"}));
 }
 
 }  // namespace

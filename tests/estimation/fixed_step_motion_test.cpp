@@ -38,11 +38,7 @@ TEST(FixedStepMotion, RefusesAnyOtherStepButForgivesRounding) {
 
 TEST(FixedStepMotion, NeedsAComponentForEachStateAndAPositiveStep) {
   EXPECT_TRUE(throws<std::invalid_argument>([&] { Glider("glider", {"x"}, 0.5, F, Q); }, {"glider", "2", "1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        Glider("glider", {"x", "vx"}, 0.0, F, Q);
-      },
-      {"glider", "positive"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { Glider("glider", {"x", "vx"}, 0.0, F, Q); }, {"glider", "positive"}));
 }
 
 }  // namespace

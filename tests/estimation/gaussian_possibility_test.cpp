@@ -168,11 +168,7 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
 
 using Model = FixedStepMotion<3>;
 Model generated_model() {
-  return {"model",
-          {"a", "b", "c"},
-          1.0,
-          fixed<3, 3>(generated(3, 3)),
-          fixed<3, 3>(generated_covariance(3))};
+  return {"model", {"a", "b", "c"}, 1.0, fixed<3, 3>(generated(3, 3)), fixed<3, 3>(generated_covariance(3))};
 }
 LinearSensor<2, 3> generated_sensor() { return LinearSensor<2, 3>{fixed<2, 3>(generated(2, 3))}; }
 

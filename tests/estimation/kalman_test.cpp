@@ -57,8 +57,7 @@ TEST(Kalman, OneNumberByHand) {
   Gaussian<4> estimate{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
   predict(still, estimate, 1.0, estimate);
   EXPECT_PRED_FORMAT3(near, estimate.covariance(0, 0), 2.0, 1e-13);  // 128 ε more, for rounding
-  const auto innovation =
-      update(still, estimate, scalar(4.0, 2.0), measuring_one(Dense(1, 4, {1, 0, 0, 0})), estimate);
+  const auto innovation = update(still, estimate, scalar(4.0, 2.0), measuring_one(Dense(1, 4, {1, 0, 0, 0})), estimate);
   EXPECT_EQ(innovation.residual(0), 4.0);
   EXPECT_PRED_FORMAT3(near, innovation.covariance(0, 0), 4.0, 1e-13);
   EXPECT_PRED_FORMAT3(near, innovation.squared_distance, 4.0, 1e-13);
@@ -250,9 +249,9 @@ void stress(const Moves& model, const std::vector<double>& steps, const Measures
 TEST(Kalman, CovariancesStaySymmetricAndPositiveUnderStress) {
   stress(dwpa<2>(3.0), {0.001, 10.0, 0.2});
   stress(dwna<2>(0.01), {0.001, 10.0, 0.2});
-  stress(model_of(Dense(4, 4, {1, 1, 0.5, 0, 0, 1, 1, 0, 0, 0, 1, 0.2, 0.1, 0, 0, 0.9}),
-                  1e-6 * restatement::identity(4)),
-         {1.0}, measuring(Dense(2, 4, {1, 1, 0, 0, 0, 1, -1, 1})));
+  stress(
+      model_of(Dense(4, 4, {1, 1, 0.5, 0, 0, 1, 1, 0, 0, 0, 1, 0.2, 0.1, 0, 0, 0.9}), 1e-6 * restatement::identity(4)),
+      {1.0}, measuring(Dense(2, 4, {1, 1, 0, 0, 0, 1, -1, 1})));
 }
 
 TEST(Kalman, RefusesAnInnovationCovarianceThatIsNotPositiveDefiniteAndNamesTheModel) {

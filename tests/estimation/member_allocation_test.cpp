@@ -53,7 +53,8 @@ TEST(MemberAllocation, OverLinearMotionsIsNone) {
 
 TEST(MemberAllocation, OverATurnIsNone) {
   with_a_radar(CoordinatedTurn<3>{1.0, 0.01});
-  with_a_radar(AnyMotion<10, IndependentAxes<3, DiscreteWhiteNoise<3>>, CoordinatedTurn<3>>{CoordinatedTurn<3>{1.0, 0.01}});
+  with_a_radar(
+      AnyMotion<10, IndependentAxes<3, DiscreteWhiteNoise<3>>, CoordinatedTurn<3>>{CoordinatedTurn<3>{1.0, 0.01}});
 }
 
 /// Have no Jacobians, so they are differentiated automatically.
@@ -70,7 +71,9 @@ concept GivesTransitionJacobian = requires(const Moves& motion, const StateOf<Mo
   motion.transition_jacobian(x, 1.0);
 };
 template <class Sensor>
-concept GivesMeasurementJacobian = requires(const Sensor& sensor, const Vector<3>& p) { sensor.measurement_jacobian(p); };
+concept GivesMeasurementJacobian = requires(const Sensor& sensor, const Vector<3>& p) {
+  sensor.measurement_jacobian(p);
+};
 static_assert(!GivesTransitionJacobian<HiddenTurn> && !GivesMeasurementJacobian<HiddenRadar>);
 
 TEST(MemberAllocation, OfAutomaticDifferentiationIsNone) {

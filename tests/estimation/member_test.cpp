@@ -367,7 +367,8 @@ TEST(Member, HoldsARunTimeMotion) {
     predict(known, start, 0.5, expected);
     predict(run_time, found, 0.5, found);
     const auto innovation = update(known, expected, z, radar, expected);
-    EXPECT_PRED_FORMAT3(near, update(run_time, found, z, radar, found).log_likelihood, innovation.log_likelihood, 1e-12);
+    EXPECT_PRED_FORMAT3(near, update(run_time, found, z, radar, found).log_likelihood, innovation.log_likelihood,
+                        1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, found.mean, expected.mean, 1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, found.covariance, expected.covariance, 1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, prediction_covariance(run_time, found, 0.5),

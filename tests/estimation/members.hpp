@@ -70,7 +70,8 @@ void require_near_gaussian(const Gaussian<N, MaxN>& found, const Gaussian<N, Max
   require_near_matrix(found.covariance, expected.covariance, tolerance);
 }
 template <int M, int MaxM>
-void require_near_innovation(const Innovation<M, MaxM>& found, const Innovation<M, MaxM>& expected, double tolerance = 1e-9) {
+void require_near_innovation(const Innovation<M, MaxM>& found, const Innovation<M, MaxM>& expected,
+                             double tolerance = 1e-9) {
   require_near_matrix(found.residual, expected.residual, tolerance);
   require_near_matrix(found.covariance, expected.covariance, tolerance);
   require_near(found.squared_distance, expected.squared_distance, tolerance);

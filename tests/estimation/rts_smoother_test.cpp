@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 

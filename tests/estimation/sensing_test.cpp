@@ -101,19 +101,21 @@ static_assert(!SensorOf<PositionSensor<3>, IndependentAxes<1, DiscreteWhiteNoise
 static_assert(!SensorOf<LinearSensor<1, 7>, Dwna> && SensorOf<LinearSensor<1, 7>, Dwpa>);
 static_assert(SensorOf<LinearSensor<1, 7>, RunTime>, "it is seen at run time");
 
+/// Sees as many components as only an acceleration has, if at run time.
+struct ThirdAcceleration {
+  static constexpr int seen_size = 9;
+  static constexpr int measurement_size = 1;
+  Vector<1> measure(const Vector<9>& seen) const { return Vector<1>(seen(8) * seen(8)); }
+};
+
 TEST(Sensing, ASensorOfMoreThanARunTimeModelHasIsRefused) {
   const RunTime dwna_now = dwna<3>(1.0), dwpa_now = dwpa<3>(1.0);
   const PolarSensor<3> radar;
   const Vector<Eigen::Dynamic, 9> x = Vector<9>::Ones();
-  struct Jerk {
-    static constexpr int seen_size = 9;
-    static constexpr int measurement_size = 1;
-    Vector<1> measure(const Vector<9>& seen) const { return Vector<1>(seen(8) * seen(8)); }
-  };
-  EXPECT_EQ(predicted_measurement(dwpa_now, Jerk{}, x), Vector<1>(1.0));
+  EXPECT_EQ(predicted_measurement(dwpa_now, ThirdAcceleration{}, x), Vector<1>(1.0));
   const Vector<Eigen::Dynamic, 9> fewer = Vector<6>::Ones();
   EXPECT_NO_THROW(predicted_measurement(dwna_now, radar, fewer));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { predicted_measurement(dwna_now, Jerk{}, fewer); },
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { predicted_measurement(dwna_now, ThirdAcceleration{}, fewer); },
                                             {"sees 9 components", "dwna", "6"}));
 }
 

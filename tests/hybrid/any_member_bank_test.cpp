@@ -15,8 +15,7 @@ namespace {
 using support::near_matrix;
 
 using Turn = CoordinatedTurn<2>;
-using Moves =
-    AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
+using Moves = AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
 using Any = AnyMember<Moves>;
 
 /// A bank whose models are named at run time against the same bank known to the compiler; the models differ in their
@@ -29,8 +28,8 @@ void expect_the_tuple_bank(const Relation<Kind, Kind>& transition) {
                           SquareMatrix<7>(Vector<7>(100, 100, 100, 100, 25, 25, 1e-3).asDiagonal())};
   InteractingMultipleModel fixed{models, transition, start};
   InteractingMultipleModel any{
-      std::vector<Any>{Extended<Moves>{dwna<2>(1.0)}, Cubature<Moves>{dwpa<2>(4.0)}, Unscented<Moves>{turn}}, transition,
-      start};
+      std::vector<Any>{Extended<Moves>{dwna<2>(1.0)}, Cubature<Moves>{dwpa<2>(4.0)}, Unscented<Moves>{turn}},
+      transition, start};
   ASSERT_EQ(any.components(), fixed.components());
   ASSERT_EQ(any.components().size(), 7U);
   for (const auto& scan : support::manoeuvring_target(120)) {

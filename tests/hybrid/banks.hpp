@@ -22,11 +22,11 @@
 namespace sigmax {
 
 /// The banks of these tests: planar motion, as a vector of one run-time type and as a tuple.
-using PlanarMotion =
-    AnyMotion<6, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>>;
+using PlanarMotion = AnyMotion<6, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>>;
 using Planar = AnyMember<PlanarMotion>;
 using VectorBank = std::vector<Planar>;
-using TupleBank = std::tuple<IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>>;
+using TupleBank = std::tuple<IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<2>>,
+                             IndependentAxes<2, DiscreteWhiteNoise<3>>>;
 
 // Instantiated once, by interacting_multiple_model_test.cpp.
 extern template class InteractingMultipleModel<VectorBank, Random>;

@@ -133,12 +133,8 @@ void weighs_as_all_paths_through_a_mode() {
     for (std::size_t j = 0; j < modes; ++j) {
       means.push_back(number_between(-3.0, 3.0));
       variances.push_back(number_between(0.5, 4.0));
-      models.push_back({"forgetful",
-                        {"x"},
-                        1.0,
-                        SquareMatrix<1>{0.0},
-                        SquareMatrix<1>{variances[j]},
-                        Vector<1>{means[j]}});
+      models.push_back(
+          {"forgetful", {"x"}, 1.0, SquareMatrix<1>{0.0}, SquareMatrix<1>{variances[j]}, Vector<1>{means[j]}});
       for (std::size_t i = 0; i < modes; ++i) rows[j].push_back(i == j ? 1.0 : *rc::gen::element(0.0, 0.25, 0.5, 1.0));
       if constexpr (std::is_same_v<Kind, Random>) {
         const double sum = rows[j][0] + rows[j][1] + rows[j][2];

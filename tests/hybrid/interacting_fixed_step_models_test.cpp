@@ -29,7 +29,8 @@ const support::NamedSensor<1> sees_x{{"x"}};
 
 restatement::Model restated(const Model& model) {
   return {model.components(), [model](double dt) { return dense(model.transition(dt)); },
-          [model](double dt) { return dense(model.process_covariance(dt)); }, support::restated_matrix(sees_x.names, model.components())};
+          [model](double dt) { return dense(model.process_covariance(dt)); },
+          support::restated_matrix(sees_x.names, model.components())};
 }
 
 template <class Filter>
@@ -195,7 +196,8 @@ void knows_what_all_histories_know(bool selects) {
                                     std::vector<Gaussian<1>>(modes, {Vector<1>{1.0}, SquareMatrix<1>{2.0}})};
     const double R = 0.5;
     const std::vector<double> z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
-    for (const double measured : z) filter.step(1.0, Measured{Vector<1>{measured}, SquareMatrix<1>{R}}, PositionSensor<1>{});
+    for (const double measured : z)
+      filter.step(1.0, Measured{Vector<1>{measured}, SquareMatrix<1>{R}}, PositionSensor<1>{});
 
     double best = -1.0, total = 0.0, mean = 0.0, square = 0.0, best_mean = 0.0, best_variance = 0.0;
     for (std::size_t before = 0; before < modes; ++before)  // r_0: of no account for the state

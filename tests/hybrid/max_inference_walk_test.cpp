@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/gaussian_possibility.hpp>
 #include <sigmax/estimation/grid_filter.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 
 #include "support/near.hpp"

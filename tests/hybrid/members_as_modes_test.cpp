@@ -7,8 +7,8 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
@@ -33,8 +33,8 @@ TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilter) {
   const RandomVariable mode{"mode", 2};
   const Relation transition{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}};
   InteractingMultipleModel expected{std::tuple{dwna<2>(3.0), singer<2>(0.2, 2.0)}, transition, start()};
-  InteractingMultipleModel found{
-      std::tuple{Unscented{dwna<2>(3.0)}, Cubature{singer<2>(0.2, 2.0)}}, transition, start()};
+  InteractingMultipleModel found{std::tuple{Unscented{dwna<2>(3.0)}, Cubature{singer<2>(0.2, 2.0)}}, transition,
+                                 start()};
   for (int k = 0; k < 40; ++k) {
     if (k % 7 == 3) {
       expected.step(0.5);

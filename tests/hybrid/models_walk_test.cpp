@@ -10,8 +10,8 @@
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/known_turn.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>

@@ -34,7 +34,8 @@ struct NamedSensor {
 
 /// The same in the restatement's terms.
 template <std::size_t M>
-restatement::Matrix restated_matrix(const std::array<std::string, M>& names, const std::vector<std::string>& components) {
+restatement::Matrix restated_matrix(const std::array<std::string, M>& names,
+                                    const std::vector<std::string>& components) {
   restatement::Matrix H(M, components.size());
   for (std::size_t i = 0; i < M; ++i) H(i, restatement::position(components, names[i]).value()) = 1.0;
   return H;

@@ -107,7 +107,8 @@ const NamedSensor<2> sees_both{{"x", "y"}};
 
 restatement::Model restated(const Model& model) {
   return {model.components(), [model](double dt) { return dense(model.transition(dt)); },
-          [model](double dt) { return dense(model.process_covariance(dt)); }, restated_matrix(sees_both.names, model.components())};
+          [model](double dt) { return dense(model.process_covariance(dt)); },
+          restated_matrix(sees_both.names, model.components())};
 }
 
 /// Each model lacks a component of the other, and they are ordered differently.

@@ -212,9 +212,7 @@ struct Seen {
 using See = std::function<Seen(const Model&, const Vector&)>;
 
 inline See seen_by_matrix(const Vector& z) {
-  return [z](const Model& model, const Vector& x) -> Seen {
-    return {difference(z, model.H * x), model.H};
-  };
+  return [z](const Model& model, const Vector& x) -> Seen { return {difference(z, model.H * x), model.H}; };
 }
 
 enum class Kind { imm, himm };

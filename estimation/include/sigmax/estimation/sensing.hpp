@@ -36,21 +36,27 @@ concept SeesLeading = requires {
 
 /// Whether a model may have as many components as a sensor sees.
 template <class Sensor, class Model>
-concept SeenOf = !SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic ||
-    requires { requires Sensor::seen_size <= Model::state_size; };
+concept SeenOf = !SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic || requires {
+  requires Sensor::seen_size <= Model::state_size;
+};
 
-/// Whether what a sensor gives beside h is of the right shape, as far as it gives it.
+/// Whether the Jacobian that a sensor gives, if it gives one, is of the right shape.
 template <class Sensor, int Columns, class... Asked>
-concept ShapesFit =
-    (!requires(const Sensor& sensor, const Asked&... asked) { sensor.measurement_jacobian(asked...); } ||
-     requires(const Sensor& sensor, const Asked&... asked) {
-       { sensor.measurement_jacobian(asked...) } -> MatrixOf<Sensor::measurement_size, Columns>;
-     }) &&
-    (!requires(const Sensor& sensor, const Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>& z) {
-      sensor.measurement_difference(z, z);
-    } || requires(const Sensor& sensor, const Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>& z) {
-      { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
-    });
+concept JacobianFits = !requires(const Sensor& sensor, const Asked&... asked) {
+  sensor.measurement_jacobian(asked...);
+}
+|| requires(const Sensor& sensor, const Asked&... asked) {
+  { sensor.measurement_jacobian(asked...) } -> MatrixOf<Sensor::measurement_size, Columns>;
+};
+
+/// The same of the difference.
+template <class Sensor, class Measured = Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>>
+concept DifferenceFits = !requires(const Sensor& sensor, const Measured& z) {
+  sensor.measurement_difference(z, z);
+}
+|| requires(const Sensor& sensor, const Measured& z) {
+  { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
+};
 
 /// Calls `ask` with what a sensor's functions take: the leading components that it sees, or the model and the state.
 template <class Sensor, class Model, class Scalar, class Ask>
@@ -106,22 +112,23 @@ inline constexpr bool measures_leading_components = requires {
 ///
 ///   sensor.measurement_matrix()      H, m × seen_size;  or (model), m × n
 template <class Sensor, class Model>
-concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor, Model> &&
-    (measures_leading_components<Sensor> ||
-     requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-       { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
-     } ||
-     requires(const Sensor& sensor, const Model& model) {
-       { sensor.measurement_matrix(model) } -> MatrixOf<Sensor::measurement_size, Model::state_size>;
-     } ||
-     requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-       { sensor.measure(seen) } -> MatrixOf<Sensor::measurement_size>;
-       requires detail::ShapesFit<Sensor, Sensor::seen_size, Vector<Sensor::seen_size>>;
-     } ||
-     requires(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
-       { sensor.measure(model, x) } -> MatrixOf<Sensor::measurement_size>;
-       requires detail::ShapesFit<Sensor, Model::state_size, Model, StateOf<Model>>;
-     });
+concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor, Model> &&(
+    measures_leading_components<Sensor> ||
+    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
+      { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
+    } ||
+    requires(const Sensor& sensor, const Model& model) {
+      { sensor.measurement_matrix(model) } -> MatrixOf<Sensor::measurement_size, Model::state_size>;
+    } ||
+    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
+      { sensor.measure(seen) } -> MatrixOf<Sensor::measurement_size>;
+      requires detail::DifferenceFits<Sensor> &&
+          detail::JacobianFits<Sensor, Sensor::seen_size, Vector<Sensor::seen_size>>;
+    } ||
+    requires(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
+      { sensor.measure(model, x) } -> MatrixOf<Sensor::measurement_size>;
+      requires detail::DifferenceFits<Sensor> && detail::JacobianFits<Sensor, Model::state_size, Model, StateOf<Model>>;
+    });
 
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>

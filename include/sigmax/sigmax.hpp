@@ -42,6 +42,7 @@
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/gaussian.hpp>
@@ -65,6 +66,7 @@
 #include <sigmax/estimation/turn.hpp>
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/estimation/white_noise.hpp>
+#include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
@@ -76,11 +78,13 @@
 #include <sigmax/hybrid/lift.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/motion_choice.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 #include <sigmax/hybrid/plot.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/sound.hpp>
 #include <sigmax/hybrid/target.hpp>
+#include <sigmax/hybrid/target_rules.hpp>
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>
 #include <sigmax/recognition/decision.hpp>
