@@ -3,11 +3,10 @@
 #include <vector>
 
 #include <sigmax/estimation/any_member.hpp>
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/hybrid/any_target.hpp>
 
 #include "known_motions.hpp"
+#include "known_sensors.hpp"
 
 /// The bank of known motions and the sensors that can see them. Its Kalman filter is compiled once for all schemes and
 /// kinds of mode, in known_bank_*.cpp.
@@ -16,8 +15,6 @@ namespace detail {
 
 using KnownModel = AnyMember<AnyKnownMotion>;
 using KnownBank = std::vector<KnownModel>;
-using KnownSensor = AnySensor<PositionSensor<2>, PositionSensor<3>, PolarSensor<2>, PolarSensor<3>, BearingSensor,
-                              ComponentSensor<6>, DopplerSensor<2>, DopplerSensor<3>>;
 
 /// Throws std::invalid_argument for a motion that is not known.
 KnownBank known_bank(const TargetChoice& choice);
