@@ -107,8 +107,10 @@ SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& mea
     if (!all_finite(measurement))
       throw std::invalid_argument("a measurement of model '" + std::string(model) +
                                   "', or its covariance, is not finite");
-    if (std::isnan(innovation.squared_distance))
+    if (!innovation.residual.allFinite() || !innovation.covariance.allFinite())
       throw std::domain_error("the estimate of model '" + std::string(model) + "' is not finite");
+    innovation.squared_distance = std::numeric_limits<double>::infinity();  // where terms of both signs overflowed
+    innovation.log_likelihood = -innovation.squared_distance;
   }
   return L_inverse.transpose() * L_inverse;
 }

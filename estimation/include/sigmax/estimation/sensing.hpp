@@ -34,11 +34,11 @@ concept SeesLeading = requires {
   { Sensor::seen_size } -> std::convertible_to<int>;
 };
 
-/// Whether a model may have as many components as a sensor sees.
+/// Whether a model may have as many components as a sensor sees, and as many axes.
 template <class Sensor, class Model>
-concept SeenOf = !SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic || requires {
-  requires Sensor::seen_size <= Model::state_size;
-};
+concept SeenOf = (axes_of<Model> == 0 ||
+                  axes_of<Sensor> <= axes_of<Model>)&&(!SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic ||
+                                                       requires { requires Sensor::seen_size <= Model::state_size; });
 
 /// Whether the Jacobian that a sensor gives, if it gives one, is of the right shape.
 template <class Sensor, int Columns, class... Asked>
