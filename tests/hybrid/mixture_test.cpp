@@ -39,11 +39,12 @@ TEST(Mixture, OfInnovationsIsThatOfTheirResiduals) {
 }
 
 TEST(Mixture, OfDifferentModelsIsReadInTheComponentsOfTheReceiver) {
-  const std::tuple estimates{Gaussian<2>{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}},
-                             Gaussian<3>{Vector<3>(3, 4, 5), SquareMatrix<3>{{3, 0, 0}, {0, 4, 0}, {0, 0, 5}}}};
+  using Estimates = std::tuple<Gaussian<2>, Gaussian<3>>;
+  const Estimates estimates{Gaussian<2>{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}},
+                            Gaussian<3>{Vector<3>(3, 4, 5), SquareMatrix<3>{{3, 0, 0}, {0, 4, 0}, {0, 0, 5}}}};
   const std::vector<std::string> few{"x", "vx"}, many{"x", "vx", "ax"};
   const std::vector<Correspondence> maps{{many, few}, {many, many}};
-  const LiftedMixture mixture{std::get<1>(estimates), estimates, maps.data(), Lift::zero};
+  const LiftedMixture<Gaussian<3>, Estimates> mixture{std::get<1>(estimates), estimates, maps.data(), Lift::zero};
   Gaussian<3> result = std::get<1>(estimates);
   collapse(Selection{}, mixture, weight, 0, result);
   EXPECT_EQ(result.mean, (Vector<3>(1, 2, 0)));

@@ -188,9 +188,7 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
                             EstimateOf<Model>& posterior) {
   if constexpr (measures_leading_components<Sensor>) {
     constexpr int M = Sensor::measurement_size;
-    if (Model::state_size == Eigen::Dynamic && prior.size() < M)
-      throw std::invalid_argument("a sensor sees " + std::to_string(M) + " components, but model '" +
-                                  std::string(model.name()) + "' has " + std::to_string(prior.size()));
+    detail::require_seen<Sensor>(model);
     const Vector<M> residual = measurement.mean - prior.mean.template head<M>();
     return detail::update_by(model.name(), detail::LeadingComponents{}, residual, prior, measurement, posterior);
   } else if constexpr (LinearSensorOf<Sensor, Model>) {
