@@ -59,7 +59,7 @@ TEST(Target, TakesWhatIsInsideTheGateAndMissesTheRest) {
     missing.step(event.time - last);
     if (event.z) {
       filter.step(event.time - last, *event.z);
-      ASSERT_EQ(verdict, filter.nis() <= gate ? Verdict::accepted : Verdict::rejected);
+      ASSERT_EQ(verdict, filter.gate_distance() <= gate ? Verdict::accepted : Verdict::rejected);
       if (verdict == Verdict::rejected) ++rejected;
     } else {
       ASSERT_EQ(verdict, Verdict::missed);
@@ -91,6 +91,27 @@ void starts_again_after_rejections() {
 TEST(Target, StartsAgainAfterSoManyRejectionsInARow) {
   starts_again_after_rejections<Interacting, Random>();
   starts_again_after_rejections<SecondOrder, Fuzzy>();
+}
+
+TEST(Target, WithoutAGateTakesAllAndWithoutRestartsNeverStartsAgain) {
+  const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
+  auto open = target_with<Interacting, Random>({1.0});
+  auto filter = vector_filter<Interacting, Random>();
+  filter.step(0.2, far);
+  EXPECT_EQ(open.take(0.2, far), Verdict::accepted);
+  require_same<Interacting, Random>(open.filter(), filter);
+
+  auto patient = target_with<Interacting, Random>({0.999, 0});
+  filter = vector_filter<Interacting, Random>();
+  for (int k = 1; k <= 10; ++k) {
+    const double before = patient.time();
+    EXPECT_EQ(patient.take(0.2 * k, far), Verdict::rejected);
+    filter.step(0.2 * k - before);
+  }
+  require_same<Interacting, Random>(patient.filter(), filter);
+  EXPECT_EQ(patient.rejected(), 10U);
+  EXPECT_EQ(patient.starts(), 1U);
+  EXPECT_EQ(patient.accepted_time(), 0.0);
 }
 
 TEST(Target, AnAcceptedMeasurementForgivesTheRejectionsBefore) {
@@ -185,8 +206,8 @@ TEST(Target, RefusesRulesThatMakeNoSense) {
   const auto build = [](double time, const TargetRules& rules) {
     Target{vector_filter<Interacting, Random>(), time, one_point_start, rules};
   };
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {1.0}); }, {"probability"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {0.99, 0}); }, {"one rejection"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {1.5}); }, {"probability"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {std::nan("")}); }, {"probability"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {0.99, 1, 0.0}); }, {"gap"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { build(std::nan(""), {}); }, {"not finite"}));
 }

@@ -50,7 +50,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
                                  interaction) {}
 
   /// One cycle; what it takes and throws is as of InteractingMultipleModel.
-  template <Sensing Sensor>
+  template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
     bool taken = false;

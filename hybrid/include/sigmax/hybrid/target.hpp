@@ -116,6 +116,9 @@ class Target {
     std::size_t starts = 0;
     std::size_t recorded = 0;
     std::vector<PlotType> waiting;  ///< for a start; while it runs, those rejected in a row
+
+    /// The time of the latest plot that is in it.
+    double latest() const { return waiting.empty() ? time : std::max(time, waiting.back().time); }
   };
   struct Snapshot {
     State state;
@@ -162,11 +165,11 @@ Verdict Target<Filter, Start, Sensor>::take(const PlotType& plot, const Stepped&
   if (!std::isfinite(plot.time)) throw std::invalid_argument("a measurement of a time that is not finite");
   std::size_t place = kept_;  // behind all that is not later
   while (place > 0 && entry(place - 1).plot.time > plot.time) --place;
-  const double earliest = place < kept_ ? entry(place).before.life.time : life_.time;
+  const double earliest = (place < kept_ ? entry(place).before.life : life_).latest();
   if (plot.time < earliest)
     throw std::invalid_argument("a measurement of " + std::to_string(plot.time) + " s came after one of " +
-                                std::to_string(life_.time) + " s; the buffer goes back to " + std::to_string(earliest) +
-                                " s");
+                                std::to_string(life_.latest()) + " s; the buffer goes back to " +
+                                std::to_string(earliest) + " s");
   if (place < kept_) restore(entry(place).before);
   for (std::size_t k = kept_; k > place; --k) entry(k).plot = entry(k - 1).plot;
   entry(place).plot = plot;
@@ -211,8 +214,12 @@ Verdict Target<Filter, Start, Sensor>::process(const PlotType& plot, const Stepp
     return try_to_start(plot, stepped);
   }
   const Verdict verdict = step(plot);
-  if (verdict == Verdict::rejected && life_.waiting.size() == rules_.rejections) {
+  if (verdict == Verdict::rejected && rules_.rejections > 0 && life_.waiting.size() == rules_.rejections) {
     life_.running = false;
+    if (rules_.record) {  // the plot is of a start, or waits for one
+      record_.pop_back();
+      life_.recorded = record_.size();
+    }
     return try_to_start(plot, stepped);
   }
   stepped(plot, false);
