@@ -44,8 +44,8 @@ struct Target {
 
   std::vector<Tracker<Axes>> trackers;
   RandomStream random;
-  bool keeps_all;         // rows, if a filter is to be smoothed; else two: a start may wait for the row after it
-  std::deque<Fix> rows;   // whose tags are their numbers
+  bool keeps_all;        // rows, if a filter is to be smoothed; else two: a start may wait for the row after it
+  std::deque<Fix> rows;  // whose tags are their numbers
   std::size_t taken = 0;
 
   const Fix& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
@@ -66,7 +66,7 @@ class TrackRun {
 
   TrackOutcome run() {
     const auto total = recording_.csv().bytes_total();
-    Progress progress(file(), total.value_or(1), options_.quiet || !total);
+    Progress progress(file(), total.value_or(1), options_.output.quiet || !total);
     std::uint64_t done = 0;
     for (Fix fix; recording_.next(fix);) {
       take(fix);

@@ -52,8 +52,7 @@ TrackPoint<Axes> point_of(const TargetPoint& known, const std::vector<std::strin
 }  // namespace
 
 template <int Axes>
-Tracker<Axes>::Tracker(FilterSettings settings)
-    : settings_(std::move(settings)), target_(choice_of(settings_, Axes)) {}
+Tracker<Axes>::Tracker(FilterSettings settings) : settings_(std::move(settings)), target_(choice_of(settings_, Axes)) {}
 
 template <int Axes>
 void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag,
@@ -71,8 +70,7 @@ auto Tracker<Axes>::now() const -> Point {
 template <int Axes>
 auto Tracker<Axes>::finish() const -> std::vector<Point> {
   std::vector<Point> points;
-  target_.smoothed(
-      [&](const TargetPoint& known) { points.push_back(point_of<Axes>(known, target_.components())); });
+  target_.smoothed([&](const TargetPoint& known) { points.push_back(point_of<Axes>(known, target_.components())); });
   return points;
 }
 

@@ -35,8 +35,8 @@ class Tracker {
 
   const FilterSettings& settings() const { return settings_; }
 
-  /// Takes one measurement, or none at that time, and calls `stepped(tag)` after each step that this completes, with the
-  /// tag of the measurement that it took.
+  /// Takes one measurement, or none at that time, and calls `stepped(tag)` after each step that this completes, with
+  /// the tag of the measurement that it took.
   void take(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag,
             const std::function<void(std::size_t tag)>& stepped);
 

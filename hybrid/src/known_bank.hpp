@@ -3,7 +3,9 @@
 #include <vector>
 
 #include <sigmax/estimation/any_member.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/any_target.hpp>
+#include <sigmax/hybrid/future_evidence.hpp>
 
 #include "known_motions.hpp"
 #include "known_sensors.hpp"
@@ -23,11 +25,17 @@ KnownBank known_bank(const TargetChoice& choice);
 
 extern template void predict(const detail::KnownModel&, const EstimateOf<detail::KnownModel>&, double,
                              EstimateOf<detail::KnownModel>&);
-extern template StateMatrixOf<detail::KnownModel> prediction_covariance(const detail::KnownModel&,
-                                                                        const EstimateOf<detail::KnownModel>&, double);
+extern template LinearisedStepOf<detail::KnownModel> linearised_step(const detail::KnownModel&,
+                                                                     const EstimateOf<detail::KnownModel>&, double);
 extern template InnovationOf<detail::KnownSensor> update(const detail::KnownModel&,
                                                          const EstimateOf<detail::KnownModel>&,
                                                          const MeasurementOf<detail::KnownSensor>&,
                                                          const detail::KnownSensor&, EstimateOf<detail::KnownModel>&);
+
+extern template LinearisedMeasurementOf<detail::KnownModel, detail::KnownSensor> linearised_measurement(
+    const detail::KnownModel&, const EstimateOf<detail::KnownModel>&, const MeasurementOf<detail::KnownSensor>&,
+    const detail::KnownSensor&);
+extern template struct FutureEvidence<detail::KnownModel::max_state_size>;
+extern template class EvidenceCollapse<detail::KnownModel::max_state_size>;
 
 }  // namespace sigmax

@@ -97,8 +97,16 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
     this->conclude(false);
   }
 
-  /// What the last step, of `dt` seconds, left for a smoother.
-  RecordedStep<Models, Kind> recorded(double dt) const { return {dt, this->state(), predicted_}; }
+  /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
+  /// as missed. Throws std::logic_error without a measurement if the step had one.
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+    return this->recorded_by(dt, z, sensor, predicted_);
+  }
+  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const requires(Filter::axes > 0) {
+    return recorded(dt, z, PositionSensor<Filter::axes>{});
+  }
+  RecordedStep<Models, Kind> recorded(double dt) const { return this->recorded_as_missed(dt); }
 
  private:
   using Filter::innovations_;
