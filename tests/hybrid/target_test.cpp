@@ -167,6 +167,27 @@ TEST(Target, LateMeasurementsWithinTheBufferGiveWhatTheRightOrderGivesToTheBit) 
   retrodicts<SecondOrder, Fuzzy>();
 }
 
+/// What comes late changes which rejections stand in a row.
+TEST(Target, RejectionsInARowAreCountedInTheOrderOfTheirTimes) {
+  const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
+  const Gaussian<2> near_by{Vector<2>{12000, 7990}, 1e4 * SquareMatrix<2>::Identity()};
+  auto target = target_with<Interacting, Random>({0.999, 3, 1e9, 5});
+  target.take(0.1, near_by);
+  EXPECT_EQ(target.take(0.2, far), Verdict::rejected);
+  EXPECT_EQ(target.take(0.4, far), Verdict::rejected);
+  auto other = target;
+  EXPECT_EQ(target.take(0.3, near_by), Verdict::accepted) << "between the two";
+  EXPECT_EQ(target.take(0.5, far), Verdict::rejected) << "the second in a row now";
+  EXPECT_EQ(target.starts(), 1U);
+  EXPECT_EQ(target.rejected(), 3U);
+  EXPECT_EQ(target.take(0.6, far), Verdict::restarted);
+
+  EXPECT_EQ(other.take(0.3, far), Verdict::rejected);
+  EXPECT_EQ(other.starts(), 2U) << "the one of 0.4 s is the third now";
+  EXPECT_EQ(other.accepted_time(), 0.4);
+  EXPECT_EQ(other.rejected(), 3U);
+}
+
 TEST(Target, WhatIsOlderThanTheBufferIsRefusedWithBothTimes) {
   auto target = target_with<Interacting, Random>({0.999, 3, 1e9, 2});
   const Gaussian<2> z{Vector<2>{12000, 7990}, 1e4 * SquareMatrix<2>::Identity()};
