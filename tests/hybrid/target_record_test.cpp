@@ -123,9 +123,19 @@ TEST(TargetRecord, IsEmptyUnlessItIsAskedFor) {
 
 template <class Order, Uncertainty Kind>
 void retrodicts_its_record() {
-  const auto all = plots(60);
+  constexpr std::size_t late_by = 4;
+  const auto all = plots(28);
+  const auto fresh = recording_target<Order, Kind>(late_by);
+  auto in_order = fresh;
+  for (const PlotType& plot : all) in_order.take(plot);
+  ASSERT_EQ(in_order.starts(), 2U);
+  std::vector<std::size_t> tags;
+  std::vector<HybridEstimate<VectorBank, Kind>> expected;
+  in_order.smoothed([&](const auto& kept, const auto& state) {
+    tags.push_back(kept.tag);
+    expected.push_back(state);
+  });
   holds([&] {
-    constexpr std::size_t late_by = 4;
     std::vector<std::size_t> order(all.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     for (std::size_t k = 1; k + late_by < order.size(); k += late_by) {  // shuffled within groups, but for the first
@@ -133,16 +143,8 @@ void retrodicts_its_record() {
       const std::size_t turn = *rc::gen::inRange<std::size_t>(0, late_by);
       std::rotate(from, from + static_cast<std::ptrdiff_t>(turn), from + late_by);
     }
-    auto in_order = recording_target<Order, Kind>(late_by);
-    auto shuffled = in_order;
-    for (const PlotType& plot : all) in_order.take(plot);
+    auto shuffled = fresh;
     for (const std::size_t k : order) shuffled.take(all[k]);
-    std::vector<std::size_t> tags;
-    std::vector<HybridEstimate<VectorBank, Kind>> expected;
-    in_order.smoothed([&](const auto& kept, const auto& state) {
-      tags.push_back(kept.tag);
-      expected.push_back(state);
-    });
     std::size_t k = 0;
     shuffled.smoothed([&](const auto& kept, const auto& state) {
       RC_ASSERT(k < tags.size());
