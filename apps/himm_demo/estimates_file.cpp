@@ -10,7 +10,7 @@ EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector
                              const RecordingReader& recording)
     : file_(directory.file("estimates.csv")), recording_(recording) {
   for (const auto& filter : filters)
-    for (const auto& motion : filter.motions) turns_ = turns_ || motion.type == MotionType::ct;
+    for (const auto& motion : filter.motions) turns_ = turns_ || !motion.linear();
   models_ = model_names(filters);
   file_.write(recording_.has_tracks() ? "time_s,track,filter" : "time_s,filter");
   file_.write(

@@ -73,22 +73,20 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
   for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
     const FilterSettings& filter = experiment.filters[f];
     Tracker<3> tracker(filter);
-    const auto note = [&](TrackPoint<3> point) {
-      const auto sample = std::lround(point.time / experiment.scenario.step_s);
-      if (sample < 0) return;  // a given start
-      const auto k = static_cast<std::size_t>(sample);
+    const auto note = [&](TrackPoint<3> point, std::size_t k) {
       record(std::move(point), recording.truth[k], k, result.filters[f]);
     };
     for (std::size_t k = 0; k < samples; ++k) {
       try {
         bool stepped_now = false;
-        tracker.take(time_of(k), reading(recording.measured[k], filter), [&](double) {
+        tracker.take(time_of(k), reading(recording.measured[k], filter), k, [&](std::size_t tag) {
           stepped_now = true;
-          if (!filter.smooth) note(tracker.now());
+          if (!filter.smooth) note(tracker.now(), tag);
         });
-        if (tracker.running() && !stepped_now && !filter.smooth) note(tracker.now());  // the start
+        if (tracker.running() && !stepped_now && !filter.smooth) note(tracker.now(), k);  // the start
         if (k + 1 == samples)
-          for (auto& point : tracker.finish()) note(std::move(point));
+          for (const auto& point : tracker.finish())
+            if (!point.is_start || filter.start != StartRule::given) note(point, point.tag);
       } catch (const std::exception& error) {
         throw std::runtime_error(fmt::format("filter '{}', run {}, sample {}: {}", experiment.filters[f].name,
                                              number + 1, k + 1, error.what()));
@@ -273,7 +271,8 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
       int steps = -1;  // the first only warms up
       for (std::size_t k = 0; k < measurements.size(); ++k) {
         if (steps == 0) start = cpu_time();
-        tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], [&](double) { ++steps; });
+        tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], k,
+                     [&](std::size_t) { ++steps; });
       }
       tracker.finish();
       times.push_back((cpu_time() - start) / steps);

@@ -39,7 +39,8 @@ const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
                                            {"possibility", LikelihoodForm::possibility}};
 const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
 const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
-const Names<Start> starts = {{"points", Start::points}, {"released", Start::released}, {"given", Start::given}};
+const Names<StartRule> starts = {
+    {"points", StartRule::points}, {"released", StartRule::released}, {"given", StartRule::given}};
 const Names<RadarForm> radar_forms = {{"standard", RadarForm::standard},
                                       {"unbiased", RadarForm::unbiased},
                                       {"debiased", RadarForm::debiased},
@@ -63,8 +64,8 @@ bool any(double) { return true; }
 constexpr std::string_view small_sigma = "a covariance is positive definite: give a small one rather than 0";
 
 /// One out of several names.
-template <class Value>
-FilterKey choice(std::string name, std::string meaning, Value FilterSettings::*member, Names<Value> names) {
+template <class Owner, class Value>
+FilterKey choice(std::string name, std::string meaning, Value Owner::*member, Names<Value> names) {
   std::vector<std::string_view> values;
   for (const auto& [word, value] : names) values.push_back(word);
   return {name, std::move(meaning), fmt::format("{}", fmt::join(values, ", ")),
@@ -91,8 +92,8 @@ Key<Owner> number(std::string name, std::string meaning, Of of, Range range, dou
 }
 
 /// The same where there may be none.
-FilterKey optional_number(std::string name, std::string meaning, std::optional<double> FilterSettings::*member,
-                          Range range) {
+template <class Owner>
+FilterKey optional_number(std::string name, std::string meaning, std::optional<double> Owner::*member, Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),
@@ -105,8 +106,8 @@ FilterKey optional_number(std::string name, std::string meaning, std::optional<d
 }
 
 /// A list of numbers.
-template <class Owner>
-Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Owner::*member, Range range) {
+template <class Owner, class Base>
+Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Base::*member, Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),
@@ -119,50 +120,60 @@ Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Ow
 }
 
 /// A number for each model: one for all, or one each.
-FilterKey per_model(std::string name, std::string meaning, double Motion::*member, Range range,
-                    bool (*has)(const Motion&)) {
+FilterKey per_model(MotionParameter parameter) {
+  const KnownParameter& known = motion_parameters()[static_cast<std::size_t>(parameter)];
+  const std::string name{known.key};
+  const Range range{known.expected, known.valid};
   const auto values = [=](const FilterSettings& filter) {
     std::vector<double> result;
-    for (const auto& motion : filter.motions) result.push_back(motion.*member);
+    for (const auto& motion : filter.motions) result.push_back(motion[parameter]);
     return result;
   };
   return {name,
-          std::move(meaning),
+          std::string(known.meaning),
           std::string(range.expected) + "; one, or one a model",
           [=](const Settings& settings, FilterSettings& filter) {
-            auto given = settings.numbers(name, {filter.motions.front().*member});
+            auto given = settings.numbers(name, {filter.motions.front()[parameter]});
             if (given.size() == 1) given.resize(filter.motions.size(), given.front());
             if (given.size() != filter.motions.size()) throw settings.error(name, "one number, or one for each model");
             for (std::size_t i = 0; i < given.size(); ++i) {
               range.require(settings, name, given[i]);
-              filter.motions[i].*member = given[i];
+              filter.motions[i][parameter] = given[i];
             }
           },
           [=](const FilterSettings& filter) { return toml_list(values(filter)); },
-          [=](const FilterSettings& filter) { return std::any_of(filter.motions.begin(), filter.motions.end(), has); }};
+          [=](const FilterSettings& filter) {
+            return std::any_of(filter.motions.begin(), filter.motions.end(),
+                               [=](const Motion& motion) { return motion.known().has_parameter(parameter); });
+          }};
+}
+
+/// The names of all motions.
+std::string motion_names() {
+  std::vector<std::string_view> names;
+  for (const auto& motion : known_motions()) names.push_back(motion.name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// The models themselves; each new one is as the first of those that were there.
 FilterKey models() {
-  return {"models", "The motions that the target may follow.", fmt::format("{}", fmt::join(motion_names(), ", ")),
+  return {"models", "The motions that the target may follow.", motion_names(),
           [](const Settings& settings, FilterSettings& filter) {
             std::vector<std::string> names;
-            for (const auto& motion : filter.motions) names.emplace_back(name_of(motion.type));
+            for (const auto& motion : filter.motions) names.push_back(motion.name);
             const Motion usual = filter.motions.front();
             filter.motions.clear();
-            const std::string known = fmt::format("{}", fmt::join(motion_names(), ", "));
             for (const auto& name : settings.strings("models", names)) {
-              const auto type = motion_type(name);
-              if (!type) throw settings.error("models", "names out of " + known);
+              if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
               filter.motions.push_back(usual);
-              filter.motions.back().type = *type;
+              filter.motions.back().name = name;
             }
-            if (filter.motions.empty()) throw settings.error("models", "at least one of " + known);
+            if (filter.motions.empty()) throw settings.error("models", "at least one of " + motion_names());
             filter.models = names_of(filter.motions);
           },
           [](const FilterSettings& filter) {
             std::vector<std::string> names;
-            for (const auto& motion : filter.motions) names.push_back(fmt::format("\"{}\"", name_of(motion.type)));
+            for (const auto& motion : filter.motions) names.push_back(fmt::format("\"{}\"", motion.name));
             return fmt::format("[{}]", fmt::join(names, ", "));
           }};
 }
@@ -217,34 +228,28 @@ bool turns(const FilterSettings& filter) {
 bool mixes(const FilterSettings& filter) {
   return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
 }
-bool given(const FilterSettings& filter) { return filter.start == Start::given; }
+bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
 
 std::vector<FilterKey> made_filter_keys() {
   using F = FilterSettings;
   return {
       choice("scheme", "When several modes become one Gaussian.", &F::scheme, schemes),
       models(),
-      per_model("sigma_w", "Strength of the noise; its unit depends on the model.", &Motion::sigma_w,
-                {"numbers that are not negative", not_negative}, [](const Motion&) { return true; }),
-      per_model("tau_s", "How long singer, ou_velocity and ou_position remember.", &Motion::tau_s,
-                {"positive times, in s", positive}, [](const Motion& motion) { return motion.has_tau(); }),
-      per_model("turn_deg_s", "The rate of known_turn.", &Motion::turn_deg_s,
-                {"rates in °/s, counter-clockwise from above", any},
-                [](const Motion& motion) { return motion.type == MotionType::known_turn; }),
-      per_model("turn_drift_deg_s", "Standard deviation of what the rate of ct changes in one second.",
-                &Motion::turn_drift_deg_s, {"numbers that are not negative, in °/s", not_negative},
-                [](const Motion& motion) { return motion.type == MotionType::ct; }),
+      per_model(MotionParameter::sigma_w),
+      per_model(MotionParameter::tau),
+      per_model(MotionParameter::turn_rate),
+      per_model(MotionParameter::turn_drift),
       only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
            choice("member",
                   "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
                   "have the Kalman filter, and kf refuses others.",
                   &F::member, members)),
-      only(
-          [](const F& f) { return f.scheme != Scheme::independent; },
-          numbers("sojourn_s",
-                  "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
-                  "time between two rows, and Π that P on the ratio scale.",
-                  &F::sojourn_s, {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
+      only([](const F& f) { return f.scheme != Scheme::independent; },
+           numbers<F>("sojourn_s",
+                      "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
+                      "time between two rows, and Π that P on the ratio scale.",
+                      &F::sojourn_s,
+                      {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
       transition("transition_probability", "P, from one row to the next. For a random mode.",
                  "rows of numbers that sum to 1", ".95 on the diagonal", false),
       transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
@@ -274,11 +279,11 @@ std::vector<FilterKey> made_filter_keys() {
       only(turns,
            number<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
                      &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
-      only(given, numbers("start_mean", "The mean of a given start.", &F::start_mean,
-                          {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
+      only(given, numbers<F>("start_mean", "The mean of a given start.", &F::start_mean,
+                             {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
       only(given,
-           numbers("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
-                   {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
+           numbers<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
+                      {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
       only(given, optional_number("start_time_s",
                                   "When a given start holds; without it, one step before the first measurement.",
                                   &F::start_time_s, {"a time, in s", any})),
@@ -300,8 +305,9 @@ std::vector<FilterKey> made_filter_keys() {
 
 std::vector<Key<Accuracy>> made_accuracy_keys() {
   constexpr Range sigma{"a positive standard deviation", positive, small_sigma};
-  auto position = numbers("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
-                          &Accuracy::position_m, {"positive standard deviations", positive, small_sigma});
+  auto position =
+      numbers<Accuracy>("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
+                        &Accuracy::position_m, {"positive standard deviations", positive, small_sigma});
   position.read = [read = position.read](const Settings& settings, Accuracy& accuracy) {
     read(settings, accuracy);
     if (accuracy.position_m.size() != 1 && accuracy.position_m.size() != 3)

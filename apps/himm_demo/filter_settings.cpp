@@ -94,7 +94,7 @@ void refuse_bad_combinations(const Settings& settings, const FilterSettings& fil
   const std::size_t modes = filter.models.size();
   if (!filter.sojourn_s.empty() && (modes < 2 || filter.sojourn_s.size() != modes))
     throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
-  if (filter.start != Start::given) return;
+  if (filter.start != StartRule::given) return;
   if (filter.start_mean.size() != 9)
     throw settings.error("start_mean", "nine numbers x, y, z, vx, vy, vz, ax, ay, az, since start = \"given\"");
   if (filter.start_covariance_diagonal.size() != 9)
@@ -136,7 +136,7 @@ FilterDefaults FilterDefaults::of(Preset preset) {
     filter.imm_mixing = MixingWeights::released;
     filter.mixing_tie = Tie::last;
     filter.output_tie = Tie::first;
-    filter.start = Start::released;
+    filter.start = StartRule::released;
     defaults.names = {"imm", "himm", "imm_correct"};
   }
   return defaults;

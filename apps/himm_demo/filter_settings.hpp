@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <sigmax/estimation/radar.hpp>
-#include <sigmax/hybrid/interaction.hpp>
+#include <sigmax/hybrid/any_target.hpp>
 
 #include "himm_demo/motion.hpp"
 #include "himm_demo/reading.hpp"
@@ -16,51 +16,18 @@
 
 namespace sigmax::apps {
 
-/// How a filter gets its first estimates.
-enum class Start {
-  points,    ///< from the first three measurements, each model by as many as it needs
-  released,  ///< from the first three as the authors' program does
-  given      ///< from start_mean and start_covariance_diagonal
-};
-
-/// When and how what a mode's model starts from is made one Gaussian.
-enum class Scheme {
-  interacting,   ///< before the measurement, for each mode: IMM and HIMM
-  common_start,  ///< before the measurement, once for all modes: GPB1
-  second_order,  ///< after the measurement: GPB2 and Viterbi
-  independent    ///< never: a static (autonomous) bank
-};
-
 /// A sensor's standard deviations, as a filter believes them.
 struct Accuracy {
   Polar radar{};                   ///< m and rad
   std::vector<double> position_m;  ///< of measurements that are no radar's: one, or one an axis
 };
 
-/// Everything that one filter is made of.
-struct FilterSettings {
+/// Everything that one filter is made of: that of the library's target, and how measurements come to it.
+struct FilterSettings : TargetChoice {
+  FilterSettings() { motions = {{"dwna"}, {"dwpa"}}; }
+
   std::string name;
-  bool fuzzy = false;  ///< whether the mode is fuzzy rather than random
-  Scheme scheme = Scheme::interacting;
-  std::vector<Motion> motions = {{MotionType::dwna}, {MotionType::dwpa}};
-  std::vector<std::string> models;  ///< their names, all different
-  MemberType member = MemberType::ekf;
-  std::vector<std::vector<double>> transition;  ///< per scan
-  double leaving_possibility = 0.5;             ///< of a mode for each other one, unless `transition` is given
-  std::vector<double> sojourn_s;                ///< of each mode on average; if given, the transition follows the time
-  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
-  MixingWeights imm_mixing = MixingWeights::correct;
-  Lift lift = Lift::borrowed_variance;
-  Tie mixing_tie = Tie::stay;
-  Tie output_tie = Tie::stay;
-  LikelihoodForm likelihood = LikelihoodForm::density;
-  OutputSpread output_spread = OutputSpread::included;
-  bool most_likely_output = false;
-  Start start = Start::points;
-  std::vector<double> start_mean;
-  std::vector<double> start_covariance_diagonal;
-  double start_sigma_turn_deg_s = 3.0;  ///< of a rate that is estimated; it starts from 0
-  std::optional<double> start_time_s;
+  double leaving_possibility = 0.5;       ///< of a mode for each other one, unless `transition` is given
   double gate_probability = 1.0;          ///< that a right measurement passes the gate; 1 is no gate
   std::optional<double> restart_after_s;  ///< without a measurement that passes
   bool smooth = false;                    ///< whether the output is of the whole recording rather than the past

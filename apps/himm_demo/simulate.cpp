@@ -20,7 +20,7 @@ void simulate_and_report(const SimulateOptions& options) {
   const Settings settings = Settings::read(options.config, options.sets);
   const Group parameters = group(options.group, options.scenario);
   FilterDefaults defaults = FilterDefaults::of(options.preset);
-  for (auto& motion : defaults.filter.motions) motion.sigma_w = parameters.sigma_w;
+  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
   defaults.filter.accuracy.radar = parameters.model;
   const auto filters = read_filters(settings, defaults);
   settings.refuse_unknown();

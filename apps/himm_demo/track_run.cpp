@@ -1,6 +1,7 @@
 #include "himm_demo/track_run.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,7 +34,9 @@ std::uint64_t stream_of(std::string_view track) {
 template <int Axes>
 struct Target {
   Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
-      : trackers(filters.begin(), filters.end()), random(random_stream), rows(filters.size()) {}
+      : trackers(filters.begin(), filters.end()),
+        random(random_stream),
+        keeps_all(std::any_of(filters.begin(), filters.end(), [](const auto& filter) { return filter.smooth; })) {}
 
   bool all_started() const {
     return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
@@ -41,9 +44,11 @@ struct Target {
 
   std::vector<Tracker<Axes>> trackers;
   RandomStream random;
-  Fix now;
-  Fix before;                          // a start may wait for the row after it
-  std::vector<std::vector<Fix>> rows;  // of the steps of each filter that waits to be smoothed
+  bool keeps_all;        // rows, if a filter is to be smoothed; else two: a start may wait for the row after it
+  std::deque<Fix> rows;  // whose tags are their numbers
+  std::size_t taken = 0;
+
+  const Fix& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
 };
 
 /// All filters on all targets of one recording.
@@ -105,27 +110,24 @@ class TrackRun {
   }
 
   void step(Target<Axes>& target, const Fix& fix) {
-    target.before = std::exchange(target.now, fix);
+    target.rows.push_back(fix);
+    ++target.taken;
+    if (!target.keeps_all && target.rows.size() > 2) target.rows.pop_front();
+    std::optional<double> least;  // of the filters' NIS
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
       auto& tracker = target.trackers[f];
       try {
-        tracker.take(fix.time_s, reading(fix, tracker.settings()), [&](double time) {
-          const Fix& row = time == target.now.time_s ? target.now : target.before;
-          if (tracker.settings().smooth)
-            target.rows[f].push_back(row);
-          else
-            record(row, f, tracker.now());
+        tracker.take(fix.time_s, reading(fix, tracker.settings()), target.taken - 1, [&](std::size_t tag) {
+          if (tracker.settings().smooth) return;
+          const TrackPoint<Axes> now = tracker.now();
+          record(target.row(tag), f, now);
+          if (tag + 1 == target.taken && now.nis && (!least || *now.nis < *least)) least = now.nis;
         });
       } catch (const InputError&) {
         throw;  // of the output
       } catch (const std::exception& error) {
         refuse_failure(f, fix, error);
       }
-    }
-    std::optional<double> least;  // of the filters' NIS
-    for (const auto& tracker : target.trackers) {
-      const auto nis = tracker.running() ? tracker.nis() : std::nullopt;
-      if (nis && (!least || *nis < *least)) least = nis;
     }
     if (least) outcome_.outliers.add(fix.line, *least);
   }
@@ -152,11 +154,10 @@ class TrackRun {
       try {
         points = target.trackers[f].finish();
       } catch (const std::exception& error) {
-        refuse_failure(f, target.now, error);
+        refuse_failure(f, target.rows.back(), error);
       }
-      auto row = target.rows[f].begin();
       for (const auto& point : points)
-        if (!point.is_start) record(*row++, f, point);
+        if (!point.is_start) record(target.row(point.tag), f, point);
     }
     target.rows.clear();
   }

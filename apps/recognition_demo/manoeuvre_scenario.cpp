@@ -4,14 +4,14 @@
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 namespace sigmax::apps {
 namespace {
 
-using Model = KinematicModel<1, 2>;
+using Model = IndependentAxes<1, DiscreteWhiteNoise<2>>;
 using Point = TimedMeasurement<1>;
 
 Relation<Random, Random> transition(const ManoeuvreScenario& scenario) {

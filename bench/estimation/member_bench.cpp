@@ -12,9 +12,8 @@
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
@@ -39,8 +38,8 @@ std::array<Polar, 100> measurements() {
   return all;
 }
 
-template <class Filter, class Convert>
-void run(benchmark::State& state, const Filter& filter, const Convert& convert) {
+template <class Filter, class Sensor, class Convert>
+void run(benchmark::State& state, const Filter& filter, const Sensor& sensor, const Convert& convert) {
   const auto all = measurements();
   EstimateOf<Filter> x;
   x.mean.setZero(filter.size());
@@ -50,7 +49,7 @@ void run(benchmark::State& state, const Filter& filter, const Convert& convert) 
   std::size_t k = 0;
   for (auto _ : state) {
     predict(filter, x, T, x);
-    update(filter, x, convert(all[k]), x);
+    update(filter, x, convert(all[k]), sensor, x);
     benchmark::DoNotOptimize(x.covariance.data());
     benchmark::ClobberMemory();
     k = k + 1 == all.size() ? 0 : k + 1;
@@ -62,7 +61,7 @@ const auto polar = [](const Polar& seen) { return PolarSensor<3>::measurement(se
 
 template <Conversion How>
 void Converted(benchmark::State& state) {
-  run(state, dwna<3>(3.0), [](const Polar& seen) { return to_cartesian(seen, sigma, How); });
+  run(state, dwna<3>(3.0), PositionSensor<3>{}, [](const Polar& seen) { return to_cartesian(seen, sigma, How); });
 }
 BENCHMARK(Converted<Conversion::standard>)->Name("Step/dwna/kalman_converted");
 BENCHMARK(Converted<Conversion::unbiased>)->Name("Step/dwna/kalman_unbiased");
@@ -80,8 +79,7 @@ const Undifferentiated undifferentiated{9.0, 0.01};
 
 template <template <class> class Filter, const auto& motion>
 void Step(benchmark::State& state) {
-  const Observed model{motion, PolarSensor<3>{}};
-  run(state, Filter<std::remove_const_t<decltype(model)>>{model}, polar);
+  run(state, Filter<std::remove_cvref_t<decltype(motion)>>{motion}, PolarSensor<3>{}, polar);
 }
 BENCHMARK_TEMPLATE(Step, Extended, linear)->Name("Step/dwna/extended");
 BENCHMARK_TEMPLATE(Step, Unscented, linear)->Name("Step/dwna/unscented");

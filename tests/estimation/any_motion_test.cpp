@@ -6,9 +6,8 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
@@ -25,19 +24,19 @@ using support::require_near_matrix;
 using support::throws;
 
 using Turn = CoordinatedTurn<2>;
-using Any = AnyMotion<7, KinematicModel<2, 2>, KinematicModel<2, 3>, Turn>;
+using Any = AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
 
 static_assert(NonlinearMotion<Any> && !LinearMotion<Any>);
 static_assert(std::is_convertible_v<Turn, Any>);
-static_assert(!std::is_convertible_v<KinematicModel<3, 2>, Any>, "none of the motions");
+static_assert(!std::is_convertible_v<IndependentAxes<3, DiscreteWhiteNoise<2>>, Any>, "none of the motions");
 
 /// The member over the motion itself and over that motion as any: all that a filter or smoother asks of them.
 template <template <class> class Member, class Motion>
 void filters_as(const Motion& motion) {
   holds([&] {
     const PolarSensor<2> radar{Vector<2>(-3.0, 2.0)};
-    const Member member{Observed{motion, radar}};
-    const Member any{Observed{Any{motion}, radar}};
+    const Member member{motion};
+    const Member any{Any{motion}};
     RC_ASSERT(any.size() == member.size());
     RC_ASSERT(any.name() == member.name());
     RC_ASSERT(any.components() == member.components());
@@ -53,8 +52,8 @@ void filters_as(const Motion& motion) {
 
     Gaussian<2> z{radar.measure(Vector<2>(expected.mean.template head<2>())), SquareMatrix<2>{{1.0, 0.0}, {0.0, 0.01}}};
     z.mean += Vector<2>(0.5, -0.02);
-    const auto expected_innovation = update(member, expected, z, expected);
-    const auto innovation = update(any, found, z, found);
+    const auto expected_innovation = update(member, expected, z, radar, expected);
+    const auto innovation = update(any, found, z, radar, found);
     require_near_matrix(found.mean, expected.mean, 1e-9);
     require_near_matrix(found.covariance, expected.covariance, 1e-9);
     require_near(innovation.log_likelihood, expected_innovation.log_likelihood, 1e-9);

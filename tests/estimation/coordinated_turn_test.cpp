@@ -19,8 +19,8 @@ using support::number_between;
 using support::require_near_matrix;
 using support::throws;
 
-static_assert(NonlinearModel<CoordinatedTurn<2>>);
-static_assert(NonlinearModel<CoordinatedTurn<3>>);
+static_assert(NonlinearMotion<CoordinatedTurn<2>> && axes_of<CoordinatedTurn<2>> == 2);
+static_assert(NonlinearMotion<CoordinatedTurn<3>> && axes_of<CoordinatedTurn<3>> == 3);
 static_assert(!LinearMotion<CoordinatedTurn<2>>);
 
 double generated_omega() {
@@ -70,9 +70,6 @@ void jacobian_is_the_derivative() {
     const auto derivative =
         jacobian<N, N, N, N>([&](const DifferentiableVector<N>& state) { return model.propagate(state, dt); }, x);
     require_near_matrix(model.transition_jacobian(x, dt), derivative, 1e-10);
-    const auto seen =
-        jacobian<Axes, Axes, N, N>([&](const DifferentiableVector<N>& state) { return model.measure(state); }, x);
-    require_near_matrix(model.measurement_jacobian(x), seen, 0.0);
   });
 }
 TEST(CoordinatedTurn, ItsJacobianIsTheDerivativeInThePlane) { jacobian_is_the_derivative<2>(); }
@@ -106,7 +103,6 @@ TEST(CoordinatedTurn, NamesItselfAndItsComponents) {
   EXPECT_EQ(model.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "omega"}));
   EXPECT_EQ(model.q(), 3.0);
   EXPECT_EQ(model.q_omega(), 0.5);
-  EXPECT_EQ(model.measure(Vector<7>(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0)), (Vector<3>(1.0, 2.0, 3.0)));
 }
 
 TEST(CoordinatedTurn, RefusesANoiseThatIsNone) {

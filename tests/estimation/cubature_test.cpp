@@ -30,7 +30,8 @@ TEST(Cubature, OfASquareMissesTheFourthMoment) {
     const double m = number_between(-3.0, 3.0), P = number_between(0.1, 4.0);
     const Gaussian<1> z{Vector<1>(5.0), SquareMatrix<1>(1.0)};
     Gaussian<1> x{Vector<1>(m), SquareMatrix<1>(P)};
-    const auto innovation = update(Cubature{Quadratic<1>{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)}}, x, z, x);
+    const Quadratic<1> square{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)};
+    const auto innovation = update(Cubature{square}, x, z, square, x);
     require_near(innovation.residual(0), 5.0 - m * m - P, 1e-12);
     require_near(innovation.covariance(0), 4.0 * m * m * P + 1.0, 1e-12);  // less 2P²
   });
@@ -43,8 +44,8 @@ TEST(Cubature, IsTheUnscentedFilterWhoseCentreWeighsNothing) {
                              support::fixed<3, 3>(restatement::symmetrised(support::generated(3, 3)))};
     const Gaussian<1> z{Vector<1>(1.0), SquareMatrix<1>(20.0)};
     Gaussian<3> x, y;
-    RC_PRE(update(Cubature{model}, prior, z, x).covariance(0) > 1.0);
-    update(Unscented{model, {1.0, 0.0, 0.0}}, prior, z, y);
+    RC_PRE(update(Cubature{model}, prior, z, model, x).covariance(0) > 1.0);
+    update(Unscented{model, {1.0, 0.0, 0.0}}, prior, z, model, y);
     require_near_matrix(x.mean, y.mean, 1e-12);
     require_near_matrix(x.covariance, y.covariance, 1e-12);
   });

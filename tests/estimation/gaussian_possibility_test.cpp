@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
@@ -43,6 +43,34 @@ TEST(GaussianPossibility, OfARegularCovarianceIsTheFormula) {
     require_near(pi(x), std::exp(-0.5 * squared), 1e-12);
     RC_ASSERT(pi(density.mean) == 1.0);
   });
+}
+
+/// Σ = A Aᵀ of any rank: at m + A y the distance is that of the least such y, which of independent columns is y itself.
+template <int N>
+void knows_its_support() {
+  holds([] {
+    const auto rank = *rc::gen::inRange<std::size_t>(1, std::size_t{N} + 1);
+    auto A = generated(N, rank);
+    for (std::size_t k = 0; k < rank; ++k) A(k, k) += 2.0;  // independent columns
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t k = 0; k < rank; ++k) A(i, k) *= std::pow(10.0, number_between(-1.0, 1.0) * (i % 2 ? 1.0 : 0.0));
+    const Vector<N> m = fixed<N, 1>(10.0 * generated(N, 1));
+    const GaussianPossibility<N> pi{{m, fixed<N, N>(restatement::symmetrised(A * transposed(A)))}};
+    const auto y = generated(rank, 1);
+    const Vector<N> x = m + fixed<N, 1>(A * y);
+    const auto least = transposed(y) * y;
+    if (!(pi.log(x) > log_zero)) RC_FAIL("a point of the support is impossible");
+    require_near(pi.log(x), -0.5 * least(0, 0), 1e-5);
+  });
+}
+
+TEST(GaussianPossibility, OfASingularCovarianceOfAnyRankKnowsItsSupport) {
+  knows_its_support<1>();
+  knows_its_support<2>();
+  knows_its_support<3>();
+  knows_its_support<4>();
+  knows_its_support<5>();
+  knows_its_support<6>();
 }
 
 /// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
@@ -138,8 +166,9 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
   grid.assign([&](std::size_t i) { return parabola(grid.node(i) - 0.4, 1.2); });
   GaussianPossibility<1> pi{{Vector<1>{0.4}, SquareMatrix<1>{1.2}}};
   for (const Step& step : steps) {
-    const FixedStepModel<1, 1> model("walk", {"x"}, 1.0, SquareMatrix<1>{step.F}, SquareMatrix<1>{step.Q},
-                                     SquareMatrix<1>{step.H}, Vector<1>{step.u});
+    const FixedStepMotion<1> model("walk", {"x"}, 1.0, SquareMatrix<1>{step.F}, SquareMatrix<1>{step.Q},
+                                   Vector<1>{step.u});
+    const LinearSensor<1, 1> sensor{SquareMatrix<1>{step.H}};
     const SupremumOnGrid prior = grid;
     grid.assign([&](std::size_t to) {
       const auto joint = [&](std::size_t from) {
@@ -154,8 +183,8 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
       const double supremum = grid.vertex([&](std::size_t i) { return grid[i]; }).value;
       grid.assign([&](std::size_t i) { return grid[i] - supremum; });
       Gaussian<1> unused;
-      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), z, unused)), supremum, 1e-9);
-      pi = update(model, pi, z);
+      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), z, sensor, unused)), supremum, 1e-9);
+      pi = update(model, pi, z, sensor);
     }
     const auto peak = grid.vertex([&](std::size_t i) { return grid[i]; });
     EXPECT_PRED_FORMAT3(near, pi.mean()(0), peak.at, 1e-9);
@@ -165,21 +194,18 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
   }
 }
 
-using Model = FixedStepModel<3, 2>;
+using Model = FixedStepMotion<3>;
 Model generated_model() {
-  return {"model",
-          {"a", "b", "c"},
-          1.0,
-          fixed<3, 3>(generated(3, 3)),
-          fixed<3, 3>(generated_covariance(3)),
-          fixed<2, 3>(generated(2, 3))};
+  return {"model", {"a", "b", "c"}, 1.0, fixed<3, 3>(generated(3, 3)), fixed<3, 3>(generated_covariance(3))};
 }
+LinearSensor<2, 3> generated_sensor() { return LinearSensor<2, 3>{fixed<2, 3>(generated(2, 3))}; }
 
 /// First (34), then (36) and (37); or first (23) and (24), then (34): with both numbers of (34) written as ratios of
 /// the filter's own densities.
 TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
   holds([] {
     const auto model = generated_model();
+    const auto sensor = generated_sensor();
     Gaussian<3> density = generated_gaussian<3>();
     GaussianPossibility<3> pi{density};
     for (int k = 0; k < 3; ++k) {
@@ -187,8 +213,8 @@ TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
       pi = predict(model, pi, 1.0);
       if (*rc::gen::inRange(0, 2) == 1) {
         const auto z = generated_gaussian<2>();
-        update(model, density, z, density);
-        pi = update(model, pi, z);
+        update(model, density, z, sensor, density);
+        pi = update(model, pi, z, sensor);
       }
       const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
       const auto offset = generated(3, 1);
@@ -201,11 +227,12 @@ TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
 TEST(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
   holds([] {
     const auto model = generated_model();
+    const auto sensor = generated_sensor();
     Gaussian<3> posterior;
     const auto prior = generated_gaussian<3>();
     const auto z = generated_gaussian<2>();
-    const auto innovation = update(model, prior, z, posterior);
-    const auto H = dense(model.measurement_matrix());
+    const auto innovation = update(model, prior, z, sensor, posterior);
+    const auto H = dense(sensor.measurement_matrix());
     const auto S = H * dense(prior.covariance) * transposed(H) + dense(z.covariance);
     const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
     require_near(log_possibility(innovation) - innovation.log_likelihood,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/gaussian_possibility.hpp>
 
 #include "support/matrices.hpp"
@@ -80,9 +80,9 @@ struct Line {
   Gaussian<1> estimate{Vector<1>{0.4}, SquareMatrix<1>{1.2}};
 
   void step(int k) {
-    const FixedStepModel<1, 1> model("line", {"x"}, 1.0, variance(F(k)), variance(Q), variance(1.0));
+    const FixedStepMotion<1> model("line", {"x"}, 1.0, variance(F(k)), variance(Q));
     predict(model, estimate, 1.0, estimate);
-    if (measured(k)) update(model, estimate, Gaussian<1>{Vector<1>{z(k)}, variance(R)}, estimate);
+    if (measured(k)) update(model, estimate, {Vector<1>{z(k)}, variance(R)}, PositionSensor<1>{}, estimate);
   }
   double P() const { return estimate.covariance(0, 0); }
   double log_possibility(double x) const { return parabola(x - estimate.mean(0), P()); }
@@ -163,8 +163,7 @@ TEST(GridFilter, OfAFuzzyStateIsExactWhereTheGridHasTheSupremum) {
 template <Uncertainty Kind>
 void expect_to_follow(double tolerance) {
   const SquareMatrix<2> F{{1.0, 1.0}, {0.0, 1.0}}, Q{{4.0, 3.0}, {3.0, 6.0}};
-  const Eigen::RowVector2d H{1.0, 0.0};
-  const FixedStepModel<2, 1> model("line", {"x", "v"}, 1.0, F, Q, H);
+  const FixedStepMotion<2> model("line", {"x", "v"}, 1.0, F, Q);
   Gaussian<2> kalman{{0.0, 100.0}, SquareMatrix<2>{{25.0, 0.0}, {0.0, 9.0}}};
   const GaussianPossibility<2> start{kalman};
   GridFilter<Kind, 2> filter{
@@ -172,7 +171,7 @@ void expect_to_follow(double tolerance) {
   for (int k = 1; k <= 4; ++k) {
     const Gaussian<1> z{Vector<1>{100.0 * k + 3.0 * std::sin(k)}, variance(4.0)};
     predict(model, kalman, 1.0, kalman);
-    update(model, kalman, z, kalman);
+    update(model, kalman, z, PositionSensor<1>{}, kalman);
     filter.predict([&](const Vector<2>& x) -> Vector<2> { return F * x; }, Q);
     filter.update([&](const Vector<2>& x) { return parabola(z.mean(0) - x(0), 4.0); });
     EXPECT_LT(filter.grid().size(), 10000U);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
 
@@ -28,8 +28,8 @@ struct Law {
   Vector<3> input_gain(double dt) const { return Vector<3>::Constant(dt); }
 };
 static_assert(MotionLaw<Law>);
-static_assert(LinearModel<IndependentAxes<2, Law>>);
-static_assert(measures_leading_components<IndependentAxes<2, Law>>);
+static_assert(LinearMotion<IndependentAxes<2, Law>>);
+static_assert(axes_of<IndependentAxes<2, Law>> == 2);
 
 struct OtherSize : Law {
   SquareMatrix<2> process_covariance(double) const { return SquareMatrix<2>::Identity(); }
@@ -58,9 +58,8 @@ TEST(IndependentAxes, PredictionIsTheFormula) {
   });
 }
 
-TEST(IndependentAxes, SharesTheNamesOfKinematicModels) {
+TEST(IndependentAxes, SharesTheNamesOfOthersOfItsOrder) {
   EXPECT_EQ((IndependentAxes<3, Law>{Law{}}.components()), dwpa<3>(1.0).components());
-  EXPECT_EQ((IndependentAxes<3, Law>{Law{}}.measurement_matrix()), dwpa<3>(1.0).measurement_matrix());
   EXPECT_EQ((IndependentAxes<3, Law>{Law{}}.name()), "own");
 }
 

@@ -22,8 +22,8 @@ using support::require_near_matrix;
 using support::require_steps_to_add_up;
 using support::throws;
 
-static_assert(LinearModel<KnownTurn<2>>);
-static_assert(LinearModel<KnownTurn<3>>);
+static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
+static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
 
 TEST(KnownTurn, IsTheIntegral) {
   holds([] {
@@ -68,7 +68,6 @@ TEST(KnownTurn, NamesItselfAndSharesTheComponentsOfOthers) {
   const KnownTurn<2> model{0.1, 2.0};
   EXPECT_EQ(model.name(), "known_turn");
   EXPECT_EQ(model.components(), cwna<2>(1.0).components());
-  EXPECT_EQ(model.measurement_matrix(), cwna<2>(1.0).measurement_matrix());
   EXPECT_EQ(model.omega(), 0.1);
   EXPECT_EQ(model.q(), 2.0);
 }

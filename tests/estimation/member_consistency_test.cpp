@@ -6,9 +6,8 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/metrics.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
@@ -34,11 +33,11 @@ struct Consistency {
 };
 
 /// Truth and measurements come from the model, the start from the prior; every fifth measurement is missed.
-template <class Filter, class Model>
-Consistency consistency(const Filter& filter, const Model& model, const EstimateOf<Model>& start,
-                        const SquareMatrix<Model::measurement_size>& R, double dt) {
+template <class Filter, class Model, class Sensor>
+Consistency consistency(const Filter& filter, const Model& model, const Sensor& sensor, const EstimateOf<Model>& start,
+                        const SquareMatrix<Sensor::measurement_size>& R, double dt) {
   constexpr int N = Model::state_size;
-  constexpr int M = Model::measurement_size;
+  constexpr int M = Sensor::measurement_size;
   std::mt19937_64 generator(1);
   Consistency mean;
   int measured = 0;
@@ -47,11 +46,11 @@ Consistency consistency(const Filter& filter, const Model& model, const Estimate
     EstimateOf<Model> estimate = start;
     for (int k = 0; k < steps; ++k) {
       const double step = k % 3 == 0 ? 0.5 * dt : dt;
-      truth = model.propagate(truth, step) + drawn<N>(model.process_covariance(step), generator);
+      truth = propagated(model, truth, step) + drawn<N>(model.process_covariance(step), generator);
       predict(filter, estimate, step, estimate);
       if (k % 5 == 4) continue;
-      const Gaussian<M> z{model.measure(truth) + drawn<M>(R, generator), R};
-      mean.nis += update(filter, estimate, z, estimate).squared_distance;
+      const Gaussian<M> z{predicted_measurement(model, sensor, truth) + drawn<M>(R, generator), R};
+      mean.nis += update(filter, estimate, z, sensor, estimate).squared_distance;
       ++measured;
     }
     mean.nees += nees(estimate, truth) / runs;
@@ -60,49 +59,50 @@ Consistency consistency(const Filter& filter, const Model& model, const Estimate
   return mean;
 }
 
-template <class Filter, class Model>
-void expect_consistent(const char* name, const Filter& filter, const Model& model, const EstimateOf<Model>& start,
-                       const SquareMatrix<Model::measurement_size>& R, double dt = 1.0) {
-  const Consistency found = consistency(filter, model, start, R, dt);
+template <class Filter, class Model, class Sensor>
+void expect_consistent(const char* name, const Filter& filter, const Model& model, const Sensor& sensor,
+                       const EstimateOf<Model>& start, const SquareMatrix<Sensor::measurement_size>& R,
+                       double dt = 1.0) {
+  const Consistency found = consistency(filter, model, sensor, start, R, dt);
   const Band nees_band = chi_square_band(Model::state_size, runs);
-  const Band nis_band = chi_square_band(Model::measurement_size, runs * steps * 4 / 5);
+  const Band nis_band = chi_square_band(Sensor::measurement_size, runs * steps * 4 / 5);
   EXPECT_GE(found.nees, nees_band.lower) << name;
   EXPECT_LE(found.nees, nees_band.upper) << name;
   EXPECT_GE(found.nis, nis_band.lower) << name;
   EXPECT_LE(found.nis, nis_band.upper) << name;
 }
 
-template <class Model>
-void expect_all_consistent(const Model& model, const EstimateOf<Model>& start,
-                           const SquareMatrix<Model::measurement_size>& R) {
-  expect_consistent("extended", Extended{model}, model, start, R);
-  expect_consistent("unscented", Unscented{model}, model, start, R);
-  expect_consistent("cubature", Cubature{model}, model, start, R);
+template <class Model, class Sensor>
+void expect_all_consistent(const Model& model, const Sensor& sensor, const EstimateOf<Model>& start,
+                           const SquareMatrix<Sensor::measurement_size>& R) {
+  expect_consistent("extended", Extended{model}, model, sensor, start, R);
+  expect_consistent("unscented", Unscented{model}, model, sensor, start, R);
+  expect_consistent("cubature", Cubature{model}, model, sensor, start, R);
 }
 
 TEST(MemberConsistency, OfALinearModel) {
-  const Observed model{dwna<2>(1.0), PositionSensor<2>{}};
+  const auto model = dwna<2>(1.0);
+  const PositionSensor<2> sensor;
   Gaussian<4> start{Vector<4>(1000.0, 2000.0, 10.0, -20.0), SquareMatrix<4>::Zero()};
   start.covariance.diagonal() << 400.0, 400.0, 25.0, 25.0;
   const SquareMatrix<2> R{{100.0, 20.0}, {20.0, 100.0}};
-  expect_consistent("kalman", model, model, start, R);
-  expect_all_consistent(model, start, R);
+  expect_consistent("kalman", model, model, sensor, start, R);
+  expect_all_consistent(model, sensor, start, R);
 }
 
 TEST(MemberConsistency, OfLinearMotionsSeenByARadar) {
   Gaussian<6> start{Vector<6>(12e3, 8e3, 1e3, -100.0, -100.0, 0.0), SquareMatrix<6>::Zero()};
   start.covariance.diagonal() << 400.0, 400.0, 400.0, 100.0, 100.0, 25.0;
   const SquareMatrix<3> R = PolarSensor<3>::measurement({}, {10.0, 0.1 * degree, 0.1 * degree}).covariance;
-  expect_all_consistent(Observed{dwna<3>(3.0), PolarSensor<3>{}}, start, R);
-  expect_all_consistent(Observed{ou_velocity<3>(0.1, 15.0, Vector<3>(-100.0, -100.0, 0.0)), PolarSensor<3>{}}, start,
-                        R);
+  expect_all_consistent(dwna<3>(3.0), PolarSensor<3>{}, start, R);
+  expect_all_consistent(ou_velocity<3>(0.1, 15.0, Vector<3>(-100.0, -100.0, 0.0)), PolarSensor<3>{}, start, R);
 }
 
 TEST(MemberConsistency, OfATurnSeenByARadar) {
   Gaussian<5> start{Vector<5>(12e3, 8e3, -100.0, -100.0, 0.05), SquareMatrix<5>::Zero()};
   start.covariance.diagonal() << 400.0, 400.0, 25.0, 25.0, 1e-4;
   const SquareMatrix<2> R = PolarSensor<2>::measurement({}, {10.0, 0.1 * degree, 0.0}).covariance;
-  expect_all_consistent(Observed{CoordinatedTurn<2>{1.0, 1e-5}, PolarSensor<2>{}}, start, R);
+  expect_all_consistent(CoordinatedTurn<2>{1.0, 1e-5}, PolarSensor<2>{}, start, R);
 }
 
 }  // namespace

@@ -6,17 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
 #include "estimation/members.hpp"
 #include "support/nonlinear_restatement.hpp"
-#include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
@@ -28,7 +26,8 @@ using support::generated;
 using support::generated_covariance;
 using support::generated_gaussian;
 using support::generated_scaling;
-using support::HiddenLinear;
+using support::HiddenMotion;
+using support::HiddenSensor;
 using support::holds;
 using support::near;
 using support::near_matrix;
@@ -37,37 +36,35 @@ using support::require_near;
 using support::require_near_gaussian;
 using support::require_near_innovation;
 using support::require_near_matrix;
-using support::throws;
 using support::with_default_members;
 using support::with_every_member;
 
 constexpr double pi = std::numbers::pi;
 using Dense = restatement::Matrix;
-using Linear = FixedStepModel<4, 2>;
+using Linear = FixedStepMotion<4>;
+using Hidden = HiddenSensor<2, 4>;
 
 const std::vector<std::string> components{"a", "b", "c", "d"};
 
-Linear linear(const Dense& F, const Dense& Q, const Dense& H, const Vector<4>& u = Vector<4>::Zero()) {
-  return {"linear", components, 1.0, fixed<4, 4>(F), fixed<4, 4>(Q), fixed<2, 4>(H), u};
-}
-Linear generated_linear() {
-  return linear(generated(4, 4), generated_covariance(4), generated(2, 4), fixed<4, 1>(generated(4, 1)));
+Linear linear(const Dense& F, const Dense& Q, const Vector<4>& u = Vector<4>::Zero()) {
+  return {"linear", components, 1.0, fixed<4, 4>(F), fixed<4, 4>(Q), u};
 }
 
 TEST(Member, OfALinearModelIsTheKalmanFilter) {
   holds([] {
-    const Linear kalman = generated_linear();
+    const Linear kalman = linear(generated(4, 4), generated_covariance(4), fixed<4, 1>(generated(4, 1)));
+    const LinearSensor<2, 4> sensor{support::generated_matrix<2, 4>()};
     const auto prior = generated_gaussian<4>();
     const auto z = generated_gaussian<2>();
     Gaussian<4> predicted, posterior;
     predict(kalman, prior, 1.0, predicted);
-    const auto expected = update(kalman, prior, z, posterior);
-    with_every_member(HiddenLinear<4, 2>{kalman}, [&](const auto& member) {
+    const auto expected = update(kalman, prior, z, sensor, posterior);
+    with_every_member(HiddenMotion<4>{kalman}, [&](const auto& member) {
       Gaussian<4> found;
       predict(member, prior, 1.0, found);
       require_near_gaussian(found, predicted);
       require_near_matrix(prediction_covariance(member, prior, 1.0), prediction_covariance(kalman, prior, 1.0));
-      const auto innovation = update(member, prior, z, found);
+      const auto innovation = update(member, prior, z, Hidden{sensor.measurement_matrix()}, found);
       require_near_gaussian(found, posterior);
       require_near_innovation(innovation, expected);
     });
@@ -79,7 +76,7 @@ TEST(Member, OfALinearMotionPredictsAsTheKalmanFilterExactly) {
   const Gaussian<9> prior{Vector<9>::LinSpaced(1.0, 9.0), SquareMatrix<9>::Identity()};
   Gaussian<9> expected;
   predict(motion, prior, 0.3, expected);
-  with_default_members(Observed{motion, PolarSensor<3>{}}, [&](const auto& member) {
+  with_default_members(motion, [&](const auto& member) {
     Gaussian<9> found;
     predict(member, prior, 0.3, found);
     EXPECT_EQ(found.mean, expected.mean);
@@ -100,50 +97,51 @@ TEST(Member, IsInvariantUnderInvertibleStateChangesOfALinearModel) {
     const auto F = generated(4, 4), H = generated(2, 4), Q = generated_covariance(4);
     const auto start = generated_gaussian<4>();
     const auto z = generated_gaussian<2>();
-    const HiddenLinear<4, 2> model{linear(F, Q, H)};
-    const HiddenLinear<4, 2> changed{
-        linear(T * F * T_inverse, restatement::symmetrised(T * Q * transposed(T)), H * T_inverse)};
+    const HiddenMotion<4> motion{linear(F, Q)};
+    const HiddenMotion<4> changed{linear(T * F * T_inverse, restatement::symmetrised(T * Q * transposed(T)))};
+    const Hidden sensor{fixed<2, 4>(H)}, changed_sensor{fixed<2, 4>(H * T_inverse)};
     const Gaussian<4> start_there{fixed<4, 1>(T * dense(start.mean)),
                                   fixed<4, 4>(restatement::symmetrised(T * dense(start.covariance) * transposed(T)))};
     const auto compare = [&](const auto& here, const auto& there) {
       Gaussian<4> x, y;
       predict(here, start, 1.0, x);
       predict(there, start_there, 1.0, y);
-      const auto innovation = update(here, x, z, x);
-      require_near_innovation(update(there, y, z, y), innovation);
+      const auto innovation = update(here, x, z, sensor, x);
+      require_near_innovation(update(there, y, z, changed_sensor, y), innovation);
       require_near_matrix(y.mean, T * dense(x.mean));
       require_near_matrix(y.covariance, T * dense(x.covariance) * transposed(T));
     };
     const auto scaling = generated_scaling();
-    compare(Extended{model}, Extended{changed});
-    compare(Unscented{model, scaling}, Unscented{changed, scaling});
-    compare(Cubature{model}, Cubature{changed});
+    compare(Extended{motion}, Extended{changed});
+    compare(Unscented{motion, scaling}, Unscented{changed, scaling});
+    compare(Cubature{motion}, Cubature{changed});
   });
 }
 
-/// A non-linear model in other coordinates y = T x, with T lower triangular.
+/// A turn and the radar that sees it in other coordinates y = T x, with T lower triangular.
 struct Changed {
-  using Model = Observed<CoordinatedTurn<2>, PolarSensor<2>>;
   static constexpr int state_size = 5;
   static constexpr int max_state_size = 5;
+  static constexpr int seen_size = 5;
   static constexpr int measurement_size = 2;
-  Model model;
+  CoordinatedTurn<2> turn;
+  PolarSensor<2> radar;
   SquareMatrix<5> T, T_inverse;
 
   Eigen::Index size() const { return 5; }
   std::string_view name() const { return "changed"; }
-  std::vector<std::string> components() const { return model.components(); }
-  Vector<5> propagate(const Vector<5>& y, double dt) const { return T * model.propagate(Vector<5>(T_inverse * y), dt); }
+  std::vector<std::string> components() const { return turn.components(); }
+  Vector<5> propagate(const Vector<5>& y, double dt) const { return T * turn.propagate(Vector<5>(T_inverse * y), dt); }
   SquareMatrix<5> transition_jacobian(const Vector<5>& y, double dt) const {
-    return T * model.transition_jacobian(Vector<5>(T_inverse * y), dt) * T_inverse;
+    return T * turn.transition_jacobian(Vector<5>(T_inverse * y), dt) * T_inverse;
   }
-  SquareMatrix<5> process_covariance(double dt) const { return T * model.process_covariance(dt) * T.transpose(); }
-  Vector<2> measure(const Vector<5>& y) const { return model.measure(Vector<5>(T_inverse * y)); }
+  SquareMatrix<5> process_covariance(double dt) const { return T * turn.process_covariance(dt) * T.transpose(); }
+  Vector<2> measure(const Vector<5>& y) const { return radar.measure(Vector<2>((T_inverse * y).head<2>())); }
   RectangularMatrix<2, 5> measurement_jacobian(const Vector<5>& y) const {
-    return model.measurement_jacobian(Vector<5>(T_inverse * y)) * T_inverse;
+    return radar.measurement_jacobian((T_inverse * y).head<2>()) * T_inverse.topRows<2>();
   }
   Vector<2> measurement_difference(const Vector<2>& a, const Vector<2>& b) const {
-    return model.measurement_difference(a, b);
+    return radar.measurement_difference(a, b);
   }
 };
 
@@ -171,24 +169,25 @@ TEST(Member, OfANonLinearModelIsInvariantUnderTriangularStateChanges) {
     for (int i = 0; i < 5; ++i) T(i, i) = number_between(0.5, 2.0);
     SquareMatrix<5> turned = T;
     turned.row(0).swap(turned.row(1));
-    const Changed::Model model{CoordinatedTurn<2>{0.5, 0.01}, PolarSensor<2>{}};
+    const CoordinatedTurn<2> turn{0.5, 0.01};
+    const PolarSensor<2> radar;
     const auto start = generated_turning();
     const auto z = generated_polar(start.mean);
     const auto compare = [&](const auto& here, const auto& there) {
-      const auto& change = there.model().T;
+      const auto& change = there.motion().T;
       Gaussian<5> x, y, y0{change * start.mean, change * start.covariance * change.transpose()};
       mirror_lower(y0.covariance);
       predict(here, start, 0.5, x);
       predict(there, y0, 0.5, y);
-      const auto innovation = update(here, x, z, x);
-      require_near_innovation(update(there, y, z, y), innovation, 1e-8);
+      const auto innovation = update(here, x, z, radar, x);
+      require_near_innovation(update(there, y, z, there.motion(), y), innovation, 1e-8);
       require_near_matrix(y.mean, change * x.mean, 1e-8);
       require_near_matrix(y.covariance, change * x.covariance * change.transpose(), 1e-8);
     };
-    const Changed triangular{model, T, T.inverse()};
-    compare(Extended{model}, Extended{Changed{model, turned, turned.inverse()}});
-    compare(Unscented{model}, Unscented{triangular});
-    compare(Cubature{model}, Cubature{triangular});
+    const Changed triangular{turn, radar, T, T.inverse()};
+    compare(Extended{turn}, Extended{Changed{turn, radar, turned, turned.inverse()}});
+    compare(Unscented{turn}, Unscented{triangular});
+    compare(Cubature{turn}, Cubature{triangular});
   });
 }
 
@@ -201,25 +200,19 @@ TEST(Member, IndependentLinearMeasurementsOneByOneAreTheBatch) {
     const auto one = [&](std::size_t i) {
       Dense row(1, 4);
       for (std::size_t j = 0; j < 4; ++j) row(0, j) = H(i, j);
-      return HiddenLinear<4, 1>{FixedStepModel<4, 1>{"one", components, 1.0, SquareMatrix<4>::Identity(),
-                                                     SquareMatrix<4>::Identity(), fixed<1, 4>(row)}};
+      return HiddenSensor<1, 4>{fixed<1, 4>(row)};
     };
     const auto scalar = [&](Eigen::Index i) {
       return Gaussian<1>{Vector<1>(z.mean(i)), SquareMatrix<1>(z.covariance(i, i))};
     };
-    const auto compare = [&](const auto& both, const auto& first, const auto& second) {
+    with_every_member(HiddenMotion<4>{linear(restatement::identity(4), Dense(4, 4))}, [&](const auto& member) {
       Gaussian<4> batch, sequential;
-      const double together = update(both, prior, z, batch).log_likelihood;
-      const double before = update(first, prior, scalar(0), sequential).log_likelihood;
-      const double after = update(second, sequential, scalar(1), sequential).log_likelihood;
+      const double together = update(member, prior, z, Hidden{fixed<2, 4>(H)}, batch).log_likelihood;
+      const double before = update(member, prior, scalar(0), one(0), sequential).log_likelihood;
+      const double after = update(member, sequential, scalar(1), one(1), sequential).log_likelihood;
       require_near_gaussian(sequential, batch);
       require_near(before + after, together);
-    };
-    const HiddenLinear<4, 2> both{linear(restatement::identity(4), Dense(4, 4), H)};
-    const auto scaling = generated_scaling();
-    compare(Extended{both}, Extended{one(0)}, Extended{one(1)});
-    compare(Unscented{both, scaling}, Unscented{one(0), scaling}, Unscented{one(1), scaling});
-    compare(Cubature{both}, Cubature{one(0)}, Cubature{one(1)});
+    });
   });
 }
 
@@ -280,7 +273,7 @@ restatement::NonlinearModel restated_turn(double q, double q_omega) {
 TEST(Member, IsItsPlainRestatement) {
   holds([] {
     const double q = number_between(0.1, 2.0), q_omega = number_between(0.0, 0.01), dt = number_between(0.1, 1.5);
-    const Observed model{CoordinatedTurn<2>{q, q_omega}, PolarSensor<2>{}};
+    const CoordinatedTurn<2> model{q, q_omega};
     const auto restated = restated_turn(q, q_omega);
     const auto prior = generated_turning();
     const auto z = generated_polar(prior.mean);
@@ -292,7 +285,7 @@ TEST(Member, IsItsPlainRestatement) {
       require_near(entries(found.mean), predicted.mean, 1e-9);
       require_near_matrix(found.covariance, predicted.covariance, 1e-9);
       RC_ASSERT(found.covariance == found.covariance.transpose());
-      const auto innovation = update(member, prior, z, found);
+      const auto innovation = update(member, prior, z, PolarSensor<2>{}, found);
       require_near(entries(innovation.residual), updated.nu, 1e-9);
       require_near_matrix(innovation.covariance, updated.S, 1e-9);
       require_near(innovation.squared_distance, updated.squared, 1e-9);
@@ -323,15 +316,15 @@ TEST(Member, IsItsPlainRestatement) {
 }
 
 TEST(Member, MayOverwriteItsPrior) {
-  const Observed model{CoordinatedTurn<2>{0.5, 0.01}, PolarSensor<2>{}};
+  const CoordinatedTurn<2> model{0.5, 0.01};
   const Gaussian<5> prior{Vector<5>(80.0, 60.0, 3.0, -4.0, 0.2), SquareMatrix<5>::Identity()};
   const Gaussian<2> z{Vector<2>(101.0, 0.6), SquareMatrix<2>{{4.0, 0.0}, {0.0, 0.01}}};
   with_default_members(model, [&](const auto& member) {
     Gaussian<5> predicted, updated, in_place = prior;
     predict(member, prior, 0.7, predicted);
-    update(member, predicted, z, updated);
+    update(member, predicted, z, PolarSensor<2>{}, updated);
     predict(member, in_place, 0.7, in_place);
-    update(member, in_place, z, in_place);
+    update(member, in_place, z, PolarSensor<2>{}, in_place);
     EXPECT_EQ(in_place.mean, updated.mean);
     EXPECT_EQ(in_place.covariance, updated.covariance);
   });
@@ -339,7 +332,7 @@ TEST(Member, MayOverwriteItsPrior) {
 
 TEST(Member, AnAzimuthAcrossHalfATurnIsAnAzimuthLikeAnother) {
   // The same scene, turned by half a turn about the radar, so that the azimuth jumps among the points, or not.
-  const Observed model{dwna<2>(1.0), PolarSensor<2>{}};
+  const auto model = dwna<2>(1.0);
   const SquareMatrix<2> R{{1.0, 0.0}, {0.0, 0.0025}};
   for (const double truth : {-0.001, 0.0, 0.001})
     for (const double measured : {-0.05, 0.001, 0.05})
@@ -348,7 +341,7 @@ TEST(Member, AnAzimuthAcrossHalfATurnIsAnAzimuthLikeAnother) {
           Gaussian<4> x{Vector<4>::Zero(), SquareMatrix<4>::Identity() * 4.0};
           x.mean << 100.0 * std::cos(turn + truth), 100.0 * std::sin(turn + truth), 0.0, 0.0;
           const double azimuth = std::remainder(turn + measured, 2.0 * pi);
-          innovation = update(member, x, Gaussian<2>{Vector<2>(101.0, azimuth), R}, x);
+          innovation = update(member, x, Gaussian<2>{Vector<2>(101.0, azimuth), R}, PolarSensor<2>{}, x);
           return x;
         };
         Innovation<2> ahead, behind;
@@ -361,10 +354,11 @@ TEST(Member, AnAzimuthAcrossHalfATurnIsAnAzimuthLikeAnother) {
       });
 }
 
-TEST(Member, HoldsARunTimeModel) {
+TEST(Member, HoldsARunTimeMotion) {
   const PolarSensor<3> radar{};
-  const Observed fixed_model{dwna<3>(2.0), radar};
-  const Observed model{KinematicModel<3, Eigen::Dynamic>{dwna<3>(2.0)}, radar};
+  const auto fixed_model = dwna<3>(2.0);
+  const AnyMotion<9, IndependentAxes<3, DiscreteWhiteNoise<2>>, IndependentAxes<3, DiscreteWhiteNoise<3>>> model =
+      fixed_model;
   const Gaussian<6> start{Vector<6>(8e3, 3e3, 1e3, -100.0, 50.0, 0.0), 100.0 * SquareMatrix<6>::Identity()};
   const auto z = PolarSensor<3>::measurement({8.5e3, 0.36, 0.12}, {10.0, 0.002, 0.002});
   const auto compare = [&](const auto& known, const auto& run_time) {
@@ -372,8 +366,9 @@ TEST(Member, HoldsARunTimeModel) {
     Gaussian<Eigen::Dynamic, 9> found{start.mean, start.covariance};
     predict(known, start, 0.5, expected);
     predict(run_time, found, 0.5, found);
-    const auto innovation = update(known, expected, z, expected);
-    EXPECT_PRED_FORMAT3(near, update(run_time, found, z, found).log_likelihood, innovation.log_likelihood, 1e-12);
+    const auto innovation = update(known, expected, z, radar, expected);
+    EXPECT_PRED_FORMAT3(near, update(run_time, found, z, radar, found).log_likelihood, innovation.log_likelihood,
+                        1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, found.mean, expected.mean, 1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, found.covariance, expected.covariance, 1e-12);
     EXPECT_PRED_FORMAT3(near_matrix, prediction_covariance(run_time, found, 0.5),
@@ -384,110 +379,14 @@ TEST(Member, HoldsARunTimeModel) {
   compare(Cubature{fixed_model}, Cubature{model});
 }
 
-TEST(Member, ShowsItsModel) {
-  const Observed model{dwna<3>(2.0), PolarSensor<3>{}};
+TEST(Member, ShowsItsMotion) {
+  const auto model = dwna<3>(2.0);
   with_default_members(model, [&](const auto& member) {
     EXPECT_EQ(member.name(), "dwna");
     EXPECT_EQ(member.size(), 6);
     EXPECT_EQ(member.components(), model.components());
-    EXPECT_EQ(member.model().motion().sigma_w(), 2.0);
+    EXPECT_EQ(member.motion().law().sigma_w(), 2.0);
   });
-}
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-TEST(Member, RefusesAMeasurementThatIsNotFiniteAndNamesTheModel) {
-  const Observed model{dwna<2>(1.0), PolarSensor<2>{}};
-  const Gaussian<4> prior{Vector<4>(100.0, 0.0, 0.0, 0.0), SquareMatrix<4>::Identity()};
-  const SquareMatrix<2> R = SquareMatrix<2>::Identity();
-  with_default_members(model, [&](const auto& member) {
-    Gaussian<4> x = prior;
-    for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
-      EXPECT_TRUE(throws<std::invalid_argument>(
-          [&] {
-            update(member, prior, {Vector<2>(bad, 0.1), R}, x);
-          },
-          {"measurement", "dwna", "not finite"}));
-      EXPECT_TRUE(throws<std::invalid_argument>(
-          [&] {
-            update(member, prior, {Vector<2>(1.0, 0.1), SquareMatrix<2>(bad * R)}, x);
-          },
-          {"measurement", "dwna", "not finite"}));
-    }
-    EXPECT_EQ(x.mean, prior.mean) << "the estimate is as it was";
-  });
-  Gaussian<4> x;
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        update(dwna<2>(1.0), prior, {Vector<2>(nan, 0.1), R}, x);
-      },
-      {"measurement", "dwna", "not finite"}));
-}
-
-TEST(Member, RefusesACovarianceThatLostItsDefiniteness) {
-  const Observed model{CoordinatedTurn<2>{1.0, 0.1}, PolarSensor<2>{}};
-  Gaussian<5> prior{Vector<5>(100.0, 50.0, 1.0, 1.0, 0.1), SquareMatrix<5>::Identity()};
-  prior.covariance(3, 3) = -1e-6;
-  const Gaussian<2> z{Vector<2>(100.0, 0.5), SquareMatrix<2>::Identity()};
-  const auto refuses = [&](const auto& member) {
-    Gaussian<5> x;
-    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, prior, 1.0, x); },
-                                          {"covariance", "coordinated_turn", "not positive semi-definite", "4"}));
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, prior, z, x); },
-                                          {"covariance", "coordinated_turn", "not positive semi-definite"}));
-  };
-  refuses(Unscented{model});
-  refuses(Cubature{model});
-
-  prior.covariance = -SquareMatrix<5>::Identity() * 100.0;
-  Gaussian<5> x;
-  EXPECT_TRUE(throws<std::domain_error>([&] { update(Extended{model}, prior, z, x); },
-                                        {"innovation covariance", "coordinated_turn", "not positive definite"}));
-}
-
-TEST(Member, RefusesAnEstimateThatIsNotFinite) {
-  const Observed model{dwna<2>(1.0), PolarSensor<2>{}};
-  const Gaussian<2> z{Vector<2>(100.0, 0.5), SquareMatrix<2>::Identity()};
-  const Gaussian<4> unknown{Vector<4>(nan, 50.0, 1.0, 1.0), SquareMatrix<4>::Identity()};
-  Gaussian<4> x;
-  with_default_members(model, [&](const auto& member) {
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, unknown, z, x); }, {"dwna", "not finite"}));
-  });
-  EXPECT_TRUE(throws<std::domain_error>([&] { update(dwna<2>(1.0), unknown, z, x); }, {"estimate", "dwna"}));
-}
-
-/// f has a pole at 0 and h at 1.
-struct Poles {
-  static constexpr int state_size = 1;
-  static constexpr int max_state_size = 1;
-  static constexpr int measurement_size = 1;
-  Eigen::Index size() const { return 1; }
-  std::string_view name() const { return "poles"; }
-  std::vector<std::string> components() const { return {"x"}; }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> propagate(const Eigen::Matrix<Scalar, 1, 1>& x, double) const {
-    return Eigen::Matrix<Scalar, 1, 1>(Scalar(1.0 / x(0)));
-  }
-  SquareMatrix<1> process_covariance(double) const { return SquareMatrix<1>(1.0); }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 1, 1>& x) const {
-    return Eigen::Matrix<Scalar, 1, 1>(Scalar(1.0 / (x(0) - 1.0)));
-  }
-};
-
-TEST(Member, RefusesAFunctionThatIsNotFiniteAndNamesTheState) {
-  const Gaussian<1> z{Vector<1>(1.0), SquareMatrix<1>(1.0)};
-  const auto at = [](double x) { return Gaussian<1>{Vector<1>(x), SquareMatrix<1>(1.0)}; };
-  Gaussian<1> x;
-  const auto refuses = [&](const auto& member, double pole_of_f, double pole_of_h) {
-    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, at(pole_of_f), 1.0, x); },
-                                          {"f", "poles", "not finite", "x = (0"}));
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, at(pole_of_h), z, x); },
-                                          {"h", "poles", "not finite", "x = (1"}));
-  };
-  refuses(Extended{Poles{}}, 0.0, 1.0);
-  refuses(Unscented{Poles{}}, 0.0, 1.0);
-  refuses(Cubature{Poles{}}, 1.0, 2.0);  // its points are one deviation from the mean
 }
 
 }  // namespace

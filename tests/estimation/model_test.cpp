@@ -4,24 +4,23 @@
 
 #include <type_traits>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 
 namespace sigmax {
 namespace {
 
-/// A model of one's own needs these expressions and no base class.
+/// A motion of one's own needs these expressions and no base class.
 struct RandomWalk {
   static constexpr int state_size = 1;
   static constexpr int max_state_size = 1;
-  static constexpr int measurement_size = 1;
   Eigen::Index size() const { return 1; }
   std::string_view name() const { return "random walk"; }
   std::vector<std::string> components() const { return {"x"}; }
   SquareMatrix<1> transition(double) const { return SquareMatrix<1>::Identity(); }
   SquareMatrix<1> process_covariance(double dt) const { return dt * SquareMatrix<1>::Identity(); }
   Vector<1> known_input(double) const { return Vector<1>::Zero(); }
-  SquareMatrix<1> measurement_matrix() const { return SquareMatrix<1>::Identity(); }
 };
 
 struct Nameless : RandomWalk {
@@ -38,37 +37,30 @@ struct TallNoise : RandomWalk {
 struct LongInput : RandomWalk {
   Vector<2> known_input(double) const { return Vector<2>::Zero(); }
 };
-struct TallMeasurement : RandomWalk {
-  Vector<2> measurement_matrix() const { return Vector<2>::Zero(); }
-};
 static_assert(!LinearMotion<WideTransition>);
 static_assert(!LinearMotion<TallNoise>);
 static_assert(!LinearMotion<LongInput>);
-static_assert(LinearMotion<TallMeasurement> && !LinearModel<TallMeasurement>);
 
-static_assert(LinearModel<RandomWalk>);
-static_assert(LinearModel<FixedStepModel<4, 2>>);
-static_assert(LinearModel<KinematicModel<3, 2>>);
-static_assert(LinearModel<KinematicModel<1, 3>>);
-static_assert(LinearModel<KinematicModel<3, Eigen::Dynamic>>);
-static_assert(!LinearModel<int>);
-static_assert(!LinearModel<Nameless>);
+using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
+using RunTime = AnyMotion<9, Dwna, IndependentAxes<3, DiscreteWhiteNoise<3>>>;
 
-static_assert(std::is_same_v<EstimateOf<KinematicModel<3, 2>>, Gaussian<6>>);
-static_assert(std::is_same_v<EstimateOf<KinematicModel<3, Eigen::Dynamic>>, Gaussian<Eigen::Dynamic, 9>>);
-static_assert(std::is_same_v<MeasurementOf<KinematicModel<3, Eigen::Dynamic>>, Gaussian<3>>);
-static_assert(std::is_same_v<MeasurementOf<FixedStepModel<4, 2>>, Gaussian<2>>);
+static_assert(LinearMotion<RandomWalk>);
+static_assert(LinearMotion<FixedStepMotion<4>>);
+static_assert(LinearMotion<Dwna>);
+static_assert(StateModel<RunTime> && !LinearMotion<RunTime>);
+static_assert(!StateModel<int> && !LinearMotion<int>);
+static_assert(!StateModel<Nameless> && !LinearMotion<Nameless>);
 
-static_assert(measures_leading_components<KinematicModel<2, 3>>);
-static_assert(!measures_leading_components<FixedStepModel<4, 2>>);
-static_assert(!measures_leading_components<RandomWalk>);
+static_assert(std::is_same_v<EstimateOf<Dwna>, Gaussian<6>>);
+static_assert(std::is_same_v<StateOf<Dwna>, Vector<6>>);
+static_assert(std::is_same_v<StateMatrixOf<Dwna>, SquareMatrix<6>>);
+static_assert(std::is_same_v<EstimateOf<RunTime>, Gaussian<Eigen::Dynamic, 9>>);
 
-TEST(LinearModel, WhatClaimsToMeasureItsLeadingComponentsDoes) {
-  const KinematicModel<2, Eigen::Dynamic> model{1.0, Vector<2>::Zero(), 3};
-  Eigen::Matrix<double, 2, 6> expected;
-  expected << 1, 0, 0, 0, 0, 0,  //
-      0, 1, 0, 0, 0, 0;
-  EXPECT_EQ(model.measurement_matrix(), expected);
+TEST(Model, SaysAlongHowManyAxesItKnowsItsPositionOrNothing) {
+  EXPECT_EQ(axes_of<Dwna>, 3);
+  EXPECT_EQ(axes_of<RunTime>, 3);
+  EXPECT_EQ(axes_of<RandomWalk>, 0);
+  EXPECT_EQ(axes_of<FixedStepMotion<4>>, 0);
 }
 
 }  // namespace

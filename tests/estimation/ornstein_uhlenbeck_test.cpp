@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"

@@ -5,17 +5,19 @@
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/nonlinear_model.hpp>
+#include <sigmax/estimation/nonlinear_motion.hpp>
 
 #include "estimation/members.hpp"
 
 namespace sigmax::support {
 
-/// z = a + bᵀx + ½ xᵀAx is measured, and with one state f is the same function; Q = 1.
+/// The motion and the sensor of z = a + bᵀx + ½ xᵀAx, which sees all of the state; with one state f is the same
+/// function; Q = 1.
 template <int N>
 struct Quadratic {
   static constexpr int state_size = N;
   static constexpr int max_state_size = N;
+  static constexpr int seen_size = N;
   static constexpr int measurement_size = 1;
   double a = 0.0;
   Vector<N> b = Vector<N>::Zero();
@@ -59,7 +61,7 @@ void require_quadratic(const MemberOf& member_of, const Variance& variance, doub
 
   Gaussian<3> x;
   RC_PRE(S > g.squaredNorm() + 1.0);  // else the posterior is no Gaussian
-  const auto innovation = update(member_of(model), prior, z, x);
+  const auto innovation = update(member_of(model), prior, z, model, x);
   require_near(innovation.residual(0), z.mean(0) - mean, 1e-9);
   require_near(innovation.covariance(0), S, 1e-9);
   const Vector<3> cross = L * g;

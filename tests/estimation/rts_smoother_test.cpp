@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/fixed_step_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
@@ -25,7 +24,8 @@ using support::holds;
 using support::require_near_matrix;
 using support::throws;
 
-using Model = FixedStepModel<2, 1>;
+using Model = FixedStepMotion<2>;
+using Sensor = LinearSensor<1, 2>;
 using Estimate = Gaussian<2>;
 using Record = std::vector<FilteredStep<Estimate>>;
 
@@ -35,20 +35,19 @@ Model generated_model() {
           1.0,
           support::generated_matrix<2, 2>(),
           fixed<2, 2>(support::generated_covariance(2)),
-          support::generated_matrix<1, 2>(),
           support::generated_matrix<2, 1>()};
 }
 
 /// The filtered estimates of a model, of which the first is `start`.
-template <class AnyModel, int M>
-std::vector<FilteredStep<EstimateOf<AnyModel>>> filtered(const AnyModel& model, const EstimateOf<AnyModel>& start,
-                                                         const std::vector<std::optional<Gaussian<M>>>& measurements,
-                                                         double dt) {
-  std::vector<FilteredStep<EstimateOf<AnyModel>>> record{{0.0, start}};
+template <class Moves, class Measures>
+std::vector<FilteredStep<EstimateOf<Moves>>> filtered(
+    const Moves& model, const Measures& sensor, const EstimateOf<Moves>& start,
+    const std::vector<std::optional<MeasurementOf<Measures>>>& measurements, double dt) {
+  std::vector<FilteredStep<EstimateOf<Moves>>> record{{0.0, start}};
   for (const auto& z : measurements) {
     auto estimate = record.back().state;
     predict(model, estimate, dt, estimate);
-    if (z) update(model, estimate, *z, estimate);
+    if (z) update(model, estimate, *z, sensor, estimate);
     record.push_back({dt, estimate});
   }
   return record;
@@ -67,7 +66,8 @@ TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
     const Model model = generated_model();
     const auto start = support::generated_gaussian<2>();
     const auto measurements = generated_measurements(7);
-    const auto smoothed = smooth(model, filtered(model, start, measurements, 1.0));
+    const Sensor sensor{support::generated_matrix<1, 2>()};
+    const auto smoothed = smooth(model, filtered(model, sensor, start, measurements, 1.0));
 
     const std::size_t n = 2 * (measurements.size() + 1);
     restatement::Matrix information(n, n);
@@ -91,7 +91,7 @@ TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
       add(placed(I, k + 1, placed(-1.0 * dense(model.transition(1.0)), k, {2, n})), {u(0), u(1)},
           dense(model.process_covariance(1.0)));
       if (const auto& z = measurements[k])
-        add(placed(dense(model.measurement_matrix()), k + 1, {1, n}), {z->mean(0)}, dense(z->covariance));
+        add(placed(dense(sensor.measurement_matrix()), k + 1, {1, n}), {z->mean(0)}, dense(z->covariance));
     }
     const auto covariance = restatement::inverse(information).matrix;
     const auto mean = covariance * vector;
@@ -109,14 +109,15 @@ TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
 TEST(RtsSmoother, LeavesTheLastEstimateAndAnEmptyRecordAsTheyAre) {
   holds([] {
     const Model model = generated_model();
-    const auto record = filtered(model, support::generated_gaussian<2>(), generated_measurements(5), 1.0);
+    const Sensor sensor{support::generated_matrix<1, 2>()};
+    const auto record = filtered(model, sensor, support::generated_gaussian<2>(), generated_measurements(5), 1.0);
     const auto smoothed = smooth(model, record);
     RC_ASSERT(smoothed.size() == record.size());
     RC_ASSERT(smoothed.back().mean == record.back().state.mean);
     RC_ASSERT(smoothed.back().covariance == record.back().state.covariance);
   });
   const SquareMatrix<2> I = SquareMatrix<2>::Identity();
-  EXPECT_TRUE(smooth(Model{"any", {"a", "b"}, 1.0, I, I, Eigen::RowVector2d::Ones()}, Record{}).empty());
+  EXPECT_TRUE(smooth(Model{"any", {"a", "b"}, 1.0, I, I}, Record{}).empty());
 }
 
 TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {
@@ -144,7 +145,7 @@ TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {
 /// Of a linear motion every member knows the same covariance of x_k and x_k+1.
 TEST(RtsSmoother, SmoothsALinearMotionAlikeThroughEveryMember) {
   const auto motion = dwpa<2>(2.0);
-  const Observed seen{motion, PositionSensor<2>{}};
+  const PositionSensor<2> sensor;
   std::vector<std::optional<Gaussian<2>>> measurements;
   for (int k = 0; k < 8; ++k)
     if (k == 3)
@@ -152,17 +153,17 @@ TEST(RtsSmoother, SmoothsALinearMotionAlikeThroughEveryMember) {
     else
       measurements.push_back(Gaussian<2>{Vector<2>{std::sin(k), 2.0 * k}, 0.5 * SquareMatrix<2>::Identity()});
   const Gaussian<6> start{Vector<6>::Ones(), 4.0 * SquareMatrix<6>::Identity()};
-  const auto expected = smooth(motion, filtered(motion, start, measurements, 0.7));
+  const auto expected = smooth(motion, filtered(motion, sensor, start, measurements, 0.7));
   const auto equals = [&](const auto& member) {
-    const auto smoothed = smooth(member, filtered(member, start, measurements, 0.7));
+    const auto smoothed = smooth(member, filtered(member, sensor, start, measurements, 0.7));
     for (std::size_t k = 0; k < expected.size(); ++k) {
       EXPECT_PRED_FORMAT3(support::near_matrix, smoothed[k].mean, expected[k].mean, 1e-9);
       EXPECT_PRED_FORMAT3(support::near_matrix, smoothed[k].covariance, expected[k].covariance, 1e-9);
     }
   };
-  equals(Extended{seen});
-  equals(Unscented{seen});
-  equals(Cubature{seen});
+  equals(Extended{motion});
+  equals(Unscented{motion});
+  equals(Cubature{motion});
 }
 
 TEST(RtsSmoother, NamesTheModelWhoseCovarianceLostDefiniteness) {

@@ -37,8 +37,9 @@ TEST(Unscented, OfASquareIsExactByDefaultAndWithTheFourthMomentMatched) {
     const double m = number_between(-3.0, 3.0), P = number_between(0.1, 4.0), R = number_between(0.1, 4.0);
     for (const auto& s : {UnscentedScaling{}, UnscentedScaling{1.0, 0.0, 2.0}, UnscentedScaling{0.5, 2.0, 0.0}}) {
       Gaussian<1> x{Vector<1>(m), SquareMatrix<1>(P)};
-      const auto innovation = update(Unscented{Quadratic<1>{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)}, s}, x,
-                                     Gaussian<1>{Vector<1>(5.0), SquareMatrix<1>(R)}, x);
+      const Quadratic<1> square{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)};
+      const auto innovation =
+          update(Unscented{square, s}, x, Gaussian<1>{Vector<1>(5.0), SquareMatrix<1>(R)}, square, x);
       const double S = 4.0 * m * m * P + 2.0 * P * P + R;
       require_near(innovation.residual(0), 5.0 - m * m - P, 1e-12);
       require_near(innovation.covariance(0), S, 1e-12);
@@ -79,14 +80,15 @@ TEST(Unscented, WeightsAreThoseOfWanAndVanDerMerwe) {
 
 TEST(Unscented, ANegativeWeightThatTakesTheDefinitenessAwayIsRefused) {
   // With β = −4 the variance of a square is 4m²P + P²(c − α² + β) + Q = 1 − 4 + 1 for m = 0: there is no such Gaussian.
-  const Unscented filter{Quadratic<1>{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)}, {1.0, -4.0, 0.0}};
+  const Quadratic<1> square{0.0, Vector<1>(0.0), SquareMatrix<1>(2.0)};
+  const Unscented filter{square, {1.0, -4.0, 0.0}};
   Gaussian<1> x{Vector<1>(0.0), SquareMatrix<1>(1.0)};
   EXPECT_TRUE(throws<std::domain_error>([&] { predict(filter, x, 1.0, x); },
                                         {"covariance", "quadratic", "not positive semi-definite"}));
   EXPECT_TRUE(throws<std::domain_error>(
       [&] {
         update(filter, Gaussian<1>{Vector<1>(0.0), SquareMatrix<1>(1.0)},
-               Gaussian<1>{Vector<1>(0.0), SquareMatrix<1>(1.0)}, x);
+               Gaussian<1>{Vector<1>(0.0), SquareMatrix<1>(1.0)}, square, x);
       },
       {"innovation covariance", "quadratic", "not positive definite"}));
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
 #include "support/throws.hpp"

@@ -77,7 +77,7 @@ void nothing_is_allocated(const Models& models, const Interaction<Kind>& interac
   EXPECT_GT(missed, 0U);
 }
 
-const VectorBank vector_bank{Planar{dwna<2>(1.0)}, Planar{dwna<2>(5.0)}, Planar{dwpa<2>(4.0)}};
+const VectorBank vector_bank{support::calm(1.0), support::calm(5.0), support::turning(4.0)};
 const TupleBank tuple_bank{dwna<2>(1.0), dwna<2>(5.0), dwpa<2>(4.0)};
 
 TEST(Allocation, AnImmAllocatesNothing) {

@@ -2,22 +2,25 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/any_member.hpp>
+#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 
 namespace sigmax {
 namespace {
 
-using Dwna = KinematicModel<3, 2>;
-using Dwpa = KinematicModel<3, 3>;
-using RunTime = KinematicModel<3, Eigen::Dynamic>;
+using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
+using Dwpa = IndependentAxes<3, DiscreteWhiteNoise<3>>;
+using Moves = AnyMotion<9, Dwna, Dwpa>;
+using RunTime = AnyMember<Moves>;
 
-static_assert(Bank<std::tuple<Dwna, Dwpa>>::measurement_size == 3);
+static_assert(Bank<std::tuple<Dwna, Dwpa>>::axes == 3);
 static_assert(Bank<std::tuple<Dwna, Dwpa>>::max_components == 15);
 static_assert(std::is_same_v<Bank<std::tuple<Dwna, Dwpa>>::Estimates, std::tuple<Gaussian<6>, Gaussian<9>>>);
-static_assert(Bank<std::tuple<FixedStepModel<4, 2>>>::measurement_size == 2);
+static_assert(Bank<std::tuple<FixedStepMotion<4>>>::axes == 0);
 
-static_assert(Bank<std::vector<RunTime>>::measurement_size == 3);
+static_assert(Bank<std::vector<RunTime>>::axes == 3);
 static_assert(Bank<std::vector<RunTime>>::max_components == 9);
 static_assert(std::is_same_v<Bank<std::vector<RunTime>>::Estimates, std::vector<Gaussian<Eigen::Dynamic, 9>>>);
 
@@ -49,7 +52,8 @@ TEST(Bank, GivesTheEntryOfEachMode) {
 TEST(Bank, MakesRoomForOneEstimateOfEachModel) {
   static_assert(std::is_same_v<decltype(estimates_for(std::declval<const std::tuple<Dwna, Dwpa>&>())),
                                std::tuple<Gaussian<6>, Gaussian<9>>>);
-  EXPECT_EQ(estimates_for(std::vector{RunTime{Dwna{1.0}}, RunTime{Dwpa{1.0}}}).size(), 2U);
+  EXPECT_EQ(estimates_for(std::vector<RunTime>{Extended<Moves>{dwna<3>(1.0)}, Extended<Moves>{dwpa<3>(1.0)}}).size(),
+            2U);
 }
 
 }  // namespace

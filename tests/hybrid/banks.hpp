@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include <sigmax/estimation/any_member.hpp>
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
@@ -20,9 +22,11 @@
 namespace sigmax {
 
 /// The banks of these tests: planar motion, as a vector of one run-time type and as a tuple.
-using Planar = KinematicModel<2, Eigen::Dynamic>;
+using PlanarMotion = AnyMotion<6, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>>;
+using Planar = AnyMember<PlanarMotion>;
 using VectorBank = std::vector<Planar>;
-using TupleBank = std::tuple<KinematicModel<2, 2>, KinematicModel<2, 2>, KinematicModel<2, 3>>;
+using TupleBank = std::tuple<IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<2>>,
+                             IndependentAxes<2, DiscreteWhiteNoise<3>>>;
 
 // Instantiated once, by interacting_multiple_model_test.cpp.
 extern template class InteractingMultipleModel<VectorBank, Random>;
@@ -108,8 +112,8 @@ Relation<Kind, Kind> transition_by(const std::vector<std::vector<double>>& rows)
   return {motion, motion, rows};
 }
 
-inline Planar calm(double sigma_w = 1.0) { return Planar{dwna<2>(sigma_w)}; }
-inline Planar turning(double sigma_w = 4.0) { return Planar{dwpa<2>(sigma_w)}; }
+inline Planar calm(double sigma_w = 1.0) { return Extended<PlanarMotion>{dwna<2>(sigma_w)}; }
+inline Planar turning(double sigma_w = 4.0) { return Extended<PlanarMotion>{dwpa<2>(sigma_w)}; }
 
 /// Every start is wrong in its own way.
 inline std::vector<State> starts() {
@@ -141,7 +145,8 @@ struct Alone {
 };
 
 inline restatement::Model restate(const Planar& model) {
-  return model.order() == 2 ? restatement::dwna(2, model.sigma_w()) : restatement::dwpa(2, model.sigma_w());
+  const double sigma_w = model.motion().visit([](const auto& motion) { return motion.law().sigma_w(); });
+  return model.size() == 4 ? restatement::dwna(2, sigma_w) : restatement::dwpa(2, sigma_w);
 }
 
 /// The enumerations are spelled alike and in one order.
@@ -199,7 +204,10 @@ testing::AssertionResult agrees(const Filter& filter, const restatement::Filter&
   });
   if (result && filter.measured() != restated.nis().has_value())
     result = testing::AssertionFailure() << "whether there was a measurement is in dispute";
-  if (result && filter.measured()) compare("the NIS", filter.nis(), *restated.nis());
+  if (result && filter.measured()) {
+    compare("the NIS", filter.nis(), *restated.nis());
+    compare("the distance that gates compare", filter.gate_distance(), restated.gate_distance());
+  }
   if (!result) return result;
 
   // The union of the components may be ordered differently.

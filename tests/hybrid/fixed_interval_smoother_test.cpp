@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/metrics.hpp>
 
 #include "hybrid/laws.hpp"
@@ -124,7 +124,7 @@ TEST(FixedIntervalSmoother, SmoothsATupleAsItDoesAVector) {
 /// those of all paths through a mode at a time, by sum or maximum, and the smoothed states the filtered ones.
 template <class Order, Uncertainty Kind>
 void weighs_as_all_paths_through_a_mode() {
-  using Forgetful = FixedStepModel<1, 1>;
+  using Forgetful = FixedStepMotion<1>;
   holds([] {
     constexpr std::size_t modes = 3, scans = 4;
     std::vector<Forgetful> models;
@@ -133,13 +133,8 @@ void weighs_as_all_paths_through_a_mode() {
     for (std::size_t j = 0; j < modes; ++j) {
       means.push_back(number_between(-3.0, 3.0));
       variances.push_back(number_between(0.5, 4.0));
-      models.push_back({"forgetful",
-                        {"x"},
-                        1.0,
-                        SquareMatrix<1>{0.0},
-                        SquareMatrix<1>{variances[j]},
-                        SquareMatrix<1>{1.0},
-                        Vector<1>{means[j]}});
+      models.push_back(
+          {"forgetful", {"x"}, 1.0, SquareMatrix<1>{0.0}, SquareMatrix<1>{variances[j]}, Vector<1>{means[j]}});
       for (std::size_t i = 0; i < modes; ++i) rows[j].push_back(i == j ? 1.0 : *rc::gen::element(0.0, 0.25, 0.5, 1.0));
       if constexpr (std::is_same_v<Kind, Random>) {
         const double sum = rows[j][0] + rows[j][1] + rows[j][2];
@@ -154,8 +149,8 @@ void weighs_as_all_paths_through_a_mode() {
     for (std::size_t k = 0; k < scans; ++k) {
       z.push_back(number_between(-4.0, 4.0));
       const Gaussian<1> seen{Vector<1>{z[k]}, SquareMatrix<1>{R}};
-      filter.step(1.0, seen);
-      record.push_back(filter.recorded(1.0, seen));
+      filter.step(1.0, seen, PositionSensor<1>{});
+      record.push_back(filter.recorded(1.0, seen, PositionSensor<1>{}));
     }
     const auto smoothed = smooth(filter, record);
 
@@ -203,22 +198,22 @@ template <class Order, Uncertainty Kind>
 void knows_what_all_pairs_know() {
   holds([] {
     constexpr std::size_t modes = 2;
-    std::vector<FixedStepModel<1, 1>> models;
+    std::vector<FixedStepMotion<1>> models;
     std::vector<double> F, Q;
     const double x0 = 1.0, P0 = number_between(0.5, 4.0), R = 0.5, z = number_between(-5.0, 5.0);
     for (std::size_t j = 0; j < modes; ++j) {
       F.push_back(number_between(-1.5, 1.5));
       Q.push_back(number_between(0.1, 4.0));
-      models.push_back({"any", {"x"}, 1.0, SquareMatrix<1>{F[j]}, SquareMatrix<1>{Q[j]}, SquareMatrix<1>{1.0}});
+      models.push_back({"any", {"x"}, 1.0, SquareMatrix<1>{F[j]}, SquareMatrix<1>{Q[j]}});
     }
     const auto transition = std::is_same_v<Kind, Random> ? transition_by<Kind>({{0.75, 0.25}, {0.125, 0.875}})
                                                          : transition_by<Kind>({{1.0, 0.25}, {0.125, 1.0}});
-    typename Order::template Filter<std::vector<FixedStepModel<1, 1>>, Kind> filter{
+    typename Order::template Filter<std::vector<FixedStepMotion<1>>, Kind> filter{
         models, transition, std::vector<Gaussian<1>>(modes, {Vector<1>{x0}, SquareMatrix<1>{P0}})};
     std::vector record{filter.recorded(0.0)};
     const Gaussian<1> seen{Vector<1>{z}, SquareMatrix<1>{R}};
-    filter.step(1.0, seen);
-    record.push_back(filter.recorded(1.0, seen));
+    filter.step(1.0, seen, PositionSensor<1>{});
+    record.push_back(filter.recorded(1.0, seen, PositionSensor<1>{}));
     const auto smoothed = smooth(filter, record)[0];
 
     std::vector<double> belief(modes, 0.0), mean(modes, 0.0), square(modes, 0.0);

@@ -4,10 +4,11 @@
 #include <concepts>
 #include <random>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "hybrid/banks.hpp"
+#include "hybrid/named_sensor.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
@@ -22,12 +23,14 @@ using support::number_between;
 using support::SecondOrder;
 using support::throws;
 
-using Model = FixedStepModel<3, 1>;
+using Model = FixedStepMotion<3>;
 using Measured = Gaussian<1>;
+const support::NamedSensor<1> sees_x{{"x"}};
 
 restatement::Model restated(const Model& model) {
   return {model.components(), [model](double dt) { return dense(model.transition(dt)); },
-          [model](double dt) { return dense(model.process_covariance(dt)); }, dense(model.measurement_matrix())};
+          [model](double dt) { return dense(model.process_covariance(dt)); },
+          support::restated_matrix(sees_x.names, model.components())};
 }
 
 template <class Filter>
@@ -35,7 +38,7 @@ void step(Filter& filter, const std::optional<Measured>& z) {
   if constexpr (std::derived_from<Filter, restatement::Filter>)
     z ? filter.step(1.0, {z->mean(0)}, {1, 1, {z->covariance(0, 0)}}) : filter.step(1.0);
   else
-    z ? filter.step(1.0, *z) : filter.step(1.0);
+    z ? filter.step(1.0, *z, sees_x) : filter.step(1.0);
 }
 
 // Beside {x, vx, ax} stands a model whose third component is another thing, and whose order is another.
@@ -43,14 +46,12 @@ const Model accelerating{"accelerating",
                          {"x", "vx", "ax"},
                          1.0,
                          SquareMatrix<3>{{1, 1, 0.5}, {0, 1, 1}, {0, 0, 1}},
-                         SquareMatrix<3>{{0.3, 0.1, 0}, {0.1, 0.4, 0.1}, {0, 0.1, 0.2}},
-                         Eigen::RowVector3d{1, 0, 0}};
+                         SquareMatrix<3>{{0.3, 0.1, 0}, {0.1, 0.4, 0.1}, {0, 0.1, 0.2}}};
 const Model turning{"turning",
                     {"turn_rate", "x", "vx"},
                     1.0,
                     SquareMatrix<3>{{0.9, 0, 0}, {0.2, 1, 0.8}, {-0.3, 0.1, 0.9}},
-                    SquareMatrix<3>{{0.1, 0, 0}, {0, 0.5, 0.2}, {0, 0.2, 0.6}},
-                    Eigen::RowVector3d{0, 1, 0}};
+                    SquareMatrix<3>{{0.1, 0, 0}, {0, 0.5, 0.2}, {0, 0.2, 0.6}}};
 
 const Gaussian<3> of_accelerating{Vector<3>{1, 2, 0.5}, SquareMatrix<3>{{4, 1, 0.5}, {1, 3, 1}, {0.5, 1, 2}}};
 const Gaussian<3> of_turning{Vector<3>{0.1, 1.5, 1.5}, SquareMatrix<3>{{1, 0.2, 0.1}, {0.2, 5, 1}, {0.1, 1, 4}}};
@@ -103,7 +104,6 @@ Model forgetful(double mean, double variance) {
           1.0,
           SquareMatrix<3>::Zero(),
           variance * SquareMatrix<3>::Identity(),
-          Eigen::RowVector3d{1, 0, 0},
           Vector<3>{mean, 0.0, 0.0}};
 }
 
@@ -133,7 +133,7 @@ void weighs_as_all_paths_together() {
                                                                    std::vector<Gaussian<3>>(modes, anywhere)};
 
   for (std::size_t k = 1; k <= scans; ++k) {
-    filter.step(1.0, Measured{Vector<1>{measurements[k - 1]}, SquareMatrix<1>{R}});
+    filter.step(1.0, Measured{Vector<1>{measurements[k - 1]}, SquareMatrix<1>{R}}, sees_x);
 
     std::vector<double> weights(modes, 0.0);
     std::size_t paths = modes;
@@ -173,12 +173,11 @@ TEST(InteractingFixedStepModels, WithoutMemoryWeightsOfAFuzzyModeAreViterbisOver
 template <Uncertainty Kind>
 void knows_what_all_histories_know(bool selects) {
   const auto scalar = [](const std::string& name, double F, double Q, double u) {
-    return FixedStepModel<1, 1>{name,        {"x"}, 1.0, SquareMatrix<1>{F}, SquareMatrix<1>{Q}, SquareMatrix<1>{1.0},
-                                Vector<1>{u}};
+    return FixedStepMotion<1>{name, {"x"}, 1.0, SquareMatrix<1>{F}, SquareMatrix<1>{Q}, Vector<1>{u}};
   };
   holds([&] {
     constexpr std::size_t modes = 3;
-    std::vector<FixedStepModel<1, 1>> models;
+    std::vector<FixedStepMotion<1>> models;
     std::vector<double> F, Q, u;
     std::vector<std::vector<double>> rows(modes);
     for (std::size_t j = 0; j < modes; ++j) {
@@ -197,7 +196,8 @@ void knows_what_all_histories_know(bool selects) {
                                     std::vector<Gaussian<1>>(modes, {Vector<1>{1.0}, SquareMatrix<1>{2.0}})};
     const double R = 0.5;
     const std::vector<double> z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
-    for (const double measured : z) filter.step(1.0, Measured{Vector<1>{measured}, SquareMatrix<1>{R}});
+    for (const double measured : z)
+      filter.step(1.0, Measured{Vector<1>{measured}, SquareMatrix<1>{R}}, PositionSensor<1>{});
 
     double best = -1.0, total = 0.0, mean = 0.0, square = 0.0, best_mean = 0.0, best_variance = 0.0;
     for (std::size_t before = 0; before < modes; ++before)  // r_0: of no account for the state

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "support/throws.hpp"
 
@@ -20,14 +20,14 @@ TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
   const JumpMarkovSystem system{std::tuple{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};
   EXPECT_EQ(system.mode_variable().name(), "mode");
   EXPECT_EQ(system.transition()(0, 1), 0.5);
-  EXPECT_EQ(std::get<1>(system.models()).sigma_w(), 2.0);
+  EXPECT_EQ(std::get<1>(system.models()).law().sigma_w(), 2.0);
 }
 
 TEST(JumpMarkovSystem, NeedsOneOutcomeForEachModel) {
   EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent); },
                                             {"'mode'", "2 outcomes", "1 models"}));
   EXPECT_TRUE(throws<std::invalid_argument>(
-      [] { JumpMarkovSystem(std::vector<KinematicModel<3, Eigen::Dynamic>>{}, persistent); },
+      [] { JumpMarkovSystem(std::vector<IndependentAxes<3, DiscreteWhiteNoise<2>>>{}, persistent); },
       {"'mode'", "2 outcomes", "0 models"}));
 }
 

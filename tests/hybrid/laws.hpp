@@ -66,7 +66,7 @@ void generated_filters(const Interaction<Kind>& interaction) {
   for (std::size_t i = 0; i < modes; ++i) {
     const double sigma_w = *rc::gen::element(0.5, 3.0);
     models.push_back(*rc::gen::arbitrary<bool>() ? calm(sigma_w) : turning(sigma_w));
-    const State from = starts()[models.back().order() == 2 ? 0 : 2];
+    const State from = starts()[models.back().size() == 4 ? 0 : 2];
     start.push_back({from.mean.array() + number_between(-20.0, 20.0), number_between(0.1, 9.0) * from.covariance});
     for (double& value : rows[i]) value = *rc::gen::element(0.0, 0.25, 0.5, 1.0);
     rows[i][i] = 1.0;
@@ -302,7 +302,8 @@ void misses_what_is_outside_the_gate() {
     missing.step(scan.dt);
     const double gate = 1.0;
     gated.step(scan.dt, *scan.z, gate);
-    ASSERT_EQ(gated.measured(), taking.nis() <= gate);
+    ASSERT_EQ(gated.gate_distance(), taking.gate_distance());
+    ASSERT_EQ(gated.measured(), taking.gate_distance() <= gate);
     require_same<Order, Kind>(gated, gated.measured() ? taking : missing);
     ++(gated.measured() ? taken : missed);
     gated = taking;

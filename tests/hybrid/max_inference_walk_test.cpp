@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/gaussian_possibility.hpp>
 #include <sigmax/estimation/grid_filter.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 
 #include "support/near.hpp"
@@ -16,7 +16,7 @@ namespace {
 using support::near;
 
 TEST(MaxInference, GaussianPossibilityFunctions) {
-  const KinematicModel<1, 2> model{0.5};
+  const auto model = dwna<1>(0.5);
   GaussianPossibility<2> pi{Gaussian<2>{Vector<2>{0.0, 1.0}, SquareMatrix<2>::Identity()}};
   pi = predict(model, pi, 2.0);
   pi = update(model, pi, {Vector<1>{2.5}, SquareMatrix<1>{0.25}});

@@ -7,9 +7,8 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
@@ -33,11 +32,9 @@ Gaussian<2> measurement(int k) {
 TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilter) {
   const RandomVariable mode{"mode", 2};
   const Relation transition{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}};
-  const PositionSensor<2> sensor;
   InteractingMultipleModel expected{std::tuple{dwna<2>(3.0), singer<2>(0.2, 2.0)}, transition, start()};
-  InteractingMultipleModel found{
-      std::tuple{Unscented{Observed{dwna<2>(3.0), sensor}}, Cubature{Observed{singer<2>(0.2, 2.0), sensor}}},
-      transition, start()};
+  InteractingMultipleModel found{std::tuple{Unscented{dwna<2>(3.0)}, Cubature{singer<2>(0.2, 2.0)}}, transition,
+                                 start()};
   for (int k = 0; k < 40; ++k) {
     if (k % 7 == 3) {
       expected.step(0.5);
@@ -54,7 +51,7 @@ TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilter) {
 }
 
 TEST(MembersAsModes, OneAloneIsItself) {
-  const Unscented member{Observed{CoordinatedTurn<2>{1.0, 1e-4}, PolarSensor<2>{}}};
+  const Unscented member{CoordinatedTurn<2>{1.0, 1e-4}};
   const FuzzyVariable mode{"mode", 1};
   Gaussian<5> x{Vector<5>(1e3, 2e3, 50.0, -60.0, 0.1), 100.0 * SquareMatrix<5>::Identity()};
   x.covariance(4, 4) = 0.01;
@@ -63,8 +60,8 @@ TEST(MembersAsModes, OneAloneIsItself) {
     const Vector<2> seen = PolarSensor<2>{}.measure(measurement(k).mean);
     const auto z = PolarSensor<2>::measurement({seen(0), seen(1), 0.0}, {5.0, 0.005, 0.0});
     predict(member, x, 0.5, x);
-    const auto innovation = update(member, x, z, x);
-    filter.step(0.5, z);
+    const auto innovation = update(member, x, z, PolarSensor<2>{}, x);
+    filter.step(0.5, z, PolarSensor<2>{});
     EXPECT_EQ(filter.innovations()[0].log_likelihood, innovation.log_likelihood);
     EXPECT_EQ(std::get<0>(filter.estimates()).mean, x.mean);
   }
@@ -77,15 +74,14 @@ TEST(MembersAsModes, ATurnIsRecognisedAndItsRateIsFound) {
   const PolarSensor<2> radar;
   Gaussian<5> x{Vector<5>(-8e3, 500.0, 0.0, -100.0, 0.0), 100.0 * SquareMatrix<5>::Identity()};
   x.covariance(4, 4) = 0.01;
-  InteractingMultipleModel filter{
-      std::tuple{Extended{Observed{dwna<2>(0.1), radar}}, Unscented{Observed{CoordinatedTurn<2>{0.1, 1e-5}, radar}}},
-      transition, x};
+  InteractingMultipleModel filter{std::tuple{Extended{dwna<2>(0.1)}, Unscented{CoordinatedTurn<2>{0.1, 1e-5}}},
+                                  transition, x};
   const CoordinatedTurn<2> truth{0.0, 0.0};
   Vector<5> state = x.mean;
   for (int k = 0; k < 30; ++k) {
     state(4) = k < 10 ? 0.0 : 0.1;
     state = truth.propagate(state, 1.0);
-    filter.step(1.0, {radar.measure(Vector<2>(state.head<2>())), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-6}}});
+    filter.step(1.0, {radar.measure(Vector<2>(state.head<2>())), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-6}}}, radar);
     if (k == 9) {
       EXPECT_EQ(filter.most_likely_mode(), 0U);
     }

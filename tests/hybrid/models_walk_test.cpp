@@ -10,10 +10,9 @@
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
 #include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
@@ -29,12 +28,12 @@ using support::near;
 using support::near_matrix;
 
 TEST(ModelsWalk, AStep) {
-  const Unscented filter{Observed{CoordinatedTurn<3>{1.0, 1e-4}, PolarSensor<3>{}}};
+  const Unscented filter{CoordinatedTurn<3>{1.0, 1e-4}};
   Gaussian<7> x{Vector<7>(8e3, 6e3, 1e3, -50.0, 80.0, 0.0, 0.05), 100.0 * SquareMatrix<7>::Identity()};
   x.covariance(6, 6) = 0.01;
   const auto z = PolarSensor<3>::measurement({10.05e3, 0.65, 0.1}, {10.0, 0.002, 0.002});
   predict(filter, x, 0.2, x);
-  const auto innovation = update(filter, x, z, x);
+  const auto innovation = update(filter, x, z, PolarSensor<3>{}, x);
   EXPECT_TRUE(std::isfinite(innovation.log_likelihood));
   EXPECT_EQ(innovation.residual.size(), 3);
 }
@@ -50,11 +49,10 @@ TEST(ModelsWalk, ModesOfAMultipleModelFilter) {
   EXPECT_PRED_FORMAT3(near, filter.belief()[filter.most_likely_mode()], 1.0, 1e-15);
 }
 
-/// A pendulum whose sideways deflection is seen.
+/// A pendulum.
 struct Pendulum {
   static constexpr int state_size = 2;
   static constexpr int max_state_size = 2;
-  static constexpr int measurement_size = 1;
   Eigen::Index size() const { return 2; }
   std::string_view name() const { return "pendulum"; }
   std::vector<std::string> components() const { return {"angle", "rate"}; }
@@ -65,8 +63,14 @@ struct Pendulum {
     return {Scalar(x(0) + dt * rate), rate};
   }
   SquareMatrix<2> process_covariance(double dt) const { return 0.01 * dt * SquareMatrix<2>::Identity(); }
+};
+
+/// What one sees of it: how far it swings to a side.
+struct Sideways {
+  static constexpr int seen_size = 1;
+  static constexpr int measurement_size = 1;
   template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 2, 1>& x) const {
+  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 1, 1>& x) const {
     using std::sin;
     return Eigen::Matrix<Scalar, 1, 1>(Scalar(sin(x(0))));
   }
@@ -76,23 +80,22 @@ TEST(ModelsWalk, AModelOfOnesOwn) {
   Gaussian<2> swing{Vector<2>(1.0, 0.0), 0.1 * SquareMatrix<2>::Identity()};
   const Extended pendulum{Pendulum{}};
   predict(pendulum, swing, 0.01, swing);
-  update(pendulum, swing, {Vector<1>(0.8), SquareMatrix<1>(0.01)}, swing);
+  update(pendulum, swing, {Vector<1>(0.8), SquareMatrix<1>(0.01)}, Sideways{}, swing);
   EXPECT_LT(swing.covariance(0, 0), 0.1);
   EXPECT_PRED_FORMAT3(near_matrix, transition_jacobian(Pendulum{}, Vector<2>(0.0, 0.0), 0.1),
                       (SquareMatrix<2>{{1.0 - 0.0981, 0.1}, {-0.981, 1.0}}), 1e-15);
 }
 
 struct Altimeter {
-  static constexpr int axes = 3;
+  static constexpr int seen_size = 3;
   static constexpr int measurement_size = 1;
   Vector<1> measure(const Vector<3>& position) const { return Vector<1>(position.z()); }
   Eigen::RowVector3d measurement_jacobian(const Vector<3>&) const { return {0.0, 0.0, 1.0}; }
 };
 
 TEST(ModelsWalk, ASensorOfOnesOwn) {
-  const Extended altitude{Observed{dwna<3>(3.0), Altimeter{}}};
   Gaussian<6> x{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
-  EXPECT_EQ(update(altitude, x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, x).residual(0), 5.0);
+  EXPECT_EQ(update(dwna<3>(3.0), x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, Altimeter{}, x).residual(0), 5.0);
   EXPECT_PRED_FORMAT3(near, x.mean(2), 2.5, 1e-15);
 }
 

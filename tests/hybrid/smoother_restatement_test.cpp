@@ -12,10 +12,11 @@
 #include <type_traits>
 #include <vector>
 
-#include <sigmax/estimation/fixed_step_model.hpp>
+#include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 
 #include "hybrid/laws.hpp"
+#include "hybrid/named_sensor.hpp"
 #include "support/smoother_restatement.hpp"
 
 namespace sigmax {
@@ -43,12 +44,13 @@ void require_near_state(const restatement::State& found, const restatement::Stat
 }
 
 /// Takes the scans and smooths them, both ways.
-template <class Filter, class Restated>
-void smooths_as_restated(Filter filter, const Restated& restated, const std::vector<Scan>& scans) {
+template <class Filter, class Restated, class Sensor = PositionSensor<2>>
+void smooths_as_restated(Filter filter, const Restated& restated, const std::vector<Scan>& scans,
+                         const Sensor& sensor = {}) {
   restatement::Smoother<Restated> expected{restated};
   std::vector record{filter.recorded(0.0)};
   for (const Scan& scan : scans) {
-    step(filter, scan);
+    scan.z ? filter.step(scan.dt, *scan.z, sensor) : filter.step(scan.dt);
     step(expected, scan);
     record.push_back(recorded(filter, scan));
   }
@@ -100,11 +102,13 @@ TEST(SmootherRestatement, OfAHimm) { smooths_each_bank<Interacting, Fuzzy>(); }
 TEST(SmootherRestatement, OfGpb2) { smooths_each_bank<SecondOrder, Random>(); }
 TEST(SmootherRestatement, OfAViterbiFilter) { smooths_each_bank<SecondOrder, Fuzzy>(); }
 
-using Model = FixedStepModel<3, 2>;
+using Model = FixedStepMotion<3>;
+const NamedSensor<2> sees_both{{"x", "y"}};
 
 restatement::Model restated(const Model& model) {
   return {model.components(), [model](double dt) { return dense(model.transition(dt)); },
-          [model](double dt) { return dense(model.process_covariance(dt)); }, dense(model.measurement_matrix())};
+          [model](double dt) { return dense(model.process_covariance(dt)); },
+          restated_matrix(sees_both.names, model.components())};
 }
 
 /// Each model lacks a component of the other, and they are ordered differently.
@@ -114,14 +118,12 @@ void smooths_what_is_not_nested() {
                        {"x", "y", "drift"},
                        1.0,
                        SquareMatrix<3>{{1, 0, 1}, {0.1, 0.9, 0.2}, {0, 0, 0.95}},
-                       SquareMatrix<3>{{0.5, 0.1, 0}, {0.1, 0.4, 0.1}, {0, 0.1, 0.2}},
-                       RectangularMatrix<2, 3>{{1, 0, 0}, {0, 1, 0}}};
+                       SquareMatrix<3>{{0.5, 0.1, 0}, {0.1, 0.4, 0.1}, {0, 0.1, 0.2}}};
   const Model swinging{"swinging",
                        {"swing", "y", "x"},
                        1.0,
                        SquareMatrix<3>{{0.9, 0, 0.1}, {0.8, 1, 0}, {-0.3, 0.1, 0.9}},
-                       SquareMatrix<3>{{0.6, 0, 0}, {0, 0.5, 0.2}, {0, 0.2, 0.7}},
-                       RectangularMatrix<2, 3>{{0, 0, 1}, {0, 1, 0}}};
+                       SquareMatrix<3>{{0.6, 0, 0}, {0, 0.5, 0.2}, {0, 0.2, 0.7}}};
   const Gaussian<3> of_drifting{Vector<3>{1, 2, 0.5}, SquareMatrix<3>{{4, 1, 0.5}, {1, 3, 1}, {0.5, 1, 2}}};
   const Gaussian<3> of_swinging{Vector<3>{0, 1, 2}, SquareMatrix<3>{{1, 0.2, 0.1}, {0.2, 5, 1}, {0.1, 1, 4}}};
   constexpr double stay = std::is_same_v<Kind, Random> ? 0.75 : 1.0;
@@ -144,7 +146,7 @@ void smooths_what_is_not_nested() {
                                       {restate(of_drifting), restate(of_swinging)},
                                       {1.0, 1.0},
                                       restate(interaction)};
-    smooths_as_restated(filter, expected, scans);
+    smooths_as_restated(filter, expected, scans, sees_both);
   }
 }
 

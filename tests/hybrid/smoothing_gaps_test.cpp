@@ -11,6 +11,8 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include <sigmax/estimation/any_member.hpp>
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
@@ -22,8 +24,9 @@
 namespace sigmax {
 namespace {
 
-using Motion = KinematicModel<1, Eigen::Dynamic>;
-using Motions = std::vector<Motion>;
+using Moves = AnyMotion<3, IndependentAxes<1, DiscreteWhiteNoise<2>>, IndependentAxes<1, DiscreteWhiteNoise<3>>>;
+using Model = AnyMember<Moves>;
+using Models = std::vector<Model>;
 using Estimate = Gaussian<Eigen::Dynamic, 3>;
 using Real = boost::multiprecision::cpp_bin_float_100;
 
@@ -90,9 +93,11 @@ void smooths_as_restated(Filter filter, const Rows& rows, double tolerance) {
   using Kind = typename std::decay_t<decltype(filter.belief())>::kind;
   constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
   std::vector<restatement::smoothing::Model<Real>> models;
-  for (const Motion& model : filter.system().models())
-    models.push_back(
-        restatement::smoothing::discrete_noise<Real>(1, static_cast<std::size_t>(model.order()), model.sigma_w()));
+  for (const Model& model : filter.system().models())
+    model.motion().visit([&](const auto& motion) {
+      models.push_back(restatement::smoothing::discrete_noise<Real>(1, static_cast<std::size_t>(motion.order),
+                                                                    motion.law().sigma_w()));
+    });
   restatement::Matrix transition(models.size(), models.size());
   for (std::size_t i = 0; i < models.size(); ++i)
     for (std::size_t j = 0; j < models.size(); ++j) transition(i, j) = filter.system().transition()(i, j);
@@ -127,7 +132,7 @@ void smooths_as_restated(Filter filter, const Rows& rows, double tolerance) {
 }
 
 /// IMM, HIMM, GPB2 and Viterbi.
-void all_smooth_as_restated(const Motions& motions, const std::vector<Estimate>& start, const Rows& rows,
+void all_smooth_as_restated(const Models& motions, const std::vector<Estimate>& start, const Rows& rows,
                             double tolerance = 1e-6) {
   const RandomVariable random{"mode", motions.size()};
   const FuzzyVariable fuzzy{"mode", motions.size()};
@@ -139,7 +144,7 @@ void all_smooth_as_restated(const Motions& motions, const std::vector<Estimate>&
   smooths_as_restated(SecondOrderMultipleModel{motions, possible, start}, rows, tolerance);
 }
 
-const Motions calm_and_turning{Motion{dwna<1>(3.0)}, Motion{dwpa<1>(3.0)}};
+const Models calm_and_turning{Extended<Moves>{dwna<1>(3.0)}, Extended<Moves>{dwpa<1>(3.0)}};
 const Estimate narrow{Vector<2>{0.0, 100.0}, SquareMatrix<2>{{100.0, 0.0}, {0.0, 100.0}}};
 const Estimate wide{Vector<3>{0.0, 100.0, 0.0},
                     SquareMatrix<3>{{100.0, 0.0, 0.0}, {0.0, 100.0, 0.0}, {0.0, 0.0, 10.0}}};
@@ -163,7 +168,7 @@ TEST(SmoothingGaps, InEveryRowAreExact) {
 
 TEST(SmoothingGaps, OfMissedRowsAreExact) {
   all_smooth_as_restated(calm_and_turning, {narrow, wide}, Rows(10.0).seen(1.0, 5).missed(1.0, 60).seen(1.0, 5));
-  const Motions calm_and_rough{Motion{dwna<1>(0.5)}, Motion{dwna<1>(5.0)}};
+  const Models calm_and_rough{Extended<Moves>{dwna<1>(0.5)}, Extended<Moves>{dwna<1>(5.0)}};
   const FuzzyVariable mode{"mode", 2};
   smooths_as_restated(SecondOrderMultipleModel{calm_and_rough, Relation{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}},
                                                std::vector{narrow, narrow}},
@@ -186,7 +191,7 @@ TEST(SmoothingGaps, OfMeasurementsToANanometreAreExactToTheDigitsOfAPosition) {
 TEST(SmoothingGaps, OfOneModelAreThoseOfTheRtsSmoother) {
   const RandomVariable mode{"mode", 1};
   const auto compare = [&](const Rows& rows, double tolerance) {
-    InteractingMultipleModel filter{Motions{calm_and_turning[1]}, Relation{mode, mode, {{1.0}}}, std::vector{wide}};
+    InteractingMultipleModel filter{Models{calm_and_turning[1]}, Relation{mode, mode, {{1.0}}}, std::vector{wide}};
     const auto record = flown(filter, rows);
     const auto smoothed = smooth(filter, record);
     std::vector<FilteredStep<Estimate>> filtered;

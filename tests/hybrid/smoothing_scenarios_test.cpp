@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/start.hpp>
@@ -16,7 +18,8 @@
 namespace sigmax {
 namespace {
 
-using Bank3 = std::vector<KinematicModel<3, Eigen::Dynamic>>;
+using Moves = AnyMotion<9, IndependentAxes<3, DiscreteWhiteNoise<2>>, IndependentAxes<3, DiscreteWhiteNoise<3>>>;
+using Bank3 = std::vector<Extended<Moves>>;
 using Estimate = Gaussian<Eigen::Dynamic, 9>;
 
 /// A scenario of section VI.A, group 1: samples are counted from one, the target accelerates from `first` to `last`.
@@ -60,7 +63,7 @@ Flight fly(const Scenario& scenario, std::mt19937_64& generator) {
 template <class Filter, class Kind>
 void smoothing_is_better(const Scenario& scenario, const Relation<Kind, Kind>& transition,
                          const Interaction<Kind>& interaction = {}, int runs = 8) {
-  const Bank3 models{KinematicModel<3, Eigen::Dynamic>{dwna<3>(3.0)}, KinematicModel<3, Eigen::Dynamic>{dwpa<3>(3.0)}};
+  const Bank3 models{Extended<Moves>{dwna<3>(3.0)}, Extended<Moves>{dwpa<3>(3.0)}};
   std::mt19937_64 generator(11);
   std::array<RootMeanSquare, 3> filtered, smoothed;
   for (int run = 0; run < runs; ++run) {

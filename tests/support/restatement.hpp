@@ -204,6 +204,17 @@ struct State {
   Matrix covariance;
 };
 
+/// What a measurement told beyond its prediction at a state, and the Jacobian there, in the components of a model.
+struct Seen {
+  Vector nu;
+  Matrix H;
+};
+using See = std::function<Seen(const Model&, const Vector&)>;
+
+inline See seen_by_matrix(const Vector& z) {
+  return [z](const Model& model, const Vector& x) -> Seen { return {difference(z, model.H * x), model.H}; };
+}
+
 enum class Kind { imm, himm };
 enum class Weights { correct, released };                               // Which weights mix the covariance in (59).
 enum class MixedCovariance { selected, own, own_recentred, released };  // The readings of (57).
@@ -267,16 +278,19 @@ class Filter {
         if (!position(components_, name)) components_.push_back(name);
   }
 
-  /// One scan with a measurement.
-  void step(double dt, const Vector& z, const Matrix& R) {
+  /// One scan with a measurement by H.
+  void step(double dt, const Vector& z, const Matrix& R) { step(dt, seen_by_matrix(z), R); }
+
+  /// One scan with any measurement.
+  void step(double dt, const See& see, const Matrix& R) {
     interact();
     predict(dt);
     const Vector before = log_weights_;
+    Vector fits;  // Log weight of each hypothesis ⊗ exp(−d²/2), for gates.
     std::vector<Vector> innovations;
     std::vector<Matrix> innovation_covariances;
     for (Index j = 0; j < models_.size(); ++j) {
-      const Matrix& H = models_[j].H;
-      const Vector nu = difference(z, H * states_[j].mean);
+      const auto [nu, H] = see(models_[j], states_[j].mean);
       const Matrix S = symmetrised(H * states_[j].covariance * transposed(H) + R);  // (31)
       const Inverse S_inverse = inverse(S);
       const Matrix W = states_[j].covariance * transposed(H) * S_inverse.matrix;  // (32)
@@ -285,12 +299,14 @@ class Filter {
       const Matrix kept = identity(correction.size()) - W * H;
       states_[j].covariance = symmetrised(kept * states_[j].covariance * transposed(kept) +  // (30)
                                           W * R * transposed(W));
+      fits.push_back(log_weights_[j] - 0.5 * dot(nu, S_inverse.matrix * nu));
       log_weights_[j] += log_likelihood(nu, S_inverse);  // (62), (63)
       innovations.push_back(nu);
       innovation_covariances.push_back(S);
     }
     const double total = log_total(log_weights_, options_.kind);
     for (double& value : log_weights_) value -= total;
+    gate_distance_ = -2.0 * log_total(fits, options_.kind);
     nis_ = collapsed_nis(before, innovations, innovation_covariances);
     winner_ = largest(log_weights_, options_.output_tie, winner_);
   }
@@ -307,6 +323,8 @@ class Filter {
   const Vector& log_weights() const { return log_weights_; }
   Index winner() const { return winner_; }
   std::optional<double> nis() const { return nis_; }
+  /// −2 log Σ or max of w exp(−d²/2) over all hypotheses, with the weights before the measurement.
+  double gate_distance() const { return gate_distance_; }
 
   /// The union of all components in the order in which the models bring them; the estimate is stated in it.
   const std::vector<std::string>& components() const { return components_; }
@@ -490,6 +508,7 @@ class Filter {
   Vector log_weights_;
   Index winner_ = 0;
   std::optional<double> nis_;
+  double gate_distance_ = 0.0;
   std::vector<std::string> components_;
 };
 

@@ -15,28 +15,36 @@ class SecondOrderFilter : public Filter {
  public:
   using Filter::Filter;
 
-  void step(double dt, const Vector& z, const Matrix& R) { cycle(dt, Position{z, R}); }
+  void step(double dt, const Vector& z, const Matrix& R) { step(dt, seen_by_matrix(z), R); }
+  void step(double dt, const See& see, const Matrix& R) { cycle(dt, Sight{see, R}); }
   void step(double dt) { cycle(dt, std::nullopt); }
 
  private:
+  struct Sight {
+    See see;
+    Matrix R;
+  };
+
   /// Mode j after mode l: its estimate, its log weight before and after the measurement, and its innovation.
   struct Pair {
     State state;
     double before = nothing;
     double after = nothing;
+    double fit = nothing;
     State innovation;
   };
 
-  void cycle(double dt, const std::optional<Position>& seen) {
+  void cycle(double dt, const std::optional<Sight>& seen) {
     const Index M = models_.size();
     std::vector<std::vector<Pair>> pairs(M);  // pairs[j][l]
-    Vector predicted(M), updated(M);
+    Vector predicted(M), updated(M), fits;
     for (Index j = 0; j < M; ++j) {
       Vector before, after;
       for (Index l = 0; l < M; ++l) {
         pairs[j].push_back(pair(l, j, dt, seen));
         before.push_back(pairs[j][l].before);
         after.push_back(pairs[j][l].after);
+        fits.push_back(pairs[j][l].fit);
       }
       predicted[j] = log_total(before, options_.kind);
       updated[j] = log_total(after, options_.kind);
@@ -44,6 +52,7 @@ class SecondOrderFilter : public Filter {
 
     std::vector<State> merged;
     for (Index j = 0; j < M; ++j) merged.push_back(over_predecessors(pairs[j], updated[j], j));
+    gate_distance_ = -2.0 * log_total(fits, options_.kind);
     nis_ = seen ? std::optional(nis_of(pairs, predicted)) : std::nullopt;
     states_ = merged;
     log_weights_ = updated;
@@ -52,22 +61,23 @@ class SecondOrderFilter : public Filter {
     winner_ = largest(log_weights_, options_.output_tie, winner_);
   }
 
-  Pair pair(Index l, Index j, double dt, const std::optional<Position>& seen) const {
+  Pair pair(Index l, Index j, double dt, const std::optional<Sight>& seen) const {
     Pair result;
     result.before = result.after = log_weights_[l] + std::log(transition_(l, j));
     const State start = received(l, j);
     const Matrix F = models_[j].F(dt);
     result.state = {F * start.mean, symmetrised(F * start.covariance * transposed(F) + models_[j].Q(dt))};
     if (!seen) return result;
-    const Matrix& H = models_[j].H;
+    const auto [nu, H] = seen->see(models_[j], result.state.mean);
     const Matrix& P = result.state.covariance;
-    result.innovation = {difference(seen->z, H * result.state.mean), symmetrised(H * P * transposed(H) + seen->R)};
+    result.innovation = {nu, symmetrised(H * P * transposed(H) + seen->R)};
     const Inverse S_inverse = inverse(result.innovation.covariance);
     const Matrix W = P * transposed(H) * S_inverse.matrix;
     const Vector correction = W * result.innovation.mean;
     for (Index i = 0; i < correction.size(); ++i) result.state.mean[i] += correction[i];
     const Matrix kept = identity(correction.size()) - W * H;
     result.state.covariance = symmetrised(kept * P * transposed(kept) + W * seen->R * transposed(W));
+    result.fit = result.before - 0.5 * dot(nu, S_inverse.matrix * nu);
     result.after += log_likelihood(result.innovation.mean, S_inverse);
     return result;
   }

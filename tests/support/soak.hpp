@@ -12,8 +12,9 @@
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
@@ -43,11 +44,14 @@ bool symmetric_and_semi_definite(const Covariance& P) {
   return Eigen::LLT<Matrix>(scaled).info() == Eigen::Success;
 }
 
-/// Any linear motion along independent axes.
+/// Any linear motion along independent axes, in the Kalman filter.
 template <int Axes>
-using SoakModel = AnyModel<3 * Axes, KinematicModel<Axes, Eigen::Dynamic>, IndependentAxes<Axes, WhiteNoise<2>>,
-                           IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
-                           IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>>;
+using SoakMotion = AnyMotion<3 * Axes, IndependentAxes<Axes, DiscreteWhiteNoise<2>>,
+                             IndependentAxes<Axes, DiscreteWhiteNoise<3>>, IndependentAxes<Axes, WhiteNoise<2>>,
+                             IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
+                             IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>>;
+template <int Axes>
+using SoakModel = Extended<SoakMotion<Axes>>;
 
 /// Random models, transitions, options, steps and measurements: all that a soak draws.
 class SoakDraws {
@@ -62,9 +66,12 @@ class SoakDraws {
 
   /// Half of them by discrete noise.
   template <int Axes>
-  SoakModel<Axes> model() {
+  SoakMotion<Axes> motion() {
     const double sigma = log_uniform(1e-2, 1e2);
-    if (happens(0.5)) return KinematicModel<Axes, Eigen::Dynamic>(sigma, Vector<Axes>::Zero(), happens(0.5) ? 2 : 3);
+    if (happens(0.5)) {
+      if (happens(0.5)) return dwna<Axes>(sigma);
+      return dwpa<Axes>(sigma);
+    }
     const double rate = log_uniform(1e-4, 10.0);
     switch (below(5)) {
       case 0:
@@ -82,7 +89,7 @@ class SoakDraws {
   template <int Axes>
   std::vector<SoakModel<Axes>> models() {
     std::vector<SoakModel<Axes>> models;
-    for (std::size_t count = 2 + below(3); count > 0; --count) models.push_back(model<Axes>());
+    for (std::size_t count = 2 + below(3); count > 0; --count) models.push_back(SoakModel<Axes>{motion<Axes>()});
     return models;
   }
 

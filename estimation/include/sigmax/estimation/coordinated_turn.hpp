@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sigmax/estimation/nonlinear_model.hpp>
+#include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/turn.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 
@@ -11,7 +11,7 @@ namespace sigmax {
 
 /// A horizontal turn at a rate that is estimated with the state; not linear, so for `Extended`, `Unscented` or
 /// `Cubature`. States x, y, vx, vy, ω or x, y, z, vx, vy, vz, ω, where ω ("omega", rad/s, counter-clockwise) is a
-/// Wiener process and z moves uniformly. It measures the position.
+/// Wiener process and z moves uniformly.
 ///
 /// f turns the velocity by θ = ωT and moves the position along the arc (Bar-Shalom, Li, Kirubarajan 2001, 11.7.1), and
 /// is smooth at ω = 0. The noise is that of CWNA on every axis, q in m²/s³, its turning within the step neglected, and
@@ -24,7 +24,6 @@ class CoordinatedTurn {
   static constexpr int axes = Axes;
   static constexpr int state_size = 2 * Axes + 1;
   static constexpr int max_state_size = state_size;
-  static constexpr int measurement_size = Axes;
 
   using State = Vector<state_size>;
   using Matrix = SquareMatrix<state_size>;
@@ -76,14 +75,6 @@ class CoordinatedTurn {
     Q.template topLeftCorner<2 * Axes, 2 * Axes>() = noise_.process_covariance(dt);
     Q(2 * Axes, 2 * Axes) = q_omega_ * dt;
     return Q;
-  }
-
-  template <class Scalar>
-  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, state_size, 1>& x) const {
-    return x.template head<Axes>();
-  }
-  RectangularMatrix<Axes, state_size> measurement_jacobian(const State&) const {
-    return RectangularMatrix<Axes, state_size>::Identity();
   }
 
  private:

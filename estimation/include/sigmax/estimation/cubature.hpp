@@ -6,17 +6,23 @@
 
 namespace sigmax {
 
-/// The cubature Kalman filter over a model: 2n points of equal weight at x ± √n Lᵢ, the spherical–radial rule that is
+/// The cubature Kalman filter over a motion: 2n points of equal weight at x ± √n Lᵢ, the spherical–radial rule that is
 /// exact for polynomials of degree three (Arasaratnam and Haykin 2009). Nothing to tune, no negative weight.
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ n Σ B_ii² − ¼ (tr B)², in one dimension gᵀg; the exact one is gᵀg + ½ Σ B_ij².
-template <NonlinearModel Model>
-class Cubature : public Member<Model> {
+template <Motion Moves>
+class Cubature : public Member<Moves> {
  public:
   static constexpr bool has_centre = false;
 
-  explicit Cubature(Model model) : Member<Model>(std::move(model)) {}
+  explicit Cubature(Moves motion) : Member<Moves>(std::move(motion)) {}
+
+  /// The same filter over another motion.
+  template <Motion Other>
+  Cubature<Other> over(Other motion) const {
+    return Cubature<Other>(std::move(motion));
+  }
 
   SigmaPointWeights weights() const { return {static_cast<double>(this->size()), 0.0, 0.0}; }
 };

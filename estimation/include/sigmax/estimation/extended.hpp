@@ -7,50 +7,57 @@
 
 namespace sigmax {
 
-/// The extended Kalman filter over a model: f and h are replaced by their tangents at the estimate. As a mode of a
+/// The extended Kalman filter over a motion: f and h are replaced by their tangents at the estimate. As a mode of a
 /// multiple-model filter, or by itself with `predict` and `update`.
 ///
-///     const Extended filter{Observed{dwna<3>(3.0), PolarSensor<3>{}}};
+///     const Extended filter{CoordinatedTurn<3>{1.0, 1e-4}};
+///     update(filter, x, z, PolarSensor<3>{}, x);
 ///
-/// Jacobians are the model's own, else by automatic differentiation (Bar-Shalom, Li, Kirubarajan 2001, 10.3).
-template <NonlinearModel Model>
-class Extended : public Member<Model> {
+/// Jacobians are the motion's and the sensor's own, else by automatic differentiation (Bar-Shalom, Li, Kirubarajan
+/// 2001, 10.3). The update is that of kalman.hpp, which a linear motion has without this wrapper.
+template <Motion Moves>
+class Extended : public Member<Moves> {
  public:
-  explicit Extended(Model model) : Member<Model>(std::move(model)) {}
+  explicit Extended(Moves motion) : Member<Moves>(std::move(motion)) {}
+
+  /// The same filter over another motion.
+  template <Motion Other>
+  Extended<Other> over(Other motion) const {
+    return Extended<Other>(std::move(motion));
+  }
 };
 
 /// x = f(x), P = F P Fᵀ + Q with F = ∂f/∂x. `result` may be `prior`.
 /// Throws std::domain_error if f or its Jacobian is not finite, naming the model and the state.
-template <NonlinearModel Model>
-void predict(const Extended<Model>& member, const EstimateOf<Model>& prior, double dt, EstimateOf<Model>& result) {
-  const Model& model = member.model();
-  if constexpr (LinearMotion<Model>) {
-    predict(model, prior, dt, result);
+template <Motion Moves>
+void predict(const Extended<Moves>& member, const EstimateOf<Moves>& prior, double dt, EstimateOf<Moves>& result) {
+  const Moves& motion = member.motion();
+  if constexpr (LinearMotion<Moves>) {
+    predict(motion, prior, dt, result);
+  } else if constexpr (detail::ChosenMotion<Moves>) {
+    detail::predict_as_chosen(member, prior, dt, result);
   } else {
-    const auto F = transition_jacobian(model, prior.mean, dt);
-    result.mean = propagated(model, prior.mean, dt);
-    detail::predict_covariance(F, model.process_covariance(dt), prior.covariance, result.covariance);
+    const auto F = transition_jacobian(motion, prior.mean, dt);
+    result.mean = propagated(motion, prior.mean, dt);
+    detail::predict_covariance(F, motion.process_covariance(dt), prior.covariance, result.covariance);
   }
 }
 
-/// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, for smoothing.
-template <NonlinearModel Model>
-SquareMatrix<Model::state_size, Model::max_state_size> prediction_covariance(const Extended<Model>& member,
-                                                                             const EstimateOf<Model>& prior,
-                                                                             double dt) {
-  return prior.covariance * transition_jacobian(member.model(), prior.mean, dt).transpose();
+/// The update of kalman.hpp.
+template <Motion Moves, SensorOf<Moves> Sensor>
+InnovationOf<Sensor> update(const Extended<Moves>& member, const EstimateOf<Moves>& prior,
+                            const MeasurementOf<Sensor>& measurement, const Sensor& sensor,
+                            EstimateOf<Moves>& posterior) {
+  return update(member.motion(), prior, measurement, sensor, posterior);
 }
 
-/// The Kalman filter's update, in Joseph's form, with H = ∂h/∂x and the model's own difference z − h(x).
-/// `posterior` may be `prior`. Throws std::domain_error if h, its Jacobian or the prior is not finite or S is not
-/// positive definite, std::invalid_argument if the measurement is not finite, naming the model.
-template <NonlinearModel Model>
-Innovation<Model::measurement_size> update(const Extended<Model>& member, const EstimateOf<Model>& prior,
-                                           const MeasurementOf<Model>& measurement, EstimateOf<Model>& posterior) {
-  const Model& model = member.model();
-  const auto H = measurement_jacobian(model, prior.mean);
-  const auto residual = measurement_difference(model, measurement.mean, predicted_measurement(model, prior.mean));
-  return detail::update_by(model, H, residual, prior, measurement, posterior);
+/// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, for smoothing.
+template <Motion Moves>
+StateMatrixOf<Moves> prediction_covariance(const Extended<Moves>& member, const EstimateOf<Moves>& prior, double dt) {
+  if constexpr (detail::ChosenMotion<Moves>)
+    return detail::covariance_as_chosen(member, prior, dt);
+  else
+    return prior.covariance * transition_jacobian(member.motion(), prior.mean, dt).transpose();
 }
 
 }  // namespace sigmax

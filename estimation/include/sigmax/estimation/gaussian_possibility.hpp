@@ -80,23 +80,24 @@ template <int N>
 GaussianPossibility(Gaussian<N, N>) -> GaussianPossibility<N>;
 
 /// The possibility function of a model's state.
-template <LinearModel Model>
+template <LinearMotion Model>
 using PossibilityOf = GaussianPossibility<Model::state_size>;
 
 /// Prediction by supremum, (36): π(x_k) = sup over x_{k−1} of π(x_k|x_{k−1}) π(x_{k−1}).
-template <LinearModel Model>
+template <LinearMotion Model>
 PossibilityOf<Model> predict(const Model& model, const PossibilityOf<Model>& prior, double dt) {
   Gaussian<Model::state_size> moments = prior.density();
   predict(model, moments, dt, moments);
   return PossibilityOf<Model>{moments};
 }
 
-/// Update by supremum, (37): π(x|z) = π(z|x) π(x) / sup over x of the same. Throws as the Kalman filter's does.
-template <LinearModel Model>
+/// Update by supremum, (37): π(x|z) = π(z|x) π(x) / sup over x of the same, with a linear sensor, the position's if
+/// none is given. Throws as the Kalman filter's does.
+template <LinearMotion Model, LinearSensorOf<Model> Sensor = PositionSensor<axes_of<Model>>>
 PossibilityOf<Model> update(const Model& model, const PossibilityOf<Model>& prior,
-                            const MeasurementOf<Model>& measurement) {
+                            const MeasurementOf<Sensor>& measurement, const Sensor& sensor = {}) {
   Gaussian<Model::state_size> moments = prior.density();
-  update(model, moments, measurement, moments);
+  update(model, moments, measurement, sensor, moments);
   return PossibilityOf<Model>{moments};
 }
 

@@ -24,8 +24,9 @@ concept MotionLaw = requires(const Law& law, double dt) {
   { law.input_gain(dt) } -> MatrixOf<Law::order>;
 };
 
-/// Motion along independent axes that follow one law: F = F_s ⊗ I, Q = Q_s ⊗ I, with states ordered by derivative as in
-/// KinematicModel. It measures the position.
+/// Motion along `Axes` independent axes that follow one law. States are ordered by derivative: x, y, z, vx, vy, vz, ax,
+/// ay, az, in SI units. So F = F_s ⊗ I, Q = Q_s ⊗ I, and a motion of lower order has the leading states of one of
+/// higher order.
 template <int Axes, MotionLaw Law>
 class IndependentAxes {
   static_assert(Axes >= 1 && Axes <= 3, "one to three axes");
@@ -35,8 +36,6 @@ class IndependentAxes {
   static constexpr int order = Law::order;
   static constexpr int state_size = Axes * order;
   static constexpr int max_state_size = state_size;
-  static constexpr int measurement_size = Axes;
-  static constexpr bool measures_leading_components = true;
 
   using State = Vector<state_size>;
   using Matrix = SquareMatrix<state_size>;
@@ -45,6 +44,7 @@ class IndependentAxes {
       : law_(law), input_(known_input) {}
 
   const Law& law() const { return law_; }
+  const Vector<Axes>& input() const { return input_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return law_.name(); }
   std::vector<std::string> components() const { return motion_components(Axes, order); }
@@ -56,9 +56,6 @@ class IndependentAxes {
     State u;
     for (Eigen::Index a = 0; a < order; ++a) u.template segment<Axes>(a * Axes) = gain(a) * input_;
     return u;
-  }
-  RectangularMatrix<Axes, state_size> measurement_matrix() const {
-    return RectangularMatrix<Axes, state_size>::Identity();
   }
 
  private:
@@ -74,39 +71,63 @@ class IndependentAxes {
   Vector<Axes> input_;
 };
 
-/// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular. `result` may be `prior`.
-template <int Axes, class Law>
-void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
-             EstimateOf<IndependentAxes<Axes, Law>>& result) {
-  constexpr int order = Law::order;
-  const SquareMatrix<order> f = model.law().transition(dt);
-  const SquareMatrix<order> q = model.law().process_covariance(dt);
-  if (&result != &prior) result = prior;
+namespace detail {
+
+/// Prediction (27), (28) that uses F = F_s ⊗ I with F_s upper triangular: blocks are added, nothing is multiplied by
+/// zero or by one. The same for all laws of this order.
+template <int Axes, int Order>
+void predict_axes(const SquareMatrix<Order>& f, const SquareMatrix<Order>& q, const Vector<Axes * Order>& input,
+                  Gaussian<Axes * Order>& result) {
   auto& x = result.mean;
   auto& P = result.covariance;
   auto terms = P.diagonal().eval();           // of the variances of F P Fᵀ, before they may cancel
-  for (Eigen::Index a = 0; a < order; ++a) {  // later blocks are still unchanged
-    terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
-    for (Eigen::Index b = a + 1; b < order; ++b)
+  for (Eigen::Index a = 0; a < Order; ++a) {  // later blocks are still unchanged
+    if (f(a, a) != 1.0) {
+      terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
+      x.template segment<Axes>(a * Axes) *= f(a, a);
+      P.template middleRows<Axes>(a * Axes) *= f(a, a);
+    }
+    for (Eigen::Index b = a + 1; b < Order; ++b) {
       terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
-    x.template segment<Axes>(a * Axes) *= f(a, a);
-    P.template middleRows<Axes>(a * Axes) *= f(a, a);
-    for (Eigen::Index b = a + 1; b < order; ++b) {
       x.template segment<Axes>(a * Axes) += f(a, b) * x.template segment<Axes>(b * Axes);
       P.template middleRows<Axes>(a * Axes) += f(a, b) * P.template middleRows<Axes>(b * Axes);
     }
   }
-  for (Eigen::Index a = 0; a < order; ++a) {
-    P.template middleCols<Axes>(a * Axes) *= f(a, a);
-    for (Eigen::Index b = a + 1; b < order; ++b)
+  for (Eigen::Index a = 0; a < Order; ++a) {
+    if (f(a, a) != 1.0) P.template middleCols<Axes>(a * Axes) *= f(a, a);
+    for (Eigen::Index b = a + 1; b < Order; ++b)
       P.template middleCols<Axes>(a * Axes) += f(a, b) * P.template middleCols<Axes>(b * Axes);
   }
-  x += model.known_input(dt);
-  for (Eigen::Index a = 0; a < order; ++a)
-    for (Eigen::Index b = 0; b < order; ++b)
+  x += input;
+  for (Eigen::Index a = 0; a < Order; ++a)
+    for (Eigen::Index b = 0; b < Order; ++b)
       P.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().array() += q(a, b);
-  P.diagonal() += detail::rounding * terms;
+  P.diagonal() += rounding * terms;
   mirror_lower(P);
 }
+
+}  // namespace detail
+
+/// Prediction (27), (28) that uses the structure of F. `result` may be `prior`.
+template <int Axes, class Law>
+void predict(const IndependentAxes<Axes, Law>& model, const EstimateOf<IndependentAxes<Axes, Law>>& prior, double dt,
+             EstimateOf<IndependentAxes<Axes, Law>>& result) {
+  if (&result != &prior) result = prior;
+  detail::predict_axes<Axes, Law::order>(model.law().transition(dt), model.law().process_covariance(dt),
+                                         model.known_input(dt), result);
+}
+
+namespace detail {
+
+/// F_s(a, b) = Tᵇ⁻ᵃ/(b−a)!: every derivative is the integral of the next.
+template <int Order>
+SquareMatrix<Order> taylor_transition(double dt) {
+  SquareMatrix<Order> F = SquareMatrix<Order>::Identity();
+  for (Eigen::Index a = 0; a + 1 < Order; ++a) F(a, a + 1) = dt;
+  if constexpr (Order == 3) F(0, 2) = 0.5 * dt * dt;
+  return F;
+}
+
+}  // namespace detail
 
 }  // namespace sigmax

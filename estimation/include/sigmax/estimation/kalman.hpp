@@ -5,22 +5,37 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/sensing.hpp>
+#include <sigmax/estimation/sensors.hpp>
 
 namespace sigmax {
 
 /// What a measurement told beyond its prediction.
-template <int M>
+template <int M, int MaxM = M>
 struct Innovation {
-  Vector<M> residual;             ///< ν = z − H x
-  SquareMatrix<M> covariance;     ///< S, (31)
-  double squared_distance = 0.0;  ///< d² = νᵀ S⁻¹ ν, the NIS
-  double log_likelihood = 0.0;    ///< log N(ν; 0, S)
+  Vector<M, MaxM> residual;          ///< ν = z − h(x)
+  SquareMatrix<M, MaxM> covariance;  ///< S, (31)
+  double squared_distance = 0.0;     ///< d² = νᵀ S⁻¹ ν, the NIS
+  double log_likelihood = 0.0;       ///< log N(ν; 0, S)
+
+  Innovation() = default;
+  /// The same in a type of other bounds.
+  template <int OtherM, int OtherMaxM>
+  explicit Innovation(const Innovation<OtherM, OtherMaxM>& other)
+      : residual(other.residual),
+        covariance(other.covariance),
+        squared_distance(other.squared_distance),
+        log_likelihood(other.log_likelihood) {}
 };
+
+/// The innovation of a sensor's measurement.
+template <Sensing Sensor>
+using InnovationOf = Innovation<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>>;
 
 namespace detail {
 
@@ -42,7 +57,8 @@ void predict_covariance(const Transition& F, const Noise& Q, const SquareMatrix<
 
 }  // namespace detail
 
-/// Prediction, (27) and (28): x = F x + u, P = F P Fᵀ + G Q Gᵀ. `result` may be `prior`.
+/// Prediction, (27) and (28): x = F x + u, P = F P Fᵀ + G Q Gᵀ. `result` may be `prior`. The form without `result`
+/// returns it.
 template <LinearMotion Model>
 void predict(const Model& model, const EstimateOf<Model>& prior, double dt, EstimateOf<Model>& result) {
   const auto& F = model.transition(dt);
@@ -52,9 +68,7 @@ void predict(const Model& model, const EstimateOf<Model>& prior, double dt, Esti
 
 /// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, n × n: what a smoother needs of a prediction beside its result.
 template <LinearMotion Model>
-SquareMatrix<Model::state_size, Model::max_state_size> prediction_covariance(const Model& model,
-                                                                             const EstimateOf<Model>& prior,
-                                                                             double dt) {
+StateMatrixOf<Model> prediction_covariance(const Model& model, const EstimateOf<Model>& prior, double dt) {
   return prior.covariance * model.transition(dt).transpose();
 }
 
@@ -62,9 +76,9 @@ namespace detail {
 
 /// Cholesky's factor of S. A pivot that drowned in the rounding of S, as where one model's spread is 10⁸ times as wide
 /// as the measurement, is lifted above it.
-template <int M>
-Eigen::LLT<SquareMatrix<M>> factorised(SquareMatrix<M>& S) {
-  Eigen::LLT<SquareMatrix<M>> factors(S);
+template <int M, int MaxM>
+Eigen::LLT<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
+  Eigen::LLT<SquareMatrix<M, MaxM>> factors(S);
   if (factors.info() == Eigen::Success &&
       (factors.matrixLLT().diagonal().array().square() >= rounding * S.diagonal().array()).all())
     return factors;
@@ -73,28 +87,30 @@ Eigen::LLT<SquareMatrix<M>> factorised(SquareMatrix<M>& S) {
 }
 
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
-/// returns S⁻¹.
-template <class Model>
-SquareMatrix<Model::measurement_size> score(const Model& model, const MeasurementOf<Model>& measurement,
-                                            Innovation<Model::measurement_size>& innovation) {
-  constexpr int M = Model::measurement_size;
-  const Eigen::LLT<SquareMatrix<M>> S = factorised<M>(innovation.covariance);
+/// returns S⁻¹. `model` is its name, for messages: what depends on sizes alone is compiled once for them.
+template <int M, int MaxM>
+SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& measurement,
+                            Innovation<M, MaxM>& innovation) {
+  const Eigen::LLT<SquareMatrix<M, MaxM>> S = factorised<M, MaxM>(innovation.covariance);
   if (S.info() != Eigen::Success)
-    throw std::domain_error("the innovation covariance of model '" + std::string(model.name()) +
-                            "' is not positive definite");
+    throw std::domain_error("the innovation covariance of model '" + std::string(model) + "' is not positive definite");
   // L⁻¹ column by column: for vectors of this size Eigen's triangular solver is unrolled. S⁻¹ = L⁻ᵀ L⁻¹.
-  SquareMatrix<M> L_inverse;
-  for (int column = 0; column < M; ++column) L_inverse.col(column) = S.matrixL().solve(Vector<M>::Unit(column));
-  const Vector<M> whitened = L_inverse * innovation.residual;
+  const Eigen::Index m = measurement.size();
+  SquareMatrix<M, MaxM> L_inverse(m, m);
+  for (Eigen::Index column = 0; column < m; ++column)
+    L_inverse.col(column) = S.matrixL().solve(Vector<M, MaxM>::Unit(m, column));
+  const Vector<M, MaxM> whitened = L_inverse * innovation.residual;
   innovation.squared_distance = whitened.squaredNorm();
   innovation.log_likelihood = -0.5 * innovation.squared_distance - S.matrixLLT().diagonal().array().log().sum() -
-                              0.5 * M * std::log(2.0 * std::numbers::pi);
+                              0.5 * static_cast<double>(m) * std::log(2.0 * std::numbers::pi);
   if (!std::isfinite(innovation.squared_distance)) {  // infinite also for a finite measurement that is too far off
     if (!all_finite(measurement))
-      throw std::invalid_argument("a measurement of model '" + std::string(model.name()) +
+      throw std::invalid_argument("a measurement of model '" + std::string(model) +
                                   "', or its covariance, is not finite");
-    if (std::isnan(innovation.squared_distance))
-      throw std::domain_error("the estimate of model '" + std::string(model.name()) + "' is not finite");
+    if (!innovation.residual.allFinite() || !innovation.covariance.allFinite())
+      throw std::domain_error("the estimate of model '" + std::string(model) + "' is not finite");
+    innovation.squared_distance = std::numeric_limits<double>::infinity();  // where terms of both signs overflowed
+    innovation.log_likelihood = -innovation.squared_distance;
   }
   return L_inverse.transpose() * L_inverse;
 }
@@ -102,21 +118,17 @@ SquareMatrix<Model::measurement_size> score(const Model& model, const Measuremen
 /// Stands for H = [I 0].
 struct LeadingComponents {};
 
-/// The update of kalman.hpp with the measurement matrix of a linear model, or the Jacobian of another.
-template <class Model, class MeasurementMatrix>
-Innovation<Model::measurement_size> update_by(const Model& model, const MeasurementMatrix& H,
-                                              const Vector<Model::measurement_size>& residual,
-                                              const EstimateOf<Model>& prior, const MeasurementOf<Model>& measurement,
-                                              EstimateOf<Model>& posterior) {
-  constexpr int N = Model::state_size;
-  constexpr int max_N = Model::max_state_size;
-  constexpr int M = Model::measurement_size;
+/// Joseph's update with the matrix of a linear sensor, or the Jacobian of another.
+template <class MeasurementMatrix, int N, int max_N, int M, int MaxM>
+Innovation<M, MaxM> update_by(std::string_view model, const MeasurementMatrix& H, const Vector<M, MaxM>& residual,
+                              const Gaussian<N, max_N>& prior, const Gaussian<M, MaxM>& measurement,
+                              Gaussian<N, max_N>& posterior) {
   constexpr bool leading = std::is_same_v<MeasurementMatrix, LeadingComponents>;
-  using Gain = RectangularMatrix<N, M, max_N, M>;
+  using Gain = RectangularMatrix<N, M, max_N, MaxM>;
   const auto& P = prior.covariance;
   const auto& R = measurement.covariance;
 
-  Innovation<M> innovation;
+  Innovation<M, MaxM> innovation;
   innovation.residual = residual;
   Gain PHt;
   if constexpr (leading) {
@@ -126,7 +138,7 @@ Innovation<Model::measurement_size> update_by(const Model& model, const Measurem
     PHt = P * H.transpose();
     innovation.covariance = H * PHt + R;
   }
-  const SquareMatrix<M> S_inverse = score(model, measurement, innovation);
+  const SquareMatrix<M, MaxM> S_inverse = score(model, measurement, innovation);
   const Gain W = PHt.lazyProduct(S_inverse);
 
   SquareMatrix<N, max_N> result;
@@ -166,21 +178,59 @@ Innovation<Model::measurement_size> update_by(const Model& model, const Measurem
 }  // namespace detail
 
 /// Update, (29), (31), (32), and instead of (30) Joseph's form (I − WH) P (I − WH)ᵀ + W R Wᵀ, which keeps P symmetric
-/// and positive semi-definite. `posterior` may be `prior`.
-/// Throws std::domain_error if S is not positive definite or the prior not finite, std::invalid_argument if the
-/// measurement is not finite, naming the model.
-template <LinearModel Model>
-Innovation<Model::measurement_size> update(const Model& model, const EstimateOf<Model>& prior,
-                                           const MeasurementOf<Model>& measurement, EstimateOf<Model>& posterior) {
-  constexpr int M = Model::measurement_size;
-  if constexpr (measures_leading_components<Model>) {
+/// and positive semi-definite. Of a sensor that is not linear, H = ∂h/∂x and ν = z − h(x) at the prior's mean, by the
+/// sensor's own difference: the extended Kalman filter's update. `posterior` may be `prior`.
+/// Throws std::domain_error if h or its Jacobian is not finite, S is not positive definite or the prior not finite,
+/// std::invalid_argument if the measurement is not finite, naming the model.
+template <StateModel Model, SensorOf<Model> Sensor>
+InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
+                            const MeasurementOf<Sensor>& measurement, const Sensor& sensor,
+                            EstimateOf<Model>& posterior) {
+  if constexpr (measures_leading_components<Sensor>) {
+    constexpr int M = Sensor::measurement_size;
+    detail::require_seen<Sensor>(model);
     const Vector<M> residual = measurement.mean - prior.mean.template head<M>();
-    return detail::update_by(model, detail::LeadingComponents{}, residual, prior, measurement, posterior);
+    return detail::update_by(model.name(), detail::LeadingComponents{}, residual, prior, measurement, posterior);
+  } else if constexpr (LinearSensorOf<Sensor, Model>) {
+    const auto& H = measurement_matrix(model, sensor);
+    const MeasuredOf<Sensor> residual = measurement.mean - H * prior.mean;
+    return detail::update_by(model.name(), H, residual, prior, measurement, posterior);
   } else {
-    const auto& H = model.measurement_matrix();
-    const Vector<M> residual = measurement.mean - H * prior.mean;
-    return detail::update_by(model, H, residual, prior, measurement, posterior);
+    const auto H = measurement_jacobian(model, sensor, prior.mean);
+    const auto residual =
+        measurement_difference(sensor, measurement.mean, predicted_measurement(model, sensor, prior.mean));
+    return detail::update_by(model.name(), H, residual, prior, measurement, posterior);
   }
 }
+
+/// Update by a measurement of the position, which leads the state.
+template <StateModel Model>
+  requires(axes_of<Model> > 0)
+Innovation<Model::axes> update(const Model& model, const EstimateOf<Model>& prior,
+                               const Gaussian<Model::axes>& measurement, EstimateOf<Model>& posterior) {
+  return update(model, prior, measurement, PositionSensor<Model::axes>{}, posterior);
+}
+
+/// @{
+/// The same verbs, returning the estimate.
+template <StateModel Model>
+EstimateOf<Model> predict(const Model& model, const EstimateOf<Model>& prior, double dt) {
+  EstimateOf<Model> result = prior;
+  predict(model, prior, dt, result);
+  return result;
+}
+template <StateModel Model, SensorOf<Model> Sensor>
+EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const MeasurementOf<Sensor>& measurement,
+                         const Sensor& sensor) {
+  EstimateOf<Model> result = prior;
+  update(model, prior, measurement, sensor, result);
+  return result;
+}
+template <StateModel Model>
+  requires(axes_of<Model> > 0)
+EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, const Gaussian<Model::axes>& measurement) {
+  return update(model, prior, measurement, PositionSensor<Model::axes>{});
+}
+/// @}
 
 }  // namespace sigmax

@@ -14,7 +14,7 @@ namespace sigmax {
 
 /// A horizontal turn at a known rate ω (rad/s, counter-clockwise), driven by continuous white-noise acceleration of
 /// power spectral density q (m²/s³) on every axis; linear. States x, y, vx, vy or x, y, z, vx, vy, vz, where z moves as
-/// in CWNA. It measures the position. With θ = ωT (Bar-Shalom, Li, Kirubarajan 2001, 4.2.2 and 11.7.1; Q is the exact
+/// in CWNA. With θ = ωT (Bar-Shalom, Li, Kirubarajan 2001, 4.2.2 and 11.7.1; Q is the exact
 /// integral)
 ///
 ///   F = [I  T(sin θ/θ I + (1−cos θ)/θ J); 0  cos θ I + sin θ J],  J a quarter turn,
@@ -29,8 +29,6 @@ class KnownTurn {
   static constexpr int axes = Axes;
   static constexpr int state_size = 2 * Axes;
   static constexpr int max_state_size = state_size;
-  static constexpr int measurement_size = Axes;
-  static constexpr bool measures_leading_components = true;
 
   using State = Vector<state_size>;
   using Matrix = SquareMatrix<state_size>;
@@ -65,9 +63,6 @@ class KnownTurn {
     return Q;
   }
   State known_input(double) const { return State::Zero(); }
-  RectangularMatrix<Axes, state_size> measurement_matrix() const {
-    return RectangularMatrix<Axes, state_size>::Identity();
-  }
 
  private:
   double omega_;

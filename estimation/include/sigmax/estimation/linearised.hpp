@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/any_member.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/sigma_points.hpp>
@@ -21,12 +21,20 @@ struct LinearisedStep {
 };
 
 /// A measurement as a linear one about an estimate with mean m: residual = H (x − m) + v, v ~ N(0, R).
-template <int M, int N, int MaxN = N>
+template <int M, int MaxM, int N, int MaxN>
 struct LinearisedMeasurement {
-  Vector<M> residual;
-  RectangularMatrix<M, N, M, MaxN> H;
-  SquareMatrix<M> R;
+  Vector<M, MaxM> residual;
+  RectangularMatrix<M, N, MaxM, MaxN> H;
+  SquareMatrix<M, MaxM> R;
 };
+
+/// That of a model's state by a sensor.
+template <class Model, Sensing Sensor>
+using LinearisedMeasurementOf = LinearisedMeasurement<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>,
+                                                      Model::state_size, Model::max_state_size>;
+/// A step of a model.
+template <class Model>
+using LinearisedStepOf = LinearisedStep<Model::state_size, Model::max_state_size>;
 
 namespace detail {
 
@@ -50,22 +58,35 @@ RectangularMatrix<Rows, N, MaxRows, MaxN> regressed(const RectangularMatrix<Rows
 
 /// Of a linear motion: the step itself.
 template <LinearMotion Model>
-LinearisedStep<Model::state_size, Model::max_state_size> linearised_step(const Model& model,
-                                                                         const EstimateOf<Model>& start, double dt) {
+LinearisedStepOf<Model> linearised_step(const Model& model, const EstimateOf<Model>& start, double dt) {
   const auto& F = model.transition(dt);
   return {(F * start.mean).eval() + model.known_input(dt), F, model.process_covariance(dt)};
 }
 
+namespace detail {
+
+/// As the motion that the member's is.
+template <class Filter>
+LinearisedStepOf<Filter> linearised_as_chosen(const Filter& member, const EstimateOf<Filter>& start, double dt) {
+  return as_chosen(member, start, [&](const auto& own, const auto& estimate) -> LinearisedStepOf<Filter> {
+    const auto linear = linearised_step(own, estimate, dt);
+    return {linear.mean, linear.F, linear.Q};
+  });
+}
+
+}  // namespace detail
+
 /// Of the extended Kalman filter: by the Jacobian at the mean.
-template <NonlinearModel Model>
-LinearisedStep<Model::state_size, Model::max_state_size> linearised_step(const Extended<Model>& member,
-                                                                         const EstimateOf<Model>& start, double dt) {
-  const Model& model = member.model();
-  if constexpr (LinearMotion<Model>)
-    return linearised_step(model, start, dt);
+template <Motion Moves>
+LinearisedStepOf<Moves> linearised_step(const Extended<Moves>& member, const EstimateOf<Moves>& start, double dt) {
+  const Moves& motion = member.motion();
+  if constexpr (LinearMotion<Moves>)
+    return linearised_step(motion, start, dt);
+  else if constexpr (detail::ChosenMotion<Moves>)
+    return detail::linearised_as_chosen(member, start, dt);
   else
-    return {propagated(model, start.mean, dt), transition_jacobian(model, start.mean, dt),
-            model.process_covariance(dt)};
+    return {propagated(motion, start.mean, dt), transition_jacobian(motion, start.mean, dt),
+            motion.process_covariance(dt)};
 }
 
 namespace detail {
@@ -96,88 +117,81 @@ struct SigmaPointRegression {
 
 /// Of a filter with sigma points: by regression over them; what that leaves unexplained is noise.
 template <SigmaPointMember Filter>
-LinearisedStep<Filter::state_size, Filter::max_state_size> linearised_step(const Filter& member,
-                                                                           const EstimateOf<Filter>& start, double dt) {
-  if constexpr (LinearMotion<typename Filter::ModelType>) {
-    return linearised_step(member.model(), start, dt);
+LinearisedStepOf<Filter> linearised_step(const Filter& member, const EstimateOf<Filter>& start, double dt) {
+  if constexpr (LinearMotion<typename Filter::MotionType>) {
+    return linearised_step(member.motion(), start, dt);
+  } else if constexpr (detail::ChosenMotion<typename Filter::MotionType>) {
+    return detail::linearised_as_chosen(member, start, dt);
   } else {
     const SigmaPoints<Filter> points(member, start);
     const detail::Propagated<Filter> images(member, points, start.mean, dt);
     const detail::SigmaPointRegression<Filter, Filter::state_size, Filter::max_state_size> linear(
         member, points, images.deviations, covariance_root(start.covariance, member.name()));
-    return {images.mean, linear.slope, linear.rest + member.model().process_covariance(dt)};
+    return {images.mean, linear.slope, linear.rest + member.motion().process_covariance(dt)};
   }
 }
 
-/// As the model that it is.
-template <int MaxStateSize, class... Models>
-LinearisedStep<Eigen::Dynamic, MaxStateSize> linearised_step(const AnyModel<MaxStateSize, Models...>& any,
-                                                             const EstimateOf<AnyModel<MaxStateSize, Models...>>& start,
-                                                             double dt) {
-  return any.visit([&](const auto& model) -> LinearisedStep<Eigen::Dynamic, MaxStateSize> {
-    const auto own = linearised_step(model, detail::estimate_for(model, start), dt);
-    return {own.mean, own.F, own.Q};
-  });
+/// As the member that it is.
+template <Motion Moves>
+LinearisedStepOf<Moves> linearised_step(const AnyMember<Moves>& any, const EstimateOf<Moves>& start, double dt) {
+  return any.visit([&](const auto& member) { return linearised_step(member, start, dt); });
 }
 
-/// Of a linear model: the measurement itself.
-template <LinearModel Model>
-LinearisedMeasurement<Model::measurement_size, Model::state_size, Model::max_state_size> linearised_measurement(
-    const Model& model, const EstimateOf<Model>& predicted, const MeasurementOf<Model>& z) {
-  const auto& H = model.measurement_matrix();
-  return {z.mean - H * predicted.mean, H, z.covariance};
+/// Of a linear sensor the measurement itself; of another by the Jacobian at the prediction, as the extended Kalman
+/// filter has it.
+template <StateModel Model, SensorOf<Model> Sensor>
+LinearisedMeasurementOf<Model, Sensor> linearised_measurement(const Model& model, const EstimateOf<Model>& predicted,
+                                                              const MeasurementOf<Sensor>& z, const Sensor& sensor) {
+  return {measurement_difference(sensor, z.mean, predicted_measurement(model, sensor, predicted.mean)),
+          measurement_jacobian(model, sensor, predicted.mean), z.covariance};
 }
 
-/// Of the extended Kalman filter: by the Jacobian at the prediction.
-template <NonlinearModel Model>
-LinearisedMeasurement<Model::measurement_size, Model::state_size, Model::max_state_size> linearised_measurement(
-    const Extended<Model>& member, const EstimateOf<Model>& predicted, const MeasurementOf<Model>& z) {
-  const Model& model = member.model();
-  return {measurement_difference(model, z.mean, predicted_measurement(model, predicted.mean)),
-          measurement_jacobian(model, predicted.mean), z.covariance};
+/// Of a filter with sigma points, unless the sensor is linear: by regression over them; what that leaves unexplained is
+/// noise.
+template <SigmaPointMember Filter, SensorOf<Filter> Sensor>
+LinearisedMeasurementOf<Filter, Sensor> linearised_measurement(const Filter& member,
+                                                               const EstimateOf<Filter>& predicted,
+                                                               const MeasurementOf<Sensor>& z, const Sensor& sensor) {
+  if constexpr (LinearSensorOf<Sensor, Filter>) {
+    return linearised_measurement(member.motion(), predicted, z, sensor);
+  } else {
+    constexpr int M = Sensor::measurement_size;
+    constexpr int max_M = detail::max_measurement_size_of<Sensor>;
+    const SigmaPoints<Filter> points(member, predicted);
+    typename SigmaPoints<Filter>::template Columns<M, max_M> seen(z.size(), points.size());
+    const auto see = [&](Eigen::Index i) {
+      seen.col(i) =
+          predicted_measurement(member.motion(), sensor, StateOf<Filter>(predicted.mean + points.offsets().col(i)));
+    };
+    see(0);  // silences a warning of g++ 12: there is always a first point
+    for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
+    const MeasuredOf<Sensor> mean = measurement_mean(sensor, seen, points.mean_weights());
+    for (Eigen::Index i = 0; i < points.size(); ++i)
+      seen.col(i) = measurement_difference(sensor, MeasuredOf<Sensor>(seen.col(i)), mean);
+    const detail::SigmaPointRegression<Filter, M, max_M> linear(member, points, seen,
+                                                                covariance_root(predicted.covariance, member.name()));
+    return {measurement_difference(sensor, z.mean, mean), linear.slope, linear.rest + z.covariance};
+  }
 }
 
-/// Of a filter with sigma points: by regression over them; what that leaves unexplained is noise.
-template <SigmaPointMember Filter>
-LinearisedMeasurement<Filter::measurement_size, Filter::state_size, Filter::max_state_size> linearised_measurement(
-    const Filter& member, const EstimateOf<Filter>& predicted, const MeasurementOf<Filter>& z) {
-  constexpr int M = Filter::measurement_size;
-  const SigmaPoints<Filter> points(member, predicted);
-  typename SigmaPoints<Filter>::template Columns<M> seen(M, points.size());
-  const auto see = [&](Eigen::Index i) {
-    seen.col(i) = predicted_measurement(member.model(), StateOf<Filter>(predicted.mean + points.offsets().col(i)));
-  };
-  see(0);  // silences a warning of g++ 12: there is always a first point
-  for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
-  const Vector<M> mean = measurement_mean(member.model(), seen, points.mean_weights());
-  for (Eigen::Index i = 0; i < points.size(); ++i)
-    seen.col(i) = measurement_difference(member.model(), Vector<M>(seen.col(i)), mean);
-  const detail::SigmaPointRegression<Filter, M, M> linear(member, points, seen,
-                                                          covariance_root(predicted.covariance, member.name()));
-  return {measurement_difference(member.model(), z.mean, mean), linear.slope, linear.rest + z.covariance};
-}
-
-/// As the model that it is.
-template <int MaxStateSize, class... Models>
-auto linearised_measurement(const AnyModel<MaxStateSize, Models...>& any,
-                            const EstimateOf<AnyModel<MaxStateSize, Models...>>& predicted,
-                            const MeasurementOf<AnyModel<MaxStateSize, Models...>>& z) {
-  using Result =
-      LinearisedMeasurement<AnyModel<MaxStateSize, Models...>::measurement_size, Eigen::Dynamic, MaxStateSize>;
-  return any.visit([&](const auto& model) -> Result {
-    const auto own = linearised_measurement(model, detail::estimate_for(model, predicted), z);
-    return {own.residual, own.H, own.R};
+/// As the member that it is.
+template <Motion Moves, SensorOf<AnyMember<Moves>> Sensor>
+LinearisedMeasurementOf<Moves, Sensor> linearised_measurement(const AnyMember<Moves>& any,
+                                                              const EstimateOf<Moves>& predicted,
+                                                              const MeasurementOf<Sensor>& z, const Sensor& sensor) {
+  return any.visit([&](const auto& member) -> LinearisedMeasurementOf<Moves, Sensor> {
+    return linearised_measurement(member, predicted, z, sensor);
   });
 }
 
 namespace detail {
 
 /// Cholesky's factor of R. Where R is singular, the rounding of the innovation's covariance stands for its zeros.
-template <int M, int N, int MaxN>
-Eigen::LLT<SquareMatrix<M>> noise_root(const LinearisedMeasurement<M, N, MaxN>& measurement) {
-  Eigen::LLT<SquareMatrix<M>> factor(measurement.R);
+template <int M, int MaxM>
+Eigen::LLT<SquareMatrix<M, MaxM>> noise_root(const SquareMatrix<M, MaxM>& noise) {
+  Eigen::LLT<SquareMatrix<M, MaxM>> factor(noise);
   if (factor.info() == Eigen::Success) return factor;
-  SquareMatrix<M> R = measurement.R;
+  SquareMatrix<M, MaxM> R = noise;
   R.diagonal().array() += 1e-24;
   return factor.compute(R);
 }

@@ -19,12 +19,14 @@ concept MatrixOf = requires {
       static_cast<int>(std::remove_cvref_t<T>::ColsAtCompileTime) == Eigen::Dynamic || Columns == Eigen::Dynamic;
 };
 
-/// What every model says of its state.
+/// What every model says of its state. A motion is a model that moves; how it is measured is the business of a sensor,
+/// which comes with each measurement (sensing.hpp).
 ///
 ///   Model::state_size          number of states, or Eigen::Dynamic with at most Model::max_state_size
 ///   model.size()               number of states, n
 ///   model.name()               for people, "dwna"
 ///   model.components()         names of the n states; models share a component by its name
+///   Model::axes                optional: the leading components are the position along so many axes
 template <class Model>
 concept StateModel = requires(const Model& model) {
   { Model::state_size } -> std::convertible_to<int>;
@@ -47,16 +49,6 @@ concept LinearMotion = StateModel<Model> && requires(const Model& model, double 
   { model.known_input(dt) } -> MatrixOf<Model::state_size>;
 };
 
-/// A linear motion with a linear measurement, (48): what the Kalman filter takes.
-///
-///   Model::measurement_size    number of measured quantities, m
-///   model.measurement_matrix() H, m × n
-template <class Model>
-concept LinearModel = LinearMotion<Model> && requires(const Model& model) {
-  { Model::measurement_size } -> std::convertible_to<int>;
-  { model.measurement_matrix() } -> MatrixOf<Model::measurement_size, Model::state_size>;
-};
-
 /// The state of a model.
 template <class Model>
 using StateOf = Vector<Model::state_size, Model::max_state_size>;
@@ -65,14 +57,17 @@ using StateOf = Vector<Model::state_size, Model::max_state_size>;
 template <class Model>
 using EstimateOf = Gaussian<Model::state_size, Model::max_state_size>;
 
-/// What a model measures, with its R.
+/// The covariance of a model's state, and any other matrix over it.
 template <class Model>
-using MeasurementOf = Gaussian<Model::measurement_size>;
+using StateMatrixOf = SquareMatrix<Model::state_size, Model::max_state_size>;
 
-/// Whether a model measures its first components and nothing else, H = [I 0]; the Kalman filter then skips the zeros.
+/// Along how many axes a model knows its position, or none if it does not say.
 template <class Model>
-inline constexpr bool measures_leading_components = requires {
-  requires Model::measures_leading_components;
-};
+inline constexpr int axes_of = [] {
+  if constexpr (requires { Model::axes; })
+    return Model::axes;
+  else
+    return 0;
+}();
 
 }  // namespace sigmax

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
-#include <sigmax/estimation/gaussian.hpp>
+#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/radar.hpp>
+#include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
 
@@ -17,6 +25,7 @@ inline double wrapped(double angle) {
 template <int Axes>
 struct PositionSensor {
   static constexpr int axes = Axes;
+  static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
   static constexpr bool measures_leading_components = true;
 
@@ -24,7 +33,62 @@ struct PositionSensor {
   Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
     return position;
   }
-  SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>&) const { return SquareMatrix<Axes>::Identity(); }
+
+  /// What a measurement tells of the position.
+  Gaussian<Axes> position(const Gaussian<Axes>& z) const { return z; }
+};
+
+/// Measures combinations H of the leading components of the state: `M` quantities, of `N` components. Of components
+/// that a model lacks, in a bank of models of different sizes, H must say nothing.
+template <int M, int N>
+class LinearSensor {
+ public:
+  static constexpr int seen_size = N;
+  static constexpr int measurement_size = M;
+
+  explicit LinearSensor(RectangularMatrix<M, N> H) : H_(std::move(H)) {}
+  const RectangularMatrix<M, N>& measurement_matrix() const { return H_; }
+
+ private:
+  RectangularMatrix<M, N> H_;
+};
+
+/// Measures some components of the state by themselves: an altitude, a place without one, a velocity. Which they are is
+/// known at run time; at most `MaxSize` at once.
+template <int MaxSize>
+class ComponentSensor {
+ public:
+  static constexpr int measurement_size = Eigen::Dynamic;
+  static constexpr int max_measurement_size = MaxSize;
+
+  /// Their places in the state of every model, in which the position and its derivatives lead. Throws
+  /// std::invalid_argument for none, or more than `MaxSize`.
+  explicit ComponentSensor(std::span<const int> places) : size_(static_cast<int>(places.size())) {
+    if (places.empty() || size_ > MaxSize)
+      throw std::invalid_argument("a sensor of " + std::to_string(places.size()) + " components; expected 1 to " +
+                                  std::to_string(MaxSize));
+    std::copy(places.begin(), places.end(), places_.begin());
+  }
+
+  /// Throws std::invalid_argument, naming the model, if it lacks one of the components.
+  template <StateModel Model>
+  RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> measurement_matrix(
+      const Model& model) const {
+    RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> H;
+    H.setZero(size_, model.size());
+    for (int i = 0; i < size_; ++i) {
+      const int place = places_[static_cast<std::size_t>(i)];
+      if (place < 0 || place >= model.size())
+        throw std::invalid_argument("a sensor measures component " + std::to_string(place + 1) + ", but model '" +
+                                    std::string(model.name()) + "' has " + std::to_string(model.size()));
+      H(i, place) = 1.0;
+    }
+    return H;
+  }
+
+ private:
+  std::array<int, std::size_t{MaxSize}> places_{};
+  int size_;
 };
 
 /// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
@@ -36,6 +100,7 @@ class PolarSensor {
 
  public:
   static constexpr int axes = Axes;
+  static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
 
   explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(origin) {}
@@ -80,6 +145,16 @@ class PolarSensor {
     return difference;
   }
 
+  /// What a measurement tells of the position: its unbiased conversion, which neglects correlations of its errors.
+  Gaussian<Axes> position(const Gaussian<Axes>& z) const {
+    Vector<3> seen = Vector<3>::Zero(), deviations = Vector<3>::Zero();
+    seen.head<Axes>() = z.mean;
+    deviations.head<Axes>() = z.covariance.diagonal().cwiseSqrt();
+    const Gaussian<3> converted =
+        to_cartesian({seen(0), seen(1), seen(2)}, {deviations(0), deviations(1), deviations(2)}, Conversion::unbiased);
+    return {converted.mean.head<Axes>() + origin_, converted.covariance.topLeftCorner<Axes, Axes>()};
+  }
+
   /// What a radar with these standard deviations measured; with two axes the elevation is of no account.
   static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
     const Vector<3> z(measured.range, measured.azimuth, measured.elevation);
@@ -96,6 +171,7 @@ class PolarSensor {
 class BearingSensor {
  public:
   static constexpr int axes = 2;
+  static constexpr int seen_size = 2;
   static constexpr int measurement_size = 1;
 
   explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(origin) {}

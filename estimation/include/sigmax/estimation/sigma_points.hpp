@@ -19,7 +19,7 @@ struct SigmaPointWeights {
 
 /// A filter that replaces integrals over a Gaussian by sums over sigma points: `Unscented`, `Cubature`.
 template <class Filter>
-concept SigmaPointMember = NonlinearModel<typename Filter::ModelType> && requires(const Filter& member) {
+concept SigmaPointMember = StateModel<Filter> && Motion<typename Filter::MotionType> && requires(const Filter& member) {
   { Filter::has_centre } -> std::convertible_to<bool>;
   { member.weights() } -> std::convertible_to<SigmaPointWeights>;
 };
@@ -82,7 +82,7 @@ struct Propagated {
   Propagated(const Filter& member, const SigmaPoints<Filter>& points, const StateOf<Filter>& x, double dt)
       : deviations(x.size(), points.size()) {
     for (Eigen::Index i = 0; i < points.size(); ++i)
-      deviations.col(i) = propagated(member.model(), StateOf<Filter>(x + points.offsets().col(i)), dt);
+      deviations.col(i) = propagated(member.motion(), StateOf<Filter>(x + points.offsets().col(i)), dt);
     const StateOf<Filter> first = deviations.col(0);
     deviations.colwise() -= first;  // about one of them, so that large weights of either sign cancel little
     const StateOf<Filter> shift = deviations * points.mean_weights();
@@ -94,7 +94,7 @@ struct Propagated {
 /// Returns a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
 /// if it did.
 template <SigmaPointMember Filter>
-auto proved_semidefinite(const Filter& member, SquareMatrix<Filter::state_size, Filter::max_state_size> covariance) {
+auto proved_semidefinite(const Filter& member, StateMatrixOf<Filter> covariance) {
   mirror_lower(covariance);
   if (member.weights().centre_of_covariance < 0.0) covariance_root(covariance, member.name());
   return covariance;
@@ -107,64 +107,77 @@ auto proved_semidefinite(const Filter& member, SquareMatrix<Filter::state_size, 
 /// Throws std::domain_error if a covariance is not positive semi-definite or f is not finite, naming the model.
 template <SigmaPointMember Filter>
 void predict(const Filter& member, const EstimateOf<Filter>& prior, double dt, EstimateOf<Filter>& result) {
-  if constexpr (LinearMotion<typename Filter::ModelType>) {
-    predict(member.model(), prior, dt, result);
+  if constexpr (LinearMotion<typename Filter::MotionType>) {
+    predict(member.motion(), prior, dt, result);
+  } else if constexpr (detail::ChosenMotion<typename Filter::MotionType>) {
+    detail::predict_as_chosen(member, prior, dt, result);
   } else {
     const SigmaPoints<Filter> points(member, prior);
     const detail::Propagated<Filter> images(member, points, prior.mean, dt);
     result.covariance = detail::proved_semidefinite(
-        member, points.covariance(images.deviations, images.deviations) + member.model().process_covariance(dt));
+        member, points.covariance(images.deviations, images.deviations) + member.motion().process_covariance(dt));
     result.mean = images.mean;
   }
 }
 
 /// Cov(x_k−1, x_k | z_1:k−1) = Σ wᵢ (χᵢ − x)(f(χᵢ) − x̄)ᵀ, for smoothing.
 template <SigmaPointMember Filter>
-SquareMatrix<Filter::state_size, Filter::max_state_size> prediction_covariance(const Filter& member,
-                                                                               const EstimateOf<Filter>& prior,
-                                                                               double dt) {
-  const SigmaPoints<Filter> points(member, prior);
-  return points.covariance(points.offsets(), detail::Propagated<Filter>(member, points, prior.mean, dt).deviations);
+StateMatrixOf<Filter> prediction_covariance(const Filter& member, const EstimateOf<Filter>& prior, double dt) {
+  if constexpr (LinearMotion<typename Filter::MotionType>) {
+    return prediction_covariance(member.motion(), prior, dt);
+  } else if constexpr (detail::ChosenMotion<typename Filter::MotionType>) {
+    return detail::covariance_as_chosen(member, prior, dt);
+  } else {
+    const SigmaPoints<Filter> points(member, prior);
+    return points.covariance(points.offsets(), detail::Propagated<Filter>(member, points, prior.mean, dt).deviations);
+  }
 }
 
 /// Update with points drawn anew over the prediction: z̄ = Σ wᵢ h(χᵢ), S = Σ wᵢ (h(χᵢ) − z̄)(·)ᵀ + R,
 /// W = Σ wᵢ (χᵢ − x)(h(χᵢ) − z̄)ᵀ S⁻¹, and instead of P − W S Wᵀ the equal sum of squares
-/// Σ wᵢ (χᵢ − x − W (h(χᵢ) − z̄))(·)ᵀ + W R Wᵀ, which is Joseph's form if h is linear. `posterior` may be `prior`.
-/// Throws std::domain_error if a covariance is not positive (semi-)definite or h is not finite, std::invalid_argument
-/// if the measurement is not finite, naming the model.
-template <SigmaPointMember Filter>
-Innovation<Filter::measurement_size> update(const Filter& member, const EstimateOf<Filter>& prior,
-                                            const MeasurementOf<Filter>& measurement, EstimateOf<Filter>& posterior) {
-  constexpr int N = Filter::state_size;
-  constexpr int max_N = Filter::max_state_size;
-  constexpr int M = Filter::measurement_size;
-  const auto& model = member.model();
-  const SigmaPoints<Filter> points(member, prior);
+/// Σ wᵢ (χᵢ − x − W (h(χᵢ) − z̄))(·)ᵀ + W R Wᵀ. Where h is linear this is Joseph's form, and is computed so. `posterior`
+/// may be `prior`. Throws std::domain_error if a covariance is not positive (semi-)definite or h is not finite,
+/// std::invalid_argument if the measurement is not finite, naming the model.
+template <SigmaPointMember Filter, SensorOf<Filter> Sensor>
+InnovationOf<Sensor> update(const Filter& member, const EstimateOf<Filter>& prior,
+                            const MeasurementOf<Sensor>& measurement, const Sensor& sensor,
+                            EstimateOf<Filter>& posterior) {
+  if constexpr (LinearSensorOf<Sensor, Filter>) {
+    return update(member.motion(), prior, measurement, sensor, posterior);
+  } else {
+    constexpr int N = Filter::state_size;
+    constexpr int max_N = Filter::max_state_size;
+    constexpr int M = Sensor::measurement_size;
+    constexpr int max_M = detail::max_measurement_size_of<Sensor>;
+    using Gain = RectangularMatrix<N, M, max_N, max_M>;
+    const SigmaPoints<Filter> points(member, prior);
 
-  typename SigmaPoints<Filter>::template Columns<M> seen(M, points.size());
-  const auto see = [&](Eigen::Index i) {
-    seen.col(i) = predicted_measurement(model, StateOf<Filter>(prior.mean + points.offsets().col(i)));
-  };
-  see(0);  // which there is, as a compiler may not see
-  for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
-  const Vector<M> predicted = measurement_mean(model, seen, points.mean_weights());
-  for (Eigen::Index i = 0; i < points.size(); ++i)
-    seen.col(i) = measurement_difference(model, Vector<M>(seen.col(i)), predicted);
+    typename SigmaPoints<Filter>::template Columns<M, max_M> seen(measurement.size(), points.size());
+    const auto see = [&](Eigen::Index i) {
+      seen.col(i) =
+          predicted_measurement(member.motion(), sensor, StateOf<Filter>(prior.mean + points.offsets().col(i)));
+    };
+    see(0);  // silences a warning of g++ 12: there is always a first point
+    for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
+    const MeasuredOf<Sensor> predicted = measurement_mean(sensor, seen, points.mean_weights());
+    for (Eigen::Index i = 0; i < points.size(); ++i)
+      seen.col(i) = measurement_difference(sensor, MeasuredOf<Sensor>(seen.col(i)), predicted);
 
-  Innovation<M> innovation;
-  innovation.residual = measurement_difference(model, measurement.mean, predicted);
-  innovation.covariance = points.covariance(seen, seen);
-  innovation.covariance += measurement.covariance;
-  mirror_lower(innovation.covariance);
-  const SquareMatrix<M> S_inverse = detail::score(member, measurement, innovation);
-  const RectangularMatrix<N, M, max_N, M> W = points.covariance(points.offsets(), seen).lazyProduct(S_inverse);
+    InnovationOf<Sensor> innovation;
+    innovation.residual = measurement_difference(sensor, measurement.mean, predicted);
+    innovation.covariance = points.covariance(seen, seen);
+    innovation.covariance += measurement.covariance;
+    mirror_lower(innovation.covariance);
+    const SquareMatrix<M, max_M> S_inverse = detail::score(member.name(), measurement, innovation);
+    const Gain W = points.covariance(points.offsets(), seen).lazyProduct(S_inverse);
 
-  const typename SigmaPoints<Filter>::template Columns<N, max_N> rest = points.offsets() - W.lazyProduct(seen);
-  const RectangularMatrix<N, M, max_N, M> WR = W.lazyProduct(measurement.covariance);
-  posterior.covariance =
-      detail::proved_semidefinite(member, points.covariance(rest, rest) + WR.lazyProduct(W.transpose()));
-  posterior.mean = prior.mean + W * innovation.residual;
-  return innovation;
+    const typename SigmaPoints<Filter>::template Columns<N, max_N> rest = points.offsets() - W.lazyProduct(seen);
+    const Gain WR = W.lazyProduct(measurement.covariance);
+    posterior.covariance =
+        detail::proved_semidefinite(member, points.covariance(rest, rest) + WR.lazyProduct(W.transpose()));
+    posterior.mean = prior.mean + W * innovation.residual;
+    return innovation;
+  }
 }
 
 }  // namespace sigmax

@@ -20,23 +20,29 @@ struct UnscentedScaling {
   double kappa = 0.0;
 };
 
-/// The unscented Kalman filter over a model: no Jacobians, 2n + 1 evaluations of f and of h.
+/// The unscented Kalman filter over a motion: no Jacobians, 2n + 1 evaluations of f and of h.
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ c Σ B_ii² + ¼ (β − α²)(tr B)²; the exact one is gᵀg + ½ Σ B_ij².
-template <NonlinearModel Model>
-class Unscented : public Member<Model> {
+template <Motion Moves>
+class Unscented : public Member<Moves> {
  public:
   static constexpr bool has_centre = true;
 
   /// Throws std::invalid_argument unless α² (n + κ) is positive and all three numbers are finite.
-  explicit Unscented(Model model, const UnscentedScaling& scaling = {})
-      : Member<Model>(std::move(model)), scaling_(scaling) {
+  explicit Unscented(Moves motion, const UnscentedScaling& scaling = {})
+      : Member<Moves>(std::move(motion)), scaling_(scaling) {
     if (!(spread() > 0.0 && std::isfinite(spread()) && std::isfinite(scaling.beta)))
       throw std::invalid_argument("the unscented filter of model '" + std::string(this->name()) + "' with alpha = " +
                                   std::to_string(scaling.alpha) + ", beta = " + std::to_string(scaling.beta) +
                                   ", kappa = " + std::to_string(scaling.kappa) + " and " +
                                   std::to_string(this->size()) + " states; expected alpha² (n + kappa) > 0");
+  }
+
+  /// The same filter over another motion.
+  template <Motion Other>
+  Unscented<Other> over(Other motion) const {
+    return Unscented<Other>(std::move(motion), scaling_);
   }
 
   const UnscentedScaling& scaling() const { return scaling_; }

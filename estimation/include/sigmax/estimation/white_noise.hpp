@@ -28,13 +28,7 @@ class WhiteNoise {
   double q() const { return q_; }
   std::string_view name() const { return Order == 2 ? "cwna" : "cwpa"; }
 
-  SquareMatrix<Order> transition(double dt) const {
-    const auto taylor = powers(dt);
-    SquareMatrix<Order> F = SquareMatrix<Order>::Zero();
-    for (Eigen::Index a = 0; a < Order; ++a)
-      for (Eigen::Index b = a; b < Order; ++b) F(a, b) = taylor[static_cast<std::size_t>(b - a)];
-    return F;
-  }
+  SquareMatrix<Order> transition(double dt) const { return detail::taylor_transition<Order>(dt); }
   SquareMatrix<Order> process_covariance(double dt) const {
     const auto taylor = powers(dt);
     SquareMatrix<Order> Q;

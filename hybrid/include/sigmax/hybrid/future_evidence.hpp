@@ -105,6 +105,14 @@ struct FutureEvidence {
     take(stack, std::min(n, stack.rows()), n);
   }
 
+  /// Tells it in other coordinates of the state, as `transform` does an estimate: A of the position and its
+  /// derivatives.
+  void transform(const SquareMatrix<dynamic, 3>& A) {
+    const SquareMatrix<dynamic, 3> inverse = A.inverse();
+    for (Eigen::Index d = 0; d + A.rows() <= R.cols(); d += A.rows())
+      R.middleCols(d, A.rows()) = (R.middleCols(d, A.rows()) * inverse).eval();
+  }
+
   /// The evidence of a state x of which this state was made, u = offset + B x + A η with η ~ N(0, 1); returns the
   /// logarithm of the factor that η leaves.
   template <class Noise>

@@ -6,7 +6,7 @@
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -51,26 +51,37 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       : InteractingMultipleModel(models, std::move(transition), Components<Models>(models).shares(models, start),
                                  interaction) {}
 
-  /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z and its covariance R. If its NIS is above
-  /// `gate`, it counts as missed.
+  /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z, its covariance R, and the sensor that measured
+  /// it: another one each time, if need be. If its `gate_distance()` is above `gate`, it counts as missed.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
-  void step(double dt, const Measurement& z, double gate = no_gate) {
+  template <SensorOfBank<Models> Sensor>
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
+    bool taken = false;
     this->located(dt, [&] {
       mix(dt);                                       // step 1, (51)–(59)
       for_each_mode(system_.models(), [&](auto j) {  // step 2, (60), (61)
         const auto& model = mode(system_.models(), j);
         auto& estimate = mode(this->next().estimates, j);
         predict(model, estimate, dt, mode(predicted_, j));
-        innovations_[j] = update(model, mode(predicted_, j), z, estimate);
-        check::sound(model, estimate);
+        this->assign(update(model, mode(predicted_, j), z, sensor, estimate), innovations_[j]);
+      });
+      taken = this->passes(gate, modes(),
+                           [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; });
+      if (!taken) return coast();
+      for_each_mode(system_.models(), [&](auto j) {
+        check::sound(mode(system_.models(), j), mode(this->next().estimates, j));
         likelihood_.set_log(j, this->log_likelihood(j, innovations_[j]));
       });
       update(prior_, likelihood_, this->next().belief);  // step 3, (62), (63)
     });
-    if (gate < no_gate && !(this->predicted_nis() <= gate)) return step(dt);
-    this->conclude(true);  // (64); step 4 is `estimate`
+    this->conclude(taken);  // (64); step 4 is `estimate`
+  }
+
+  /// The same with a measurement of the position, which leads the state of every model.
+  void step(double dt, const Measurement& z, double gate = no_gate) requires(Filter::axes > 0) {
+    step(dt, z, PositionSensor<Filter::axes>{}, gate);
   }
 
   /// One cycle without a measurement: the models predict and the mode moves on.
@@ -79,21 +90,21 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
     this->located(dt, [&] {
       mix(dt);
       for_each_mode(system_.models(), [&](auto j) {
-        const auto& model = mode(system_.models(), j);
-        auto& estimate = mode(this->next().estimates, j);
-        predict(model, estimate, dt, mode(predicted_, j));
-        estimate = mode(predicted_, j);
-        check::sound(model, estimate);
+        predict(mode(system_.models(), j), mode(this->next().estimates, j), dt, mode(predicted_, j));
       });
+      coast();
     });
-    this->next().belief = prior_;
     this->conclude(false);
   }
 
   /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
   /// as missed. Throws std::logic_error without a measurement if the step had one.
-  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const {
-    return this->recorded_by(dt, z, predicted_);
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+    return this->recorded_by(dt, z, sensor, predicted_);
+  }
+  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const requires(Filter::axes > 0) {
+    return recorded(dt, z, PositionSensor<Filter::axes>{});
   }
   RecordedStep<Models, Kind> recorded(double dt) const { return this->recorded_as_missed(dt); }
 
@@ -102,6 +113,15 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   using Filter::interaction_;
   using Filter::prior_;
   using Filter::system_;
+
+  /// What is predicted is what is known.
+  void coast() {
+    for_each_mode(system_.models(), [&](auto j) {
+      mode(this->next().estimates, j) = mode(predicted_, j);
+      check::sound(mode(system_.models(), j), mode(predicted_, j));
+    });
+    this->next().belief = prior_;
+  }
 
   /// Step 1: prior and move-in weights of the mode, (51), (52) or (53), (54), and the mixed starts.
   void mix(double dt) {

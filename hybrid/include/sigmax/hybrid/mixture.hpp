@@ -54,17 +54,26 @@ struct EstimateMixture {
   }
 };
 
+/// Innovations of any sensor, of six quantities at most: position and velocity in space.
+inline constexpr int max_measurement_size = 6;
+using AnyInnovation = Innovation<Eigen::Dynamic, max_measurement_size>;
+
+/// A sensor that a multiple-model filter can take: one of all models' states, of not too many quantities.
+template <class Sensor, class Models>
+concept SensorOfBank =
+    Bank<Models>::template seen_by<Sensor>&& detail::max_measurement_size_of<Sensor> <= max_measurement_size;
+
 /// The models' innovations as the parts of a mixture: the predicted measurement, about the one that came.
-template <int M>
 struct InnovationMixture {
   struct Part {
-    const Innovation<M>& innovation;
-    const Vector<M>& mean() const { return innovation.residual; }
-    void add_covariance(double weight, SquareMatrix<M>& covariance) const {
+    const AnyInnovation& innovation;
+    const auto& mean() const { return innovation.residual; }
+    template <class Matrix>
+    void add_covariance(double weight, Matrix& covariance) const {
       covariance += weight * innovation.covariance;
     }
   };
-  const std::vector<Innovation<M>>& innovations;
+  const std::vector<AnyInnovation>& innovations;
 
   template <class Visit>
   void visit_all(const Visit& visit) const {

@@ -12,6 +12,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <sigmax/core/logarithm.hpp>
 #include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
@@ -31,8 +32,11 @@ inline constexpr double no_gate = std::numeric_limits<double>::infinity();
 template <class Models, Uncertainty Kind>
 class MultipleModelFilter {
  public:
-  static constexpr int measurement_size = Bank<Models>::measurement_size;
-  using Measurement = Gaussian<measurement_size>;
+  using ModelsType = Models;
+  using kind = Kind;
+  static constexpr int axes = Bank<Models>::axes;
+  /// A measurement of the position, which every model has if any has: that of the default sensor.
+  using Measurement = Gaussian<axes>;
   using Estimates = typename Bank<Models>::Estimates;
   using State = HybridEstimate<Models, Kind>;
   /// An estimate in the components of all models together.
@@ -63,15 +67,25 @@ class MultipleModelFilter {
     measured_ = false;
   }
 
-  /// Starts again as if new: every model from the components that it has of one estimate, given in the order of
-  /// `components()`, and nothing is known of the mode.
+  /// Starts again as if new, and nothing is known of the mode: every model from its own estimate, or from the
+  /// components that it has of one estimate, given in the order of `components()`. Throws std::invalid_argument if a
+  /// start does not fit the models or is not finite.
+  void restart(const Estimates& starts) {
+    check::starts(system_.models(), starts);
+    states_[current_].estimates = starts;
+    forget_mode();
+  }
   template <int N, int MaxN>
   void restart(const Gaussian<N, MaxN>& start) {
     if (!all_finite(start)) throw std::invalid_argument("the start is not finite");
     components_.shares(start, states_[current_].estimates);
-    states_[current_].belief = Belief{uninformative(system_.mode_variable())};
-    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
-    measured_ = false;
+    forget_mode();
+  }
+
+  /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
+  /// components stay. For models whose components are ordered by derivative.
+  void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
+    for_each_mode(system_.models(), [&](auto j) { sigmax::transform(A, b, mode(states_[current_].estimates, j)); });
   }
 
   /// The names of all components, those of the largest model first.
@@ -94,15 +108,22 @@ class MultipleModelFilter {
   bool measured() const { return measured_; }
 
   /// The last innovation of each model; of value only if `measured()`.
-  const std::vector<Innovation<measurement_size>>& innovations() const { return innovations_; }
+  const std::vector<AnyInnovation>& innovations() const { return innovations_; }
 
   /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
   /// asks, with the weights before the measurement. Throws std::logic_error if the last step had no
   /// measurement.
   double nis() const {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
-    return predicted_nis();
+    return squared_distance(collapsed_innovation(
+        innovations_, [this](std::size_t j) { return prior_[j]; }, predicted_mode_));
   }
+
+  /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
+  /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
+  /// NIS; with several it is never more than d_j² − 2 log w_j, so that a measurement that any possible mode expects
+  /// passes. Of value after a step with a measurement, taken or not.
+  double gate_distance() const { return gate_distance_; }
 
  protected:
   MultipleModelFilter(Models models, ModeTransition<Kind> transition, Estimates start, Interaction<Kind> interaction)
@@ -113,7 +134,7 @@ class MultipleModelFilter {
         components_(system_.models()),
         states_{State{start, prior_}, State{start, prior_}} {
     check::starts(system_.models(), start);
-    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+    forget_mode();
   }
 
   /// What the step is writing: until `conclude`, all that is public shows the state before.
@@ -133,8 +154,10 @@ class MultipleModelFilter {
     return {receiver, estimates, maps, interaction_.lift};
   }
 
-  /// How well model j explained the measurement, by the form in force. Throws std::domain_error if that is no number.
-  double log_likelihood(std::size_t j, const Innovation<measurement_size>& innovation) const {
+  /// How well a model explained the measurement in mode j, by the form in force. Throws std::domain_error if that is no
+  /// number.
+  template <int M, int MaxM>
+  double log_likelihood(std::size_t j, const Innovation<M, MaxM>& innovation) const {
     const bool density = interaction_.likelihood == LikelihoodForm::density;
     const double log = density ? innovation.log_likelihood : -0.5 * innovation.squared_distance;
     if (std::isnan(log))
@@ -142,23 +165,24 @@ class MultipleModelFilter {
     return log;
   }
 
-  /// The NIS of the step being taken, as soon as its innovations are known.
-  double predicted_nis() const {
-    Measurement predicted;
-    collapse(
-        Collapse<Kind>{}, InnovationMixture<measurement_size>{innovations_},
-        [this](std::size_t j) { return prior_[j]; }, predicted_mode_, predicted);
-    return squared_distance(predicted);
+  /// Whether the measurement of the step being taken passes the gate; `log_fit(i)` is the logarithm of the weight of
+  /// hypothesis i ⊗ exp(−d_i²/2).
+  template <class LogFit>
+  bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
+    gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, [](std::size_t) { return 1.0; });
+    return gate == no_gate || gate_distance_ <= gate;
   }
 
   /// The state with what a measurement tells each mode, linearised where the mode predicted it.
-  RecordedStep<Models, Kind> recorded_by(double dt, const Measurement& z, const Estimates& predicted) const {
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded_by(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor,
+                                         const Estimates& predicted) const {
     RecordedStep<Models, Kind> result{dt, state(), {}};
     if (!measured_) return result;
     for_each_mode(system_.models(), [&](auto j) {
-      const auto seen = linearised_measurement(mode(system_.models(), j), mode(predicted, j), z);
+      const auto seen = linearised_measurement(mode(system_.models(), j), mode(predicted, j), z, sensor);
       auto& evidence = result.seen.emplace_back();
-      const Eigen::LLT<SquareMatrix<measurement_size>> root = detail::noise_root(seen);
+      const auto root = detail::noise_root(seen.R);
       evidence.R = root.matrixL().solve(seen.H);
       evidence.r =
           root.matrixL().solve(seen.residual) - evidence.R * (mode(estimates(), j).mean - mode(predicted, j).mean);
@@ -178,16 +202,33 @@ class MultipleModelFilter {
     ++steps_;
   }
 
-  static double squared_distance(const Measurement& innovation) {
-    const Eigen::LLT<SquareMatrix<measurement_size>> S(innovation.covariance);
+  using Predicted = Gaussian<Eigen::Dynamic, max_measurement_size>;
+
+  /// One Gaussian for the innovations, as the mode's kind asks.
+  template <class Weight>
+  static Predicted collapsed_innovation(const std::vector<AnyInnovation>& innovations, const Weight& weight,
+                                        std::size_t winner) {
+    const Eigen::Index m = innovations[winner].residual.size();
+    Predicted result{decltype(Predicted::mean)(m), decltype(Predicted::covariance)(m, m)};
+    collapse(Collapse<Kind>{}, InnovationMixture{innovations}, weight, winner, result);
+    return result;
+  }
+  static double squared_distance(const Predicted& innovation) {
+    const Eigen::LLT<SquareMatrix<Eigen::Dynamic, max_measurement_size>> S(innovation.covariance);
     return S.matrixL().solve(innovation.mean).squaredNorm();
+  }
+
+  template <int M, int MaxM>
+  static void assign(const Innovation<M, MaxM>& from, AnyInnovation& to) {
+    static_assert(MaxM <= max_measurement_size, "a sensor measures more quantities at once than a filter keeps");
+    to = AnyInnovation(from);
   }
 
   static auto logs_of(const Belief<Kind>& belief) {
     return [&belief](std::size_t j) { return belief.log(j); };
   }
 
-  /// Runs what may lose definiteness; says in which step that was.
+  /// Runs `action`; a domain_error is rethrown with the number of the step.
   template <class Action>
   void located(double dt, const Action& action) const {
     try {
@@ -201,13 +242,20 @@ class MultipleModelFilter {
     if (!(dt >= 0.0 && std::isfinite(dt)))
       throw std::invalid_argument(this_step(dt) + ": expected a finite time that is not negative");
   }
-  void require(double dt, const Measurement& z) const {
+  template <int M, int MaxM>
+  void require(double dt, const Gaussian<M, MaxM>& z) const {
     require(dt);
     if (!all_finite(z))
       throw std::invalid_argument(this_step(dt) + ": the measurement, or its covariance, is not finite");
   }
 
  private:
+  void forget_mode() {
+    states_[current_].belief = Belief{uninformative(system_.mode_variable())};
+    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+    measured_ = false;
+  }
+
   std::string this_step(double dt) const {
     return "step " + std::to_string(steps_ + 1) + " of " + std::to_string(dt) + " s";
   }
@@ -231,7 +279,7 @@ class MultipleModelFilter {
  protected:
   JumpMarkovSystem<Models, Kind> system_;
   Interaction<Kind> interaction_;
-  std::vector<Innovation<measurement_size>> innovations_;
+  std::vector<AnyInnovation> innovations_;
   Belief<Kind> prior_;
 
  private:
@@ -240,6 +288,7 @@ class MultipleModelFilter {
   std::size_t current_ = 0;
   std::size_t predicted_mode_ = 0;
   std::size_t steps_ = 0;
+  double gate_distance_ = 0.0;
   bool measured_ = false;
 };
 

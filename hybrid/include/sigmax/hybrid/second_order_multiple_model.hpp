@@ -39,6 +39,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
         predicted_(pairs_for(estimates())),
         pairs_(predicted_),
         pair_innovations_(modes()),
+        log_fit_(modes() * modes()),
         log_weight_(modes()),
         joint_(modes(), modes()),
         predecessor_(modes(), modes()) {}
@@ -49,22 +50,34 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
                                  interaction) {}
 
   /// One cycle; what it takes and throws is as of InteractingMultipleModel.
-  void step(double dt, const Measurement& z, double gate = no_gate) {
+  template <SensorOfBank<Models> Sensor>
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
+    bool taken = false;
     this->located(dt, [&] {
       branch(dt);
       for_each_mode(system_.models(), [&](auto j) {
         for (std::size_t l = 0; l < modes(); ++l) {
+          const std::size_t pair = j * modes() + l;
+          log_fit_[pair] = log_zero;
           if (!lives(l, j)) continue;
-          pair_innovations_[l] = update(mode(system_.models(), j), mode(predicted_, j)[l], z, mode(pairs_, j)[l]);
+          this->assign(update(mode(system_.models(), j), mode(predicted_, j)[l], z, sensor, mode(pairs_, j)[l]),
+                       pair_innovations_[l]);
+          log_fit_[pair] = joint_(j, l) - 0.5 * pair_innovations_[l].squared_distance;
           joint_(j, l) += this->log_likelihood(j, pair_innovations_[l]);
         }
         summarize(j);
       });
-      merge(pairs_, this->next().estimates);
+      taken = this->passes(gate, log_fit_.size(), [this](std::size_t pair) { return log_fit_[pair]; });
+      if (taken) merge(pairs_, this->next().estimates);
     });
-    if (gate < no_gate && !(this->predicted_nis() <= gate)) return step(dt);
+    if (!taken) return step(dt);
     this->conclude(true);
+  }
+
+  /// The same with a measurement of the position, which leads the state of every model.
+  void step(double dt, const Measurement& z, double gate = no_gate) requires(Filter::axes > 0) {
+    step(dt, z, PositionSensor<Filter::axes>{}, gate);
   }
 
   /// One cycle without a measurement.
@@ -79,10 +92,14 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
 
   /// As InteractingMultipleModel. A non-linear measurement is linearised about what the mode predicted: that of its
   /// predecessors, by their weights after the measurement.
-  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const {
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
     Estimates predicted = estimates();
     collapse_predecessors(predicted_, predicted);
-    return this->recorded_by(dt, z, predicted);
+    return this->recorded_by(dt, z, sensor, predicted);
+  }
+  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const requires(Filter::axes > 0) {
+    return recorded(dt, z, PositionSensor<Filter::axes>{});
   }
   RecordedStep<Models, Kind> recorded(double dt) const { return this->recorded_as_missed(dt); }
 
@@ -156,21 +173,24 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   /// The innovation of a mode is that of its predicted measurement, a mixture by the weights before the measurement;
   /// from then on its predecessors have those after it.
   void summarize(std::size_t j) {
-    Measurement predicted;
-    collapse(Collapse<Kind>{}, InnovationMixture<Filter::measurement_size>{pair_innovations_}, weight(j), best(j),
-             predicted);
+    const std::size_t winner = best(j);
+    const typename Filter::Predicted predicted = this->collapsed_innovation(pair_innovations_, weight(j), winner);
     const double before = log_weight_[j];
     weigh(j);
     const double log_likelihood = before == log_zero ? pair_innovations_[j].log_likelihood : log_weight_[j] - before;
-    innovations_[j] = {predicted.mean, predicted.covariance, Filter::squared_distance(predicted), log_likelihood};
+    innovations_[j].residual = predicted.mean;
+    innovations_[j].covariance = predicted.covariance;
+    innovations_[j].squared_distance = Filter::squared_distance(predicted);
+    innovations_[j].log_likelihood = log_likelihood;
   }
 
   static double unweighted(std::size_t) { return 1.0; }
 
   Pairs predicted_;
-  Pairs pairs_;                                                         ///< of mode j: one for each predecessor
-  std::vector<Innovation<Filter::measurement_size>> pair_innovations_;  ///< of the mode at hand
-  std::vector<double> log_weight_;                                      ///< of each mode
+  Pairs pairs_;                                  ///< of mode j: one for each predecessor
+  std::vector<AnyInnovation> pair_innovations_;  ///< of the mode at hand
+  std::vector<double> log_fit_;                  ///< of all pairs, for the gate
+  std::vector<double> log_weight_;               ///< of each mode
   Table joint_;        ///< logarithms of π(j|l) ⊗ b(l), and with the measurement ⊗ Λ_lj, at (j, l)
   Table predecessor_;  ///< the same, given j
 };

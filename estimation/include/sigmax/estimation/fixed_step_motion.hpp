@@ -10,23 +10,21 @@
 
 namespace sigmax {
 
-/// x_k = F x_{k−1} + u + G w, z_k = H x_k + v, (47)–(48), with matrices given for one fixed step.
+/// x_k = F x_{k−1} + u + G w, (47), with matrices given for one fixed step.
 ///
-/// `N` states, `M` measured quantities; `Q` is G Q Gᵀ, `u` the known input's effect on the state.
-template <int N, int M>
-class FixedStepModel {
+/// `N` states; `Q` is G Q Gᵀ, `u` the known input's effect on the state.
+template <int N>
+class FixedStepMotion {
  public:
   static constexpr int state_size = N;
   static constexpr int max_state_size = N;
-  static constexpr int measurement_size = M;
 
   using Transition = SquareMatrix<N>;
-  using Measurement = Eigen::Matrix<double, M, N>;
 
   /// Throws std::invalid_argument unless there are N components and the step is positive.
-  FixedStepModel(std::string name, std::vector<std::string> components, double step, const Transition& F,
-                 const Transition& Q, const Measurement& H, const Vector<N>& u = Vector<N>::Zero())
-      : name_(std::move(name)), components_(std::move(components)), step_(step), F_(F), Q_(Q), H_(H), u_(u) {
+  FixedStepMotion(std::string name, std::vector<std::string> components, double step, const Transition& F,
+                  const Transition& Q, const Vector<N>& u = Vector<N>::Zero())
+      : name_(std::move(name)), components_(std::move(components)), step_(step), F_(F), Q_(Q), u_(u) {
     if (components_.size() != static_cast<std::size_t>(N))
       throw std::invalid_argument("model '" + name_ + "' has " + std::to_string(N) + " states, but " +
                                   std::to_string(components_.size()) + " components were named");
@@ -37,11 +35,10 @@ class FixedStepModel {
   const std::string& name() const { return name_; }
   const std::vector<std::string>& components() const { return components_; }
 
-  /// All four throw std::invalid_argument if `dt` is not the step for which the matrices were given.
+  /// All three throw std::invalid_argument if `dt` is not the step for which the matrices were given.
   const Transition& transition(double dt) const { return at(dt, F_); }
   const Transition& process_covariance(double dt) const { return at(dt, Q_); }
   const Vector<N>& known_input(double dt) const { return at(dt, u_); }
-  const Measurement& measurement_matrix() const { return H_; }
 
  private:
   template <class T>
@@ -57,7 +54,6 @@ class FixedStepModel {
   double step_;
   Transition F_;
   Transition Q_;
-  Measurement H_;
   Vector<N> u_;
 };
 

@@ -3,9 +3,9 @@
 #include <tuple>
 #include <vector>
 
-#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/any_member.hpp>
+#include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/extended.hpp>
 
 #include "hybrid/banks.hpp"
 
@@ -14,19 +14,22 @@ namespace {
 
 using support::near_matrix;
 
-using Turn = Extended<CoordinatedTurn<2>>;
-using Any = AnyModel<7, KinematicModel<2, 2>, KinematicModel<2, 3>, Turn>;
+using Turn = CoordinatedTurn<2>;
+using Moves = AnyMotion<7, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>, Turn>;
+using Any = AnyMember<Moves>;
 
 /// A bank whose models are named at run time against the same bank known to the compiler; the models differ in their
 /// components, and no one has all of them.
 template <Uncertainty Kind>
 void expect_the_tuple_bank(const Relation<Kind, Kind>& transition) {
-  const Turn turn{CoordinatedTurn<2>(1.0, 1e-4)};
-  const std::tuple models{dwna<2>(1.0), dwpa<2>(4.0), turn};
+  const Turn turn(1.0, 1e-4);
+  const std::tuple models{dwna<2>(1.0), dwpa<2>(4.0), Unscented{turn}};
   const Gaussian<7> start{Vector<7>(12000.0, 8000.0, -100.0, -100.0, 0.0, 0.0, 0.01),
                           SquareMatrix<7>(Vector<7>(100, 100, 100, 100, 25, 25, 1e-3).asDiagonal())};
   InteractingMultipleModel fixed{models, transition, start};
-  InteractingMultipleModel any{std::vector<Any>{dwna<2>(1.0), dwpa<2>(4.0), turn}, transition, start};
+  InteractingMultipleModel any{
+      std::vector<Any>{Extended<Moves>{dwna<2>(1.0)}, Cubature<Moves>{dwpa<2>(4.0)}, Unscented<Moves>{turn}},
+      transition, start};
   ASSERT_EQ(any.components(), fixed.components());
   ASSERT_EQ(any.components().size(), 7U);
   for (const auto& scan : support::manoeuvring_target(120)) {
@@ -43,7 +46,7 @@ void expect_the_tuple_bank(const Relation<Kind, Kind>& transition) {
   }
 }
 
-TEST(AnyModelBank, IsTheBankThatTheCompilerKnows) {
+TEST(AnyMemberBank, IsTheBankThatTheCompilerKnows) {
   const RandomVariable random{"mode", 3};
   expect_the_tuple_bank(Relation{random, random, {{0.9, 0.05, 0.05}, {0.1, 0.8, 0.1}, {0.05, 0.05, 0.9}}});
   const FuzzyVariable fuzzy{"mode", 3};

@@ -1,8 +1,11 @@
-#include <sigmax/estimation/kinematic_model.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/extended.hpp>
 
 #include "support/matrices.hpp"
 #include "support/throws.hpp"
@@ -20,41 +23,40 @@ using support::number_between;
 using support::require_near_matrix;
 using support::throws;
 
-TEST(KinematicModel, DwnaIsThatOfThePaperAtFiveHertz) {
+TEST(DiscreteWhiteNoise, DwnaIsThatOfThePaperAtFiveHertz) {
   const auto model = dwna<1>(3.0);
   EXPECT_PRED_FORMAT3(near_matrix, model.transition(0.2), (SquareMatrix<2>{{1, 0.2}, {0, 1}}), 1e-15);
   EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(0.2), (SquareMatrix<2>{{0.0036, 0.036}, {0.036, 0.36}}),
                       1e-15);
-  EXPECT_EQ(model.measurement_matrix(), (Eigen::RowVector2d{1, 0}));
 }
 
-TEST(KinematicModel, DwnaIsThatOfThePaperAtTwoSeconds) {
+TEST(DiscreteWhiteNoise, DwnaIsThatOfThePaperAtTwoSeconds) {
   const auto model = dwna<1>(3.0);
   EXPECT_EQ(model.transition(2.0), (SquareMatrix<2>{{1, 2}, {0, 1}}));
   EXPECT_EQ(model.process_covariance(2.0), (SquareMatrix<2>{{36, 36}, {36, 36}}));
 }
 
-TEST(KinematicModel, DwpaIsThatOfThePaperAtFiveHertz) {
+TEST(DiscreteWhiteNoise, DwpaIsThatOfThePaperAtFiveHertz) {
   const auto model = dwpa<1>(3.0);
   EXPECT_PRED_FORMAT3(near_matrix, model.transition(0.2), (SquareMatrix<3>{{1, 0.2, 0.02}, {0, 1, 0.2}, {0, 0, 1}}),
                       1e-15);
   EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(0.2),
                       (SquareMatrix<3>{{0.0036, 0.036, 0.18}, {0.036, 0.36, 1.8}, {0.18, 1.8, 9}}), 1e-15);
-  EXPECT_EQ(model.measurement_matrix(), (Eigen::RowVector3d{1, 0, 0}));
 }
 
-TEST(KinematicModel, DwpaIsThatOfThePaperAtTwoSeconds) {
+TEST(DiscreteWhiteNoise, DwpaIsThatOfThePaperAtTwoSeconds) {
   const auto model = dwpa<1>(3.0);
   EXPECT_EQ(model.transition(2.0), (SquareMatrix<3>{{1, 2, 2}, {0, 1, 2}, {0, 0, 1}}));
   EXPECT_EQ(model.process_covariance(2.0), (SquareMatrix<3>{{36, 36, 18}, {36, 36, 18}, {18, 18, 9}}));
 }
 
-TEST(KinematicModel, TheGainIsHalfTheSquareTheStepAndOne) {
-  EXPECT_EQ((KinematicModel<3, 3>::gain(2.0)), (std::array<double, 3>{2.0, 2.0, 1.0}));
-  EXPECT_EQ((KinematicModel<3, 3>::taylor(3.0)), (std::array<double, 3>{1.0, 3.0, 4.5}));
+TEST(DiscreteWhiteNoise, TheGainIsHalfTheSquareTheStepAndOne) {
+  EXPECT_EQ(DiscreteWhiteNoise<3>(1.0).input_gain(2.0), (Vector<3>{2.0, 2.0, 1.0}));
+  EXPECT_EQ(DiscreteWhiteNoise<2>(1.0).input_gain(2.0), (Vector<2>{2.0, 2.0}));
+  EXPECT_EQ(DiscreteWhiteNoise<3>(1.0).transition(3.0).row(0), (Eigen::RowVector3d{1.0, 3.0, 4.5}));
 }
 
-TEST(KinematicModel, AxesAreIndependentAndStatesAreOrderedByDerivative) {
+TEST(DiscreteWhiteNoise, AxesAreIndependentAndStatesAreOrderedByDerivative) {
   const auto model = dwna<2>(3.0);
   EXPECT_EQ(model.components(), (std::vector<std::string>{"x", "y", "vx", "vy"}));
   EXPECT_EQ(model.transition(2.0), (SquareMatrix<4>{{1, 0, 2, 0}, {0, 1, 0, 2}, {0, 0, 1, 0}, {0, 0, 0, 1}}));
@@ -62,7 +64,7 @@ TEST(KinematicModel, AxesAreIndependentAndStatesAreOrderedByDerivative) {
             (SquareMatrix<4>{{36, 0, 36, 0}, {0, 36, 0, 36}, {36, 0, 36, 0}, {0, 36, 0, 36}}));
 }
 
-TEST(KinematicModel, NamesItselfAndItsComponents) {
+TEST(DiscreteWhiteNoise, NamesItselfAndItsComponents) {
   EXPECT_EQ(dwna<3>(1.0).name(), "dwna");
   EXPECT_EQ(dwpa<3>(1.0).name(), "dwpa");
   EXPECT_EQ(dwpa<1>(1.0).components(), (std::vector<std::string>{"x", "vx", "ax"}));
@@ -70,7 +72,7 @@ TEST(KinematicModel, NamesItselfAndItsComponents) {
   EXPECT_EQ(dwpa<3>(1.0).components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"}));
 }
 
-TEST(KinematicModel, AKnownAccelerationEntersAsTheNoiseDoes) {
+TEST(DiscreteWhiteNoise, AKnownAccelerationEntersAsTheNoiseDoes) {
   const auto model = dwna<2>(0.0, Vector<2>{3.0, -5.0});
   EXPECT_EQ(model.known_input(2.0), (Vector<4>{6.0, -10.0, 6.0, -10.0}));
   const Gaussian<4> start{Vector<4>{1.0, 2.0, 10.0, 20.0}, SquareMatrix<4>::Identity()};
@@ -82,7 +84,8 @@ TEST(KinematicModel, AKnownAccelerationEntersAsTheNoiseDoes) {
 template <int Axes, int Order>
 void structured_equals_dense() {
   holds([] {
-    const KinematicModel<Axes, Order> model{number_between(0.0, 4.0), generated_matrix<Axes, 1>()};
+    using Moves = IndependentAxes<Axes, DiscreteWhiteNoise<Order>>;
+    const Moves model{DiscreteWhiteNoise<Order>{number_between(0.0, 4.0)}, generated_matrix<Axes, 1>()};
     const double dt = number_between(0.01, 3.0);
     const auto prior = generated_gaussian<Axes * Order>();
     Gaussian<Axes * Order> structured;
@@ -94,7 +97,7 @@ void structured_equals_dense() {
                         1e-12);
     RC_ASSERT(structured.covariance == structured.covariance.transpose());
 
-    const KinematicModel<Axes, Eigen::Dynamic> same{model};
+    const Extended<AnyMotion<3 * Axes, Moves>> same{model};
     const Gaussian<Eigen::Dynamic, 3 * Axes> run_time_prior{prior.mean, prior.covariance};
     Gaussian<Eigen::Dynamic, 3 * Axes> run_time;
     predict(same, run_time_prior, dt, run_time);
@@ -103,14 +106,14 @@ void structured_equals_dense() {
   });
 }
 
-TEST(KinematicModel, StructuredPredictionEqualsTheDenseOneOnOneAxis) {
+TEST(DiscreteWhiteNoise, StructuredPredictionEqualsTheDenseOneOnOneAxis) {
   structured_equals_dense<1, 2>();
   structured_equals_dense<1, 3>();
 }
-TEST(KinematicModel, StructuredPredictionEqualsTheDenseOneOnTwoAxes) { structured_equals_dense<2, 3>(); }
-TEST(KinematicModel, StructuredPredictionEqualsTheDenseOneOnThreeAxes) { structured_equals_dense<3, 2>(); }
+TEST(DiscreteWhiteNoise, StructuredPredictionEqualsTheDenseOneOnTwoAxes) { structured_equals_dense<2, 3>(); }
+TEST(DiscreteWhiteNoise, StructuredPredictionEqualsTheDenseOneOnThreeAxes) { structured_equals_dense<3, 2>(); }
 
-TEST(KinematicModel, PredictionMayOverwriteItsPrior) {
+TEST(DiscreteWhiteNoise, PredictionMayOverwriteItsPrior) {
   const auto model = dwpa<2>(1.5);
   Gaussian<6> estimate{Vector<6>{1, 2, 3, 4, 5, 6}, 2.0 * SquareMatrix<6>::Identity()};
   Gaussian<6> expected;
@@ -120,7 +123,7 @@ TEST(KinematicModel, PredictionMayOverwriteItsPrior) {
   EXPECT_EQ(estimate.covariance, expected.covariance);
 }
 
-TEST(KinematicModel, WithoutNoiseTwoStepsAreOne) {
+TEST(DiscreteWhiteNoise, WithoutNoiseTwoStepsAreOne) {
   const auto model = dwpa<1>(0.0);
   const Gaussian<3> start{Vector<3>{1, -2, 3}, SquareMatrix<3>{{4, 1, 0}, {1, 3, 1}, {0, 1, 2}}};
   Gaussian<3> twice, once;
@@ -131,28 +134,19 @@ TEST(KinematicModel, WithoutNoiseTwoStepsAreOne) {
   EXPECT_PRED_FORMAT3(near_matrix, twice.covariance, once.covariance, 1e-13);
 }
 
-TEST(KinematicModel, TheRunTimeModelIsTheFixedOne) {
-  const KinematicModel<3, Eigen::Dynamic> model{dwna<3>(2.5, Vector<3>{1, 2, 3})};
-  EXPECT_EQ(model.name(), "dwna");
-  EXPECT_EQ(model.size(), 6);
-  EXPECT_EQ(model.order(), 2);
-  EXPECT_EQ(model.sigma_w(), 2.5);
+TEST(DiscreteWhiteNoise, ShowsItsParameters) {
+  const auto model = dwna<3>(2.5, Vector<3>{1, 2, 3});
+  EXPECT_EQ(model.law().sigma_w(), 2.5);
   EXPECT_EQ(model.input(), (Vector<3>{1, 2, 3}));
-  EXPECT_EQ(model.components(), dwna<3>(1.0).components());
-  EXPECT_EQ(model.transition(0.3), dwna<3>(1.0).transition(0.3));
-  EXPECT_EQ(model.process_covariance(0.3), dwna<3>(2.5).process_covariance(0.3));
-  EXPECT_EQ(model.known_input(0.3), (dwna<3>(1.0, Vector<3>{1, 2, 3}).known_input(0.3)));
-  EXPECT_EQ(model.measurement_matrix(), dwna<3>(1.0).measurement_matrix());
+  EXPECT_EQ(model.size(), 6);
 }
 
-TEST(KinematicModel, RefusesANoiseThatIsNone) {
+TEST(DiscreteWhiteNoise, RefusesANoiseThatIsNone) {
   EXPECT_TRUE(throws<std::invalid_argument>([] { dwna<3>(-1.0); }, {"sigma_w", "dwna", "-1"}));
   EXPECT_TRUE(throws<std::invalid_argument>([] { dwpa<3>(std::numeric_limits<double>::infinity()); },
                                             {"sigma_w", "dwpa", "inf"}));
   EXPECT_TRUE(throws<std::invalid_argument>([] { dwpa<3>(std::numeric_limits<double>::quiet_NaN()); },
                                             {"sigma_w", "dwpa", "nan"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { KinematicModel<3, Eigen::Dynamic>(1.0, Vector<3>::Zero(), 4); },
-                                            {"order 2 or 3"}));
 }
 
 }  // namespace

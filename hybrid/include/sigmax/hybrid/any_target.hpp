@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sigmax/hybrid/interaction.hpp>
+#include <sigmax/hybrid/motion_choice.hpp>
+#include <sigmax/hybrid/target_rules.hpp>
+
+namespace sigmax {
+
+/// When a mode's predecessors are merged.
+enum class Scheme {
+  interacting,   ///< before the measurement, for each mode: IMM and HIMM
+  common_start,  ///< before the measurement, once for all modes: GPB1
+  second_order,  ///< after the measurement: GPB2 and Viterbi
+  independent    ///< never: a static (autonomous) bank
+};
+
+/// How a target gets its first estimates.
+enum class StartRule {
+  points,    ///< from three measurements, each model by as many as it needs
+  released,  ///< from three as the authors' program does
+  given      ///< from a given mean and variances; later starts are from points
+};
+
+/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
+enum class MemberType { kf, ekf, ukf, ckf };
+
+/// Everything that one target's filter is made of, chosen at run time: plain data.
+struct TargetChoice {
+  int axes = 3;        ///< 2 or 3
+  bool fuzzy = false;  ///< whether the mode is fuzzy rather than random
+  Scheme scheme = Scheme::interacting;
+  std::vector<MotionChoice> motions;
+  std::vector<std::string> models;  ///< their names, all different: the labels of the modes
+  MemberType member = MemberType::ekf;
+  std::vector<std::vector<double>> transition;  ///< per scan
+  std::vector<double> sojourn_s;                ///< of each mode on average; if given, the transition follows the time
+  MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
+  MixingWeights imm_mixing = MixingWeights::correct;
+  Lift lift = Lift::borrowed_variance;
+  Tie mixing_tie = Tie::stay;
+  Tie output_tie = Tie::stay;
+  LikelihoodForm likelihood = LikelihoodForm::density;
+  OutputSpread output_spread = OutputSpread::included;
+  bool most_likely_output = false;  ///< rather than the mixed output (67), (68) of a random mode
+  StartRule start = StartRule::points;
+  std::vector<double> start_mean;                 ///< x, y, z, vx, …, az, whatever the axes
+  std::vector<double> start_covariance_diagonal;  ///< in the same order
+  double start_sigma_turn_deg_s = 3.0;            ///< of a rate that is estimated; it starts from 0
+  std::optional<double> start_time_s;             ///< of a given start; else one step before the first plot
+  TargetRules rules{.gate_probability = 1.0, .rejections = 0};
+};
+
+/// What a target is told at one time, in plain numbers.
+struct AnyPlot {
+  enum class Sensor {
+    none,        ///< there was no measurement
+    position,    ///< x, y[, z] in m
+    polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`
+    bearing,     ///< azimuth alone
+    components,  ///< those of the state at `places`
+    doppler      ///< as polar, and the rate of the range in m/s
+  };
+
+  double time = 0.0;    ///< in s
+  std::size_t tag = 0;  ///< comes back with what the plot leads to
+  Sensor sensor = Sensor::none;
+  int size = 0;                         ///< number of measured quantities, at most six
+  std::array<double, 6> z{};            ///< as many numbers
+  std::array<double, 36> covariance{};  ///< of them, row by row without gaps
+  std::array<double, 3> origin{};       ///< of the sensor, in m
+  std::array<int, 6> places{};          ///< in the state, where the position and its derivatives lead
+};
+
+/// What is known of a target at one time, in plain numbers.
+struct TargetPoint {
+  double time = 0.0;
+  std::size_t tag = 0;  ///< of the plot
+  bool is_start = false;
+  std::vector<double> mean;        ///< in the order of `AnyTarget::components`
+  std::vector<double> covariance;  ///< row by row
+  std::vector<double> weights;     ///< of the modes
+  std::size_t most_likely_mode = 0;
+  std::optional<double> nis;  ///< of the step, if it had a measurement that passed the gate
+};
+
+namespace detail {
+class ChosenTarget;
+}
+
+/// A Target whose scheme, kind, models and sensors are chosen at run time. All of them are compiled once, inside the
+/// library; what passes between is plain data, so that it does not matter with which flags a user compiles.
+///
+///     TargetChoice choice{.fuzzy = true, .motions = {{"dwna"}, {"dwpa"}}, .models = {"dwna", "dwpa"},
+///                         .transition = {{1.0, 0.5}, {0.5, 1.0}}};
+///     AnyTarget target{choice};
+///     target.take({.time = 0.2, .sensor = AnyPlot::Sensor::position, .size = 3, .z = {…}, .covariance = {…}});
+class AnyTarget {
+ public:
+  /// Called after each step or start with the tag of its plot.
+  using Stepped = std::function<void(std::size_t tag, bool is_start)>;
+
+  /// Throws std::invalid_argument, saying what, if the choice makes no sense.
+  explicit AnyTarget(const TargetChoice& choice);
+  AnyTarget(const AnyTarget& other);
+  AnyTarget(AnyTarget&&) noexcept;
+  AnyTarget& operator=(AnyTarget other) noexcept;
+  ~AnyTarget();
+
+  /// As Target::take. Throws also std::invalid_argument for a plot whose numbers do not fit its sensor.
+  Verdict take(const AnyPlot& plot, const Stepped& stepped = {});
+
+  /// @{
+  /// As of Target.
+  bool running() const;
+  std::size_t starts() const;
+  std::size_t rejected() const;
+  double time() const;
+  double accepted_time() const;
+  bool transform(std::span<const double> A, std::span<const double> b);  ///< A row by row
+  /// @}
+
+  /// The names of what is estimated: the position and its derivatives, x, y, vx, …, and then others.
+  const std::vector<std::string>& components() const;
+
+  /// What is known now; `tag` and `is_start` are left alone. The form with a result reuses its memory.
+  TargetPoint output() const;
+  void output(TargetPoint& result) const;
+
+  /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed.
+  void smoothed(const std::function<void(const TargetPoint&)>& visit) const;
+
+ private:
+  std::unique_ptr<detail::ChosenTarget> target_;
+};
+
+}  // namespace sigmax

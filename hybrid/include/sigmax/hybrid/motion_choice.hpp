@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sigmax {
+
+/// The parameters that motions have, each in the unit that its key names.
+enum class MotionParameter { sigma_w, tau, turn_rate, turn_drift };
+
+/// What is to be known of a parameter.
+struct KnownParameter {
+  std::string_view key;       ///< "tau_s"
+  std::string_view meaning;   ///< in a sentence
+  double otherwise;           ///< if nobody says
+  bool (*valid)(double);      ///< of a finite value
+  std::string_view expected;  ///< what is valid, in words
+};
+
+/// All parameters, in the order of MotionParameter.
+std::span<const KnownParameter> motion_parameters();
+
+/// A motion that can be chosen by its name.
+struct KnownMotion {
+  std::string_view name;
+  int derivatives;  ///< that it has of the position, itself included
+  bool linear;
+  bool manoeuvres;          ///< whether it stands for a manoeuvre beside a model that does not
+  std::array<bool, 4> has;  ///< which parameters
+  bool has_parameter(MotionParameter parameter) const { return has[static_cast<std::size_t>(parameter)]; }
+};
+
+/// All motions that a program can name, in the order of the documentation.
+std::span<const KnownMotion> known_motions();
+
+/// The motion of this name, or null.
+const KnownMotion* known_motion(std::string_view name);
+
+/// A motion by its name with its parameters; those that it does not have are of no account.
+struct MotionChoice {
+  std::string name = "dwna";
+  std::array<double, 4> parameters{3.0, 10.0, 3.0, 0.2};
+
+  double& operator[](MotionParameter parameter) { return parameters[static_cast<std::size_t>(parameter)]; }
+  double operator[](MotionParameter parameter) const { return parameters[static_cast<std::size_t>(parameter)]; }
+
+  /// Throws std::invalid_argument, naming it, for a motion that is not known; so do the others.
+  const KnownMotion& known() const;
+  bool linear() const { return known().linear; }
+  bool manoeuvres() const { return known().manoeuvres; }
+};
+
+}  // namespace sigmax

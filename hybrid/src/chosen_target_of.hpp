@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/target.hpp>
+
+#include "chosen_start.hpp"
+#include "chosen_target.hpp"
+
+namespace sigmax::detail {
+
+template <Uncertainty Kind>
+ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
+  const Variable<Kind> mode{"mode", choice.models};
+  if (choice.scheme == Scheme::independent) return identity(mode);
+  if (!choice.sojourn_s.empty()) return TimedTransition<Kind>(mode, rates_of_sojourns(choice.sojourn_s));
+  return Relation<Kind, Kind>{mode, mode, choice.transition};
+}
+
+template <Uncertainty Kind>
+Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
+  Interaction<Kind> interaction;
+  interaction.lift = choice.lift;
+  interaction.output_tie = choice.output_tie;
+  interaction.mixed_start = choice.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
+  interaction.likelihood = choice.likelihood;
+  if constexpr (std::is_same_v<Kind, Fuzzy>)
+    interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
+  else
+    interaction.collapse = {choice.imm_mixing, choice.output_spread};
+  return interaction;
+}
+
+/// The plot in the types of the target. Throws std::invalid_argument if its numbers do not fit its sensor.
+Plot<KnownSensor> chosen_plot(const AnyPlot& plot, int axes);
+
+/// The Target of a scheme and a kind of mode.
+template <class Filter>
+class ChosenTargetOf final : public ChosenTarget {
+  using TargetType = Target<Filter, ChosenStart, KnownSensor>;
+  using PlotType = typename TargetType::PlotType;
+  using Kind = typename Filter::kind;
+
+ public:
+  explicit ChosenTargetOf(const TargetChoice& choice)
+      : target_(Filter(known_bank(choice), chosen_transition<Kind>(choice), ChosenStart(choice).nowhere(),
+                       chosen_interaction<Kind>(choice)),
+                ChosenStart(choice), choice.rules),
+        axes_(choice.axes),
+        most_likely_output_(choice.most_likely_output) {}
+
+  std::unique_ptr<ChosenTarget> clone() const override { return std::make_unique<ChosenTargetOf>(*this); }
+
+  Verdict take(const AnyPlot& plot, const AnyTarget::Stepped& stepped) override {
+    return target_.take(chosen_plot(plot, axes_), [&](const PlotType& taken, bool is_start) {
+      if (stepped) stepped(taken.tag, is_start);
+    });
+  }
+  bool running() const override { return target_.running(); }
+  std::size_t starts() const override { return target_.starts(); }
+  std::size_t rejected() const override { return target_.rejected(); }
+  double time() const override { return target_.time(); }
+  double accepted_time() const override { return target_.accepted_time(); }
+  bool transform(std::span<const double> A, std::span<const double> b) override {
+    const auto axes = static_cast<std::size_t>(axes_);
+    if (A.size() != axes * axes || b.size() != axes)
+      throw std::invalid_argument("a transformation of " + std::to_string(axes_) +
+                                  " axes has as many rows and columns");
+    return target_.transform(Eigen::Map<const Eigen::MatrixXd>(A.data(), axes_, axes_).transpose(),
+                             Eigen::Map<const Eigen::VectorXd>(b.data(), axes_));
+  }
+  const std::vector<std::string>& components() const override { return target_.filter().components(); }
+
+  void output(TargetPoint& result) const override {
+    const Filter& filter = target_.filter();
+    result.time = target_.time();
+    result.nis = filter.measured() ? std::optional(filter.nis()) : std::nullopt;
+    tell(filter.state(), result);
+  }
+  void smoothed(const std::function<void(const TargetPoint&)>& visit) const override {
+    TargetPoint point;
+    target_.smoothed([&](const auto& kept, const auto& state) {
+      point.time = kept.time;
+      point.tag = kept.tag;
+      point.is_start = kept.is_start;
+      point.nis = kept.nis;
+      tell(state, point);
+      visit(point);
+    });
+  }
+
+ private:
+  void tell(const typename Filter::State& state, TargetPoint& result) const {
+    const Filter& filter = target_.filter();
+    const auto estimate = most_likely_output_ ? filter.most_likely_estimate(state) : filter.estimate(state);
+    result.mean.assign(estimate.mean.data(), estimate.mean.data() + estimate.mean.size());
+    result.covariance.assign(estimate.covariance.data(), estimate.covariance.data() + estimate.covariance.size());
+    result.weights.resize(filter.modes());
+    for (std::size_t j = 0; j < filter.modes(); ++j) result.weights[j] = state.belief[j];
+    result.most_likely_mode = state.most_likely_mode;
+  }
+
+  TargetType target_;
+  int axes_;
+  bool most_likely_output_;
+};
+
+}  // namespace sigmax::detail
