@@ -244,9 +244,9 @@ void step(Restated& filter, const Scan& scan) {
 }
 
 /// What the scan left in the filter that took it.
-template <class Filter>
-auto recorded(const Filter& filter, const Scan& scan) {
-  return scan.z ? filter.recorded(scan.dt, *scan.z) : filter.recorded(scan.dt);
+template <class Filter, class Sensor = PositionSensor<2>>
+auto recorded(const Filter& filter, const Scan& scan, const Sensor& sensor = {}) {
+  return scan.z ? filter.recorded(scan.dt, *scan.z, sensor) : filter.recorded(scan.dt);
 }
 
 }  // namespace support

@@ -282,6 +282,10 @@ class EvidenceCollapse {
     const State scale = triangle.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
     Eigen::ColPivHouseholderQR<Matrix> reached(triangle * scale.asDiagonal());
     reached.setThreshold(1e-12);
+    if (reached.rank() == 0) {  // nothing was told
+      result.clear(n);
+      return;
+    }
     const Matrix basis = reached.matrixQ();
     const auto range = basis.leftCols(reached.rank());
     const Matrix within = range.transpose() * Z * range;
