@@ -80,11 +80,11 @@ TEST(AnySensor, AveragesAsTheSensorThatItIs) {
   const AnySensor<PositionSensor<2>, OneAlways, BearingSensor> one = OneAlways{}, angle = BearingSensor{},
                                                                position = PositionSensor<2>{};
   const Vector<2> weights(0.25, 0.75);
-  const Eigen::MatrixXd angles{{3.0, -3.0}};
+  using Columns = RectangularMatrix<Eigen::Dynamic, 2, 2>;
+  const Columns angles = RectangularMatrix<1, 2>(3.0, -3.0), points = SquareMatrix<2>{{3.0, -3.0}, {1.0, 5.0}};
   EXPECT_EQ(one.measurement_mean(angles, weights)(0), 1.0);
   EXPECT_PRED_FORMAT3(near, angle.measurement_mean(angles, weights)(0), 3.0 + 0.75 * (2.0 * std::numbers::pi - 6.0),
                       1e-15);
-  const Eigen::MatrixXd points{{3.0, -3.0}, {1.0, 5.0}};
   EXPECT_EQ(position.measurement_mean(points, weights), (Vector<2>(-1.5, 4.0)));
 
   const Gaussian<4> prior{Vector<4>(100.0, 50.0, 0.0, 0.0), SquareMatrix<4>::Identity()};

@@ -76,10 +76,11 @@ void is_the_filter_of_transformed_measurements() {
         state.covariance(i, k) = P(static_cast<std::size_t>(i), static_cast<std::size_t>(k));
     return state;
   };
-  auto filter = vector_filter<Order, Kind>();
+  const Interaction<Kind> interaction{Lift::unbiased};  // borrowing variances alone knows of axes
+  auto filter = vector_filter<Order, Kind>(interaction);
   std::vector<State> start;
   for (const State& each : starts()) start.push_back(transformed(each));
-  Filter<Order, Kind> expected{filter.system().models(), transition_of<Kind>(), start};
+  Filter<Order, Kind> expected{filter.system().models(), transition_of<Kind>(), start, interaction};
   bool there = false;
   for (const Scan& scan : manoeuvring_target(120)) {
     if (scan.dt == 0.0 && !there) {

@@ -44,10 +44,10 @@ std::vector<PlotType> plots(std::size_t count) {
 }
 
 template <class Order, Uncertainty Kind>
-auto recording_target(std::size_t buffer = 0) {
+auto recording_target(std::size_t buffer = 0, const Interaction<Kind>& interaction = {}) {
   TargetRules rules{0.999, 3, 1e9, buffer};
   rules.record = true;
-  return Target{vector_filter<Order, Kind>(), one_point_start, rules};
+  return Target{vector_filter<Order, Kind>(interaction), one_point_start, rules};
 }
 
 template <class State>
@@ -195,7 +195,8 @@ PlotType in_other_coordinates(const PlotType& plot) {
 
 template <class Order, Uncertainty Kind>
 void goes_on_in_other_coordinates() {
-  auto target = recording_target<Order, Kind>(), expected = recording_target<Order, Kind>();
+  const Interaction<Kind> interaction{Lift::unbiased};  // borrowing variances alone knows of axes
+  auto target = recording_target<Order, Kind>(0, interaction), expected = target;
   std::size_t told = 0;
   bool there = false;
   for (const PlotType& plot : plots(35)) {  // before the target is lost

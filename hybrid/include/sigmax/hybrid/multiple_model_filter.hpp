@@ -83,7 +83,8 @@ class MultipleModelFilter {
   }
 
   /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
-  /// components stay. For models whose components are ordered by derivative.
+  /// components stay. For models whose components are ordered by derivative. Goes on as if it had been told so from the
+  /// start, but for Lift::borrowed_variance, which borrows along the axes.
   void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
     for_each_mode(system_.models(), [&](auto j) { sigmax::transform(A, b, mode(states_[current_].estimates, j)); });
   }
