@@ -91,7 +91,7 @@ Key<Owner> number(std::string name, std::string meaning, Of of, Range range, dou
 }
 
 /// The same where there may be none.
-FilterKey optional_number(std::string name, std::string meaning, std::optional<double> FilterSettings::*member,
+FilterKey optional_number(const std::string& name, std::string meaning, std::optional<double> FilterSettings::*member,
                           Range range) {
   return {name,
           std::move(meaning),
@@ -119,7 +119,7 @@ Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Ow
 }
 
 /// A number for each model: one for all, or one each.
-FilterKey per_model(std::string name, std::string meaning, double Motion::*member, Range range,
+FilterKey per_model(const std::string& name, std::string meaning, double Motion::*member, Range range,
                     bool (*has)(const Motion&)) {
   const auto values = [=](const FilterSettings& filter) {
     std::vector<double> result;
@@ -168,7 +168,8 @@ FilterKey models() {
 }
 
 /// The transition of one kind of mode. That of the other kind is read too, so that it is no unknown key.
-FilterKey transition(std::string name, std::string meaning, std::string values, std::string by_default, bool fuzzy) {
+FilterKey transition(const std::string& name, std::string meaning, std::string values, std::string by_default,
+                     bool fuzzy) {
   return {name,
           std::move(meaning),
           std::move(values),
