@@ -364,6 +364,21 @@ TEST(RecognitionDemoLearning, EscapeCodesInNamesNeverReachTheTerminal) {
   }
 }
 
+TEST(RecognitionDemoLearning, TheTableOfTheReadmeTeachesWhatItHasNotSeen) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
+  const auto model = directory.path() / "fruit.json";
+  const auto out = directory.path() / "out";
+  ASSERT_EQ(recognition_demo({"train", data / "fruit.csv", "--label", "fruit", "--model", model}).status, 0);
+  ASSERT_EQ(
+      recognition_demo({"classify", model, data / "fruit_new.csv", "--rows", "1", "--explain", "--out", out}).status,
+      0);
+  const auto summary = nlohmann::json::parse(contents(out / "summary.json"));
+  EXPECT_EQ(summary.at("rows"), 40);
+  for (const auto& [name, one] : summary.at("classifiers").items())
+    EXPECT_GE(one.at("accuracy_of_the_decided").get<double>(), 0.9) << name;
+}
+
 TEST(RecognitionDemoLearning, AModelHoldsOnlyTheKindsAskedFor) {
   const TemporaryDirectory directory;
   const auto data = directory.write("forest.csv", csv(forest(60)));
