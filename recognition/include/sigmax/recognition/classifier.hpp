@@ -196,7 +196,7 @@ class Classifier {
         if (*reading != missing) add<1>({features_[i].log_likelihoods(*reading).data()}, logs);
       } else {
         const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), features_[i].relation());
-        add<1>({graded.all_logs().data()}, logs);
+        add<1>({graded.logs().data()}, logs);
       }
     }
   }

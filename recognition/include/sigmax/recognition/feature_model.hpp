@@ -89,7 +89,7 @@ class FeatureModel {
     Table all(readings_.size(), pattern().size());
     for (std::size_t reading = 0; reading < all.rows(); ++reading) {
       const Likelihood<Pattern> column = likelihood_of(reading);
-      std::copy_n(column.all_logs().begin(), all.columns(), all.row(reading).begin());
+      std::copy_n(column.logs().begin(), all.columns(), all.row(reading).begin());
     }
     return all;
   }
