@@ -271,7 +271,10 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   for (const auto& column : columns) column.refuse_slip(reader);
   refuse_useless(reader, columns, table.labels.size());
   table.warnings = warnings_of(reader, columns);
-  for (auto& column : columns) table.columns.push_back(std::move(column).column(reader.names()[column.index()]));
+  for (auto& column : columns) {
+    const std::string& name = reader.names()[column.index()];
+    table.columns.push_back(std::move(column).column(name));
+  }
   return table;
 }
 

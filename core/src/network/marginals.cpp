@@ -134,8 +134,7 @@ std::vector<NetworkAnswer> marginals(const RelationNetwork& network, const Evide
       return two_passes<A>(std::move(factors), order.vertices, sizes, total);
     });
   if (total.is_zero()) elimination::refuse(findings);
-  Elimination cost{{}, order.greatest_table, false, order.greatest_table};
-  for (const Vertex v : order.vertices) cost.order.push_back(network[v].variable.name());
+  const Elimination cost{{}, order.greatest_table, false, order.greatest_table};
   for (const Vertex v : all) {
     std::vector<ScaledNumber> values = std::move(found[v].values);
     if (parts.known[v]) {

@@ -51,7 +51,7 @@ class GaussianPossibility {
   /// π(x).
   double operator()(const Vector<N>& x) const { return std::exp(log(x)); }
 
-  /// log π(x); −∞ off the support, which a distance of 1e-7 of the largest deviation √Σ_ii, or so, does not leave.
+  /// log π(x); −∞ off the support. Points within about 1e-7 of the largest deviation √Σ_ii count as on it.
   double log(const Vector<N>& x) const {
     Vector<N> y = x - mean();
     double squared_distance = 0.0;

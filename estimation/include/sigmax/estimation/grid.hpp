@@ -98,7 +98,7 @@ class Grid {
     return result;
   }
 
-  /// Half a place, rounded down: that of the cell which has the given one in it when steps are doubled.
+  /// Index of the cell that contains this one after the step is doubled: ⌊place/2⌋.
   static Eigen::Index half(Eigen::Index place) { return (place - (place < 0 ? 1 : 0)) / 2; }
 
   /// action(place) for every place from `first` to `last`, in the order of the cells.

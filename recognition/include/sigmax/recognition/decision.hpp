@@ -36,8 +36,8 @@ template <Uncertainty Kind>
 Decision decide(const Belief<Kind>& belief) {
   const std::size_t pattern = first_of_tied(belief.logs());
   const double greatest = belief.log(index_of_greatest(belief.logs()));
-  const auto tied = static_cast<std::size_t>(std::count_if(
-      belief.logs().begin(), belief.logs().end(), [greatest](double log) { return ties(log, greatest); }));
+  const auto tied = static_cast<std::size_t>(std::count_if(belief.logs().begin(), belief.logs().end(),
+                                                           [greatest](double log) { return ties(log, greatest); }));
   return {pattern, tied == 1 ? belief[pattern] - greatest_other(belief, pattern) : 0.0, tied};
 }
 

@@ -103,6 +103,7 @@ Elimination cost(const RelationNetwork& network, const std::vector<std::string>&
 
 /// query(network, {name}, evidence) of every variable, in the order of declaration: in two passes for all if they are
 /// of one kind. Of variables of different kinds each has an order of its own, and it is as many queries.
+/// What two passes tell of their elimination is its size, not its order.
 std::vector<NetworkAnswer> marginals(const RelationNetwork& network, const Evidence& evidence = {},
                                      std::size_t table_limit = default_table_limit);
 
