@@ -1,20 +1,17 @@
 #include "himm_demo/experiment.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <ctime>
-#include <exception>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <sigmax/estimation/metrics.hpp>
 
 #include "himm_demo/tracker.hpp"
+#include "support/parallel.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -97,21 +94,6 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
     }
   }
   return result;
-}
-
-/// 97.5 % quantile of Student's t, for an interval from n values.
-double student(std::size_t n) {
-  return boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
-}
-
-Interval mean_interval(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  double mean = 0.0;
-  for (const double value : values) mean += value / n;
-  double square = 0.0;
-  for (const double value : values) square += (value - mean) * (value - mean);
-  if (values.size() < 2) return {mean, 0.0};
-  return {mean, student(values.size()) * std::sqrt(square / (n - 1.0) / n)};
 }
 
 /// The first upward crossing of `difference(sample)` after the onset, interpolated; samples are counted from one.
@@ -245,47 +227,25 @@ class Tally {
   std::vector<double> crossings_;
 };
 
-/// Runs first … first + count − 1 on all threads; rethrows the failure of the earliest run.
-std::vector<std::optional<Run>> run_block(const Experiment& experiment, int first, int count,
-                                          const std::function<void()>& advance) {
-  std::vector<std::optional<Run>> results(static_cast<std::size_t>(count));
-  std::vector<std::exception_ptr> failures(results.size());
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      const auto index = static_cast<std::size_t>(i);
-      try {
-        results[index] = run_once(experiment, static_cast<std::uint64_t>(first + i));
-      } catch (...) {
-        failures[index] = std::current_exception();
-      }
-      advance();
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int t = 1; t < std::min(experiment.threads, count); ++t) workers.emplace_back(work);
-    work();
-  }
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-  return results;
-}
-
 }  // namespace
 
 Outcome run(const Experiment& experiment, const std::function<void()>& advance) {
-  constexpr int block = 64;  // bounds the memory; the sums are taken in the order of the runs, whoever ran them
   Tally measurement(experiment, nullptr);
   std::vector<Tally> filters;
   for (const auto& filter : experiment.filters) filters.emplace_back(experiment, &filter);
-  for (int first = 0; first < experiment.runs; first += block) {
-    const int count = std::min(block, experiment.runs - first);
-    for (const auto& result : run_block(experiment, first, count, advance)) {
-      measurement.add(result->measurement);
-      for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result->filters[f]);
-    }
-  }
+  constexpr std::size_t block = 64;  // of runs that are kept at a time
+  for_each_run(
+      static_cast<std::size_t>(experiment.runs), experiment.threads,
+      [&](std::size_t number) {
+        Run result = run_once(experiment, number);
+        advance();
+        return result;
+      },
+      [&](std::size_t, const Run& result) {
+        measurement.add(result.measurement);
+        for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result.filters[f]);
+      },
+      block);
   Outcome outcome{measurement.performance(), {}};
   for (const auto& filter : filters) outcome.filters.push_back(filter.performance());
   return outcome;

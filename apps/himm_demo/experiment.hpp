@@ -6,18 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include <sigmax/core/mean_interval.hpp>
+
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/scenario.hpp"
 
 namespace sigmax::apps {
-
-/// A difference with its 95 % confidence interval, estimate ± half_width.
-struct Interval {
-  double estimate = 0.0;
-  double half_width = 0.0;
-  bool below_zero() const { return estimate + half_width < 0.0; }
-  bool above_zero() const { return estimate - half_width > 0.0; }
-};
 
 /// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples. None
 /// of it holds for a filter without a manoeuvre model, or a smoothed one, which knows of the manoeuvre before it

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -10,27 +9,17 @@
 namespace sigmax::apps {
 namespace {
 
-/// The text in lines of at most 80 columns.
-std::string wrapped(std::string_view text, std::string_view indent) {
-  std::string result, line(indent);
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.size() > indent.size() && display_width(line) + 1 + display_width(word) > 80) {
-      result += line + "\n";
-      line = indent;
-    }
-    line += (line.size() > indent.size() ? " " : "") + std::string(word);
-  }
-  return result + line + "\n";
+/// The text below a name.
+std::string indented(std::string_view text) {
+  std::string result;
+  for (const auto& line : lines_of(text, terminal_width - 4)) result += "    " + line + "\n";
+  return result;
 }
 
 std::string entry(std::string_view name, std::string_view meaning, std::string_view values,
                   const std::string& by_default) {
-  constexpr std::string_view indent = "    ";
-  return fmt::format("{}\n{}{}{}", name, wrapped(meaning, indent), wrapped(fmt::format("Values: {}", values), indent),
-                     wrapped("Default: " + by_default, indent));
+  return fmt::format("{}\n{}{}{}", name, indented(meaning), indented(fmt::format("Values: {}", values)),
+                     indented("Default: " + by_default));
 }
 
 template <class Owner>

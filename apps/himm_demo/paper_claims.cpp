@@ -46,7 +46,7 @@ std::string verdict(Claim claim, const std::array<Interval, 3>& difference, cons
   if (claim == Claim::worse) axes_that_hold = count([](const Interval& d) { return d.above_zero(); });
   if (claim == Claim::competitive)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (std::abs(difference[axis].estimate) <= competitive_fraction * reference[axis]) ++axes_that_hold;
+      if (std::abs(difference[axis].mean) <= competitive_fraction * reference[axis]) ++axes_that_hold;
   return axes_that_hold == 3   ? "holds"
          : axes_that_hold == 0 ? "does NOT hold"
                                : fmt::format("holds on {} of 3 axes", axes_that_hold);

@@ -1,16 +1,20 @@
 #include "himm_demo/simulate.hpp"
 
-#include <algorithm>
-#include <thread>
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "himm_demo/experiment.hpp"
+#include "himm_demo/filter_options.hpp"
 #include "himm_demo/simulate_report.hpp"
 #include "support/output.hpp"
+#include "support/parallel.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {
+namespace {
 
 void simulate_and_report(const SimulateOptions& options) {
   const Settings settings = Settings::read(options.config, options.sets);
@@ -25,19 +29,17 @@ void simulate_and_report(const SimulateOptions& options) {
     return;
   }
   std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
+  if (!options.output.out.empty()) directory.emplace(options.output.out);
 
   const bool released = options.preset == Preset::released;
-  const int threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const Experiment experiment{scenario(options.scenario, options.preset),
                               parameters,
                               filters,
                               options.runs.value_or(released ? 50 : 100),
                               options.seed,
-                              threads,
+                              threads_or_all(options.threads),
                               released ? -1 : 0};
-  Progress progress("runs", static_cast<std::uint64_t>(experiment.runs), options.quiet);
+  Progress progress("runs", static_cast<std::uint64_t>(experiment.runs), options.output.quiet);
   const Outcome outcome = run(experiment, [&] { progress.advance(); });
   progress.finish();
 
@@ -46,8 +48,40 @@ void simulate_and_report(const SimulateOptions& options) {
   print(report);
   if (directory) {
     write_files(report, *directory);
-    fmt::print("\nWrote filters.csv, rmse.csv, weights.csv and summary.json to {}\n", options.out);
+    fmt::print("\nWrote filters.csv, rmse.csv, weights.csv and summary.json to {}\n", options.output.out);
   }
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, const std::string& command) {
+  CLI::App& app =
+      *program.add_subcommand("simulate", "The paper's experiment (section VI) on simulated radar targets.");
+  const auto options = std::make_shared<SimulateOptions>();
+  options->output.command = command;
+  app.add_option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar")
+      ->check(CLI::IsMember({1, 2}))
+      ->capture_default_str();
+  app.add_option("--group", options->group, "Group of data and model parameters, section VI.C")
+      ->check(CLI::IsMember({1, 2, 3, 4}))
+      ->capture_default_str();
+  app.add_option("--preset", options->preset,
+                 "The experiment as printed (paper_text) or as the authors' program has it (released)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Preset>{{"paper_text", Preset::paper_text}, {"released", Preset::released}}))
+      ->option_text("paper_text|released [paper_text]");
+  app.add_option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]")
+      ->check(CLI::Range(1, 100000000));
+  add_threads(app, options->threads);
+  app.footer(
+      "Examples:\n"
+      "  himm_demo simulate --scenario 2 --group 3 --out results\n"
+      "  himm_demo simulate --set filters=all\n"
+      "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
+  add_seed(app, options->seed);
+  add_filter_options(app, options->config, options->sets, options->print_config);
+  add_output(app, options->output);
+  app.callback([options] { simulate_and_report(*options); });
 }
 
 }  // namespace sigmax::apps

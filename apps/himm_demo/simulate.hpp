@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "himm_demo/scenario.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 
@@ -19,13 +20,11 @@ struct SimulateOptions {
   int threads = 0;  ///< 0: as many as the machine has
   std::string config;
   std::vector<std::string> sets;
-  std::string out;
-  bool quiet = false;
   bool print_config = false;
-  std::string command;  ///< as typed, for the record
+  OutputOptions output;
 };
 
-/// Section VI: simulated targets through every filter, and what came of it.
-void simulate_and_report(const SimulateOptions& options);
+/// `himm_demo simulate`, section VI: simulated targets through every filter, and what came of it.
+void add_simulate(CLI::App& program, const std::string& command);
 
 }  // namespace sigmax::apps

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json(const Interval& interval) { return {{"estimate", interval.estimate}, {"half_width", interval.half_width}}; }
+Json json(const Interval& interval) { return {{"estimate", interval.mean}, {"half_width", interval.half_width}}; }
 
 Json json(const Performance& performance, const Experiment& experiment, bool filter) {
   Json by_phase;
@@ -45,7 +45,7 @@ Json json(const Performance& performance, const Experiment& experiment, bool fil
 AtomicFile summary_file(const SimulateReport& report, const OutputDirectory& directory) {
   const auto& experiment = report.experiment;
   Json summary = {{"version", version},
-                  {"command", report.options.command},
+                  {"command", report.options.output.command},
                   {"scenario", report.options.scenario},
                   {"group", report.options.group},
                   {"preset", report.options.preset == Preset::released ? "released" : "paper_text"},
@@ -87,7 +87,7 @@ AtomicFile filters_file(const SimulateReport& report, const OutputDirectory& dir
     for (const auto& phase : phases) file.print(",{}_{}", what, phase.name);
   file.write(",cross_time_of_runs,cross_time_half_width,runs_crossed,cross_time_of_curves\n");
   const auto cell = [&](std::optional<double> value) {
-    file.print(",{}", value && !std::isnan(*value) ? shortest(*value) : "");
+    file.print(",{}", value && std::isfinite(*value) ? shortest(*value) : "");
   };
   const auto row = [&](std::string_view name, const Performance& performance, bool filter) {
     file.write(name);
@@ -99,7 +99,7 @@ AtomicFile filters_file(const SimulateReport& report, const OutputDirectory& dir
     for (const auto& by_phase : {performance.nees_position, performance.nees_velocity, performance.nis})
       for (const double value : by_phase) cell(filter ? std::optional(value) : std::nullopt);
     const CrossTime& time = performance.cross_time;
-    cell(time.mean_of_runs ? std::optional(time.mean_of_runs->estimate) : std::nullopt);
+    cell(time.mean_of_runs ? std::optional(time.mean_of_runs->mean) : std::nullopt);
     cell(time.mean_of_runs ? std::optional(time.mean_of_runs->half_width) : std::nullopt);
     file.print(",{}", time.runs_crossed ? std::to_string(*time.runs_crossed) : "");
     cell(time.of_averaged_curves);

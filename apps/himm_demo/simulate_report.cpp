@@ -12,8 +12,10 @@ namespace sigmax::apps {
 namespace {
 
 std::string fixed(double value) { return std::isnan(value) ? "–" : fmt::format("{:.2f}", value); }
-std::string fixed(const Interval& interval) {
-  return fmt::format("{:+.2f} ± {:.2f}", interval.estimate, interval.half_width);
+/// One run has no interval.
+std::string fixed(const Interval& interval, bool sign = true) {
+  const std::string mean = sign ? fmt::format("{:+.2f}", interval.mean) : fmt::format("{:.2f}", interval.mean);
+  return std::isfinite(interval.half_width) ? fmt::format("{} ± {:.2f}", mean, interval.half_width) : mean;
 }
 
 /// Every filter as one row.
@@ -56,7 +58,7 @@ void print_overview(const SimulateReport& report) {
     auto cells = rmse(performance);
     for (const auto& by_phase : {performance.nees_position, performance.nees_velocity, performance.nis})
       cells.push_back(fixed(mean(by_phase)));
-    cells.push_back(time.mean_of_runs ? fixed(time.mean_of_runs->estimate) : "–");
+    cells.push_back(time.mean_of_runs ? fixed(time.mean_of_runs->mean) : "–");
     cells.push_back(time.of_averaged_curves ? fixed(*time.of_averaged_curves) : "–");
     cells.push_back(fmt::format("{:.0f}", report.ns_per_step[f]));
     row(report.filter(f).name, cells);
@@ -118,10 +120,7 @@ void print_cross_times(const SimulateReport& report) {
   for (std::size_t f = 0; f < report.experiment.filters.size(); ++f) {
     const auto& time = report.outcome.filters[f].cross_time;
     const auto paper = paper_cross_time(report.options.scenario, report.options.group, report.filter(f));
-    table.row({report.filter(f).name,
-               time.mean_of_runs
-                   ? fmt::format("{:.2f} ± {:.2f}", time.mean_of_runs->estimate, time.mean_of_runs->half_width)
-                   : "–",
+    table.row({report.filter(f).name, time.mean_of_runs ? fixed(*time.mean_of_runs, false) : "–",
                time.runs_crossed ? fmt::format("{} of {}", *time.runs_crossed, report.experiment.runs) : "–",
                time.of_averaged_curves ? fixed(*time.of_averaged_curves) : "–", paper ? fixed(*paper) : "–"});
   }

@@ -1,10 +1,13 @@
 #include "himm_demo/track.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "himm_demo/estimates_file.hpp"
+#include "himm_demo/filter_options.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
 #include "support/angle.hpp"
@@ -23,8 +26,6 @@ void refuse_what_means_nothing(const TrackOptions& options, const RecordingReade
   if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has two");
 }
 
-}  // namespace
-
 void track_and_report(const TrackOptions& options) {
   const Settings settings = Settings::read(options.config, options.sets);
   FilterDefaults defaults;
@@ -40,8 +41,8 @@ void track_and_report(const TrackOptions& options) {
   refuse_what_means_nothing(options, recording);
   std::optional<OutputDirectory> directory;
   std::optional<EstimatesFile> estimates;
-  if (!options.out.empty()) {
-    directory.emplace(options.out);
+  if (!options.output.out.empty()) {
+    directory.emplace(options.output.out);
     estimates.emplace(*directory, filters, recording);
   }
   const TrackOutcome outcome = run_track(options, recording, filters, estimates ? &*estimates : nullptr);
@@ -50,11 +51,80 @@ void track_and_report(const TrackOptions& options) {
     AtomicFile summary = directory->file("summary.json");
     summary.write(found.summary);
     commit_all(estimates->file(), summary);
-    found.text += fmt::format("\nWrote estimates.csv and summary.json to {}\n", options.out);
+    found.text += fmt::format("\nWrote estimates.csv and summary.json to {}\n", options.output.out);
   }
   fmt::print("{}", found.text);
   if (!found.warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
   for (const auto& warning : found.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
+}
+
+/// A list of exactly three comma-separated numbers, as `--radar 50,0.1,0.1`.
+void add_triple(CLI::App& app, const std::string& name, std::optional<std::array<double, 3>>& values,
+                const std::string& help, const std::string& type) {
+  app.add_option_function<std::vector<double>>(
+         name,
+         [&values](const std::vector<double>& given) {
+           values = {given[0], given[1], given[2]};
+         },
+         help)
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name(type);
+}
+
+}  // namespace
+
+void add_track(CLI::App& program, const std::string& command) {
+  CLI::App& app = *program.add_subcommand("track", "Tracks the targets of a recording, a headed CSV file.");
+  const auto options = std::make_shared<TrackOptions>();
+  options->output.command = command;
+  app.add_option("file", options->recording.file, "A recording as below; - is the standard input")->required();
+  app.add_option("--columns", options->recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME=HEADER,…");
+  app.add_option("--select", options->recording.select, "Only rows that have this value; may be repeated")
+      ->type_name("COLUMN=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--track-id", options->recording.track_id, "The column that tells tracks apart: a filter each")
+      ->type_name("COLUMN");
+  app.add_option_function<std::string>(
+         "--on-bad-time", [options](const std::string& what) { options->recording.skip_bad_times = what == "skip"; },
+         "What to do where a time repeats or goes back [error]")
+      ->check(CLI::IsMember({"error", "skip"}))
+      ->option_text("error|skip");
+  add_triple(app, "--origin", options->recording.origin, "Origin of the local east-north-up frame [the first row]",
+             "LAT,LON,ALT");
+  app.add_option_function<std::string>(
+         "--azimuth-from",
+         [options](const std::string& from) { options->recording.azimuth_from_north = from == "north"; },
+         "Whether azimuths run counter-clockwise from east or clockwise from north [east]")
+      ->check(CLI::IsMember({"east", "north"}))
+      ->option_text("east|north");
+  add_triple(app, "--radar", options->radar,
+             "Take the recording as the truth and measure it by a simulated radar with these standard deviations",
+             "RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");
+  add_triple(app, "--radar-at", options->radar_at, "Where the radar stands, in m [0,0,0]", "E,N,U");
+  app.footer(
+      "Recordings are told apart by their columns; others are ignored:\n"
+      "  time_s,x_m,y_m[,z_m]                               positions in m\n"
+      "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
+      "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
+      "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
+      "Beside them may stand true_x_m,true_y_m[,true_z_m] and roll_deg. Times are seconds, or dates and times as\n"
+      "2016-01-12T13:02:11.218Z. A row without a position is a missed measurement.\n"
+      "\n"
+      "Examples:\n"
+      "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
+      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 --set sigma_azimuth_deg=0.2\n"
+      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
+      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
+      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
+  add_seed(app, options->seed);
+  add_filter_options(app, options->config, options->sets, options->print_config);
+  add_output(app, options->output);
+  app.callback([options] { track_and_report(*options); });
 }
 
 }  // namespace sigmax::apps

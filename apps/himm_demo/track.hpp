@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "himm_demo/recording.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 
@@ -18,13 +19,11 @@ struct TrackOptions {
   std::uint64_t seed = 1;
   std::string config;
   std::vector<std::string> sets;
-  std::string out;
-  bool quiet = false;
   bool print_config = false;
-  std::string command;
+  OutputOptions output;
 };
 
-/// Tracks each target of a recording through every filter, and reports.
-void track_and_report(const TrackOptions& options);
+/// `himm_demo track`: each target of a recording through every filter.
+void add_track(CLI::App& program, const std::string& command);
 
 }  // namespace sigmax::apps

@@ -34,7 +34,7 @@ class Reporter {
 
  private:
   void describe_run() {
-    summary_ = {{"version", version}, {"command", options_.command}, {"file", file_}};
+    summary_ = {{"version", version}, {"command", options_.output.command}, {"file", file_}};
     summary_["seed"] = options_.seed;
     if (options_.radar) {
       summary_["radar"] = {{"sigma_range_m", (*options_.radar)[0]},

@@ -66,7 +66,7 @@ class TrackRun {
 
   TrackOutcome run() {
     const auto total = recording_.csv().bytes_total();
-    Progress progress(file(), total.value_or(1), options_.quiet || !total);
+    Progress progress(file(), total.value_or(1), options_.output.quiet || !total);
     std::uint64_t done = 0;
     for (Fix fix; recording_.next(fix);) {
       take(fix);

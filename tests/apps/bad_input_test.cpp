@@ -243,8 +243,7 @@ std::vector<Case> cases() {
        {"/bin/sh", "-c", "exec \"$1\" track \"$2/input.csv\" >/dev/full", "sh", "PROGRAM", "DIR"}},
 
       // Usage.
-      {"NoSubcommand", good, {"--help"}, {}, "", 2},
-      {"UnknownSubcommand", good, {"--help"}, {"trak"}, "", 2},
+      {"UnknownSubcommand", good, {"there is no subcommand 'trak'; did you mean 'track'?"}, {"trak"}, "", 2},
       {"UnknownOption", good, {"--unheard-of", "--help"}, with({"--unheard-of"}), "", 2},
       {"UnknownPreset", good, {"--preset", "--help"}, {"simulate", "--preset", "printed"}, "", 2},
       {"NoInputFile", good, {"file is required", "--help"}, {"track"}, "", 2},
