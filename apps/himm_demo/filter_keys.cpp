@@ -244,12 +244,12 @@ std::vector<FilterKey> made_filter_keys() {
                   "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
                   "have the Kalman filter, and kf refuses others.",
                   &F::member, members)),
-      only(
-          [](const F& f) { return f.scheme != Scheme::independent; },
-          numbers<F>("sojourn_s",
-                  "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
-                  "time between two rows, and Π that P on the ratio scale.",
-                  &F::sojourn_s, {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
+      only([](const F& f) { return f.scheme != Scheme::independent; },
+           numbers<F>("sojourn_s",
+                      "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
+                      "time between two rows, and Π that P on the ratio scale.",
+                      &F::sojourn_s,
+                      {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
       transition("transition_probability", "P, from one row to the next. For a random mode.",
                  "rows of numbers that sum to 1", ".95 on the diagonal", false),
       transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
@@ -280,10 +280,10 @@ std::vector<FilterKey> made_filter_keys() {
            number<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
                      &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
       only(given, numbers<F>("start_mean", "The mean of a given start.", &F::start_mean,
-                          {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
+                             {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
       only(given,
            numbers<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
-                   {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
+                      {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
       only(given, optional_number("start_time_s",
                                   "When a given start holds; without it, one step before the first measurement.",
                                   &F::start_time_s, {"a time, in s", any})),
@@ -305,8 +305,9 @@ std::vector<FilterKey> made_filter_keys() {
 
 std::vector<Key<Accuracy>> made_accuracy_keys() {
   constexpr Range sigma{"a positive standard deviation", positive, small_sigma};
-  auto position = numbers<Accuracy>("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
-                          &Accuracy::position_m, {"positive standard deviations", positive, small_sigma});
+  auto position =
+      numbers<Accuracy>("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
+                        &Accuracy::position_m, {"positive standard deviations", positive, small_sigma});
   position.read = [read = position.read](const Settings& settings, Accuracy& accuracy) {
     read(settings, accuracy);
     if (accuracy.position_m.size() != 1 && accuracy.position_m.size() != 3)

@@ -20,6 +20,7 @@ struct TrackOptions {
   std::string config;
   std::vector<std::string> sets;
   bool print_config = false;
+  bool iso_times = false;  ///< a column with dates and times beside the seconds
   OutputOptions output;
 };
 

@@ -42,11 +42,10 @@ class Reporter {
                            {"sigma_elevation_deg", (*options_.radar)[2]}};
     }
     if (options_.radar || recording_.polar()) summary_["radar"]["at_m"] = radar_at();
-    if (recording_.geodetic()) {
-      const Geodetic& origin = recording_.frame().origin();
-      summary_["origin"] = {{"latitude_deg", origin.latitude_deg()},
-                            {"longitude_deg", origin.longitude_deg()},
-                            {"altitude_m", origin.altitude}};
+    if (const auto& origin = outcome_.origin) {
+      summary_["origin"] = {{"latitude_deg", origin->latitude_deg},
+                            {"longitude_deg", origin->longitude_deg},
+                            {"altitude_m", origin->altitude_m}};
     }
     summary_["rows"] = outcome_.rows;
     summary_["measurements"] = outcome_.measurements;
@@ -66,6 +65,7 @@ class Reporter {
                         !recording_.polar() ? ""
                         : converted         ? ", a radar's measurements converted"
                                             : ", a radar's measurements");
+    text_ += wrapped(fmt::format("Taken for: {}", recording_.taken()), options_.output.width());
     if (recording_.has_sensors()) {
       std::vector<std::string> counts;
       for (const auto& [sensor, count] : outcome_.sensors) counts.push_back(fmt::format("{} {}", sensor, count));
@@ -92,6 +92,9 @@ class Reporter {
       if (!counts.empty()) text_ += fmt::format("{}: {}\n", what, fmt::join(counts, ", "));
     };
     by_filter("rejected", "Measurements that the gate turned away", &FilterOutcome::rejected);
+    if (outcome_.refused_by_all > 0)
+      text_ += fmt::format("Turned away by every filter: {}, the first on line {}\n", outcome_.refused_by_all,
+                           outcome_.first_refused_line);
     by_filter("restarts", "Starts after a gap", &FilterOutcome::restarts);
     if (!options_.radar) return;
     const auto& sigma = *options_.radar;
@@ -105,13 +108,35 @@ class Reporter {
 
   void warn() {
     if (outcome_.validity.broken()) warnings_.push_back(outcome_.validity.warning(file_));
-    if (outcome_.outliers.any()) warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements));
+    if (outcome_.outliers.any())
+      warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements, options_.recording.track_id.empty()));
+    if (recording_.senseless() > 0)
+      warnings_.push_back(fmt::format(
+          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
+          file_, recording_.first_senseless_line(), recording_.senseless(),
+          recording_.senseless() == 1 ? "row counts" : "rows count"));
+    warn_of_low_nis();
     for (const auto& filter : filters_)
       for (const auto& [sensor, accuracy] : filter.sensors)
         if (!outcome_.sensors.contains(sensor))
           warnings_.push_back(fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", sensor,
                                           filter.name, file_));
     if (!warnings_.empty()) summary_["warnings"] = warnings_;
+  }
+
+  /// Where every filter finds its measurements much better than it believes.
+  void warn_of_low_nis() {
+    double greatest = 0.0;
+    for (const auto& filter : outcome_.filters) {
+      const Sums& sums = filter.sums[0];
+      if (sums.nis_count < 10) return;
+      greatest = std::max(greatest, sums.nis / static_cast<double>(sums.nis_count));
+    }
+    if (greatest >= 0.1 * recording_.axes()) return;
+    warnings_.push_back(fmt::format(
+        "{}: the mean NIS is {:.2g} at most, where {} is expected: the measurements are far better than the sensor's "
+        "sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, altitude_ft",
+        file_, greatest, recording_.axes()));
   }
 
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.

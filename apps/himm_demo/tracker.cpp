@@ -52,8 +52,7 @@ TrackPoint<Axes> point_of(const TargetPoint& known, const std::vector<std::strin
 }  // namespace
 
 template <int Axes>
-Tracker<Axes>::Tracker(FilterSettings settings)
-    : settings_(std::move(settings)), target_(choice_of(settings_, Axes)) {}
+Tracker<Axes>::Tracker(FilterSettings settings) : settings_(std::move(settings)), target_(choice_of(settings_, Axes)) {}
 
 template <int Axes>
 void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag,
@@ -64,6 +63,13 @@ void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& readin
 }
 
 template <int Axes>
+bool Tracker<Axes>::transform(const SquareMatrix<Axes>& A, const Vector<Axes>& b) {
+  const SquareMatrix<Axes> by_rows = A.transpose();
+  return target_.transform({by_rows.data(), static_cast<std::size_t>(by_rows.size())},
+                           {b.data(), static_cast<std::size_t>(b.size())});
+}
+
+template <int Axes>
 auto Tracker<Axes>::now() const -> Point {
   return point_of<Axes>(target_.output(), target_.components());
 }
@@ -71,8 +77,7 @@ auto Tracker<Axes>::now() const -> Point {
 template <int Axes>
 auto Tracker<Axes>::finish() const -> std::vector<Point> {
   std::vector<Point> points;
-  target_.smoothed(
-      [&](const TargetPoint& known) { points.push_back(point_of<Axes>(known, target_.components())); });
+  target_.smoothed([&](const TargetPoint& known) { points.push_back(point_of<Axes>(known, target_.components())); });
   return points;
 }
 

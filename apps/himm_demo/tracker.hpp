@@ -35,8 +35,8 @@ class Tracker {
 
   const FilterSettings& settings() const { return settings_; }
 
-  /// Takes one measurement, or none at that time, and calls `stepped(tag)` after each step that this completes, with the
-  /// tag of the measurement that it took.
+  /// Takes one measurement, or none at that time, and calls `stepped(tag)` after each step that this completes, with
+  /// the tag of the measurement that it took.
   void take(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag,
             const std::function<void(std::size_t tag)>& stepped);
 
@@ -46,6 +46,10 @@ class Tracker {
 
   /// How many measurements the gate has turned away.
   std::size_t rejected() const { return target_.rejected(); }
+
+  /// Tells what is known in other coordinates, A x + b; so the derivatives are turned by A. A target that waits for its
+  /// start or has rejected the last plots is left alone: returns whether it was told.
+  bool transform(const SquareMatrix<Axes>& A, const Vector<Axes>& b);
 
   /// The output now, as the settings ask for it.
   Point now() const;
