@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/output.hpp"
-#include "support/table.hpp"
+#include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -129,8 +129,8 @@ class Reporter {
     double greatest = 0.0;
     for (const auto& filter : outcome_.filters) {
       const Sums& sums = filter.sums[0];
-      if (sums.nis_count < 10) return;
-      greatest = std::max(greatest, sums.nis / static_cast<double>(sums.nis_count));
+      if (sums.nis.count() < 10) return;
+      greatest = std::max(greatest, sums.nis.mean());
     }
     if (greatest >= 0.1 * recording_.axes()) return;
     warnings_.push_back(fmt::format(
@@ -142,54 +142,56 @@ class Reporter {
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
   void tabulate(std::size_t p) {
     const bool truth_known = options_.radar || recording_.has_truth();
-    std::vector<TextTable::Column> columns = {{std::string(parts[p].name), Align::left}, {"rows"}};
-    const auto add_columns = [&](std::string_view label) {
+    std::vector<ResultColumn> columns = {{.key = "filter", .header = std::string(parts[p].name), .align = Align::left},
+                                         {.key = "rows", .header = "rows"}};
+    const auto add_columns = [&](std::string_view key, const std::string& group) {
       for (std::size_t axis = 0; axis < axes(); ++axis)
-        columns.push_back({fmt::format("{}{}", axis == 0 ? label : "", axis_names[axis])});
+        columns.push_back({.key = fmt::format("{}_{}_m", key, axis_names[axis]),
+                           .header = axis_names[axis],
+                           .sized = true,
+                           .group = group});
     };
-    if (truth_known) add_columns("RMSE, m: ");
-    add_columns("σ, m: ");
-    columns.push_back({"mean NIS"});
-    columns.push_back({"mean weights", Align::left});
-    TextTable table(columns);
-    Json part;
-    if (truth_known) row(table, part, "measurement", outcome_.raw[p], nullptr, truth_known);
+    if (truth_known) add_columns("rmse", "RMSE, m:");
+    add_columns("sigma", "σ, m:");
+    columns.push_back({.key = "mean_nis", .header = "mean", .sized = true, .group = "NIS:"});
+    columns.push_back({.key = "median_nis", .header = "median", .sized = true, .group = "NIS:"});
+    columns.push_back({.key = "nis_inside_95", .header = "in 95 %", .digits = 1, .scale = 100.0, .group = "NIS:"});
+    columns.push_back({.header = "mean weights", .align = Align::left});
+    const auto models = model_names(filters_);
+    for (const auto& model : models) columns.push_back({.key = "mean_weight_" + model});
+    ResultTable table(columns);
+    if (truth_known) row(table, models, "measurement", outcome_.raw[p], nullptr, truth_known);
     for (std::size_t f = 0; f < filters_.size(); ++f)
-      row(table, part, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
-    text_ += "\n" + table.text();
-    summary_["results"][std::string(parts[p].name)] = part;
+      row(table, models, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
+    text_ += "\n" + table.text(options_.output.width());
+    summary_["results"][std::string(parts[p].name)] = table.json();
   }
 
-  void row(TextTable& table, Json& part, const std::string& name, const Sums& sums, const FilterSettings* filter,
-           bool truth_known) const {
-    std::vector<std::string> cells = {name};
-    Json result;
+  void row(ResultTable& table, const std::vector<std::string>& models, const std::string& name, const Sums& sums,
+           const FilterSettings* filter, bool truth_known) const {
     const std::size_t count = filter ? sums.count : sums.error[0].count();
-    result["rows"] = count;
-    cells.push_back(std::to_string(count));
-    const auto add_cells = [&](const char* key, const std::array<RootMeanSquare, 3>& values) {
-      for (std::size_t axis = 0; axis < axes(); ++axis) {
-        const bool known = values[axis].count() > 0;
-        cells.push_back(known ? fmt::format("{:.2f}", values[axis].value()) : filter ? "–" : "");
-        if (known) result[key][axis_names[axis]] = values[axis].value();
-      }
+    std::vector<Cell> cells = {Cell(name), Cell(count)};
+    const auto add_cells = [&](const std::array<RootMeanSquare, 3>& values) {
+      for (std::size_t axis = 0; axis < axes(); ++axis)
+        cells.push_back(values[axis].count() > 0 ? Cell(values[axis].value()) : filter ? Cell("–") : Cell());
     };
-    if (truth_known) add_cells("rmse_m", sums.error);
-    add_cells("sigma_m", sums.sigma);
+    if (truth_known) add_cells(sums.error);
+    add_cells(sums.sigma);
+    const bool judged = filter && sums.nis.count() > 0;
+    cells.push_back(judged ? Cell(sums.nis.mean()) : Cell());
+    cells.push_back(judged ? Cell(sums.nis.median()) : Cell());
+    cells.push_back(judged ? Cell(sums.nis.inside()) : Cell());
     std::string weights;
-    if (filter) {
-      if (sums.nis_count > 0) result["mean_nis"] = sums.nis / static_cast<double>(sums.nis_count);
-      for (std::size_t j = 0; j < filter->models.size() && count > 0; ++j) {
-        const double weight = sums.weights[j] / static_cast<double>(count);
-        weights += fmt::format("{}{} {:.3f}", j ? ", " : "", filter->models[j], weight);
-        result["mean_weight"][filter->models[j]] = weight;
-      }
+    std::vector<Cell> by_model(models.size());
+    for (std::size_t j = 0; filter && count > 0 && j < filter->models.size(); ++j) {
+      const double weight = sums.weights[j] / static_cast<double>(count);
+      weights += fmt::format("{}{} {:.3f}", j ? ", " : "", filter->models[j], weight);
+      by_model[static_cast<std::size_t>(std::find(models.begin(), models.end(), filter->models[j]) - models.begin())] =
+          Cell(weight);
     }
-    cells.push_back(filter && sums.nis_count > 0 ? fmt::format("{:.2f}", sums.nis / static_cast<double>(sums.nis_count))
-                                                 : "");
-    cells.push_back(weights);
-    table.row(cells);
-    part[name] = result;
+    cells.emplace_back(weights);
+    cells.insert(cells.end(), by_model.begin(), by_model.end());
+    table.row(std::move(cells));
   }
 
   std::size_t axes() const { return static_cast<std::size_t>(recording_.axes()); }

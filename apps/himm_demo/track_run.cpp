@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sigmax/estimation/chi_square.hpp>
+
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/scenario.hpp"
 #include "himm_demo/tracker.hpp"
@@ -274,10 +276,7 @@ class TrackRun {
         add_error(sums, error);
       }
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-      if (point.nis) {
-        sums.nis += *point.nis;
-        ++sums.nis_count;
-      }
+      if (point.nis) sums.nis.add(*point.nis, usual_nis_);
     });
   }
 
@@ -309,6 +308,7 @@ class TrackRun {
   std::map<std::string, Target<Axes>, std::less<>> targets_;
   TrackOutcome outcome_;
   std::optional<LocalFrame<Axes>> file_anchor_;
+  double usual_nis_ = chi_square_quantile(0.95, Axes);
   bool fixed_ = options_.radar || recording_.has_truth();  // whether all is about one point
   Vector<3> radar_at_ = Vector<3>::Zero();
 };

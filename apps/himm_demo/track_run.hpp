@@ -11,6 +11,7 @@
 
 #include <sigmax/estimation/metrics.hpp>
 
+#include "himm_demo/nis_tally.hpp"
 #include "himm_demo/track.hpp"
 #include "himm_demo/track_warnings.hpp"
 
@@ -34,8 +35,7 @@ struct Sums {
   std::array<RootMeanSquare, 3> error;
   std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
   std::vector<double> weights;
-  double nis = 0.0;
-  std::size_t nis_count = 0;
+  NisTally nis;
   std::size_t count = 0;
 };
 using SumsByPart = std::array<Sums, parts.size()>;
