@@ -42,8 +42,18 @@ const Headers azimuth_headers = {{"azimuth_deg", 1.0, "°"},
                                  {"azimuth_rad_north", 1.0 / degree, "rad", true}};
 const Headers elevation_headers = {{"elevation_deg", 1.0, "° above the horizon"},
                                    {"elevation_rad", 1.0 / degree, "rad above the horizon"}};
-const Headers other_headers = {{"time_s", 1.0, "s"},   {"sensor", 1.0, ""},    {"true_x_m", 1.0, "m"},
-                               {"true_y_m", 1.0, "m"}, {"true_z_m", 1.0, "m"}, {"roll_deg", 1.0, "°"}};
+const Headers other_headers = {{"time_s", 1.0, "s"},
+                               {"sensor", 1.0, ""},
+                               {"true_x_m", 1.0, "m"},
+                               {"true_y_m", 1.0, "m"},
+                               {"true_z_m", 1.0, "m"},
+                               {"roll_deg", 1.0, "°"},
+                               {"sigma_x_m", 1.0, "m"},
+                               {"sigma_y_m", 1.0, "m"},
+                               {"sigma_z_m", 1.0, "m"},
+                               {"sigma_range_m", 1.0, "m"},
+                               {"sigma_azimuth_deg", 1.0, "°"},
+                               {"sigma_elevation_deg", 1.0, "°"}};
 
 /// No measurement of this world, in m or degrees, but what a device writes where it has none.
 constexpr double beyond_sense = 1e30;
@@ -131,6 +141,8 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
     return index ? std::optional(Column{*index, 1.0, "m"}) : std::nullopt;
   };
   truth_ = {find_plain("true_x_m"), find_plain("true_y_m"), find_plain("true_z_m")};
+  sigma_position_ = {find_plain("sigma_x_m"), find_plain("sigma_y_m"), find_plain("sigma_z_m")};
+  sigma_polar_ = {find_plain("sigma_range_m"), find_plain("sigma_azimuth_deg"), find_plain("sigma_elevation_deg")};
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
 
@@ -196,7 +208,9 @@ bool RecordingReader::next(Fix& fix) {
     if (senseless_++ == 0) first_senseless_line_ = fix.line;
     return true;
   }
-  const auto position = numbers(position_);
+  fix.no_height = false;
+  fix.sigma = {};
+  const auto position = numbers(position_, &fix.no_height);
   const auto seen = numbers(polar_);
   if (position && seen)
     throw row_.error(polar_[0]->index, "an empty cell, since the row has a position",
@@ -204,6 +218,8 @@ bool RecordingReader::next(Fix& fix) {
   if (position && geodetic_) fix.place = place(*position);
   if (position && !geodetic_) fix.position = Vector<3>(position->data());
   if (seen) fix.seen = polar(*seen);
+  if (position) take_sigmas(fix, sigma_position_, 1.0);
+  if (seen) take_sigmas(fix, sigma_polar_, degree);
   return true;
 }
 
@@ -256,8 +272,19 @@ bool RecordingReader::senseless(const Columns& columns) const {
   });
 }
 
+void RecordingReader::take_sigmas(Fix& fix, const Columns& columns, double angle) const {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!columns[i]) continue;
+    const auto sigma = row_.optional_number(columns[i]->index);
+    if (!sigma) continue;
+    if (!(*sigma > 0.0))
+      throw row_.error(columns[i]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
+    fix.sigma[i] = *sigma * (i == 0 ? 1.0 : angle);
+  }
+}
+
 /// The numbers in the columns that there are, 0 in those that there are not; nothing if all cells are empty.
-std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns) const {
+std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns, bool* no_height) const {
   std::array<double, 3> result = {0.0, 0.0, 0.0};
   std::size_t filled = 0;
   std::optional<std::size_t> empty;
@@ -271,7 +298,9 @@ std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& col
     }
   }
   if (filled == 0) return std::nullopt;
-  if (empty)
+  if (empty && no_height && filled == 2 && columns[2] && *empty == columns[2]->index)
+    *no_height = true;
+  else if (empty)
     throw row_.error(*empty, "a number, since the row's other coordinates are there",
                      "fill the cell or empty them all");
   return result;
@@ -306,6 +335,9 @@ std::string RecordingReader::taken() const {
   add(position_, "");
   add(polar_, from_north_ ? " clockwise from north" : " counter-clockwise from east");
   add(truth_, "");
+  for (const auto& columns : {position_[0] ? sigma_position_ : Columns{}, polar_[0] ? sigma_polar_ : Columns{}})
+    for (const auto& column : columns)
+      if (column) parts.push_back(fmt::format("{} for the row's accuracy", csv_.names()[column->index]));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

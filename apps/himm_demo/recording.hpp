@@ -36,7 +36,10 @@ struct Fix {
   std::string sensor;                 ///< empty without a column `sensor`
   std::optional<Vector<3>> position;  ///< measured: east, north, up in m; z is 0 on two axes
   std::optional<Geodetic> place;      ///< measured; the altitude is 0 on two axes
+  bool no_height = false;             ///< of three axes only the first two were measured
   std::optional<Polar> seen;          ///< measured by a radar; the elevation is 0 on two axes
+  /// What the row itself says of its accuracy: of x, y, z in m, or of range, azimuth, elevation in m and rad.
+  std::array<std::optional<double>, 3> sigma;
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
 
@@ -90,7 +93,8 @@ class RecordingReader {
   bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);
-  std::optional<std::array<double, 3>> numbers(const Columns& columns) const;
+  std::optional<std::array<double, 3>> numbers(const Columns& columns, bool* no_height = nullptr) const;
+  void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
   Geodetic place(const std::array<double, 3>& cells) const;
   bool refused_time(const Fix& fix);
   Polar polar(const std::array<double, 3>& cells) const;
@@ -101,6 +105,8 @@ class RecordingReader {
   Columns position_;  // Cartesian, or geodetic
   Columns polar_;
   Columns truth_;
+  Columns sigma_position_;
+  Columns sigma_polar_;
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
   bool geodetic_ = false;

@@ -13,6 +13,7 @@
 #include "himm_demo/track_run.hpp"
 #include "support/angle.hpp"
 #include "support/output.hpp"
+#include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -128,9 +129,10 @@ void add_track(CLI::App& program, const std::string& command) {
       "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
       "Other units: x_km, z_ft, range_km, range_nmi, range_ft, azimuth_rad,\n"
       "azimuth_deg_north (clockwise from north), elevation_rad. Beside them may stand\n"
-      "true_x_m,true_y_m[,true_z_m] and roll_deg. Times are seconds, dates and times as\n"
+      "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
+      "accuracy of the row. Times are seconds, dates and times as\n"
       "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
-      "without a position is a missed measurement.\n"
+      "without a position is a missed measurement; its height alone may be missing.\n"
       "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
@@ -138,6 +140,16 @@ void add_track(CLI::App& program, const std::string& command) {
       "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
       "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
       "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
+  app.add_option_function<std::string>(
+         "--predict-to",
+         [options](const std::string& text) {
+           options->predict_to = parse_timestamp(text);
+           if (!options->predict_to)
+             throw UsageError(
+                 message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
+         },
+         "A time up to which each target is predicted after its last row")
+      ->type_name("TIME");
   app.add_flag("--iso-times", options->iso_times, "Also write times as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);

@@ -98,6 +98,7 @@ class TrackRun {
       done = recording_.csv().bytes_read();
     }
     progress.finish();
+    if (options_.predict_to) predict();
     for (auto& [name, target] : targets_) smooth(target);
     outcome_.tracks = targets_.size();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks()))
@@ -109,6 +110,17 @@ class TrackRun {
 
  private:
   const std::string& file() const { return recording_.csv().file(); }
+
+  /// A last step of each target that ended before the time asked for, without a measurement.
+  void predict() {
+    for (auto& [name, target] : targets_) {
+      Fix fix;
+      fix.line = target.rows.back().line;
+      fix.track = name;
+      fix.time_s = *options_.predict_to;
+      if (fix.time_s > target.before) step(target, fix);
+    }
+  }
 
   void count(const std::string& name, const Target<Axes>& target) {
     if (!target.all_started()) outcome_.never_started.push_back(name);
@@ -127,9 +139,12 @@ class TrackRun {
     if (target == targets_.end())
       target = targets_.try_emplace(fix.track, filters_, RandomStream(options_.seed, stream_of(fix.track))).first;
     if (fix.place) place(target->second, fix);
-    if (options_.radar && fix.position) see_by_radar(fix, target->second.random);
+    if (options_.radar && fix.position && !fix.no_height)
+      see_by_radar(fix, target->second.random);
+    else if (options_.radar)
+      fix.position.reset();
     if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
-    if (fix.truth && fix.measured())
+    if (fix.truth && fix.measured() && !fix.no_height)
       add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
         add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
       });
@@ -238,18 +253,33 @@ class TrackRun {
 
   /// What a row measures, with the covariance that a filter believes.
   std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
-    if (!fix.measured()) return std::nullopt;
+    const Tracker<Axes>& tracker = target.trackers[f];
+    if (!fix.measured() || (fix.no_height && !tracker.running())) return std::nullopt;
     const FilterSettings& settings = filters_[f];
     const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-    if (fix.seen) return radar_reading<Axes>(*fix.seen, accuracy.radar, radar_at_, settings.radar_measurement);
-    const Vector<Axes> position = fix.place ? target.segments[f].back().frame.to_local(*fix.place)
-                                            : Vector<Axes>(fix.position->template head<Axes>());
-    Gaussian<Axes> z{position, SquareMatrix<Axes>::Zero()};
-    for (Eigen::Index axis = 0; axis < Axes; ++axis) {
-      const auto& sigma = accuracy.position_m;
-      z.covariance(axis, axis) = std::pow(sigma.size() == 1 ? sigma[0] : sigma[static_cast<std::size_t>(axis)], 2);
+    const auto& own = fix.sigma;
+    if (fix.seen) {
+      const Polar& usual = accuracy.radar;
+      const Polar sigma{own[0].value_or(usual.range), own[1].value_or(usual.azimuth), own[2].value_or(usual.elevation)};
+      return radar_reading<Axes>(*fix.seen, sigma, radar_at_, settings.radar_measurement);
     }
-    return Reading<Axes>{z, std::nullopt};
+    Vector<Axes> position;
+    if (fix.place) {
+      const LocalFrame<Axes>& frame = target.segments[f].back().frame;
+      Geodetic place = *fix.place;  // without a height it is at the target's
+      if (fix.no_height)
+        place.altitude_m = frame.to_geodetic(tracker.now().estimate.mean.template head<Axes>()).altitude_m;
+      position = frame.to_local(place);
+    } else {
+      position = fix.position->template head<Axes>();
+    }
+    Gaussian<Axes> z{position, SquareMatrix<Axes>::Zero()};
+    for (Eigen::Index i = 0; i < Axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      const auto& sigma = accuracy.position_m;
+      z.covariance(i, i) = std::pow(own[axis].value_or(sigma.size() == 1 ? sigma[0] : sigma[axis]), 2);
+    }
+    return Reading<Axes>{z, fix.no_height ? Axes - 1 : Axes, std::nullopt};
   }
 
   template <class Add>
@@ -265,6 +295,7 @@ class TrackRun {
       estimates_->add(fix.track, filters_[f], point, *target.anchor, target.frame(f, tag));
     else if (estimates_)
       estimates_->add(fix.track, filters_[f], point);
+    if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
     const auto& estimate = point.estimate;
     add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
       ++sums.count;

@@ -21,6 +21,17 @@ template <int Axes>
 AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag) {
   AnyPlot plot{.time = time, .tag = tag};
   if (!reading) return plot;
+  if (reading->measured < Axes) {
+    plot.sensor = AnyPlot::Sensor::components;
+    plot.size = reading->measured;
+    for (int i = 0; i < plot.size; ++i) {
+      plot.places[static_cast<std::size_t>(i)] = i;
+      plot.z[static_cast<std::size_t>(i)] = reading->position.mean(i);
+      for (int j = 0; j < plot.size; ++j)
+        plot.covariance[static_cast<std::size_t>(i * plot.size + j)] = reading->position.covariance(i, j);
+    }
+    return plot;
+  }
   plot.sensor = reading->seen ? AnyPlot::Sensor::polar : AnyPlot::Sensor::position;
   plot.size = Axes;
   const auto& z = reading->z();

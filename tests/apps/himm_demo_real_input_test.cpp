@@ -107,6 +107,48 @@ TEST(HimmDemoRealInput, TwoSensorsMayMeasureAtOneTime) {
   EXPECT_LT(number(found.back().at("sigma_x_m")), number(alone.back().at("sigma_x_m")));
 }
 
+TEST(HimmDemoRealInput, AHeightMayBeMissing) {
+  const auto with = [](const char* height) {
+    return recording("time_s,x_m,y_m,z_m", [&](int k) {
+      return exact(k) + "," + exact(10 * k) + ",7," + (k % 3 == 2 && k > 5 ? std::string(height) : exact(100 + 2 * k));
+    });
+  };
+  const auto missing = rows(tracked(with("")).estimates);
+  // As a height that is measured, but to nothing: what is known across is the same.
+  for (const auto& row : missing) {
+    EXPECT_NEAR(number(row.at("x_m")), 10.0 * number(row.at("time_s")), 1e-6);
+    EXPECT_NEAR(number(row.at("z_m")), 100.0 + 2.0 * number(row.at("time_s")), 1e-6);
+  }
+  const auto whole = rows(tracked(recording("time_s,x_m,y_m,z_m", [](int k) {
+                            return exact(k) + "," + exact(10 * k) + ",7," + exact(100 + 2 * k);
+                          })).estimates);
+  EXPECT_GT(number(missing.back().at("sigma_z_m")), 1.05 * number(whole.back().at("sigma_z_m")));
+  EXPECT_LT(number(missing.back().at("sigma_x_m")), 1.05 * number(whole.back().at("sigma_x_m")));
+}
+
+TEST(HimmDemoRealInput, ARowMaySayItsOwnAccuracy) {
+  const auto own = recording("time_s,x_m,y_m,sigma_x_m,sigma_y_m",
+                             [](int k) { return exact(k) + "," + exact(k * k) + "," + exact(k % 5) + ",3,3"; });
+  const auto set =
+      recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(k * k) + "," + exact(k % 5); });
+  EXPECT_EQ(tracked(own).estimates, tracked(set, {"--set", "sigma_position_m=3"}).estimates);
+  const auto polar = recording("time_s,range_m,azimuth_deg,sigma_range_m,sigma_azimuth_deg", [](int k) {
+    return exact(k) + "," + exact(9000 + k * k) + "," + exact(k % 5) + ",3,0.2";
+  });
+  const auto polar_set = recording("time_s,range_m,azimuth_deg",
+                                   [](int k) { return exact(k) + "," + exact(9000 + k * k) + "," + exact(k % 5); });
+  EXPECT_EQ(tracked(polar).estimates,
+            tracked(polar_set, {"--set", "sigma_range_m=3", "--set", "sigma_azimuth_deg=0.2"}).estimates);
+}
+
+TEST(HimmDemoRealInput, ATargetIsPredictedToATime) {
+  const auto straight = recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(10 * k) + ",7"; });
+  const auto found = rows(tracked(straight, {"--predict-to", "100"}).estimates);
+  EXPECT_EQ(found.back().at("time_s"), "100");
+  EXPECT_NEAR(number(found.back().at("x_m")), 1000.0, 1e-6);
+  EXPECT_EQ(found.back().at("nis"), "");
+}
+
 TEST(HimmDemoRealInput, TheInputIsNotWrittenOver) {
   const TemporaryDirectory directory;
   const std::string text = recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(k) + ",7"; });
