@@ -101,17 +101,17 @@ void StepBack(benchmark::State& state) {
   std::vector record{filter.recorded(0.0)};
   for (const auto& z : measurements()) {
     filter.step(T, z);
-    record.push_back(filter.recorded(T));
+    record.push_back(filter.recorded(T, z));
   }
   FixedIntervalSmoother<Models, Kind> smoother{filter};
-  auto smoothed = record.back().state;
+  smoother.begin(record.back());
   std::size_t k = record.size() - 1;
   for (auto _ : state) {
-    smoother.step(record[k - 1].state, record[k], smoothed);
-    benchmark::DoNotOptimize(&smoothed);
-    if (--k == 0) {
+    smoother.step(record[--k]);
+    benchmark::DoNotOptimize(&smoother.state());
+    if (k == 0) {
+      smoother.begin(record.back());
       k = record.size() - 1;
-      smoothed = record.back().state;
     }
   }
 }

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include <sigmax/estimation/any_member.hpp>
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/any_target.hpp>
+#include <sigmax/hybrid/future_evidence.hpp>
 
 #include "known_motions.hpp"
+#include "known_sensors.hpp"
 
 /// The bank of known motions and the sensors that can see them. Its Kalman filter is compiled once for all schemes and
 /// kinds of mode, in known_bank_*.cpp.
@@ -16,8 +17,6 @@ namespace detail {
 
 using KnownModel = AnyMember<AnyKnownMotion>;
 using KnownBank = std::vector<KnownModel>;
-using KnownSensor = AnySensor<PositionSensor<2>, PositionSensor<3>, PolarSensor<2>, PolarSensor<3>, BearingSensor,
-                              ComponentSensor<6>, DopplerSensor<2>, DopplerSensor<3>>;
 
 /// Throws std::invalid_argument for a motion that is not known.
 KnownBank known_bank(const TargetChoice& choice);
@@ -26,11 +25,17 @@ KnownBank known_bank(const TargetChoice& choice);
 
 extern template void predict(const detail::KnownModel&, const EstimateOf<detail::KnownModel>&, double,
                              EstimateOf<detail::KnownModel>&);
-extern template StateMatrixOf<detail::KnownModel> prediction_covariance(const detail::KnownModel&,
-                                                                        const EstimateOf<detail::KnownModel>&, double);
+extern template LinearisedStepOf<detail::KnownModel> linearised_step(const detail::KnownModel&,
+                                                                     const EstimateOf<detail::KnownModel>&, double);
 extern template InnovationOf<detail::KnownSensor> update(const detail::KnownModel&,
                                                          const EstimateOf<detail::KnownModel>&,
                                                          const MeasurementOf<detail::KnownSensor>&,
                                                          const detail::KnownSensor&, EstimateOf<detail::KnownModel>&);
+
+extern template LinearisedMeasurementOf<detail::KnownModel, detail::KnownSensor> linearised_measurement(
+    const detail::KnownModel&, const EstimateOf<detail::KnownModel>&, const MeasurementOf<detail::KnownSensor>&,
+    const detail::KnownSensor&);
+extern template struct FutureEvidence<detail::KnownModel::max_state_size>;
+extern template class EvidenceCollapse<detail::KnownModel::max_state_size>;
 
 }  // namespace sigmax

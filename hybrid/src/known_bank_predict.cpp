@@ -4,9 +4,6 @@ namespace sigmax {
 
 template void predict(const detail::KnownModel&, const EstimateOf<detail::KnownModel>&, double,
                       EstimateOf<detail::KnownModel>&);
-template StateMatrixOf<detail::KnownModel> prediction_covariance(const detail::KnownModel&,
-                                                                 const EstimateOf<detail::KnownModel>&, double);
-
 namespace detail {
 
 KnownBank known_bank(const TargetChoice& choice) {

@@ -53,6 +53,7 @@
 #include <sigmax/estimation/independent_axes.hpp>
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/nonlinear_motion.hpp>
@@ -71,6 +72,7 @@
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/fixed_lag_smoother.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/interaction.hpp>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
 
@@ -37,6 +38,16 @@ TEST_P(InPlace, VerbsAllocateNothing) {
   EXPECT_EQ(allocations_of([&] { update(prior, likelihood, posterior); }), 0U);
   EXPECT_EQ(allocations_of([&] { update(posterior, likelihood, posterior); }), 0U);
   EXPECT_EQ(allocations_of([&] { invert(transition, prior, inverse); }), 0U);
+}
+
+TEST(Allocations, AChainThatIsUnderWayAllocatesNothing) {
+  const RandomVariable s{"s", 50};
+  const Relation step{s, s, std::vector(50, std::vector<double>(50, 0.02))};
+  const Likelihood report{s, std::vector<double>(50, 0.5)};
+  Chain chain{uninformative(s)};
+  const auto advance = [&] { chain = update(compose(step, std::move(chain)), report); };
+  for (int k = 0; k < 3; ++k) advance();
+  EXPECT_EQ(allocations_of(advance), 0U);
 }
 
 }  // namespace

@@ -122,6 +122,39 @@ TEST(Chain, RefusesWhatDoesNotFit) {
       {"evidence", "'weather'"}));
 }
 
+TEST(Chain, StaysAsItWasWhereEvidenceExcludesAll) {
+  for (const std::size_t size : {std::size_t{2}, std::size_t{100}}) {
+    const RandomVariable s{"s", size};
+    std::vector<double> start(size, 0.0), other(size, 1.0);
+    start[0] = 1.0;
+    other[0] = 0.0;
+    std::vector<std::vector<double>> identity(size, std::vector<double>(size, 0.0));
+    for (std::size_t i = 0; i < size; ++i) identity[i][i] = 1.0;
+    const Relation stay{s, s, identity};
+    const Likelihood half{s, std::vector<double>(size, 0.5)}, impossible{s, other};
+
+    Chain chain{Distribution{s, start}};
+    for (int step = 0; step < 3; ++step) {
+      const auto bad = [&] { chain = update(compose(stay, std::move(chain)), impossible); };
+      EXPECT_TRUE(throws<std::domain_error>(bad, {"evidence", "'s'"}));
+      EXPECT_TRUE(throws<std::domain_error>([&] { chain = update(std::move(chain), impossible); }, {"'s'"}));
+      EXPECT_EQ(most_likely(chain), "0");
+      EXPECT_EQ(chain.log_total(), step * std::log(0.5));
+      chain = update(compose(stay, std::move(chain)), half);
+    }
+    EXPECT_PRED_FORMAT3(near, chain.log_total(), 3 * std::log(0.5), 1e-15);
+  }
+}
+
+TEST(Chain, MultipliesByTheNumbersOfALikelihoodToTheBit) {
+  const FuzzyVariable s{"s", 1}, f{"f", 2};
+  const Chain chain =
+      update(compose(Relation{f, s, {{0.5, 1.0}}}, Chain{uninformative(s)}), Likelihood{f, {0.25, 0.125}});
+  EXPECT_EQ(chain.row()[0].value(), 0.125);
+  EXPECT_EQ(chain.row()[1].value(), 0.125);
+  EXPECT_EQ(most_likely(chain), "0");  // a tie
+}
+
 // The log evidence and the winner, checked in exact rational arithmetic.
 
 template <class Kind>
@@ -201,7 +234,7 @@ void expect_same_bits() {
       kernels::compose<AlgebraOf<Kind>>(relation.table(), plain_row, next);
       std::swap(plain_row, next);
     }
-    for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row().value(i) == plain_row(0, i));
+    for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row()[i].value() == plain_row(0, i));
   });
 }
 TEST(Chain, OfRandomVariablesHasTheBitsOfPlainArithmetic) { expect_same_bits<Random>(); }

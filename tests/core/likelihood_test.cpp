@@ -80,6 +80,35 @@ TEST(Likelihood, RefusesNegativeInfiniteAndMissingValues) {
       {"'emitter'", "3 outcomes", "2 values"}));
 }
 
+TEST(Likelihood, HoldsNumbersExactly) {
+  const RandomVariable x{"x", 1000};
+  std::vector<double> thousandths(1000);
+  for (std::size_t k = 0; k < 1000; ++k) thousandths[k] = static_cast<double>(k) / 1000.0;
+  const Likelihood likelihood{x, thousandths};
+  for (std::size_t k = 0; k < 1000; ++k) ASSERT_EQ(likelihood[k], thousandths[k]);
+  EXPECT_EQ(likelihood.log(125), std::log(0.125));
+  EXPECT_EQ(likelihood.at(125), 0.125);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { likelihood.at(1000); }, {"'x'", "1000"}));
+}
+
+TEST(Likelihood, GivenALogarithmKeepsLogarithms) {
+  Likelihood likelihood{emitter, {0.125, 0.0, 1.0}};
+  likelihood.set_log(2, -2000.0);
+  EXPECT_EQ(likelihood.log(2), -2000.0);
+  EXPECT_EQ(likelihood.log(0), std::log(0.125));
+  EXPECT_TRUE(likelihood.excludes(1));
+  EXPECT_FALSE(likelihood.excludes(2));
+  EXPECT_EQ(likelihood[2], 0.0);
+  EXPECT_PRED_FORMAT3(near, likelihood.number(2).log(), -2000.0, 1e-15);
+}
+
+TEST(Likelihood, OfABeliefIsWhatIsBelieved) {
+  const Likelihood likelihood{Belief{Distribution{emitter, {0.25, 0.0, 0.75}}}};
+  EXPECT_EQ(likelihood.log(0), std::log(0.25));
+  EXPECT_TRUE(likelihood.excludes(1));
+  EXPECT_EQ(likelihood.variable(), emitter);
+}
+
 TEST(Likelihood, RefusesALogarithmOfNoNumberAndStaysAsItWas) {
   Likelihood likelihood{emitter};
   EXPECT_TRUE(throws<std::invalid_argument>([&] { likelihood.set_log(1, nan); }, {"'emitter'", "'e2'"}));

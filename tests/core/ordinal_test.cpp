@@ -124,7 +124,7 @@ TEST(Ordinal, LikelihoodsAreKeptUnrounded) {
   const Likelihood likelihood{age, {0.1, 0.3, 1.0}};
   EXPECT_EQ(likelihood[0], 0.1);
   EXPECT_EQ(likelihood["middle"], 0.3);
-  EXPECT_EQ(likelihood.weight(1), 0.3);
+  EXPECT_EQ(likelihood.number(1), 0.3);
   EXPECT_EQ(Likelihood{age}[2], 1.0);
   EXPECT_TRUE(throws<std::invalid_argument>([] { Likelihood(age, {0.1, 1.5, 0.2}); }, {"'age'", "'middle'", "1.5"}));
 }

@@ -93,5 +93,16 @@ TEST(ScaledNumber, DividesAsFarAsADoubleGoes) {
   EXPECT_EQ(ScaledNumber{greatest}.over(ScaledNumber{1.0}), greatest);
 }
 
+TEST(ScaledNumber, OfFarLogarithmsKeepsTheirDifference) {
+  for (const double log : {-1e6, -1e10, 3e12}) {
+    const double ratio = ScaledNumber::exp(log + 1.0).over(ScaledNumber::exp(log));
+    EXPECT_NEAR(ratio, std::exp(1.0), 1e-14);
+  }
+}
+
+TEST(ScaledNumber, HasTheLogarithmOfTheDoubleThatItIs) {
+  for (const double value : {0.1, 0.125, 1e-300, 1e300, 3.0}) EXPECT_EQ(ScaledNumber{value}.log(), std::log(value));
+}
+
 }  // namespace
 }  // namespace sigmax

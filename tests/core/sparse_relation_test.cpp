@@ -229,10 +229,10 @@ TYPED_TEST(StoredRelations, ComposeWithDistributionsAndLikelihoodsToTheBitsOfDen
     RC_ASSERT(numbers_of(compose(any.left, prior).values()) == numbers_of(compose(any.left.dense(), prior).values()));
     const Likelihood likelihood{any.m, laws::any_unit_numbers(any.m.size())};
     const auto carried = compose(likelihood, any.right), expected = compose(likelihood, any.right.dense());
-    for (std::size_t i = 0; i < any.y.size(); ++i) RC_ASSERT(carried.weight(i) == expected.weight(i));
+    for (std::size_t i = 0; i < any.y.size(); ++i) RC_ASSERT(carried.number(i) == expected.number(i));
     for (std::size_t k = 0; k < any.x.size(); ++k)
       for (std::size_t i = 0; i < any.m.size(); ++i)
-        RC_ASSERT(any.left.likelihood(k).weight(i) == any.left.dense().likelihood(k).weight(i));
+        RC_ASSERT(any.left.likelihood(k).number(i) == any.left.dense().likelihood(k).number(i));
   });
 }
 

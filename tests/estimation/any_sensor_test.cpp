@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
 #include "estimation/members.hpp"
@@ -64,6 +65,32 @@ TEST(AnySensor, WrapsTheAnglesOfTheSensorThatItIs) {
   EXPECT_PRED_FORMAT3(near, bearing.measurement_difference(a, b)(0), 6.0 - 2.0 * std::numbers::pi, 1e-15);
   const Any::Measured p = Vector<2>(3.0, 0.0), q = Vector<2>(-3.0, 0.0);
   EXPECT_EQ(position.measurement_difference(p, q)(0), 6.0);
+}
+
+/// Says that its mean is 1, whatever the points are.
+struct OneAlways : BearingSensor {
+  using BearingSensor::BearingSensor;
+  template <class Points, class Weights>
+  Vector<1> measurement_mean(const Points&, const Weights&) const {
+    return Vector<1>(1.0);
+  }
+};
+
+TEST(AnySensor, AveragesAsTheSensorThatItIs) {
+  const AnySensor<PositionSensor<2>, OneAlways, BearingSensor> one = OneAlways{}, angle = BearingSensor{},
+                                                               position = PositionSensor<2>{};
+  const Vector<2> weights(0.25, 0.75);
+  const RectangularMatrix<1, 2> angles(3.0, -3.0);
+  EXPECT_EQ(one.measurement_mean(angles, weights)(0), 1.0);
+  EXPECT_PRED_FORMAT3(near, angle.measurement_mean(angles, weights)(0), 3.0 + 0.75 * (2.0 * std::numbers::pi - 6.0),
+                      1e-15);
+  const SquareMatrix<2> points{{3.0, -3.0}, {1.0, 5.0}};
+  EXPECT_EQ(position.measurement_mean(points, weights), (Vector<2>(-1.5, 4.0)));
+
+  const Gaussian<4> prior{Vector<4>(100.0, 50.0, 0.0, 0.0), SquareMatrix<4>::Identity()};
+  Gaussian<4> x;
+  const Gaussian<Eigen::Dynamic, 2> z{Vector<1>(0.5), SquareMatrix<1>(0.01)};
+  EXPECT_PRED_FORMAT3(near, update(Unscented{dwna<2>(1.0)}, prior, z, one, x).residual(0), -0.5, 1e-15);
 }
 
 TEST(AnySensor, TellsThePositionIfTheSensorThatItIsDoes) {

@@ -45,6 +45,34 @@ TEST(GaussianPossibility, OfARegularCovarianceIsTheFormula) {
   });
 }
 
+/// Σ = A Aᵀ of any rank: at m + A y the distance is that of the least such y, which of independent columns is y itself.
+template <int N>
+void knows_its_support() {
+  holds([] {
+    const auto rank = *rc::gen::inRange<std::size_t>(1, std::size_t{N} + 1);
+    auto A = generated(N, rank);
+    for (std::size_t k = 0; k < rank; ++k) A(k, k) += 2.0;  // independent columns
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t k = 0; k < rank; ++k) A(i, k) *= std::pow(10.0, number_between(-1.0, 1.0) * (i % 2 ? 1.0 : 0.0));
+    const Vector<N> m = fixed<N, 1>(10.0 * generated(N, 1));
+    const GaussianPossibility<N> pi{{m, fixed<N, N>(restatement::symmetrised(A * transposed(A)))}};
+    const auto y = generated(rank, 1);
+    const Vector<N> x = m + fixed<N, 1>(A * y);
+    const auto least = transposed(y) * y;
+    if (!(pi.log(x) > log_zero)) RC_FAIL("a point of the support is impossible");
+    require_near(pi.log(x), -0.5 * least(0, 0), 1e-5);
+  });
+}
+
+TEST(GaussianPossibility, OfASingularCovarianceOfAnyRankKnowsItsSupport) {
+  knows_its_support<1>();
+  knows_its_support<2>();
+  knows_its_support<3>();
+  knows_its_support<4>();
+  knows_its_support<5>();
+  knows_its_support<6>();
+}
+
 /// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
 TEST(GaussianPossibility, IsTheDensityOnTheRatioScale) {
   holds([] {

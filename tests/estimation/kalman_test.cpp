@@ -254,6 +254,35 @@ TEST(Kalman, CovariancesStaySymmetricAndPositiveUnderStress) {
       {1.0}, measuring(Dense(2, 4, {1, 1, 0, 0, 0, 1, -1, 1})));
 }
 
+TEST(Kalman, TheFormsThatReturnAreThoseThatWrite) {
+  const auto model = dwpa<2>(1.5);
+  const Gaussian<6> prior{Vector<6>{1, 2, 3, 4, 5, 6}, 2.0 * SquareMatrix<6>::Identity()};
+  const Gaussian<2> z{Vector<2>{-1, 4}, SquareMatrix<2>{{2, 0.5}, {0.5, 1}}};
+  Gaussian<6> predicted, updated;
+  predict(model, prior, 0.7, predicted);
+  update(model, predicted, z, updated);
+  EXPECT_EQ(predict(model, prior, 0.7).covariance, predicted.covariance);
+  EXPECT_EQ(predict(Extended{model}, prior, 0.7).mean, predicted.mean);
+  EXPECT_EQ(update(model, predicted, z).mean, updated.mean);
+  EXPECT_EQ(update(model, predicted, z, PositionSensor<2>{}).covariance, updated.covariance);
+  EXPECT_EQ(update(Extended{model}, predicted, z, PositionSensor<2>{}).covariance, updated.covariance);
+}
+
+/// The squares of such residuals are no numbers, and with correlated errors their sums neither; it is far all the same.
+TEST(Kalman, WhatIsBeyondAllNumbersIsInfinitelyFar) {
+  const auto model = dwna<2>(1.0);
+  const Gaussian<4> prior{Vector<4>::Zero(), 1e-6 * SquareMatrix<4>::Identity()};
+  for (const double far : {1e155, 1e160, 1.797e308})
+    for (const double correlation : {0.0, 0.9, -0.9})
+      for (const Vector<2>& at : {Vector<2>(far, far), Vector<2>(-far, far), Vector<2>(0.0, far)}) {
+        Gaussian<4> x;
+        const SquareMatrix<2> R{{1e-4, 1e-4 * correlation}, {1e-4 * correlation, 1e-4}};
+        const auto innovation = update(model, prior, {at, R}, x);
+        EXPECT_EQ(innovation.squared_distance, std::numeric_limits<double>::infinity());
+        EXPECT_EQ(innovation.log_likelihood, -std::numeric_limits<double>::infinity());
+      }
+}
+
 TEST(Kalman, RefusesAnInnovationCovarianceThatIsNotPositiveDefiniteAndNamesTheModel) {
   const Gaussian<4> certain{Vector<4>::Zero(), SquareMatrix<4>::Zero()};
   Gaussian<4> posterior;

@@ -6,6 +6,7 @@
 #include <sigmax/estimation/jacobian.hpp>
 
 #include "support/matrices.hpp"
+#include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
@@ -17,6 +18,7 @@ using support::near_matrix;
 using support::number_between;
 using support::require_near;
 using support::require_near_matrix;
+using support::throws;
 
 constexpr double pi = std::numbers::pi;
 
@@ -149,6 +151,28 @@ TEST(Sensors, PositionAndVelocityAreMeasuredTogether) {
     require_near_matrix(together.covariance, one_by_one.covariance, 1e-9);
     require_near(innovation.log_likelihood, of_velocity.log_likelihood + of_position.log_likelihood, 1e-9);
   });
+}
+
+TEST(Sensors, SomeComponentsAreMeasuredByThemselves) {
+  const std::array<int, 3> places{5, 0, 1};
+  const ComponentSensor<4> sensor{places};
+  const auto motion = dwna<3>(2.0);
+  RectangularMatrix<3, 6> H = RectangularMatrix<3, 6>::Zero();
+  H(0, 5) = H(1, 0) = H(2, 1) = 1.0;
+  EXPECT_EQ(measurement_matrix(motion, sensor), H);
+  holds([&] {
+    const auto prior = support::generated_gaussian<6>();
+    const auto z = support::generated_gaussian<3>();
+    Gaussian<6> found, expected;
+    const auto innovation = update(motion, prior, {z.mean, z.covariance}, sensor, found);
+    const auto same = update(motion, prior, z, LinearSensor<3, 6>{H}, expected);
+    require_near_matrix(found.mean, expected.mean, 1e-11);
+    require_near_matrix(found.covariance, expected.covariance, 1e-11);
+    require_near(innovation.log_likelihood, same.log_likelihood, 1e-11);
+  });
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { measurement_matrix(dwna<2>(1.0), sensor); }, {"6", "dwna", "4"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { ComponentSensor<2>{std::span<const int>{}}; }, {"0", "1 to 2"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { ComponentSensor<2>{places}; }, {"3", "1 to 2"}));
 }
 
 TEST(Sensors, ARadarTellsThePositionAsTheConversionDoes) {

@@ -109,12 +109,11 @@ void smoothing_allocates_nothing() {
   std::vector record{filter.recorded(0.0)};
   for (const auto& scan : support::manoeuvring_target(20)) {
     step(filter, scan);
-    record.push_back(filter.recorded(scan.dt));
+    record.push_back(recorded(filter, scan));
   }
   FixedIntervalSmoother<VectorBank, Kind> smoother{filter};
-  auto smoothed = record.back().state;
-  for (std::size_t k = record.size() - 1; k > 0; --k)
-    ASSERT_EQ(allocations_of([&] { smoother.step(record[k - 1].state, record[k], smoothed); }), 0U);
+  smoother.begin(record.back());
+  for (std::size_t k = record.size() - 1; k-- > 0;) ASSERT_EQ(allocations_of([&] { smoother.step(record[k]); }), 0U);
 }
 
 TEST(Allocation, AStepOfTheSmootherAllocatesNothing) {

@@ -243,5 +243,11 @@ void step(Restated& filter, const Scan& scan) {
     filter.step(scan.dt);
 }
 
+/// What the scan left in the filter that took it.
+template <class Filter>
+auto recorded(const Filter& filter, const Scan& scan) {
+  return scan.z ? filter.recorded(scan.dt, *scan.z) : filter.recorded(scan.dt);
+}
+
 }  // namespace support
 }  // namespace sigmax

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -27,7 +28,8 @@ TEST(BareImm, BothBaselinesOfTheBenchAreTheLibrarysImm) {
   support::BareImm<support::PlainUpdate> plain(T, sigma_w, start.mean, start.covariance);
   support::BareImm<support::UpdateByBlocks> by_blocks(T, sigma_w, start.mean, start.covariance);
   for (int k = 0; k < 300; ++k) {
-    const double t = T * k, turn = k > 100 && k < 160 ? 25.0 * (t - 20.0) * (t - 20.0) : 0.0;
+    const double t = T * k, turning = std::clamp(t - 20.0, 0.0, 12.0);
+    const double turn = 25.0 * turning * turning + 600.0 * std::max(t - 32.0, 0.0);
     SquareMatrix<3> R = 100.0 * SquareMatrix<3>::Identity();
     R(0, 1) = R(1, 0) = 20.0;
     const Gaussian<3> z{

@@ -18,7 +18,7 @@ auto flown(Filter& filter, const std::vector<Scan>& scans) {
   std::vector record{filter.recorded(0.0)};
   for (const Scan& scan : scans) {
     step(filter, scan);
-    record.push_back(filter.recorded(scan.dt));
+    record.push_back(recorded(filter, scan));
   }
   return record;
 }
@@ -148,8 +148,9 @@ void weighs_as_all_paths_through_a_mode() {
     std::vector record{filter.recorded(0.0)};
     for (std::size_t k = 0; k < scans; ++k) {
       z.push_back(number_between(-4.0, 4.0));
-      filter.step(1.0, Gaussian<1>{Vector<1>{z[k]}, SquareMatrix<1>{R}}, PositionSensor<1>{});
-      record.push_back(filter.recorded(1.0));
+      const Gaussian<1> seen{Vector<1>{z[k]}, SquareMatrix<1>{R}};
+      filter.step(1.0, seen, PositionSensor<1>{});
+      record.push_back(filter.recorded(1.0, seen, PositionSensor<1>{}));
     }
     const auto smoothed = smooth(filter, record);
 
@@ -210,8 +211,9 @@ void knows_what_all_pairs_know() {
     typename Order::template Filter<std::vector<FixedStepMotion<1>>, Kind> filter{
         models, transition, std::vector<Gaussian<1>>(modes, {Vector<1>{x0}, SquareMatrix<1>{P0}})};
     std::vector record{filter.recorded(0.0)};
-    filter.step(1.0, Gaussian<1>{Vector<1>{z}, SquareMatrix<1>{R}}, PositionSensor<1>{});
-    record.push_back(filter.recorded(1.0));
+    const Gaussian<1> seen{Vector<1>{z}, SquareMatrix<1>{R}};
+    filter.step(1.0, seen, PositionSensor<1>{});
+    record.push_back(filter.recorded(1.0, seen, PositionSensor<1>{}));
     const auto smoothed = smooth(filter, record)[0];
 
     std::vector<double> belief(modes, 0.0), mean(modes, 0.0), square(modes, 0.0);
@@ -262,11 +264,11 @@ TEST(FixedIntervalSmoother, AModeThatLeadsNowhereKeepsItsFilteredEstimate) {
   }
 }
 
-TEST(FixedIntervalSmoother, NamesTheModelWhosePredictionLostDefiniteness) {
+TEST(FixedIntervalSmoother, NamesTheModelWhoseEstimateLostDefiniteness) {
   auto filter = vector_filter<Interacting, Random>();
   auto record = flown(filter, manoeuvring_target(3));
-  record[2].predicted[0].covariance *= -1.0;
-  EXPECT_TRUE(throws<std::domain_error>([&] { smooth(filter, record); }, {"'calm'", "not positive definite"}));
+  record[2].state.estimates[0].covariance *= -1.0;
+  EXPECT_TRUE(throws<std::domain_error>([&] { smooth(filter, record); }, {"'dwna'", "not positive semi-definite"}));
 }
 
 }  // namespace

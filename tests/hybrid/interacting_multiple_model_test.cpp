@@ -18,6 +18,7 @@ template class InteractingMultipleModel<TupleBank, Fuzzy>;
 namespace {
 
 using namespace support;
+using support::ties;  // not those of a logarithm
 
 TEST(InteractingMultipleModel, ImmEqualsTheRestatementUnderEachLift) {
   for (const Lift lift : lifts) equals_the_restatement<Interacting, Random>({lift, {}, Tie::stay});

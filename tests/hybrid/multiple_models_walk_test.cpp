@@ -31,7 +31,7 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   std::vector record{filter.recorded(0.0)};
   for (const auto& [dt, z] : measurements) {
     filter.step(dt, z);
-    record.push_back(filter.recorded(dt));
+    record.push_back(filter.recorded(dt, z));
   }
   const auto smoothed = smooth(filter, record);
   const auto first = filter.estimate(smoothed.front());

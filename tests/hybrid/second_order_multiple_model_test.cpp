@@ -14,6 +14,7 @@ template class SecondOrderMultipleModel<TupleBank, Fuzzy>;
 namespace {
 
 using namespace support;
+using support::ties;  // not those of a logarithm
 
 TEST(SecondOrderMultipleModel, Gpb2EqualsTheRestatementUnderEachLift) {
   for (const Lift lift : lifts) equals_the_restatement<SecondOrder, Random>({lift, {}, Tie::stay});

@@ -52,7 +52,7 @@ void smooths_as_restated(Filter filter, const Restated& restated, const std::vec
   for (const Scan& scan : scans) {
     scan.z ? filter.step(scan.dt, *scan.z, sensor) : filter.step(scan.dt);
     step(expected, scan);
-    record.push_back(filter.recorded(scan.dt));
+    record.push_back(recorded(filter, scan));
   }
   const auto smoothed = smooth(filter, record);
   const auto moments = expected.smoothed();

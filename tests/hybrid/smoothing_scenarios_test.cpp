@@ -78,7 +78,7 @@ void smoothing_is_better(const Scenario& scenario, const Relation<Kind, Kind>& t
     std::vector<Vector<3>> estimates{filter.estimate().mean.template head<3>()};
     for (std::size_t k = 3; k < z.size(); ++k) {
       filter.step(T, z[k]);
-      record.push_back(filter.recorded(T));
+      record.push_back(filter.recorded(T, z[k]));
       estimates.push_back(filter.estimate().mean.template head<3>());
     }
     const auto states = smooth(filter, record);

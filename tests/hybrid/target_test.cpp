@@ -59,7 +59,7 @@ TEST(Target, TakesWhatIsInsideTheGateAndMissesTheRest) {
     missing.step(event.time - last);
     if (event.z) {
       filter.step(event.time - last, *event.z);
-      ASSERT_EQ(verdict, filter.nis() <= gate ? Verdict::accepted : Verdict::rejected);
+      ASSERT_EQ(verdict, filter.gate_distance() <= gate ? Verdict::accepted : Verdict::rejected);
       if (verdict == Verdict::rejected) ++rejected;
     } else {
       ASSERT_EQ(verdict, Verdict::missed);
@@ -93,6 +93,27 @@ TEST(Target, StartsAgainAfterSoManyRejectionsInARow) {
   starts_again_after_rejections<SecondOrder, Fuzzy>();
 }
 
+TEST(Target, WithoutAGateTakesAllAndWithoutRestartsNeverStartsAgain) {
+  const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
+  auto open = target_with<Interacting, Random>({1.0});
+  auto filter = vector_filter<Interacting, Random>();
+  filter.step(0.2, far);
+  EXPECT_EQ(open.take(0.2, far), Verdict::accepted);
+  require_same<Interacting, Random>(open.filter(), filter);
+
+  auto patient = target_with<Interacting, Random>({0.999, 0});
+  filter = vector_filter<Interacting, Random>();
+  for (int k = 1; k <= 10; ++k) {
+    const double before = patient.time();
+    EXPECT_EQ(patient.take(0.2 * k, far), Verdict::rejected);
+    filter.step(0.2 * k - before);
+  }
+  require_same<Interacting, Random>(patient.filter(), filter);
+  EXPECT_EQ(patient.rejected(), 10U);
+  EXPECT_EQ(patient.starts(), 1U);
+  EXPECT_EQ(patient.accepted_time(), 0.0);
+}
+
 TEST(Target, AnAcceptedMeasurementForgivesTheRejectionsBefore) {
   auto target = target_with<Interacting, Fuzzy>({0.999, 2});
   const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
@@ -119,10 +140,13 @@ TEST(Target, StartsAgainAfterAGap) {
 /// Whatever comes late by no more than the buffer: the result is that of the right order, to the bit.
 template <class Order, Uncertainty Kind>
 void retrodicts() {
-  const auto all = events(60);
+  constexpr std::size_t late_by = 4;
+  const TargetRules rules{0.999, 2, 1.5, late_by};
+  const auto all = events(32);
+  const auto fresh = target_with<Order, Kind>(rules);
+  auto in_order = fresh;
+  for (const Event& event : all) take(in_order, event);
   holds([&] {
-    constexpr std::size_t late_by = 4;
-    const TargetRules rules{0.999, 2, 1.5, late_by};
     std::vector<std::size_t> order(all.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     for (std::size_t k = 0; k + late_by < order.size(); k += late_by) {  // shuffled within groups
@@ -130,9 +154,7 @@ void retrodicts() {
       const std::size_t turn = *rc::gen::inRange<std::size_t>(0, late_by);
       std::rotate(from, from + static_cast<std::ptrdiff_t>(turn), from + late_by);
     }
-    auto in_order = target_with<Order, Kind>(rules);
-    auto shuffled = in_order;
-    for (const Event& event : all) take(in_order, event);
+    auto shuffled = fresh;
     for (const std::size_t k : order) take(shuffled, all[k]);
     require_same<Order, Kind>(shuffled.filter(), in_order.filter());
     RC_ASSERT(!testing::Test::HasFatalFailure());
@@ -144,6 +166,27 @@ void retrodicts() {
 TEST(Target, LateMeasurementsWithinTheBufferGiveWhatTheRightOrderGivesToTheBit) {
   retrodicts<Interacting, Random>();
   retrodicts<SecondOrder, Fuzzy>();
+}
+
+/// What comes late changes which rejections stand in a row.
+TEST(Target, RejectionsInARowAreCountedInTheOrderOfTheirTimes) {
+  const Gaussian<2> far{Vector<2>{50e3, 50e3}, 100.0 * SquareMatrix<2>::Identity()};
+  const Gaussian<2> near_by{Vector<2>{12000, 7990}, 1e4 * SquareMatrix<2>::Identity()};
+  auto target = target_with<Interacting, Random>({0.999, 3, 1e9, 5});
+  target.take(0.1, near_by);
+  EXPECT_EQ(target.take(0.2, far), Verdict::rejected);
+  EXPECT_EQ(target.take(0.4, far), Verdict::rejected);
+  auto other = target;
+  EXPECT_EQ(target.take(0.3, near_by), Verdict::accepted) << "between the two";
+  EXPECT_EQ(target.take(0.5, far), Verdict::rejected) << "the second in a row now";
+  EXPECT_EQ(target.starts(), 1U);
+  EXPECT_EQ(target.rejected(), 3U);
+  EXPECT_EQ(target.take(0.6, far), Verdict::restarted);
+
+  EXPECT_EQ(other.take(0.3, far), Verdict::rejected);
+  EXPECT_EQ(other.starts(), 2U) << "the one of 0.4 s is the third now";
+  EXPECT_EQ(other.accepted_time(), 0.4);
+  EXPECT_EQ(other.rejected(), 3U);
 }
 
 TEST(Target, WhatIsOlderThanTheBufferIsRefusedWithBothTimes) {
@@ -185,8 +228,8 @@ TEST(Target, RefusesRulesThatMakeNoSense) {
   const auto build = [](double time, const TargetRules& rules) {
     Target{vector_filter<Interacting, Random>(), time, one_point_start, rules};
   };
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {1.0}); }, {"probability"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {0.99, 0}); }, {"one rejection"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {1.5}); }, {"probability"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {std::nan("")}); }, {"probability"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { build(0.0, {0.99, 1, 0.0}); }, {"gap"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { build(std::nan(""), {}); }, {"not finite"}));
 }

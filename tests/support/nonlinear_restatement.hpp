@@ -162,4 +162,45 @@ inline Updated points_update(const NonlinearModel& model, const State& prior, co
                    weighted_outer(points.covariance_weights, offsets, seen));
 }
 
+/// An angle less whole turns.
+inline double in_half_a_turn(double angle) {
+  while (angle > std::numbers::pi) angle -= 2.0 * std::numbers::pi;
+  while (angle < -std::numbers::pi) angle += 2.0 * std::numbers::pi;
+  return angle;
+}
+
+/// What a radar in the plane at (x0, y0) saw: range and azimuth of the first two components of a model.
+inline See seen_by_radar(const Vector& z, double x0, double y0) {
+  return [z, x0, y0](const Model& model, const Vector& x) -> Seen {
+    const double dx = x[0] - x0, dy = x[1] - y0, r = std::sqrt(dx * dx + dy * dy);
+    Matrix H(2, model.components.size());
+    H(0, 0) = dx / r;
+    H(0, 1) = dy / r;
+    H(1, 0) = -dy / (r * r);
+    H(1, 1) = dx / (r * r);
+    return {{z[0] - r, in_half_a_turn(z[1] - std::atan2(dy, dx))}, H};
+  };
+}
+
+/// The azimuth alone.
+inline See seen_by_bearing(double z, double x0, double y0) {
+  return [z, x0, y0](const Model& model, const Vector& x) -> Seen {
+    const double dx = x[0] - x0, dy = x[1] - y0;
+    Matrix H(1, model.components.size());
+    H(0, 0) = -dy / (dx * dx + dy * dy);
+    H(0, 1) = dx / (dx * dx + dy * dy);
+    return {{in_half_a_turn(z - std::atan2(dy, dx))}, H};
+  };
+}
+
+/// Combinations of the first components, a row each.
+inline See seen_by_rows(const Vector& z, const Matrix& rows) {
+  return [z, rows](const Model& model, const Vector& x) -> Seen {
+    Matrix H(rows.rows, model.components.size());
+    for (Index i = 0; i < rows.rows; ++i)
+      for (Index k = 0; k < rows.columns; ++k) H(i, k) = rows(i, k);
+    return {difference(z, H * x), H};
+  };
+}
+
 }  // namespace restatement

@@ -1,14 +1,16 @@
-/// A restatement of the fixed-interval smoother in the manner of restatement.hpp: what the future knows of the state is
-/// a likelihood function exp(yᵀu − uᵀYu/2), which every pair of modes multiplies with its own prediction.
-///
-/// Nothing that a pair predicts is inverted: it may be singular.
+/// A restatement of the fixed-interval smoother of docs/multiple_models.md, in the manner of restatement.hpp, for any
+/// type of number: at a hundred digits it shows what rounding does to the library's, which shares neither code nor form
+/// with it. What the future knows of a state is a likelihood function exp(yᵀu − uᵀYu/2), and Y a difference of two
+/// information matrices, which doubles would lose. Nothing that may be singular is inverted.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -16,62 +18,359 @@
 #include "support/restatement.hpp"
 #include "support/second_order_restatement.hpp"
 
-namespace restatement {
+namespace restatement::smoothing {
 
-/// A = Vᵀ diag(values) V of a symmetric A, by Jacobi's rotations.
-struct Axes {
-  Vector values;
-  Matrix V;
+using std::abs, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt;  // or those of a long number's own
+
+template <class Real>
+struct Matrix {
+  Matrix() = default;
+  Matrix(Index r, Index c) : rows{r}, columns{c}, values(r * c, Real{0}) {}
+  explicit Matrix(const restatement::Matrix& a) : Matrix(a.rows, a.columns) {
+    for (Index k = 0; k < a.values.size(); ++k) values[k] = a.values[k];
+  }
+  explicit Matrix(const Vector& x) : Matrix(x.size(), 1) {
+    for (Index k = 0; k < x.size(); ++k) values[k] = x[k];
+  }
+  Real& operator()(Index i, Index j) { return values[i * columns + j]; }
+  const Real& operator()(Index i, Index j) const { return values[i * columns + j]; }
+  Index rows = 0, columns = 0;
+  std::vector<Real> values;
 };
-inline Axes axes(Matrix A) {
-  Matrix V = identity(A.rows);
-  for (int sweep = 0; sweep < 12; ++sweep)
+
+template <class Real>
+Matrix<Real> one(Index n) {
+  Matrix<Real> result(n, n);
+  for (Index i = 0; i < n; ++i) result(i, i) = 1;
+  return result;
+}
+template <class Real>
+Matrix<Real> operator*(const Matrix<Real>& a, const Matrix<Real>& b) {
+  Matrix<Real> result(a.rows, b.columns);
+  for (Index i = 0; i < a.rows; ++i)
+    for (Index k = 0; k < a.columns; ++k)
+      if (a(i, k) != 0)
+        for (Index j = 0; j < b.columns; ++j) result(i, j) += a(i, k) * b(k, j);
+  return result;
+}
+template <class Real>
+Matrix<Real> operator*(const std::type_identity_t<Real>& factor, Matrix<Real> a) {
+  for (Real& value : a.values) value *= factor;
+  return a;
+}
+template <class Real>
+Matrix<Real> operator+(Matrix<Real> a, const Matrix<Real>& b) {
+  for (Index k = 0; k < a.values.size(); ++k) a.values[k] += b.values[k];
+  return a;
+}
+template <class Real>
+Matrix<Real> operator-(Matrix<Real> a, const Matrix<Real>& b) {
+  for (Index k = 0; k < a.values.size(); ++k) a.values[k] -= b.values[k];
+  return a;
+}
+template <class Real>
+Matrix<Real> t(const Matrix<Real>& a) {
+  Matrix<Real> result(a.columns, a.rows);
+  for (Index i = 0; i < a.rows; ++i)
+    for (Index j = 0; j < a.columns; ++j) result(j, i) = a(i, j);
+  return result;
+}
+
+/// a⁻¹ b by elimination with pivots, and log |det a|.
+template <class Real>
+std::pair<Matrix<Real>, Real> solve(Matrix<Real> a, Matrix<Real> b) {
+  Real log_determinant = 0;
+  for (Index c = 0; c < a.rows; ++c) {
+    Index pivot = c;
+    for (Index i = c + 1; i < a.rows; ++i)
+      if (abs(a(i, c)) > abs(a(pivot, c))) pivot = i;
+    for (Index j = 0; j < a.columns; ++j) std::swap(a(c, j), a(pivot, j));
+    for (Index j = 0; j < b.columns; ++j) std::swap(b(c, j), b(pivot, j));
+    const Real scale = a(c, c);
+    if (scale == 0) throw std::domain_error{"a singular matrix"};
+    log_determinant += log(abs(scale));
+    for (Index j = 0; j < a.columns; ++j) a(c, j) /= scale;
+    for (Index j = 0; j < b.columns; ++j) b(c, j) /= scale;
+    for (Index i = 0; i < a.rows; ++i) {
+      if (i == c) continue;
+      const Real factor = a(i, c);
+      if (factor == 0) continue;
+      for (Index j = 0; j < a.columns; ++j) a(i, j) -= factor * a(c, j);
+      for (Index j = 0; j < b.columns; ++j) b(i, j) -= factor * b(c, j);
+    }
+  }
+  return {b, log_determinant};
+}
+
+/// Eigenvectors of a symmetric matrix as the rows of V, by Jacobi's rotations.
+template <class Real>
+std::pair<std::vector<Real>, Matrix<Real>> axes(Matrix<Real> A) {
+  Matrix<Real> V = one<Real>(A.rows);
+  for (int sweep = 0; sweep < 20; ++sweep)
     for (Index p = 0; p < A.rows; ++p)
       for (Index q = p + 1; q < A.rows; ++q) {
-        if (A(p, q) == 0.0) continue;
-        const double angle = 0.5 * std::atan2(2.0 * A(p, q), A(q, q) - A(p, p));
-        Matrix rotation = identity(A.rows);
-        rotation(p, p) = rotation(q, q) = std::cos(angle);
-        rotation(p, q) = -std::sin(angle);
-        rotation(q, p) = std::sin(angle);
-        A = rotation * A * transposed(rotation);
+        if (A(p, q) == 0) continue;
+        const Real angle = atan2(Real(2 * A(p, q)), Real(A(q, q) - A(p, p))) / 2;
+        Matrix<Real> rotation = one<Real>(A.rows);
+        rotation(p, p) = rotation(q, q) = cos(angle);
+        rotation(p, q) = -sin(angle);
+        rotation(q, p) = sin(angle);
+        A = rotation * A * t(rotation);
         V = rotation * V;
       }
-  Vector values;
+  std::vector<Real> values;
   for (Index a = 0; a < A.rows; ++a) values.push_back(A(a, a));
   return {values, V};
 }
 
-/// Some T with T A Tᵀ = 1.
-inline Matrix whitening(const Matrix& A) {
-  Axes of = axes(A);
-  for (Index a = 0; a < A.rows; ++a) {
-    if (!(of.values[a] > 0.0)) throw std::domain_error{"a prediction that is not positive definite"};
-    for (Index b = 0; b < A.rows; ++b) of.V(a, b) /= std::sqrt(of.values[a]);
-  }
-  return of.V;
-}
-
-/// exp(yᵀu − uᵀYu/2) with u = x − `about`.
-struct Evidence {
-  Vector about, y;
-  Matrix Y;
+/// What a filter recorded of one step: per mode an estimate and what is believed of it, and the measurement if taken.
+struct Step {
+  double dt;
+  std::vector<State> states;
+  Vector log_weights;
+  std::optional<std::pair<Vector, restatement::Matrix>> seen;  // z, R
 };
 
-/// N(x; smoothed) / N(x; predicted). Where smoothing widened the prediction it knows nothing, and only leans.
-inline Evidence future_evidence(const State& smoothed, const State& predicted) {
-  const Matrix white = whitening(predicted.covariance);
-  const Axes seen = axes(symmetrised(white * smoothed.covariance * transposed(white)));
-  const Matrix T = seen.V * white;  // the predicted covariance becomes 1, and the smoothed one diagonal
-  Vector y = T * difference(smoothed.mean, predicted.mean);
-  Matrix Y(y.size(), y.size());
-  for (Index a = 0; a < y.size(); ++a) {
-    const double variance = std::max(seen.values[a], 1e-12);
-    y[a] /= variance;
-    Y(a, a) = std::max(1.0 / variance - 1.0, 0.0);
-  }
-  return {predicted.mean, transposed(T) * y, transposed(T) * Y * T};
+/// A model whose F and Q have all digits of Real.
+template <class Real>
+struct Model {
+  std::vector<std::string> components;
+  std::function<Matrix<Real>(double)> F, Q;
+  restatement::Matrix H;
+};
+
+/// Along each axis the derivatives of the position up to `order` − 1, driven by noise of σ_w on the last but one or the
+/// last of them: DWNA and DWPA.
+template <class Real>
+Model<Real> discrete_noise(Index axes, Index order, double sigma_w) {
+  const auto blocks = [axes](const Matrix<Real>& small) {
+    Matrix<Real> result(small.rows * axes, small.columns * axes);
+    for (Index i = 0; i < small.rows; ++i)
+      for (Index j = 0; j < small.columns; ++j)
+        for (Index a = 0; a < axes; ++a) result(i * axes + a, j * axes + a) = small(i, j);
+    return result;
+  };
+  restatement::Matrix H(axes, axes * order);
+  for (Index a = 0; a < axes; ++a) H(a, a) = 1.0;
+  return {kinematic_components(axes, order),
+          [=](double dt) {
+            const Real T = dt;
+            const std::vector<Real> taylor{1, T, T * T / 2};
+            Matrix<Real> F(order, order);
+            for (Index a = 0; a < order; ++a)
+              for (Index b = a; b < order; ++b) F(a, b) = taylor[b - a];
+            return blocks(F);
+          },
+          [=](double dt) {
+            const Real T = dt;
+            const std::vector<Real> gain{T * T / 2, T, 1};
+            Matrix<Real> Q(order, order);
+            for (Index a = 0; a < order; ++a)
+              for (Index b = 0; b < order; ++b) Q(a, b) = Real(sigma_w) * sigma_w * gain[a] * gain[b];
+            return blocks(Q);
+          },
+          H};
 }
+
+struct Rules {
+  Kind kind;
+  Lift lift;
+  restatement::Matrix transition;
+};
+
+template <class Real>
+struct Moment {
+  std::vector<Real> log_weights;
+  std::vector<Matrix<Real>> means, covariances;
+};
+
+/// exp(yᵀu − uᵀYu/2).
+template <class Real>
+struct Evidence {
+  Matrix<Real> Y, y;
+};
+
+template <class Real>
+Real log_total(const std::vector<Real>& logs, Kind kind) {
+  Real top = logs[0];
+  for (const Real& value : logs) top = value > top ? value : top;
+  if (kind == Kind::himm || top == nothing) return top;
+  Real total = 0;
+  for (const Real& value : logs) total += exp(Real(value - top));
+  return top + log(total);
+}
+
+/// Y = L Z Lᵀ, where L Lᵀ is the average information of the parts: axes of Z with less than 1e-8 say nothing.
+template <class Real>
+void clip(Evidence<Real>& evidence, const Matrix<Real>& about, const Matrix<Real>& average) {
+  const Index n = average.rows;
+  Matrix<Real> L(n, n);
+  std::vector<Index> pivots;
+  for (Index k = 0; k < n; ++k) {
+    Real pivot = average(k, k);
+    for (Index j = 0; j < k; ++j) pivot -= L(k, j) * L(k, j);
+    if (pivot <= 1e4 * std::numeric_limits<Real>::epsilon() * average(k, k)) continue;
+    pivots.push_back(k);
+    L(k, k) = sqrt(pivot);
+    for (Index i = k + 1; i < n; ++i) {
+      Real entry = average(i, k);
+      for (Index j = 0; j < k; ++j) entry -= L(i, j) * L(k, j);
+      L(i, k) = entry / L(k, k);
+    }
+  }
+  const Index m = pivots.size();
+  Matrix<Real> square(m, m), Y(m, m), y(m, 1), whole(n, m);
+  const Matrix<Real> at = evidence.y - evidence.Y * about;
+  for (Index a = 0; a < m; ++a) {
+    y(a, 0) = at(pivots[a], 0);
+    for (Index b = 0; b < m; ++b) {
+      square(a, b) = L(pivots[a], pivots[b]);
+      Y(a, b) = evidence.Y(pivots[a], pivots[b]);
+    }
+    for (Index i = 0; i < n; ++i) whole(i, a) = L(i, pivots[a]);
+  }
+  if (m == 0) return;
+  const Matrix<Real> Z = solve(square, t(solve(square, Y).first)).first;
+  const Matrix<Real> z = solve(square, y).first;
+  const auto [values, V] = axes(Real(0.5) * (Z + t(Z)));
+  bool any = false;
+  for (const Real& value : values) any = any || value < Real(1e-8);
+  if (!any) return;
+  Matrix<Real> kept(m, m), kept_z(m, 1);
+  for (Index a = 0; a < m; ++a) {
+    if (values[a] < Real(1e-8)) continue;
+    Matrix<Real> v(m, 1);
+    for (Index i = 0; i < m; ++i) v(i, 0) = V(a, i);
+    kept = kept + values[a] * (v * t(v));
+    kept_z = kept_z + (t(v) * z)(0, 0) * v;
+  }
+  evidence.Y = whole * kept * t(whole);
+  evidence.y = whole * kept_z + evidence.Y * about;
+}
+
+/// The smoothed moments of all steps.
+template <class Real>
+std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const Rules& rules,
+                                   const std::vector<Step>& steps) {
+  const Index M = models.size();
+  const auto filtered = [&](const Step& step) {
+    Moment<Real> result;
+    for (Index j = 0; j < M; ++j) {
+      result.log_weights.emplace_back(step.log_weights[j]);
+      result.means.push_back(Matrix<Real>(step.states[j].mean));
+      result.covariances.push_back(Matrix<Real>(step.states[j].covariance));
+    }
+    return result;
+  };
+  const auto told = [&](const Step& step, Index j) {
+    const Index n = models[j].components.size();
+    Evidence<Real> result{Matrix<Real>(n, n), Matrix<Real>(n, 1)};
+    if (!step.seen) return result;
+    const Matrix<Real> H = Matrix<Real>(models[j].H);
+    result.Y = t(H) * solve(Matrix<Real>(step.seen->second), H).first;
+    result.y = t(H) * solve(Matrix<Real>(step.seen->second), Matrix<Real>(step.seen->first)).first;
+    return result;
+  };
+
+  std::vector<Moment<Real>> moments{filtered(steps.back())};
+  std::vector<Evidence<Real>> evidence;
+  for (Index j = 0; j < M; ++j) evidence.push_back(told(steps.back(), j));
+  for (Index k = steps.size() - 1; k-- > 0;) {
+    const Step& step = steps[k];
+    const double dt = steps[k + 1].dt;
+    const Moment<Real> known = filtered(step);
+    const Moment<Real> next = moments.back();
+    Moment<Real> result = known;
+    std::vector<std::vector<Real>> logs(M, std::vector<Real>(M, Real(nothing)));
+    std::vector<std::vector<Evidence<Real>>> parts(M, std::vector<Evidence<Real>>(M));
+    for (Index j = 0; j < M; ++j) {
+      if (next.log_weights[j] == nothing) continue;
+      const Matrix<Real> F = models[j].F(dt), Q = models[j].Q(dt);
+      const Index n = F.rows;
+      std::vector<Real> from;
+      for (Index i = 0; i < M; ++i) {
+        const auto& own = models[i].components;
+        Matrix<Real> B(n, own.size()), lifted(n, n), value(n, 1);
+        for (Index b = 0; b < n; ++b) {
+          if (const auto at = position(own, models[j].components[b])) {
+            for (Index a = 0; a < n; ++a) B(a, *at) = F(a, b);
+            continue;
+          }
+          if (rules.lift == Lift::unbiased) value(b, 0) = known.means[j](b, 0);
+          if (rules.lift == Lift::borrowed_variance) lifted(b, b) = known.covariances[j](b, b);
+          if (rules.lift == Lift::unbiased)
+            for (Index c = 0; c < n; ++c)
+              if (!position(own, models[j].components[c])) lifted(b, c) = known.covariances[j](b, c);
+        }
+        const Matrix<Real> noise = Q + F * lifted * t(F);
+        const auto& [Y, y] = evidence[j];
+        const Matrix<Real> I = one<Real>(n);
+        parts[i][j] = {t(B) * solve(I + Y * noise, Y * B).first,
+                       t(B) * solve(I + Y * noise, y - Y * (F * value)).first};
+        const Matrix<Real> mean = B * known.means[i] + F * value;
+        const Matrix<Real> P = B * known.covariances[i] * t(B) + noise;
+        const Matrix<Real> rest = y - Y * mean;
+        const auto [moved, log_determinant] = solve(I + P * Y, P * rest);
+        const Real log_evidence =
+            (t(y) * mean)(0, 0) - (t(mean) * Y * mean)(0, 0) / 2 + (t(rest) * moved)(0, 0) / 2 - log_determinant / 2;
+        from.push_back(log(Real(rules.transition(i, j))) + known.log_weights[i] + log_evidence);
+      }
+      const Real total = log_total(from, rules.kind);
+      for (Index i = 0; i < M; ++i) logs[i][j] = from[i] - total + next.log_weights[j];
+    }
+    std::vector<Evidence<Real>> before(M);
+    for (Index i = 0; i < M; ++i) {
+      before[i] = told(step, i);
+      result.log_weights[i] = log_total(logs[i], rules.kind);
+      if (result.log_weights[i] == nothing) continue;
+      const Matrix<Real>& f = known.means[i];
+      const Matrix<Real>& C = known.covariances[i];
+      const Index n = f.rows;
+      std::vector<Matrix<Real>> W, g;  // in part j the mean moves by C g, the covariance by −C W C
+      for (Index j = 0; j < M; ++j) {
+        const auto& [Y, y] = parts[i][j];
+        if (logs[i][j] == nothing) {
+          W.emplace_back(n, n);
+          g.emplace_back(n, 1);
+          continue;
+        }
+        W.push_back(solve(one<Real>(n) + Y * C, Y).first);
+        g.push_back(solve(one<Real>(n) + Y * C, y - Y * f).first);
+      }
+      std::vector<Real> weights(M, Real(0));
+      if (rules.kind == Kind::himm) {
+        Vector relative;
+        for (const Real& value : logs[i]) relative.push_back(static_cast<double>(value - result.log_weights[i]));
+        weights[largest(relative, Tie::stay, i)] = 1;
+      } else {
+        for (Index j = 0; j < M; ++j)
+          if (logs[i][j] != nothing) weights[j] = exp(Real(logs[i][j] - result.log_weights[i]));
+      }
+      Matrix<Real> all_W(n, n), all_g(n, 1), average = before[i].Y;
+      for (Index j = 0; j < M; ++j) all_g = all_g + weights[j] * g[j];
+      for (Index j = 0; j < M; ++j) {
+        if (weights[j] == 0) continue;
+        all_W = all_W + weights[j] * (W[j] - (g[j] - all_g) * t(g[j] - all_g));
+        average = average + weights[j] * parts[i][j].Y;
+      }
+      result.means[i] = f + C * all_g;
+      result.covariances[i] = C - C * all_W * C;
+      const Matrix<Real> Y = solve(one<Real>(n) - all_W * C, all_W).first;
+      before[i].Y = before[i].Y + Y;
+      before[i].y = before[i].y + solve(one<Real>(n) - all_W * C, all_g).first + Y * f;
+      if (rules.kind == Kind::imm) clip(before[i], f, average);
+    }
+    const Real total = log_total(result.log_weights, rules.kind);
+    for (Real& value : result.log_weights) value -= total;
+    evidence = before;
+    moments.push_back(result);
+  }
+  return {moments.rbegin(), moments.rend()};
+}
+
+}  // namespace restatement::smoothing
+
+namespace restatement {
 
 /// A filter that remembers its steps, and the smoother of them. `Order` is Filter or SecondOrderFilter.
 template <class Order>
@@ -84,149 +383,57 @@ class Smoother : public Order {
     Index winner = 0;
   };
 
-  explicit Smoother(Order filter) : Order{std::move(filter)} {}
+  explicit Smoother(Order filter) : Order{std::move(filter)} { remember(0.0); }
 
   void step(double dt, const Vector& z, const Matrix& R) {
-    steps_.push_back({dt, now(), predicted(dt, Position{z, R})});
     Order::step(dt, z, R);
+    remember(dt);
+    steps_.back().seen = {z, R};
   }
   void step(double dt) {
-    steps_.push_back({dt, now(), predicted(dt, std::nullopt)});
     Order::step(dt);
+    remember(dt);
   }
 
   /// Of the start and of every step.
   std::vector<Moment> smoothed() const {
-    std::vector<Moment> result{now()};
-    for (Index k = steps_.size(); k-- > 0;) result.push_back(at(steps_[k].before).back(steps_[k], result.back()));
-    std::reverse(result.begin(), result.end());
+    using Real = long double;
+    std::vector<smoothing::Model<Real>> models;
+    for (const Model& model : this->models_)
+      models.push_back({model.components, [&](double dt) { return smoothing::Matrix<Real>(model.F(dt)); },
+                        [&](double dt) { return smoothing::Matrix<Real>(model.Q(dt)); }, model.H});
+    std::vector<Moment> result;
+    for (const auto& moment :
+         smoothing::smoothed<Real>(models, {this->options_.kind, this->options_.lift, this->transition_}, steps_)) {
+      auto& plain = result.emplace_back();
+      for (const Real log : moment.log_weights) plain.log_weights.push_back(static_cast<double>(log));
+      for (Index j = 0; j < models.size(); ++j) {
+        const Index n = moment.means[j].rows;
+        State& state = plain.states.emplace_back(State{Vector(n), Matrix(n, n)});
+        for (Index a = 0; a < n; ++a) state.mean[a] = static_cast<double>(moment.means[j](a, 0));
+        for (Index a = 0; a < n * n; ++a)
+          state.covariance.values[a] = static_cast<double>(moment.covariances[j].values[a]);
+      }
+    }
+    result.back().winner = this->winner_;
+    for (Index k = result.size() - 1; k-- > 0;)
+      result[k].winner = largest(result[k].log_weights, this->options_.output_tie, result[k + 1].winner);
     return result;
   }
 
   /// The output of a moment.
-  State estimate(const Moment& moment) const { return at(moment).Order::estimate(); }
+  State estimate(const Moment& moment) const {
+    Smoother at = *this;
+    at.log_weights_ = moment.log_weights;
+    at.states_ = moment.states;
+    at.winner_ = moment.winner;
+    return at.Order::estimate();
+  }
 
  private:
-  struct Step {
-    double dt;
-    Moment before;
-    std::vector<State> predicted;
-  };
+  void remember(double dt) { steps_.push_back({dt, this->states_, this->log_weights_, std::nullopt}); }
 
-  Moment now() const { return {this->log_weights_, this->states_, this->winner_}; }
-  Smoother at(const Moment& moment) const {
-    Smoother result = *this;
-    result.log_weights_ = moment.log_weights;
-    result.states_ = moment.states;
-    result.winner_ = moment.winner;
-    return result;
-  }
-
-  /// What each mode is going to predict. The predecessors that a second-order filter keeps apart collapse by their
-  /// weights after the measurement.
-  std::vector<State> predicted(double dt, const std::optional<Position>& seen) const {
-    if constexpr (std::is_same_v<Order, Filter>) {
-      Order ahead = *this;
-      ahead.step(dt);
-      return ahead.states();
-    }
-    const Index M = this->models_.size();
-    std::vector<State> result;
-    for (Index j = 0; j < M; ++j) {
-      Vector logs;
-      std::vector<State> pairs;
-      for (Index l = 0; l < M; ++l) {
-        logs.push_back(this->log_weights_[l] + std::log(this->transition_(l, j)));
-        pairs.push_back(prediction(l, j, dt));
-        if (!seen) continue;
-        const Matrix& H = this->models_[j].H;
-        const Matrix S = symmetrised(H * pairs[l].covariance * transposed(H) + seen->R);
-        logs[l] += this->log_likelihood(difference(seen->z, H * pairs[l].mean), inverse(S));
-      }
-      const double total = log_total(logs, this->options_.kind);
-      result.push_back(total == nothing ? pairs[j] : collapsed(pairs, logs, total, j, this->options_.mixing_tie));
-    }
-    return result;
-  }
-
-  /// By moments or, of a fuzzy mode, by selection.
-  State collapsed(const std::vector<State>& states, const Vector& logs, double total, Index own, Tie tie) const {
-    if (this->options_.kind == Kind::himm) return states[largest(logs, tie, own)];
-    Vector weights;
-    for (const double log : logs) weights.push_back(std::exp(log - total));
-    return Order::moments(states, weights, weights);
-  }
-
-  /// By model j from the state of model i.
-  State prediction(Index i, Index j, double dt) const {
-    const State start = this->received(i, j);
-    const Matrix F = this->models_[j].F(dt);
-    return {F * start.mean, symmetrised(F * start.covariance * transposed(F) + this->models_[j].Q(dt))};
-  }
-
-  /// The state of model i with what model j predicts from it; what the lift stands in for is correlated with nothing.
-  Matrix cross_covariance(Index i, Index j, double dt) const {
-    const auto& own = this->models_[i].components;
-    const auto& others = this->models_[j].components;
-    Matrix with_start(own.size(), others.size());
-    for (Index b = 0; b < others.size(); ++b)
-      if (const auto from = position(own, others[b]))
-        for (Index a = 0; a < own.size(); ++a) with_start(a, b) = this->states_[i].covariance(a, *from);
-    return with_start * transposed(this->models_[j].F(dt));
-  }
-
-  /// The state of model i, with mode j next and its evidence, and the logarithm of how well the two agree.
-  std::pair<State, double> met(Index i, Index j, double dt, const Evidence& evidence) const {
-    const State pair = prediction(i, j, dt);
-    const Vector off = difference(pair.mean, evidence.about);
-    const Vector y = difference(evidence.y, evidence.Y * off);
-    // The product has the precision M⁻¹ + Y: covariance S = (1 + M Y)⁻¹ M, and mean S y from that of the pair.
-    const Inverse gain = inverse(identity(off.size()) + pair.covariance * evidence.Y);
-    const Matrix S = symmetrised(gain.matrix * pair.covariance);
-    const double log_evidence =
-        dot(evidence.y, off) - 0.5 * dot(off, evidence.Y * off) + 0.5 * dot(y, S * y) - 0.5 * gain.log_determinant;
-    const Matrix C = cross_covariance(i, j, dt);
-    State result = this->states_[i];
-    const Vector correction = C * (transposed(gain.matrix) * y);  // M⁻¹(s − m) = (1 + Y M)⁻¹ y
-    for (Index a = 0; a < correction.size(); ++a) result.mean[a] += correction[a];
-    // M⁻¹(S − M)M⁻¹ = −Y (1 + M Y)⁻¹
-    result.covariance = symmetrised(result.covariance - C * evidence.Y * gain.matrix * transposed(C));
-    return {result, log_evidence};
-  }
-
-  /// One step back from `next`, whose winner stays where modes tie; the filter itself is at the time before the step.
-  Moment back(const Step& step, const Moment& next) const {
-    const Index M = this->models_.size();
-    const Kind kind = this->options_.kind;
-    std::vector<Vector> logs(M, Vector(M, nothing));  // logs[i][j]
-    std::vector<std::vector<State>> pairs;            // pairs[i][j]
-    for (const State& state : this->states_) pairs.push_back(std::vector(M, state));
-    for (Index j = 0; j < M; ++j) {
-      if (next.log_weights[j] == nothing) continue;
-      const Evidence evidence = future_evidence(next.states[j], step.predicted[j]);
-      Vector from(M);
-      for (Index i = 0; i < M; ++i) {
-        double log_evidence = 0.0;
-        std::tie(pairs[i][j], log_evidence) = met(i, j, step.dt, evidence);
-        from[i] = std::log(this->transition_(i, j)) + this->log_weights_[i] + log_evidence;
-      }
-      const double total = log_total(from, kind);
-      for (Index i = 0; i < M; ++i) logs[i][j] = from[i] - total + next.log_weights[j];
-    }
-
-    Moment result{Vector(M), this->states_, 0};
-    for (Index i = 0; i < M; ++i) {
-      result.log_weights[i] = log_total(logs[i], kind);
-      if (result.log_weights[i] == nothing) continue;
-      result.states[i] = collapsed(pairs[i], logs[i], result.log_weights[i], i, Tie::stay);
-    }
-    const double total = log_total(result.log_weights, kind);
-    for (double& value : result.log_weights) value -= total;
-    result.winner = largest(result.log_weights, this->options_.output_tie, next.winner);
-    return result;
-  }
-
-  std::vector<Step> steps_;
+  std::vector<smoothing::Step> steps_;
 };
 
 }  // namespace restatement

@@ -36,7 +36,7 @@ Findings findings_of(const RelationNetwork& network, const Evidence& evidence) {
     include(v, weight, name + " = '" + label + "'");
   }
   for (const auto& weights : evidence.likelihoods()) {
-    const auto weight = [&weights](std::size_t i) { return ScaledNumber::exp(weights.logs[i]); };
+    const auto weight = [&weights](std::size_t i) { return weights.numbers[i]; };
     include(network.index_of(weights.variable), weight, "likelihood of " + weights.variable.name());
   }
   for (const auto& weights : findings.weights)

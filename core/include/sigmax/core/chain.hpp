@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include <sigmax/core/compose.hpp>
-#include <sigmax/core/kernels/long_row.hpp>
+#include <sigmax/core/kernels/unbounded_row.hpp>
 
 namespace sigmax {
 
@@ -23,14 +22,29 @@ namespace sigmax {
 /// The relations may alternate between kinds, each eliminated by its own ⊕ in the order of the calls; the chain is then
 /// induced throughout, (15)–(18), and `log_total` is log β. The numbers are those of plain arithmetic to the last bit
 /// where that stays above 2^−900. An ordinal chain keeps its grades, which cannot underflow.
+///
+/// A verb that throws leaves the chain that was moved into it as it was.
 template <Uncertainty Kind>
 class Chain {
  public:
   using kind = Kind;
-  using Row = kernels::RowThroughChain<AlgebraOf<Kind>>;
+  using Row = kernels::LosslessRow<AlgebraOf<Kind>>;
 
-  explicit Chain(const Distribution<Kind>& start) : Chain(start.variable(), Row(start.values())) {}
-  Chain(Variable<Kind> variable, Row row) : variable_(std::move(variable)), row_(std::move(row)) {}
+  explicit Chain(const Distribution<Kind>& start) : Chain(start.variable(), Row(start.values()), detail::ByLaw{}) {}
+  Chain(Variable<Kind> variable, Row row, detail::ByLaw) : variable_(std::move(variable)), row_(std::move(row)) {}
+
+  Chain(const Chain&) = default;
+  Chain& operator=(const Chain&) = default;
+  Chain(Chain&& other) noexcept
+      : variable_(other.variable_), row_(std::move(other.row_)), room_(std::move(other.room_)) {}
+
+  /// Keeps the memory of what it was for the next relation.
+  Chain& operator=(Chain&& other) noexcept {
+    variable_ = other.variable_;
+    std::swap(row_, other.row_);
+    room_ = std::move(other.room_.capacity() > 0 ? other.room_ : other.row_);
+    return *this;
+  }
 
   const Variable<Kind>& variable() const& { return variable_; }
   Variable<Kind> variable() const&& { return variable_; }
@@ -54,34 +68,64 @@ class Chain {
     return {variable_, std::move(values), detail::ByLaw{}};
   }
 
-  /// The row of numbers, for the verbs.
-  const Row& row() const { return row_; }
-  Row& row(detail::ByLaw) { return row_; }
+  /// The row of numbers, and memory for another one, for the verbs.
+  const Row& row() const& { return row_; }
+  Row& row(detail::ByLaw) & { return row_; }
+  Row take_room(detail::ByLaw) { return std::move(room_); }
 
  private:
   Variable<Kind> variable_;
-  Row row_;
+  Row row_, room_;
 };
+
+namespace detail {
+
+/// One relation further, in the memory of `row`; `winners` is what the row takes note of them with.
+template <Conditional Left, Uncertainty Kind, class Winners>
+Chain<typename Left::to_kind> further(const Left& left, const Chain<Kind>& chain, typename Chain<Kind>::Row row,
+                                      Winners& winners) {
+  std::visit([&](const auto& rows) { row.template assign_composition<AlgebraOf<Kind>>(rows, chain.row(), winners); },
+             left.rows());
+  return {left.to(), std::move(row), ByLaw{}};
+}
+
+}  // namespace detail
 
 /// The chain one relation further: ⊕ over its current outcome of left(to|·) ⊗ it, (5), (15), (16), (51), (53).
 template <Conditional Left, Uncertainty Kind>
-  requires std::same_as<typename Left::from_kind, Kind> Chain<typename Left::to_kind> compose(const Left& left,
-                                                                                              Chain<Kind> right) {
-    check::same(left.from(), right.variable(), "compose");
-    auto row = std::move(right.row(detail::ByLaw{}));
-    std::visit([&](const auto& rows) { row.template compose<AlgebraOf<Kind>>(rows); }, left.rows());
-    return {left.to(), std::move(row)};
-  }
+  requires std::same_as<typename Left::from_kind, Kind>
+auto compose(const Left& left, const Chain<Kind>& right) {
+  check::same(left.from(), right.variable(), "compose");
+  kernels::NoWinners none;
+  return detail::further(left, right, {}, none);
+}
+
+/// The same without allocation: in the memory that `right` keeps beside its numbers, which stay as they are.
+template <Conditional Left, Uncertainty Kind>
+  requires std::same_as<typename Left::from_kind, Kind>
+auto compose(const Left& left, Chain<Kind>&& right) {
+  check::same(left.from(), right.variable(), "compose");
+  kernels::NoWinners none;
+  return detail::further(left, right, right.take_room(detail::ByLaw{}), none);
+}
 
 /// The chain with evidence about its current outcome: multiplied by the likelihood, not divided by anything, (8).
-/// Throws std::domain_error if that excludes every outcome.
+/// Throws std::domain_error if that excludes every outcome; `prior` is then as it was.
 template <Uncertainty Kind>
-Chain<Kind> update(Chain<Kind> prior, const Likelihood<Kind>& likelihood) {
+Chain<Kind> update(Chain<Kind>&& prior, const Likelihood<Kind>& likelihood) {
+  using Row = typename Chain<Kind>::Row;
   check::same(prior.variable(), likelihood.variable(), "update");
-  auto& row = prior.row(detail::ByLaw{});
-  for (std::size_t i = 0; i < row.size(); ++i) row.multiply(i, likelihood.weight(i));
-  if (row.is_zero()) check::excluded(prior.variable());
-  return prior;
+  Row& row = prior.row(detail::ByLaw{});
+  bool some_left = false;
+  for (std::size_t i = 0; i < row.size() && !some_left; ++i)
+    some_left = !Row::is_zero(row[i]) && !likelihood.excludes(i);
+  if (!some_left) check::excluded(prior.variable());
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] = Row::times(row[i], likelihood.number(i));
+  return std::move(prior);
+}
+template <Uncertainty Kind>
+Chain<Kind> update(const Chain<Kind>& prior, const Likelihood<Kind>& likelihood) {
+  return update(Chain<Kind>{prior}, likelihood);
 }
 
 /// Label of the outcome with the greatest number; on a tie the first declared.

@@ -109,8 +109,7 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
   check::same(left.from(), right.variable(), "compose");
   check::same(left.to(), result.variable(), "compose");
   if (&right == &result) {
-    const Belief<Kind> before = right;
-    compose(left, before, result);
+    compose(left, Belief<Kind>(right), result);
     return;
   }
   const auto assign_from = [&](const auto& columns) {
@@ -128,19 +127,13 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
 /// over a fuzzy feature the p⁺ of (17), unnormalised as a likelihood should be.
 template <Uncertainty Middle, Uncertainty From>
 Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
+  using Row = typename Likelihood<Middle>::Row;
   check::same(left.variable(), right.to(), "compose");
-  Table weights(1, right.from().size());
-  std::visit(
-      [&](const auto& rows) {
-        for (std::size_t from = 0; from < weights.size(); ++from) {
-          const auto row = rows.entries(from);
-          weights(0, from) = Weight<AlgebraOf<Middle>>::combine(
-              row.size(), [&](std::size_t k) { return left.weight(row.index(k)); },
-              [&](std::size_t k) { return row.value(k); });
-        }
-      },
-      right.rows());
-  return {right.from(), std::move(weights), detail::ByLaw{}};
+  Row evidence(left.size(), 0.0), result;
+  for (std::size_t i = 0; i < left.size(); ++i) evidence[i] = left.number(i);
+  std::visit([&](const auto& rows) { result.template assign_carried_back<AlgebraOf<Middle>>(rows, evidence); },
+             right.rows());
+  return {right.from(), std::move(result), detail::ByLaw{}};
 }
 
 }  // namespace sigmax

@@ -16,7 +16,6 @@
 #include <sigmax/core/condition.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/core/variable.hpp>
-#include <sigmax/core/weight.hpp>
 
 namespace sigmax {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -23,6 +24,7 @@ class ScaledNumber {
 
   /// value · 2^exponent; `value` is finite and not negative, and a subnormal one loses nothing.
   constexpr explicit ScaledNumber(double value, std::int64_t exponent = 0) {
+    assert(value >= 0.0);
     const auto bits = std::bit_cast<std::uint64_t>(value) & ~sign;
     if (bits == 0) return;
     if (bits >> 52 == 0) {  // subnormal
@@ -39,11 +41,16 @@ class ScaledNumber {
     log = std::clamp(log, -1e15, 1e15);
     // Without a power of two split off where a normal double holds it: then it is std::exp to the last bit.
     const double power = std::abs(log) < 700.0 ? 0.0 : std::round(log / std::numbers::ln2);
-    return ScaledNumber(std::exp(log - power * std::numbers::ln2), static_cast<std::int64_t>(power));
+    constexpr double rest_of_ln2 = 2.3190468138462996e-17;  // beyond the double, or a large power would show it
+    const double fraction = std::fma(-power, rest_of_ln2, std::fma(-power, std::numbers::ln2, log));
+    return ScaledNumber(std::exp(fraction), static_cast<std::int64_t>(power));
   }
 
+  /// Its logarithm: where a normal double holds the number, that of the double to the last bit.
   double log() const {
-    return is_zero() ? log_zero : std::log(significand_) + static_cast<double>(exponent_) * std::numbers::ln2;
+    if (is_zero()) return log_zero;
+    if (exponent_ > -1022 && exponent_ < 1024) return std::log(normal_value_in_units_of(0));
+    return std::log(significand_) + static_cast<double>(exponent_) * std::numbers::ln2;
   }
   constexpr bool is_zero() const { return significand_ == 0.0; }
   constexpr std::int64_t exponent() const { return exponent_; }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -34,14 +36,15 @@ Belief<Kind> update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihoo
 ///     update(uninformative(age), speed_given_age.likelihood("fast"))
 template <Uncertainty Kind>
 Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind>& likelihood) {
-  using Scale = Weight<AlgebraOf<Kind>>;
+  using Row = typename Likelihood<Kind>::Row;
   check::same(prior.variable(), likelihood.variable(), "update");
-  Table row(1, prior.size());
-  for (std::size_t i = 0; i < row.size(); ++i) row(0, i) = Scale::times(Scale::of(prior[i]), likelihood.weight(i));
-  if (row(0, index_of_greatest(row.values())) == Scale::excluded) check::excluded(prior.variable());
-  Scale::to_values(row.values());
-  condition<AlgebraOf<Kind>>(row.values());
-  return {prior.variable(), std::move(row), detail::ByLaw{}};
+  Row joint(prior.values());
+  for (std::size_t i = 0; i < joint.size(); ++i) joint[i] = Row::times(joint[i], likelihood.number(i));
+  if (joint.is_zero()) check::excluded(prior.variable());
+  Table values(1, prior.size());
+  joint.to_values(values.values());
+  condition<AlgebraOf<Kind>>(values.values());
+  return {prior.variable(), std::move(values), detail::ByLaw{}};
 }
 
 /// What `invert` gives: "from given to", and the outcomes of `to` that nothing reaches.
@@ -51,34 +54,55 @@ struct Inverse {
   std::vector<std::size_t> unreachable;  ///< their rows in `relation` are uninformative
 };
 
-/// What every `invert` does; `prior_weight(i)` is on the scale of Weight<AlgebraOf<From>>.
-template <Uncertainty To, Uncertainty From, class PriorWeight>
-void invert_into(const Relation<To, From>& relation, const Variable<From>& prior, const PriorWeight& prior_weight,
-                 AnyRows& result, std::vector<std::size_t>& unreachable) {
-  using Scale = Weight<AlgebraOf<From>>;
-  check::same(relation.from(), prior, "invert");
+namespace detail {
+
+/// Multiplies the numbers of a row by those of the prior, up to a common factor, so that none underflows.
+template <Uncertainty Kind, class Entries>
+void weigh(const Distribution<Kind>& prior, const Entries& row, std::span<double> values) {
+  using Row = typename Likelihood<Kind>::Row;
+  if constexpr (ScalingAlgebra<AlgebraOf<Kind>>) {
+    const auto product = [&](std::size_t k) { return ScaledNumber{prior[row.index(k)]} * ScaledNumber{row.value(k)}; };
+    ScaledNumber top;
+    for (std::size_t k = 0; k < row.size(); ++k) top = std::max(top, product(k));
+    for (std::size_t k = 0; k < row.size(); ++k) values[k] = product(k).value_in_units_of(top.exponent());
+  } else {
+    for (std::size_t k = 0; k < row.size(); ++k) values[k] = Row::times(prior[row.index(k)], row.value(k));
+  }
+}
+template <Uncertainty Kind, class Entries>
+void weigh(const Belief<Kind>& prior, const Entries& row, std::span<double> values) {
+  double greatest = log_zero;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    values[k] = prior.log(row.index(k)) + std::log(row.value(k));
+    greatest = std::max(greatest, values[k]);
+  }
+  for (double& value : values) value = value == log_zero ? 0.0 : std::exp(value - greatest);
+}
+
+/// What every `invert` does.
+template <Uncertainty To, Uncertainty From, class Prior>
+void invert_into(const Relation<To, From>& relation, const Prior& prior, AnyRows& result,
+                 std::vector<std::size_t>& unreachable) {
+  check::same(relation.from(), prior.variable(), "invert");
   kernels::transpose(relation.rows(), result);
   unreachable.clear();
-  const auto invert_rows = [&](auto& rows) {
-    for (std::size_t to = 0; to < rows.rows(); ++to) {
-      const auto row = rows.entries(to);
-      const auto weights = rows.values(to);
-      bool reached = false;
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        weights[k] = Scale::times(prior_weight(row.index(k)), Scale::of(weights[k]));
-        reached = reached || weights[k] != Scale::excluded;
-      }
-      if (!reached) {
-        unreachable.push_back(to);
-        continue;
-      }
-      Scale::to_values(weights);
-      condition<AlgebraOf<From>>(weights);
-    }
-    rows.fill_rows(unreachable, equal_share<AlgebraOf<From>>(prior.size()));
-  };
-  std::visit(invert_rows, result);
+  std::visit(
+      [&](auto& rows) {
+        for (std::size_t to = 0; to < rows.rows(); ++to) weigh(prior, rows.entries(to), rows.values(to));
+        condition_rows<AlgebraOf<From>>(rows, unreachable);
+      },
+      result);
 }
+
+template <Uncertainty To, Uncertainty From, class Prior>
+Inverse<From, To> inverse(const Relation<To, From>& relation, const Prior& prior) {
+  AnyRows rows = Table(0, 0);
+  std::vector<std::size_t> unreachable;
+  invert_into(relation, prior, rows, unreachable);
+  return {{relation.from(), relation.to(), std::move(rows), ByLaw{}}, std::move(unreachable)};
+}
+
+}  // namespace detail
 
 /// The relation read backwards under a prior of its condition, each row an update: (43), (46), (52), (54).
 ///
@@ -87,19 +111,11 @@ void invert_into(const Relation<To, From>& relation, const Variable<From>& prior
 /// An outcome of `to` that no possible `from` reaches gets the uninformative row and is listed.
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Belief<From>& prior) {
-  AnyRows rows = Table(0, 0);
-  std::vector<std::size_t> unreachable;
-  const auto weight = [&](std::size_t i) { return prior.log(i); };
-  invert_into(relation, prior.variable(), weight, rows, unreachable);
-  return {{relation.from(), relation.to(), std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
+  return detail::inverse(relation, prior);
 }
 template <Uncertainty To, Uncertainty From>
 Inverse<From, To> invert(const Relation<To, From>& relation, const Distribution<From>& prior) {
-  AnyRows rows = Table(0, 0);
-  std::vector<std::size_t> unreachable;
-  const auto weight = [&](std::size_t i) { return Weight<AlgebraOf<From>>::of(prior[i]); };
-  invert_into(relation, prior.variable(), weight, rows, unreachable);
-  return {{relation.from(), relation.to(), std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
+  return detail::inverse(relation, prior);
 }
 
 /// The same, written into an existing `result` of the same variables.
@@ -107,8 +123,7 @@ template <Uncertainty To, Uncertainty From>
 void invert(const Relation<To, From>& relation, const Belief<From>& prior, Inverse<From, To>& result) {
   check::same(relation.from(), result.relation.to(), "invert");
   check::same(relation.to(), result.relation.from(), "invert");
-  const auto weight = [&](std::size_t i) { return prior.log(i); };
-  invert_into(relation, prior.variable(), weight, result.relation.rows(detail::ByLaw{}), result.unreachable);
+  detail::invert_into(relation, prior, result.relation.rows(detail::ByLaw{}), result.unreachable);
 }
 
 }  // namespace sigmax

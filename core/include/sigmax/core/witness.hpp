@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <sigmax/core/compose.hpp>
 
@@ -14,7 +13,7 @@ namespace sigmax {
 template <class Composed>
 class Witnessed {
  public:
-  Witnessed(Composed relation, std::vector<kernels::Winner> winners, detail::ByLaw)
+  Witnessed(Composed relation, kernels::FirstWinners winners, detail::ByLaw)
       : relation_(std::move(relation)), winners_(std::move(winners)) {}
 
   /// What `compose` gives.
@@ -27,7 +26,7 @@ class Witnessed {
     return std::visit(
         [&](const auto& rows) -> std::size_t {
           const auto k = position(rows.entries(from), to);
-          return k == none ? 0 : winners_[rows.offset(from) + k];
+          return k == none ? 0 : winners_.all[rows.offset(from) + k];
         },
         relation_.rows());
   }
@@ -43,7 +42,7 @@ class Witnessed {
   }
 
   Composed relation_;
-  std::vector<kernels::Winner> winners_;  // one for every number that the relation stores, in its order
+  kernels::FirstWinners winners_;  // one for every number that the relation stores, in its order
 };
 
 /// `compose(left, right)` that also says which value between them won, (6), (17): for kinds whose ⊕ selects.
@@ -58,7 +57,7 @@ auto compose_with_witness(const Left& left, const Right& right) {
   using Composed = InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>;
   check::same(left.from(), right.to(), "compose_with_witness");
   AnyRows rows = Table(0, 0);
-  std::vector<kernels::Winner> winners;
+  kernels::FirstWinners winners;
   kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows, winners);
   if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
   return Witnessed<Composed>{Composed{left.to(), right.from(), std::move(rows), detail::ByLaw{}}, std::move(winners),

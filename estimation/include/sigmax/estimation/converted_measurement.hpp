@@ -59,7 +59,7 @@ inline SquareMatrix<3> position_covariance(const Polar& measured, const Polar& s
 /// In the plane these are the published formulas. Throws std::invalid_argument unless range > 0 and no deviation is
 /// negative.
 inline Gaussian<3> to_cartesian(const Polar& measured, const Polar& sigma, Conversion conversion) {
-  const Gaussian<3> standard = to_cartesian(measured, sigma);
+  Gaussian<3> standard = to_cartesian(measured, sigma);
   if (conversion == Conversion::standard) return standard;
   const double lambda_a = std::exp(-0.5 * sigma.azimuth * sigma.azimuth);
   const double lambda_e = std::exp(-0.5 * sigma.elevation * sigma.elevation);

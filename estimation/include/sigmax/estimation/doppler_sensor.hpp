@@ -9,6 +9,7 @@ namespace sigmax {
 template <int Axes>
 class DopplerSensor {
  public:
+  static constexpr int axes = Axes;
   static constexpr int seen_size = 2 * Axes;
   static constexpr int measurement_size = Axes + 1;
 

@@ -91,8 +91,8 @@ PossibilityOf<Model> predict(const Model& model, const PossibilityOf<Model>& pri
   return PossibilityOf<Model>{moments};
 }
 
-/// Update by supremum, (37): π(x|z) = π(z|x) π(x) / sup over x of the same, with a linear sensor, the position's if none
-/// is given. Throws as the Kalman filter's does.
+/// Update by supremum, (37): π(x|z) = π(z|x) π(x) / sup over x of the same, with a linear sensor, the position's if
+/// none is given. Throws as the Kalman filter's does.
 template <LinearMotion Model, LinearSensorOf<Model> Sensor = PositionSensor<axes_of<Model>>>
 PossibilityOf<Model> update(const Model& model, const PossibilityOf<Model>& prior,
                             const MeasurementOf<Sensor>& measurement, const Sensor& sensor = {}) {

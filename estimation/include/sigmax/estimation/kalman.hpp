@@ -107,8 +107,10 @@ SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& mea
     if (!all_finite(measurement))
       throw std::invalid_argument("a measurement of model '" + std::string(model) +
                                   "', or its covariance, is not finite");
-    if (std::isnan(innovation.squared_distance))
+    if (!innovation.residual.allFinite() || !innovation.covariance.allFinite())
       throw std::domain_error("the estimate of model '" + std::string(model) + "' is not finite");
+    innovation.squared_distance = std::numeric_limits<double>::infinity();  // where terms of both signs overflowed
+    innovation.log_likelihood = -innovation.squared_distance;
   }
   return L_inverse.transpose() * L_inverse;
 }
@@ -186,9 +188,7 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
                             EstimateOf<Model>& posterior) {
   if constexpr (measures_leading_components<Sensor>) {
     constexpr int M = Sensor::measurement_size;
-    if (Model::state_size == Eigen::Dynamic && prior.size() < M)
-      throw std::invalid_argument("a sensor sees " + std::to_string(M) + " components, but model '" +
-                                  std::string(model.name()) + "' has " + std::to_string(prior.size()));
+    detail::require_seen<Sensor>(model);
     const Vector<M> residual = measurement.mean - prior.mean.template head<M>();
     return detail::update_by(model.name(), detail::LeadingComponents{}, residual, prior, measurement, posterior);
   } else if constexpr (LinearSensorOf<Sensor, Model>) {

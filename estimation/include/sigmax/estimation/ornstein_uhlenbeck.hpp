@@ -73,7 +73,8 @@ class OrnsteinUhlenbeck {
     SquareMatrix<Order> Q;
     for (int p = 0; p < Order; ++p)
       for (int r = 0; r <= p; ++r) {
-        const auto& [a, b, c] = table[static_cast<std::size_t>(p * (p + 1) / 2 + r)];
+        const int index = p * (p + 1) / 2 + r;
+        const auto& [a, b, c] = table[static_cast<std::size_t>(index)];
         Q(Order - 1 - p, Order - 1 - r) = Q(Order - 1 - r, Order - 1 - p) =
             sigma_ * sigma_ * std::pow(dt, p + r) * u * exponential_tail(u, p + r + 1, a, b, c);
       }

@@ -34,11 +34,11 @@ concept SeesLeading = requires {
   { Sensor::seen_size } -> std::convertible_to<int>;
 };
 
-/// Whether a model may have as many components as a sensor sees.
+/// Whether a model may have as many components as a sensor sees, and as many axes.
 template <class Sensor, class Model>
-concept SeenOf = !SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic || requires {
-  requires Sensor::seen_size <= Model::state_size;
-};
+concept SeenOf = (axes_of<Model> == 0 ||
+                  axes_of<Sensor> <= axes_of<Model>)&&(!SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic ||
+                                                       requires { requires Sensor::seen_size <= Model::state_size; });
 
 /// Whether the Jacobian that a sensor gives, if it gives one, is of the right shape.
 template <class Sensor, int Columns, class... Asked>
@@ -58,15 +58,22 @@ concept DifferenceFits = !requires(const Sensor& sensor, const Measured& z) {
   { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
 };
 
+/// Throws std::invalid_argument, naming the model, if a sensor sees more components than the model has now.
+template <class Sensor, class Model>
+void require_seen([[maybe_unused]] const Model& model) {
+  if constexpr (Model::state_size == Eigen::Dynamic)
+    if (model.size() < Sensor::seen_size)
+      throw std::invalid_argument("a sensor sees " + std::to_string(Sensor::seen_size) + " components, but model '" +
+                                  std::string(model.name()) + "' has " + std::to_string(model.size()));
+}
+
 /// Calls `ask` with what a sensor's functions take: the leading components that it sees, or the model and the state.
 template <class Sensor, class Model, class Scalar, class Ask>
 decltype(auto) asked(const Model& model,
                      const Eigen::Matrix<Scalar, Model::state_size, 1, 0, Model::max_state_size, 1>& x,
                      const Ask& ask) {
   if constexpr (SeesLeading<Sensor>) {
-    if (Model::state_size == Eigen::Dynamic && x.size() < Sensor::seen_size)
-      throw std::invalid_argument("a sensor sees " + std::to_string(Sensor::seen_size) + " components, but model '" +
-                                  std::string(model.name()) + "' has " + std::to_string(x.size()));
+    require_seen<Sensor>(model);
     const Eigen::Matrix<Scalar, Sensor::seen_size, 1> seen = x.template head<Sensor::seen_size>();
     return ask(seen);
   } else {
@@ -150,6 +157,7 @@ const Value& require_finite(const Value& value, const char* function, const Mode
 /// A matrix over the leading components of a state as one over all of it.
 template <class Sensor, class Model, class Leading>
 MeasurementMatrixOf<Sensor, Model> over_all_components(const Model& model, const Leading& H) {
+  require_seen<Sensor>(model);
   MeasurementMatrixOf<Sensor, Model> result;
   result.setZero(H.rows(), model.size());
   result.leftCols(H.cols()) = H;

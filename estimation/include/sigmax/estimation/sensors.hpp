@@ -24,6 +24,7 @@ inline double wrapped(double angle) {
 /// Measures the position itself, H = [I 0], in m.
 template <int Axes>
 struct PositionSensor {
+  static constexpr int axes = Axes;
   static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
   static constexpr bool measures_leading_components = true;
@@ -98,6 +99,7 @@ class PolarSensor {
   static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
 
  public:
+  static constexpr int axes = Axes;
   static constexpr int seen_size = Axes;
   static constexpr int measurement_size = Axes;
 
@@ -168,6 +170,7 @@ class PolarSensor {
 /// wrapped. One such sensor that stands still does not tell the range.
 class BearingSensor {
  public:
+  static constexpr int axes = 2;
   static constexpr int seen_size = 2;
   static constexpr int measurement_size = 1;
 

@@ -16,7 +16,7 @@ struct TimedMeasurement {
 };
 
 /// The state whose derivative d (0 position, 1 velocity, …) is Σᵢ weights(d, i) zᵢ, with the covariance that follows
-/// from independent measurements. States are ordered by derivative, as in KinematicModel.
+/// from independent measurements. States are ordered by derivative, as in IndependentAxes.
 template <int M, int Orders, std::size_t Points>
 Gaussian<M * Orders> start_from_points(const Eigen::Matrix<double, Orders, static_cast<int>(Points)>& weights,
                                        const std::array<Gaussian<M>, Points>& points) {

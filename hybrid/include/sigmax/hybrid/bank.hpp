@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
 
@@ -20,12 +20,14 @@ struct Bank;
 
 template <class First, class... Others>
 struct Bank<std::tuple<First, Others...>> {
-  static_assert(((axes_of<First> == axes_of<Others>) && ...),
+  static_assert(((axes_of<First> == axes_of<Others>)&&...),
                 "all models of a bank must have their position along the same axes");
   static constexpr int axes = axes_of<First>;
   using Estimates = std::tuple<EstimateOf<First>, EstimateOf<Others>...>;
   using Pairs = std::tuple<std::vector<EstimateOf<First>>, std::vector<EstimateOf<Others>>...>;
   static constexpr int max_state_size = std::max({First::max_state_size, Others::max_state_size...});
+  template <class Sensor>
+  static constexpr bool seen_by = SensorOf<Sensor, First> && (SensorOf<Sensor, Others> && ...);
   /// No bank carries more different components than all its models together.
   static constexpr int max_components = ((First::max_state_size + ... + Others::max_state_size));
 };
@@ -37,6 +39,8 @@ struct Bank<std::vector<Model>> {
   using Pairs = std::vector<std::vector<EstimateOf<Model>>>;
   static constexpr int max_state_size = Model::max_state_size;
   static constexpr int max_components = Model::max_state_size;
+  template <class Sensor>
+  static constexpr bool seen_by = SensorOf<Sensor, Model>;
 };
 
 template <class... T>

@@ -5,10 +5,9 @@
 #include <type_traits>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/table.hpp>
+#include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
 #include <sigmax/hybrid/future_evidence.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
@@ -18,16 +17,21 @@ namespace sigmax {
 /// Fixed-interval smoothing for the multiple-model filters, with a random or a fuzzy mode: what was known at k becomes
 /// what is known of k at the end.
 ///
-/// For each pair of a mode i at k and j at k + 1, what came to be known after k in mode j (FutureEvidence) meets the
-/// prediction from i by the model of j, and a step back of Rauch, Tung and Striebel takes the result to i. With the
-/// evidence Λ_ij of that meeting and the smoothed belief b of k + 1 the pair weighs
+/// What came to be known from k + 1 on in mode j is a likelihood (FutureEvidence). For each pair of a mode i at k and j
+/// at k + 1 the model of j carries it back to k, where it meets the estimate of i. With the evidence Λ_ij of that
+/// meeting and the smoothed belief b of k + 1 the pair weighs
 ///
 ///   w(i, j) = B(i|j) ⊗ b(j),   B(i|j) ∝ π(j|i) ⊗ b_k(i) ⊗ Λ_ij,   ⊕ᵢ B(i|j) = 1.
 ///
 /// The smoothed belief of k is ⊕ⱼ w(i, j), and the j of each i collapse: moments if the mode is random, selection if it
-/// is fuzzy. So one Gaussian a mode is kept backwards, as it is forwards (compare Kim 1994; Helmick, Blair, Hoffman
-/// 1995). Ties of the most likely mode are broken by the output rule, whose previous winner is that of k + 1. With one
-/// model it is the smoother of Rauch, Tung and Striebel.
+/// is fuzzy. What then makes of the filtered estimate of i the smoothed one, with the measurement of k, is the evidence
+/// that k − 1 gets. So one Gaussian a mode is kept backwards, as it is forwards (compare Kim 1994; Helmick, Blair,
+/// Hoffman 1995). Ties of the most likely mode are broken by the output rule, whose previous winner is that of k + 1.
+/// With one model it is the smoother of Rauch, Tung and Striebel.
+///
+///     FixedIntervalSmoother smoother(filter);
+///     smoother.begin(record.back());
+///     for (std::size_t k = record.size() - 1; k-- > 0;) smoother.step(record[k]);   // smoother.state() is of k
 template <class Models, Uncertainty Kind>
 class FixedIntervalSmoother {
  public:
@@ -38,48 +42,61 @@ class FixedIntervalSmoother {
   explicit FixedIntervalSmoother(const MultipleModelFilter<Models, Kind>& filter)
       : filter_(filter),
         system_(filter.system()),
+        state_(filter.state()),
         starts_(filter.estimates()),
-        predictions_(filter.estimates()),
         pairs_(pairs_for(filter.estimates())),
-        log_weight_(filter.modes()),
-        joint_(filter.modes(), filter.modes()) {}
+        evidence_(modes()),
+        parts_(modes(), std::vector<Evidence>(modes())),
+        means_(modes()),
+        collapse_(modes()),
+        log_weight_(modes()),
+        joint_(modes(), modes()) {}
 
-  /// One step back: `smoothed` is the smoothed state after the step `next`, and becomes that of `filtered`, the state
-  /// before it. Allocates nothing.
-  /// Throws std::domain_error, naming the model, if what it predicted is not positive definite.
-  void step(const State& filtered, const Step& next, State& smoothed) {
-    const auto& transition = system_.transition(next.dt);
-    for_each_mode(smoothed.estimates, [&](auto j) {
+  /// Begins at the last step: its smoothed state is the filtered one.
+  void begin(const Step& last) {
+    state_ = last.state;
+    for_each_mode(last.state.estimates, [&](auto j) {
+      evidence_[j].clear(mode(last.state.estimates, j).size());
+      if (!last.seen.empty()) evidence_[j].add(last.seen[j].R, last.seen[j].r);
+      means_[j] = mode(last.state.estimates, j).mean;
+    });
+    dt_ = last.dt;
+  }
+
+  /// One step back, to the step before the last that it saw. Allocates nothing.
+  /// Throws std::domain_error, naming the model, if a covariance is not positive semi-definite.
+  void step(const Step& before) {
+    const State& filtered = before.state;
+    const auto& transition = system_.transition(dt_);
+    for_each_mode(filtered.estimates, [&](auto i) { roots_of(i, filtered); });
+    for_each_mode(state_.estimates, [&](auto j) {
       const auto pair = [&](std::size_t i) { return joint_(i, j); };
       for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
-      if (total(pair) == log_zero || smoothed.belief.log(j) == log_zero) {
+      if (total(pair) == log_zero || state_.belief.log(j) == log_zero) {
         for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
         return;
       }
-      const Evidence evidence(of_any_size(mode(next.predicted, j)), of_any_size(mode(smoothed.estimates, j)), name(j));
       for_each_mode(filtered.estimates, [&](auto i) {
-        if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j, next.dt, evidence);
+        if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j);
       });
       const double log_total = total(pair);
-      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += smoothed.belief.log(j) - log_total;
+      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += state_.belief.log(j) - log_total;
     });
-    merge(filtered, smoothed);
+    merge(before);
+    dt_ = before.dt;
   }
+
+  /// The smoothed state of the last step that it saw.
+  const State& state() const { return state_; }
 
  private:
   // The algebra of a pair is done at run-time size: models of any two sizes then share its code.
   static constexpr int max_size = Bank<Models>::max_state_size;
-  using Estimate = Gaussian<Eigen::Dynamic, max_size>;
   using Matrix = SquareMatrix<Eigen::Dynamic, max_size>;
-  using Evidence = FutureEvidence<Eigen::Dynamic, max_size>;
-
-  template <int N, int MaxN>
-  static Estimate of_any_size(const Gaussian<N, MaxN>& estimate) {
-    return {estimate.mean, estimate.covariance};
-  }
+  using Evidence = FutureEvidence<max_size>;
+  using Noise = RectangularMatrix<Eigen::Dynamic, Eigen::Dynamic, max_size, 2 * max_size>;
 
   std::size_t modes() const { return filter_.modes(); }
-  auto name(std::size_t j) const { return system_.mode_variable().label(j); }
 
   /// log ⊕ exp over the modes, by the mode's own ⊕.
   template <class LogWeight>
@@ -87,89 +104,113 @@ class FixedIntervalSmoother {
     return log_combine<AlgebraOf<Kind>>(modes(), log_weight, [](std::size_t) { return 1.0; });
   }
 
-  /// The estimate of mode i given mode j next and all that came to be known in j; returns the evidence.
+  template <class I>
+  void roots_of(I i, const State& filtered) {
+    roots_[i] = covariance_root(mode(filtered.estimates, i).covariance, mode(system_.models(), i).name());
+  }
+
+  /// The estimate of mode i given mode j next and all that came to be known in j, and what that tells of i; returns the
+  /// logarithm of the evidence.
   template <class I, class J>
-  double smooth_pair(const typename Bank<Models>::Estimates& filtered, I i, J j, double dt, const Evidence& evidence) {
+  double smooth_pair(const typename Bank<Models>::Estimates& filtered, I i, J j) {
     const auto& model = mode(system_.models(), j);
     auto& start = mode(starts_, j);  // the estimate of i in the components of j
-    auto& predicted = mode(predictions_, j);
+    const auto& from_i = filter_.correspondences(j)[i].in_source;
     const Lifted read(mode(filtered, j), mode(filtered, i), filter_.correspondences(j)[i], filter_.interaction().lift);
     start.mean = read.mean();
     start.covariance.setZero();
     read.add_covariance(1.0, start.covariance);
-    predict(model, start, dt, predicted);
-    const Estimate of_i = of_any_size(mode(filtered, i));
-    const Matrix cross = covariance_with(of_any_size(start), of_i, filter_.correspondences(j)[i],
-                                         filter_.correspondences(i)[j], prediction_covariance(model, start, dt));
-    const Estimate prediction = of_any_size(predicted);
-    Estimate smoothed = prediction;
-    const double log_evidence = evidence.meet(prediction, smoothed);
-    step_back(of_i, cross, prediction, smoothed, model.name(), smoothed);
-    mode(pairs_, i)[j] = {smoothed.mean, smoothed.covariance};
+    const auto linear = linearised_step(model, start, dt_);
+
+    const Eigen::Index n = start.size();
+    typename Evidence::Rows B = Evidence::Rows::Zero(n, mode(filtered, i).size());
+    Noise A(n, 2 * n);
+    Eigen::Index noises = 0;
+    const auto add_noise = [&](const Matrix& root) {
+      for (Eigen::Index a = 0; a < n; ++a)
+        if (!root.col(a).isZero(0.0)) A.col(noises++) = root.col(a);
+    };
+    add_noise(covariance_root(linear.Q, model.name()));
+    bool all = true;
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const Eigen::Index in_i = from_i[static_cast<std::size_t>(b)];
+      if (in_i >= 0)
+        B.col(in_i) = linear.F.col(b);
+      else
+        all = false;
+    }
+    if (!all) {
+      for (Eigen::Index b = 0; b < n; ++b)
+        if (from_i[static_cast<std::size_t>(b)] >= 0) {
+          start.covariance.row(b).setZero();
+          start.covariance.col(b).setZero();
+        }
+      add_noise(linear.F * covariance_root(start.covariance, model.name()));
+    }
+    A.conservativeResize(n, noises);
+    auto& part = parts_[i][j];
+    double log_evidence = evidence_[j].carry_back(linear.mean - means_[j], B, A, part);
+    Gaussian<Eigen::Dynamic, max_size> pair{mode(filtered, i).mean, roots_[i]};
+    log_evidence += part.meet(roots_[i], pair);
+    mode(pairs_, i)[j] = {pair.mean, pair.covariance};
     return log_evidence;
   }
 
-  /// The covariance of the state of i with what was predicted from it, where `predicted_with` is that of the start in
-  /// the components of j. A component that j lacks is correlated with the prediction through those that j has.
-  static Matrix covariance_with(const Estimate& start, const Estimate& of_i, const Correspondence& from_i,
-                                const Correspondence& to_j, const Matrix& predicted_with) {
-    Matrix cross(of_i.size(), start.size());
-    bool all_shared = true;
-    for (Eigen::Index a = 0; a < of_i.size(); ++a) {
-      const Eigen::Index in_j = to_j.in_source[static_cast<std::size_t>(a)];
-      if (in_j >= 0) cross.row(a) = predicted_with.row(in_j);
-      all_shared = all_shared && in_j >= 0;
-    }
-    if (all_shared) return cross;
-    const Eigen::LDLT<Matrix> factor(start.covariance);
-    const Matrix regression = factor.solve(predicted_with);
-    for (Eigen::Index a = 0; a < of_i.size(); ++a) {
-      if (to_j.in_source[static_cast<std::size_t>(a)] >= 0) continue;
-      cross.row(a).setZero();
-      for (Eigen::Index b = 0; b < start.size(); ++b) {
-        const Eigen::Index in_i = from_i.in_source[static_cast<std::size_t>(b)];
-        if (in_i >= 0) cross.row(a) += of_i.covariance(a, in_i) * regression.row(b);
-      }
-    }
-    return cross;
-  }
-
   /// The belief of k, and for each of its modes one estimate; a mode that leads nowhere keeps its own.
-  void merge(const State& filtered, State& smoothed) {
+  void merge(const Step& before) {
+    const State& filtered = before.state;
     for (std::size_t i = 0; i < modes(); ++i) log_weight_[i] = total([&](std::size_t j) { return joint_(i, j); });
-    smoothed.belief.assign([&](std::size_t i) { return log_weight_[i]; });
+    state_.belief.assign([&](std::size_t i) { return log_weight_[i]; });
     for_each_mode(filtered.estimates, [&](auto i) {
-      auto& result = mode(smoothed.estimates, i);
+      auto& result = mode(state_.estimates, i);
+      means_[i] = mode(filtered.estimates, i).mean;
+      evidence_[i].clear(means_[i].size());
       if (log_weight_[i] == log_zero) {
         result = mode(filtered.estimates, i);
         return;
       }
       const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
-      collapse(
-          Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)},
-          [&](std::size_t j) { return std::exp(log_weight(j)); }, select(modes(), log_weight, i, Tie::stay), result);
+      const auto weight = [&](std::size_t j) { return std::exp(log_weight(j)); };
+      const std::size_t best = select(modes(), log_weight, i, Tie::stay);
+      collapse(Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)}, weight, best,
+               result);
+      Evidence seen;
+      seen.clear(means_[i].size());
+      if (!before.seen.empty()) seen = before.seen[i];
+      if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
+        evidence_[i] = parts_[i][best];
+        evidence_[i].add(seen.R, seen.r);
+      } else {
+        collapse_(parts_[i], weight, roots_[i], seen, evidence_[i]);
+      }
     });
-    smoothed.most_likely_mode = select(
-        modes(), [&](std::size_t i) { return smoothed.belief.log(i); }, smoothed.most_likely_mode,
+    state_.most_likely_mode = select(
+        modes(), [&](std::size_t i) { return state_.belief.log(i); }, state_.most_likely_mode,
         filter_.interaction().output_tie);
   }
 
   MultipleModelFilter<Models, Kind> filter_;
   JumpMarkovSystem<Models, Kind> system_;
-  typename Bank<Models>::Estimates starts_;       ///< of the pair at hand
-  typename Bank<Models>::Estimates predictions_;  ///< of the pair at hand
-  typename Bank<Models>::Pairs pairs_;            ///< of mode i: one for each j
-  std::vector<double> log_weight_;                ///< of each i
-  Table joint_;                                   ///< log w(i, j)
+  State state_;
+  typename Bank<Models>::Estimates starts_;   ///< of the pair at hand
+  typename Bank<Models>::Pairs pairs_;        ///< of mode i: one for each j
+  std::vector<Evidence> evidence_;            ///< of each j, about the mean of its filtered estimate
+  std::vector<std::vector<Evidence>> parts_;  ///< what j tells of i, at [i][j]
+  std::vector<Vector<Eigen::Dynamic, max_size>> means_;
+  std::vector<Matrix> roots_ = std::vector<Matrix>(modes());
+  EvidenceCollapse<max_size> collapse_;
+  std::vector<double> log_weight_;  ///< of each i
+  Table joint_;                     ///< log w(i, j)
+  double dt_ = 0.0;                 ///< from the step before to the last that it saw
 };
 
 /// The smoothed states of a whole interval, one for each record; the last is the filtered one. The record grows with
-/// the interval, by two estimates of each model a step. `filter.estimate(state)` gives the output of a smoothed state.
+/// the interval. `filter.estimate(state)` gives the output of a smoothed state.
 ///
 ///     std::vector record{filter.recorded(0.0)};
 ///     for (const auto& [dt, z] : measurements) {
 ///       filter.step(dt, z);
-///       record.push_back(filter.recorded(dt));
+///       record.push_back(filter.recorded(dt, z));
 ///     }
 ///     const auto smoothed = smooth(filter, record);
 template <class Models, Uncertainty Kind>
@@ -178,9 +219,11 @@ std::vector<HybridEstimate<Models, Kind>> smooth(const MultipleModelFilter<Model
   FixedIntervalSmoother<Models, Kind> smoother(filter);
   std::vector<HybridEstimate<Models, Kind>> smoothed;
   for (const auto& step : record) smoothed.push_back(step.state);
-  for (std::size_t k = record.size(); k-- > 1;) {
-    smoothed[k - 1] = smoothed[k];
-    smoother.step(record[k - 1].state, record[k], smoothed[k - 1]);
+  if (record.empty()) return smoothed;
+  smoother.begin(record.back());
+  for (std::size_t k = record.size() - 1; k-- > 0;) {
+    smoother.step(record[k]);
+    smoothed[k] = smoother.state();
   }
   return smoothed;
 }

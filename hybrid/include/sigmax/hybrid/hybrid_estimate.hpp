@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <sigmax/core/belief.hpp>
 #include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/future_evidence.hpp>
 
 namespace sigmax {
 
@@ -19,9 +21,10 @@ struct HybridEstimate {
 /// What one step of a multiple-model filter left, for smoothing.
 template <class Models, Uncertainty Kind>
 struct RecordedStep {
-  double dt;  ///< since the step before, in s; of the first record it is of no account, nor is `predicted`
+  double dt;  ///< since the step before, in s; ignored in the first record
   HybridEstimate<Models, Kind> state;
-  typename Bank<Models>::Estimates predicted;  ///< what each model predicted before the measurement
+  /// What the measurement told each mode, about its estimate; empty if there was none.
+  std::vector<FutureEvidence<Bank<Models>::max_state_size>> seen;
 };
 
 }  // namespace sigmax

@@ -55,7 +55,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   /// it: another one each time, if need be. If its `gate_distance()` is above `gate`, it counts as missed.
   /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
-  template <Sensing Sensor>
+  template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
     bool taken = false;
@@ -67,9 +67,8 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
         predict(model, estimate, dt, mode(predicted_, j));
         this->assign(update(model, mode(predicted_, j), z, sensor, estimate), innovations_[j]);
       });
-      taken = this->passes(gate, modes(), [this](std::size_t j) {
-        return prior_.log(j) - 0.5 * innovations_[j].squared_distance;
-      });
+      taken = this->passes(gate, modes(),
+                           [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; });
       if (!taken) return coast();
       for_each_mode(system_.models(), [&](auto j) {
         check::sound(mode(system_.models(), j), mode(this->next().estimates, j));
@@ -98,8 +97,16 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
     this->conclude(false);
   }
 
-  /// What the last step, of `dt` seconds, left for a smoother.
-  RecordedStep<Models, Kind> recorded(double dt) const { return {dt, this->state(), predicted_}; }
+  /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
+  /// as missed. Throws std::logic_error without a measurement if the step had one.
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+    return this->recorded_by(dt, z, sensor, predicted_);
+  }
+  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const requires(Filter::axes > 0) {
+    return recorded(dt, z, PositionSensor<Filter::axes>{});
+  }
+  RecordedStep<Models, Kind> recorded(double dt) const { return this->recorded_as_missed(dt); }
 
  private:
   using Filter::innovations_;

@@ -58,6 +58,11 @@ struct EstimateMixture {
 inline constexpr int max_measurement_size = 6;
 using AnyInnovation = Innovation<Eigen::Dynamic, max_measurement_size>;
 
+/// A sensor that a multiple-model filter can take: one of all models' states, of not too many quantities.
+template <class Sensor, class Models>
+concept SensorOfBank =
+    Bank<Models>::template seen_by<Sensor>&& detail::max_measurement_size_of<Sensor> <= max_measurement_size;
+
 /// The models' innovations as the parts of a mixture: the predicted measurement, about the one that came.
 struct InnovationMixture {
   struct Part {

@@ -77,7 +77,9 @@ class TimedTransition {
 
   /// The transition over `dt` ≥ 0 seconds; the identity if that is zero.
   Relation<Kind, Kind> operator()(double dt) const {
-    Relation<Kind, Kind> result{mode_, mode_, Table(mode_.size(), mode_.size()), detail::ByLaw{}};
+    Table identity(mode_.size(), mode_.size());
+    for (std::size_t i = 0; i < mode_.size(); ++i) identity(i, i) = AlgebraOf<Kind>::one();
+    Relation<Kind, Kind> result{mode_, mode_, std::move(identity), detail::ByLaw{}};
     (*this)(dt, result);
     return result;
   }

@@ -13,7 +13,7 @@
 #include <Eigen/Cholesky>
 
 #include <sigmax/core/logarithm.hpp>
-#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interaction.hpp>
@@ -171,6 +171,27 @@ class MultipleModelFilter {
   bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
     gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, [](std::size_t) { return 1.0; });
     return gate == no_gate || gate_distance_ <= gate;
+  }
+
+  /// The state with what a measurement tells each mode, linearised where the mode predicted it.
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded_by(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor,
+                                         const Estimates& predicted) const {
+    RecordedStep<Models, Kind> result{dt, state(), {}};
+    if (!measured_) return result;
+    for_each_mode(system_.models(), [&](auto j) {
+      const auto seen = linearised_measurement(mode(system_.models(), j), mode(predicted, j), z, sensor);
+      auto& evidence = result.seen.emplace_back();
+      const auto root = detail::noise_root(seen.R);
+      evidence.R = root.matrixL().solve(seen.H);
+      evidence.r =
+          root.matrixL().solve(seen.residual) - evidence.R * (mode(estimates(), j).mean - mode(predicted, j).mean);
+    });
+    return result;
+  }
+  RecordedStep<Models, Kind> recorded_as_missed(double dt) const {
+    if (measured_) throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
+    return {dt, state(), {}};
   }
 
   /// The next state becomes the state; its most likely mode is (64).

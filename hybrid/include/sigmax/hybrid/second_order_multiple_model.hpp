@@ -50,7 +50,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
                                  interaction) {}
 
   /// One cycle; what it takes and throws is as of InteractingMultipleModel.
-  template <Sensing Sensor>
+  template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
     bool taken = false;
@@ -90,13 +90,18 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
     this->conclude(false);
   }
 
-  /// What the last step, of `dt` seconds, left for a smoother. What a mode predicted is that of its predecessors by
-  /// their weights after the measurement.
-  RecordedStep<Models, Kind> recorded(double dt) const {
-    RecordedStep<Models, Kind> result{dt, this->state(), estimates()};
-    collapse_predecessors(predicted_, result.predicted);
-    return result;
+  /// As InteractingMultipleModel. A non-linear measurement is linearised about what the mode predicted: that of its
+  /// predecessors, by their weights after the measurement.
+  template <Sensing Sensor>
+  RecordedStep<Models, Kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+    Estimates predicted = estimates();
+    collapse_predecessors(predicted_, predicted);
+    return this->recorded_by(dt, z, sensor, predicted);
   }
+  RecordedStep<Models, Kind> recorded(double dt, const Measurement& z) const requires(Filter::axes > 0) {
+    return recorded(dt, z, PositionSensor<Filter::axes>{});
+  }
+  RecordedStep<Models, Kind> recorded(double dt) const { return this->recorded_as_missed(dt); }
 
  private:
   using Pairs = typename Bank<Models>::Pairs;

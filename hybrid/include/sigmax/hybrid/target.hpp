@@ -56,7 +56,7 @@ class Target {
   Target(Filter filter, double time, Start start, const TargetRules& rules = {})
       : Target(std::move(filter), std::move(start), rules) {
     if (!std::isfinite(time)) throw std::invalid_argument("a target starts at a time that is not finite");
-    begin(time, 0);
+    begin(time, PlotType(time));
   }
 
   /// Takes a plot: a measurement, or the news that there was none. `stepped(plot, is_start)` is called after each step
@@ -116,6 +116,9 @@ class Target {
     std::size_t starts = 0;
     std::size_t recorded = 0;
     std::vector<PlotType> waiting;  ///< for a start; while it runs, those rejected in a row
+
+    /// The time of the latest plot that is in it.
+    double latest() const { return waiting.empty() ? time : std::max(time, waiting.back().time); }
   };
   struct Snapshot {
     State state;
@@ -142,8 +145,8 @@ class Target {
   Verdict try_to_start(const PlotType& plot, const Stepped& stepped);
   Verdict step(const PlotType& plot);
   void keep_waiting(const PlotType& plot);
-  void begin(double time, std::size_t tag);
-  void record(double dt, std::size_t tag, bool is_start);
+  void begin(double time, const PlotType& plot);
+  void record(double dt, const PlotType& plot, bool is_start);
 
   Filter filter_;
   Start start_;
@@ -162,11 +165,11 @@ Verdict Target<Filter, Start, Sensor>::take(const PlotType& plot, const Stepped&
   if (!std::isfinite(plot.time)) throw std::invalid_argument("a measurement of a time that is not finite");
   std::size_t place = kept_;  // behind all that is not later
   while (place > 0 && entry(place - 1).plot.time > plot.time) --place;
-  const double earliest = place < kept_ ? entry(place).before.life.time : life_.time;
+  const double earliest = (place < kept_ ? entry(place).before.life : life_).latest();
   if (plot.time < earliest)
     throw std::invalid_argument("a measurement of " + std::to_string(plot.time) + " s came after one of " +
-                                std::to_string(life_.time) + " s; the buffer goes back to " + std::to_string(earliest) +
-                                " s");
+                                std::to_string(life_.latest()) + " s; the buffer goes back to " +
+                                std::to_string(earliest) + " s");
   if (place < kept_) restore(entry(place).before);
   for (std::size_t k = kept_; k > place; --k) entry(k).plot = entry(k - 1).plot;
   entry(place).plot = plot;
@@ -211,8 +214,12 @@ Verdict Target<Filter, Start, Sensor>::process(const PlotType& plot, const Stepp
     return try_to_start(plot, stepped);
   }
   const Verdict verdict = step(plot);
-  if (verdict == Verdict::rejected && life_.waiting.size() == rules_.rejections) {
+  if (verdict == Verdict::rejected && rules_.rejections > 0 && life_.waiting.size() == rules_.rejections) {
     life_.running = false;
+    if (rules_.record) {  // the plot is of a start, or waits for one
+      record_.pop_back();
+      life_.recorded = record_.size();
+    }
     return try_to_start(plot, stepped);
   }
   stepped(plot, false);
@@ -236,7 +243,7 @@ Verdict Target<Filter, Start, Sensor>::step(const PlotType& plot) {
     ++life_.rejected;
     if (rules_.rejections > 0) keep_waiting(plot);
   }
-  record(dt, plot.tag, false);
+  record(dt, plot, false);
   return filter_.measured() ? Verdict::accepted : plot.seen ? Verdict::rejected : Verdict::missed;
 }
 
@@ -247,7 +254,7 @@ Verdict Target<Filter, Start, Sensor>::try_to_start(const PlotType& plot, const 
   const bool again = life_.starts > 0;
   const auto begin_at = [&](const auto& start, bool from_plots) {
     filter_.restart(start.estimates);
-    begin(start.time, plot.tag);
+    begin(start.time, plot);
     stepped(plot, true);
     const std::vector<PlotType> later = from_plots ? std::vector<PlotType>{} : std::move(life_.waiting);
     life_.waiting.clear();
@@ -279,18 +286,19 @@ void Target<Filter, Start, Sensor>::keep_waiting(const PlotType& plot) {
 }
 
 template <class Filter, class Start, Sensing Sensor>
-void Target<Filter, Start, Sensor>::begin(double time, std::size_t tag) {
+void Target<Filter, Start, Sensor>::begin(double time, const PlotType& plot) {
   life_.running = true;
   life_.time = life_.accepted_time = time;
   ++life_.starts;
-  record(0.0, tag, true);
+  record(0.0, plot, true);
 }
 
 template <class Filter, class Start, Sensing Sensor>
-void Target<Filter, Start, Sensor>::record(double dt, std::size_t tag, bool is_start) {
+void Target<Filter, Start, Sensor>::record(double dt, const PlotType& plot, bool is_start) {
   if (!rules_.record) return;
-  const auto nis = filter_.measured() ? std::optional(filter_.nis()) : std::nullopt;
-  record_.push_back({life_.time, tag, is_start, nis, filter_.recorded(dt)});
+  const bool measured = filter_.measured();
+  record_.push_back({life_.time, plot.tag, is_start, measured ? std::optional(filter_.nis()) : std::nullopt,
+                     measured ? filter_.recorded(dt, plot.seen->z, plot.seen->sensor) : filter_.recorded(dt)});
   life_.recorded = record_.size();
 }
 
@@ -302,10 +310,9 @@ bool Target<Filter, Start, Sensor>::transform(const SquareMatrix<Eigen::Dynamic,
   std::size_t k = record_.size();
   while (k > 0) {  // back to the last start: what came before it is smoothed without what comes now
     --k;
-    for_each_mode(record_[k].step.predicted, [&](auto j) {
-      sigmax::transform(A, b, mode(record_[k].step.predicted, j));
-      sigmax::transform(A, b, mode(record_[k].step.state.estimates, j));
-    });
+    for_each_mode(record_[k].step.state.estimates,
+                  [&](auto j) { sigmax::transform(A, b, mode(record_[k].step.state.estimates, j)); });
+    for (auto& evidence : record_[k].step.seen) evidence.transform(A);
     if (record_[k].is_start) break;
   }
   return true;
@@ -321,13 +328,14 @@ void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
     for (end = first; end < record_.size() && (end == first || !record_[end].is_start); ++end)
       states.push_back(record_[end].step.state);
     try {
-      for (std::size_t k = end - first; k-- > 1;) {
-        states[k - 1] = states[k];
-        smoother.step(record_[first + k - 1].step.state, record_[first + k].step, states[k - 1]);
+      smoother.begin(record_[end - 1].step);
+      for (std::size_t k = end - 1; k-- > first;) {
+        smoother.step(record_[k].step);
+        states[k - first] = smoother.state();
       }
     } catch (const std::domain_error& error) {
       throw std::domain_error("smoothing back to the start at " + std::to_string(record_[first].time) +
-                              " s, which needs variances above 0: " + error.what());
+                              " s: " + error.what());
     }
     for (std::size_t k = first; k < end; ++k) visit(record_[k], states[k - first]);
   }

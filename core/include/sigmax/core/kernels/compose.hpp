@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <type_traits>
 #include <variant>
-#include <vector>
 
 #include <sigmax/core/kernels/dense.hpp>
 #include <sigmax/core/kernels/sparse.hpp>
@@ -32,7 +31,7 @@ inline bool is_banded(const BandedRows& left, const BandedRows& right) {
 }
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), stored as fits: dense if a part of it must be, banded if both parts
-/// are, else sparse. `winners` is NoWinners, or gets the first j for every number that the result stores, in its order.
+/// are, else sparse. `winners` is FirstWinners or NoWinners.
 template <Algebra A, class Winners>
 void compose(const AnyRows& left, const AnyRows& right, AnyRows& result, Winners& winners) {
   std::visit(
@@ -47,16 +46,13 @@ void compose(const AnyRows& left, const AnyRows& right, AnyRows& result, Winners
         if constexpr (!std::is_same_v<Left, Table>)
           if (is_sparse(l, r)) {
             SparseRows rows = sparse_composition<A>(l, r, winners);
-            if (wants_winners<Winners> || rows.stored() < rows.rows() * rows.columns() / 2)
+            if (Winners::wanted || rows.stored() < rows.rows() * rows.columns() / 2)
               result = std::move(rows);
             else
               result = dense_table(rows);
             return;
           }
-        if constexpr (wants_winners<Winners>)
-          compose<A>(l, r, as_table(result), winners);
-        else
-          compose<A>(l, r, as_table(result));
+        compose<A>(l, r, as_table(result), winners);
       },
       left, right);
 }

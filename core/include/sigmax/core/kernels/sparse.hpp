@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,13 +12,8 @@
 
 namespace sigmax::kernels {
 
-/// In place of the winners where none are asked for.
-struct NoWinners {};
-template <class Winners>
-inline constexpr bool wants_winners = !std::is_same_v<Winners, NoWinners>;
-
-/// One row of a sparse result while it grows: indexed by column, a column becomes one of the row, its number ⊕ of
-/// nothing.
+/// One row of a sparse result while it grows, indexed by column. Touching a column adds it to the row with the value
+/// zero().
 template <Algebra A>
 class GrowingRow {
   struct Slot {  // what is read together lies together
@@ -44,12 +38,22 @@ class GrowingRow {
     return slot.number;
   }
 
-  /// The winners, by column.
-  struct Winners {
-    std::vector<Slot>& slots;
-    Winner& operator[](std::size_t column) { return slots[column].winner; }
+  /// What takes note of the winners, by column, if `winners` wants them.
+  struct Notes {
+    static constexpr bool wanted = true;
+    Slot* slots;
+    void note(std::size_t column, bool better, Winner index, double) const {
+      slots[column].winner = better ? index : slots[column].winner;
+    }
   };
-  Winners winners() { return {slots_}; }
+  template <class Winners>
+  auto notes_for(const Winners& winners) {
+    if constexpr (Winners::wanted)
+      return Notes{slots_.data()};
+    else
+      return winners;
+  }
+  Winner winner(std::size_t column) const { return slots_[column].winner; }
 
   /// The columns in ascending order.
   const std::vector<std::size_t>& columns() {
@@ -72,27 +76,23 @@ class GrowingRow {
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
-/// last bit. `winners` gets the first j for every number stored, or is NoWinners.
+/// last bit. `winners` is FirstWinners or NoWinners.
 template <Algebra A, class Left, class Right, class Winners>
 SparseRows sparse_composition(const Left& left, const Right& right, Winners& winners) {
   SparseRows result(left.columns());
   GrowingRow<A> row(left.columns());
-  auto row_winners = row.winners();
-  if constexpr (wants_winners<Winners>) winners.clear();
+  const auto notes = row.notes_for(winners);
+  winners.assign(0);
   for (std::size_t i = 0; i < right.rows(); ++i) {
     row.begin(static_cast<Winner>(i));
     const auto weights = right.entries(i);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       if (weights.value(j) == A::zero()) continue;
-      const auto terms = left.entries(weights.index(j));
-      if constexpr (wants_winners<Winners>)
-        accumulate<A>(weights.value(j), terms, row, static_cast<Winner>(weights.index(j)), row_winners);
-      else
-        accumulate<A>(weights.value(j), terms, row);
+      accumulate<A>(weights.value(j), left.entries(weights.index(j)), row, weights.index(j), notes);
     }
     for (const std::size_t column : row.columns()) {
       result.append_entry(column, row[column]);
-      if constexpr (wants_winners<Winners>) winners.push_back(row_winners[column]);
+      winners.append(row.winner(column));
     }
     result.end_row();
   }
@@ -118,24 +118,19 @@ inline Reach reach(const BandedRows& left, const RunOfEntries& weights) {
 template <Algebra A, class Winners>
 BandedRows banded_composition(const BandedRows& left, const BandedRows& right, Winners& winners) {
   BandedRows result(left.columns());
-  if constexpr (wants_winners<Winners>) winners.clear();
+  winners.assign(0);
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const RunOfEntries weights = right.entries(i);
     const Reach all = reach(left, weights);
     const std::size_t first = all.size() > 0 ? all.first : 0;
     result.append(first, all.size(), A::zero());
-    if constexpr (wants_winners<Winners>) winners.resize(result.stored(), 0);
+    winners.resize(result.stored());
     double* const out = result.values(i).data();
     for (std::size_t j = 0; j < weights.size(); ++j) {
       RunOfEntries terms = left.entries(weights.index(j));
       if (terms.size() == 0) continue;
       terms.first -= first;
-      if constexpr (wants_winners<Winners>) {
-        Winner* const won = winners.data() + result.offset(i);
-        accumulate<A>(weights.value(j), terms, out, static_cast<Winner>(weights.index(j)), won);
-      } else {
-        accumulate<A>(weights.value(j), terms, out);
-      }
+      accumulate<A>(weights.value(j), terms, out, weights.index(j), winners.from(result.offset(i)));
     }
   }
   return result;

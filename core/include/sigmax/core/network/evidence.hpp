@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -24,7 +25,7 @@ class Evidence {
   };
   struct Weights {
     NetworkVariable variable;
-    std::vector<double> logs;
+    std::vector<ScaledNumber> numbers;  ///< one for every outcome
   };
 
   Evidence() = default;
@@ -39,7 +40,9 @@ class Evidence {
 
   template <NetworkKind Kind>
   Evidence& observe(const Likelihood<Kind>& likelihood) {
-    likelihoods_.push_back({likelihood.variable(), likelihood.all_logs()});
+    Weights weights{likelihood.variable(), {}};
+    for (std::size_t i = 0; i < likelihood.size(); ++i) weights.numbers.push_back(likelihood.number(i));
+    likelihoods_.push_back(std::move(weights));
     return *this;
   }
 

@@ -62,9 +62,9 @@ class NetworkAnswer {
   /// The likelihood reading of the one variable asked for.
   template <NetworkKind Kind>
   Likelihood<Kind> likelihood() const {
-    Likelihood<Kind> result{only<Kind>()};
-    for (std::size_t i = 0; i < values_.size(); ++i) result.set_log(i, values_[i].log());
-    return result;
+    typename Likelihood<Kind>::Row row(values_.size(), 0.0);
+    for (std::size_t i = 0; i < values_.size(); ++i) row[i] = values_[i];
+    return {only<Kind>(), std::move(row), detail::ByLaw{}};
   }
 
   const Elimination& elimination() const& { return elimination_; }

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <sigmax/core/kernels/unbounded_row.hpp>
+#include <sigmax/core/rows.hpp>
+
+#include "support/near.hpp"
+
+namespace sigmax::kernels {
+namespace {
+
+using support::near;
+
+constexpr double subnormal = std::numeric_limits<double>::denorm_min();
+constexpr double least = std::numeric_limits<double>::min();
+
+TEST(Raised, IsTheNumberTimesAPowerOfTwo) {
+  for (const double value : {0.0, 1.0, 0.1, 1e-300, least}) EXPECT_EQ(raised(value), value * 0x1p512);
+  EXPECT_EQ(raised(subnormal), 0x1p-562);
+  EXPECT_EQ(raised(least - subnormal), std::ldexp(0x1p52 - 1.0, -562));
+  EXPECT_EQ(raised(-0.0), 0.0);
+  EXPECT_FALSE(std::signbit(raised(-0.0)));
+}
+
+/// Numbers so far apart that no double holds them together, through a table of ones, subnormals and zeros.
+TEST(UnboundedRow, ComposesInBandsWhatDoublesCannotHoldTogether) {
+  Table table(3, 4);
+  const std::vector<double> rows{1.0, 0.0, 0.0, subnormal, 1.0, 1.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+  std::copy(rows.begin(), rows.end(), table.data());
+  UnboundedRow row(std::vector{1.0, 0.5, 0.25});
+  row[1] = row[1] * ScaledNumber(1.0, -1000);
+  row[2] = row[2] * ScaledNumber(1.0, -5000);
+  UnboundedRow sum, max;
+  NoWinners none;
+  FirstWinners winners;
+  sum.assign_composition<Sigma>(table, row, none);
+  max.assign_composition<Max>(table, row, winners);
+  for (const UnboundedRow* const result : {&sum, &max}) {
+    EXPECT_EQ((*result)[0], ScaledNumber(1.0));
+    EXPECT_EQ((*result)[1], ScaledNumber(1.0, -1001));
+    EXPECT_EQ((*result)[2], ScaledNumber(1.0, -5002));
+    EXPECT_EQ((*result)[3], ScaledNumber(1.0, -1002));  // ½ · 2^−1001, above 2^−1074
+  }
+  EXPECT_EQ(winners.all, (std::vector<Winner>{0, 1, 2, 1}));
+}
+
+TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
+  Table table(3, 1, 1.0);
+  table(1, 0) = 0x1p-1000;
+  UnboundedRow row(std::vector{1.0, 1.0, 1.0}), result;
+  row[0] = row[0] * ScaledNumber(1.0, -1000);  // a tie with 1 · 2^−1000, of another band
+  row[2] = ScaledNumber{};
+  FirstWinners winners;
+  result.assign_composition<Max>(table, row, winners);
+  EXPECT_EQ(winners.all, (std::vector<Winner>{0}));
+  EXPECT_EQ(result[0], ScaledNumber(1.0, -1000));
+}
+
+TEST(UnboundedRow, CarriesEvidenceBackInBands) {
+  Table table(2, 3);
+  const std::vector<double> rows{0.5, subnormal, 0.0, 0.0, 0.25, 0.75};
+  std::copy(rows.begin(), rows.end(), table.data());
+  UnboundedRow after(std::vector{0.0, 1.0, 0.5}), sum, max;
+  after[2] = after[2] * ScaledNumber(1.0, -3000);
+  sum.assign_carried_back<Sigma>(table, after);
+  max.assign_carried_back<Max>(table, after);
+  for (const UnboundedRow* const result : {&sum, &max}) {
+    EXPECT_EQ((*result)[0], ScaledNumber(subnormal));
+    EXPECT_EQ((*result)[1], ScaledNumber(0.25));
+  }
+}
+
+TEST(UnboundedRow, OfZerosStaysZero) {
+  const UnboundedRow row(std::vector{0.0, -0.0});
+  EXPECT_TRUE(row.is_zero());
+  UnboundedRow result;
+  NoWinners none;
+  result.assign_composition<Sigma>(Table(2, 3, 1.0), row, none);
+  EXPECT_EQ(result.size(), 3U);
+  EXPECT_TRUE(result.is_zero());
+  EXPECT_EQ(result.log_total<Sigma>(), log_zero);
+}
+
+TEST(PlainRow, IsMaxMin) {
+  const PlainRow<MaxMin> before(std::vector{0.5, 1.0});
+  Table table(2, 2);
+  table(0, 0) = 1.0, table(0, 1) = 0.25, table(1, 0) = 0.75, table(1, 1) = 0.5;
+  FirstWinners winners;
+  PlainRow<MaxMin> row, back;
+  row.assign_composition<MaxMin>(table, before, winners);
+  EXPECT_EQ(row[0], 0.75);
+  EXPECT_EQ(row[1], 0.5);
+  EXPECT_EQ(row.greatest(), 0U);
+  EXPECT_EQ(winners.all, (std::vector<Winner>{1, 1}));
+  back.assign_carried_back<MaxMin>(table, before);
+  EXPECT_EQ(back[0], 0.5);
+  EXPECT_EQ(back[1], 0.5);
+}
+
+}  // namespace
+}  // namespace sigmax::kernels
