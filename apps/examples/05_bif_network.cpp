@@ -3,7 +3,7 @@
 #include <iostream>
 #include <sstream>
 
-#include <sigmax/core/bif.hpp>
+#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/measure.hpp>
 #include <sigmax/core/network/transform.hpp>

@@ -15,7 +15,7 @@ template <Uncertainty Kind>  // nothing else tells sums from maxima
 Study::Estimates follow(const std::vector<double>& measurements, apps::Plot& last_belief) {
   GridFilter<Kind, 1> filter{Grid<1>{Vector<1>{-20.0}, Vector<1>{20.0}, Vector<1>{0.2}},
                              [](const Vector<1>& x) { return -0.5 * x(0) * x(0) / 5.0; },
-                             {.negligible = 1e-9, .cells = 40, .most = 10000}};
+                             {.negligible = 1e-9, .cells = 200, .most = 10000}};
   Study::Estimates estimates;
   for (int k = 1; const double z : measurements) {
     filter.predict([k](const Vector<1>& x) { return Vector<1>{grown(x(0), k)}; }, SquareMatrix<1>{variance_w});

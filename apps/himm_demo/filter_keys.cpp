@@ -93,7 +93,8 @@ Key<Owner> number(std::string name, std::string meaning, Of of, Range range, dou
 
 /// The same where there may be none.
 template <class Owner>
-FilterKey optional_number(std::string name, std::string meaning, std::optional<double> Owner::*member, Range range) {
+FilterKey optional_number(const std::string& name, std::string meaning, std::optional<double> Owner::*member,
+                          Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),
@@ -179,7 +180,8 @@ FilterKey models() {
 }
 
 /// The transition of one kind of mode. That of the other kind is read too, so that it is no unknown key.
-FilterKey transition(std::string name, std::string meaning, std::string values, std::string by_default, bool fuzzy) {
+FilterKey transition(const std::string& name, std::string meaning, std::string values, std::string by_default,
+                     bool fuzzy) {
   return {name,
           std::move(meaning),
           std::move(values),

@@ -1,24 +1,38 @@
-#include "recognition_demo/classify.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/subcommands.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/progress.hpp"
-#include "support/table.hpp"
+#include "support/result_files.hpp"
+#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ClassifyOptions {
+  std::string model;
+  std::string file;
+  bool explain = false;
+  std::size_t rows = 5;       ///< how many rows to show
+  double least_margin = 0.0;  ///< decisions with a smaller margin are rejected
+  std::string unseen = "refuse";
+  OutputOptions output;
+};
 
 /// What a classifier decided over all rows.
 struct Tally {
@@ -27,6 +41,11 @@ struct Tally {
   std::size_t right = 0;     ///< of the decided rows whose class is known
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
+
+  std::optional<double> accuracy() const {
+    if (judged == 0) return std::nullopt;
+    return static_cast<double>(right) / static_cast<double>(judged);
+  }
 };
 
 /// One row that is shown.
@@ -40,52 +59,78 @@ struct ShownRow {
 /// Reads the rows of a file in the code of a model.
 class RowReader {
  public:
-  RowReader(const LearnedModel& model, const CsvReader& reader) : model_(model), label_(reader.find(model.label)) {
+  RowReader(const LearnedModel& model, const CsvReader& reader, bool unseen_is_missing)
+      : model_(model),
+        missing_(model.missing),
+        unseen_is_missing_(unseen_is_missing),
+        label_(reader.find(model.label)) {
     for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
   }
 
   bool has_truth() const { return label_.has_value(); }
 
-  Readings readings(const CsvRow& row) const {
+  Readings readings(const CsvRow& row) {
     Readings result;
     for (std::size_t i = 0; i < columns_.size(); ++i) result.push_back(reading(row, i));
     return result;
   }
 
   /// The class of a row, if it is given.
-  std::optional<std::size_t> truth(const CsvRow& row) const {
-    if (!label_ || is_missing(row[*label_])) return std::nullopt;
+  std::optional<std::size_t> truth(const CsvRow& row) {
+    if (!label_ || missing_(row[*label_])) return std::nullopt;
     const auto& pattern = model_.counts.pattern();
     const std::string_view cell = trimmed(row[*label_]);
     for (std::size_t c = 0; c < pattern.size(); ++c)
       if (pattern.label(c) == cell) return c;
     std::vector<std::string> names;
     for (std::size_t c = 0; c < pattern.size(); ++c) names.push_back(pattern.label(c));
-    throw row.error(*label_, "a class of the model: " + shown(names), "leave the cell empty if the class is not known");
+    unseen(row.error(*label_, "a class of the model: " + shown(names), remedy));
+    return std::nullopt;
   }
 
+  /// How many cells held what the model does not know, and the first of them.
+  std::size_t unseen_cells() const { return unseen_cells_; }
+  const std::string& first_unseen() const { return first_unseen_; }
+
  private:
+  static constexpr const char* remedy =
+      "leave the cell empty, or have all such cells counted as missing by --unseen missing";
+
   static std::string shown(const std::vector<std::string>& names) {
     constexpr std::size_t most = 12;
     const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
     return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), names.size() > most ? ", …" : "");
   }
 
-  std::size_t reading(const CsvRow& row, std::size_t i) const {
+  /// Counts what is to be taken as missing, or throws.
+  std::size_t unseen(const InputError& error) {
+    if (!unseen_is_missing_) throw error;
+    if (unseen_cells_++ == 0) first_unseen_ = error.what();
+    return missing;
+  }
+
+  std::size_t reading(const CsvRow& row, std::size_t i) {
     const FeatureCode& feature = model_.features[i];
     const std::string_view cell = trimmed(row[columns_[i]]);
-    if (is_missing(cell)) return missing;
-    if (feature.bins) return feature.bins->bin(row.number(columns_[i]));
+    if (feature.bins) {
+      if (missing_.among_numbers(cell)) return missing;
+      if (const auto number = parse_number(cell)) return feature.bins->bin(*number);
+      return unseen(row.error(columns_[i], "a finite number with a decimal point", remedy));
+    }
+    if (missing_(cell)) return missing;
     const auto found = std::find(feature.values.begin(), feature.values.end(), cell);
     if (found == feature.values.end())
-      throw row.error(columns_[i], "a value that the model knows: " + shown(feature.values),
-                      "leave the cell empty to have it counted as missing");
+      return unseen(row.error(columns_[i], "a value that the model knows: " + shown(feature.values), remedy));
     return static_cast<std::size_t>(found - feature.values.begin());
   }
 
   const LearnedModel& model_;
+  MissingWords missing_;
+  bool unseen_is_missing_;
   std::optional<std::size_t> label_;
   std::vector<std::size_t> columns_;
+  std::size_t unseen_cells_ = 0;
+  std::string first_unseen_;
 };
 
 template <class Kind>
@@ -102,7 +147,8 @@ std::string number(double value) {
 }
 
 template <class Kind>
-void print_explanation(const std::string& name, Classifier<Kind, Kind> classifier, const Readings& readings) {
+void print_explanation(const OutputOptions& options, const std::string& name, Classifier<Kind, Kind> classifier,
+                       const Readings& readings) {
   classifier.reset();
   try {
     classifier.observe(readings);
@@ -115,10 +161,11 @@ void print_explanation(const std::string& name, Classifier<Kind, Kind> classifie
   auto why = explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]);
   std::stable_sort(why.contributions.begin(), why.contributions.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
-  TextTable table({{fmt::format("{}: {} rather than {}, because", name, pattern.label(best[0]), pattern.label(best[1])),
-                    Align::left},
-                   {"the same of " + pattern.label(best[1])},
-                   {"log of the ratio"}});
+  ResultTable table(
+      {{.header = fmt::format("{}: {} rather than {}, because", name, pattern.label(best[0]), pattern.label(best[1])),
+        .align = Align::left},
+       {.header = "the same of " + pattern.label(best[1])},
+       {.header = "log of the ratio"}});
   table.row({fmt::format("before any reading: {} = {:.4g}", pattern.label(best[0]), classifier.prior()[best[0]]),
              number(classifier.prior()[best[1]]), number(why.log_prior_ratio)});
   for (const Contribution& each : why.contributions)
@@ -127,140 +174,215 @@ void print_explanation(const std::string& name, Classifier<Kind, Kind> classifie
   table.row({fmt::format("{} = {:.4g}", pattern.label(best[0]), classifier.belief()[best[0]]),
              number(classifier.belief()[best[1]]), number(why.log_ratio())});
   fmt::print("\n");
-  table.print();
+  table.print(options.width());
 }
 
-}  // namespace
+/// The rows of a file, classified one after the other.
+struct Classified {
+  std::size_t rows = 0;
+  std::vector<Tally> tallies;
+  std::vector<ShownRow> shown;
+};
 
-void classify_and_report(const ClassifyOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
-  const ModelFile model_file = read_model(options.model);
-  const LearnedModel& model = model_file.model;
-  const auto& pattern = model.counts.pattern();
-  auto all = classifiers(model, model_file.kinds);
+ResultTable predictions_table(const RandomVariable& pattern, bool has_truth) {
+  std::vector<ResultColumn> columns = {{.key = "line"}};
+  if (has_truth) columns.push_back({.key = "truth"});
+  for (const char* key : {"classifier", "decision", "margin"}) columns.push_back({.key = key});
+  for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({.key = pattern.label(c)});
+  return ResultTable(std::move(columns));
+}
 
-  CsvReader reader{options.file};
-  const RowReader rows(model, reader);
-  std::optional<AtomicFile> file;
-  if (directory) {
-    file.emplace(directory->file("predictions.csv"));
-    file->print("line{},classifier,decision,margin", rows.has_truth() ? ",truth" : "");
-    for (std::size_t c = 0; c < pattern.size(); ++c) file->print(",{}", csv_field(pattern.label(c)));
-    file->write("\n");
+/// What one classifier says of one row: counts it, shows it, and writes it to the file if there is one.
+class Judge {
+ public:
+  Judge(const ClassifyOptions& options, const RandomVariable& pattern, bool has_truth, AtomicFile* file)
+      : options_(options), has_truth_(has_truth), file_(file), predictions_(predictions_table(pattern, has_truth)) {
+    if (file_) file_->write(predictions_.csv_header());
   }
 
-  std::vector<Tally> tallies(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
-  std::vector<ShownRow> shown;
-  std::size_t count = 0;
-  Progress progress("classifying", reader.bytes_total().value_or(0), options.quiet || !reader.bytes_total());
-  for (CsvRow row; reader.next(row); ++count) {
+  template <class Kind>
+  void operator()(const std::string& name, const Belief<Kind>& belief, std::optional<std::size_t> truth,
+                  std::size_t line, Tally& tally, ShownRow* show) {
+    const Decision decision = decide(belief);
+    const bool rejected = decision.margin < options_.least_margin;
+    if (rejected) {
+      ++tally.rejected;
+    } else {
+      ++tally.decided[decision.pattern];
+      if (truth) ++tally.judged;
+      if (truth == decision.pattern) ++tally.right;
+    }
+    if (show) show->decisions.push_back(described(belief, options_.least_margin));
+    if (!file_) return;
+    const auto label = [&](std::size_t c) { return belief.variable().label(c); };
+    std::vector<Cell> cells = {line};
+    if (has_truth_) cells.emplace_back(truth ? label(*truth) : "");
+    const std::vector<Cell> said = {name, rejected ? Cell() : Cell(label(decision.pattern)), decision.margin};
+    cells.insert(cells.end(), said.begin(), said.end());
+    for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+    file_->write(predictions_.csv_line(cells));
+  }
+
+ private:
+  const ClassifyOptions& options_;
+  bool has_truth_;
+  AtomicFile* file_;
+  ResultTable predictions_;
+};
+
+Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, std::vector<Contestant>& all,
+                        CsvReader& reader, RowReader& rows, AtomicFile* file) {
+  const auto& pattern = model.counts.pattern();
+  Judge judge(options, pattern, rows.has_truth(), file);
+  Classified result;
+  result.tallies.assign(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
+  Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
+  for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings report = rows.readings(row);
     const auto truth = rows.truth(row);
-    const std::string truth_label = truth ? pattern.label(*truth) : "";
     ShownRow* const show =
-        count < options.rows ? &shown.emplace_back(ShownRow{row.line(), truth_label, report, {}}) : nullptr;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Tally& tally = tallies[i];
+        result.rows < options.rows
+            ? &result.shown.emplace_back(ShownRow{row.line(), truth ? pattern.label(*truth) : "", report, {}})
+            : nullptr;
+    for (std::size_t i = 0; i < all.size(); ++i)
       std::visit(
           [&](auto& classifier) {
             classifier.reset();
             try {
               classifier.observe(report);
             } catch (const std::domain_error&) {
-              ++tally.excluded;  // the prior is what is left to say
+              ++result.tallies[i].excluded;  // the prior is what is left to say
             }
-            const auto& belief = classifier.log_belief();
-            const Decision decision = decide(belief);
-            const bool rejected = decision.margin < options.least_margin;
-            if (rejected) {
-              ++tally.rejected;
-            } else {
-              ++tally.decided[decision.pattern];
-              if (truth) ++tally.judged;
-              if (truth == decision.pattern) ++tally.right;
-            }
-            if (show) show->decisions.push_back(described(belief, options.least_margin));
-            if (!file) return;
-            file->print("{}", row.line());
-            if (rows.has_truth()) file->print(",{}", csv_field(truth_label));
-            file->print(",{},{},{}", csv_field(all[i].name), rejected ? "" : csv_field(pattern.label(decision.pattern)),
-                        shortest(decision.margin));
-            for (std::size_t c = 0; c < belief.size(); ++c) file->print(",{}", shortest(belief[c]));
-            file->write("\n");
+            judge(all[i].name, classifier.log_belief(), truth, row.line(), result.tallies[i], show);
           },
           all[i].classifier);
-    }
     progress.advance(reader.bytes_read() - progress.done());
   }
   progress.finish();
-  if (count == 0) throw InputError(message({.where = options.file, .what = "there is no row below the header"}));
+  return result;
+}
 
-  fmt::print("{}: {} rows, by {}\n\n", options.file, count, options.model);
-  std::vector<TextTable::Column> columns = {{"line", Align::right}};
-  if (rows.has_truth()) columns.push_back({model.label, Align::left});
-  for (const Contestant& contestant : all) columns.push_back({contestant.name, Align::left});
-  if (!shown.empty()) {
-    TextTable table(columns);
-    for (const ShownRow& row : shown) {
-      std::vector<std::string> cells = {fmt::format("{}", row.line)};
-      if (rows.has_truth()) cells.push_back(row.truth);
-      cells.insert(cells.end(), row.decisions.begin(), row.decisions.end());
-      table.row(cells);
-    }
-    table.print();
-    fmt::print("\n");
+ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<Contestant>& all,
+                        const std::vector<ShownRow>& shown) {
+  std::vector<ResultColumn> columns = {{.header = "line"}};
+  if (has_truth) columns.push_back({.header = label, .align = Align::left});
+  for (const Contestant& contestant : all) columns.push_back({.header = contestant.name, .align = Align::left});
+  ResultTable table(std::move(columns));
+  for (const ShownRow& row : shown) {
+    std::vector<Cell> cells = {row.line};
+    if (has_truth) cells.emplace_back(row.truth);
+    cells.insert(cells.end(), row.decisions.begin(), row.decisions.end());
+    table.row(std::move(cells));
   }
+  return table;
+}
 
-  std::vector<TextTable::Column> totals = {{fmt::format("all {} rows", count), Align::left}};
+ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const std::vector<Contestant>& all,
+                         const Classified& result) {
   constexpr std::size_t most_classes = 10;
-  const bool by_class = pattern.size() <= most_classes;
-  if (by_class)
-    for (std::size_t c = 0; c < pattern.size(); ++c) totals.push_back({pattern.label(c)});
-  totals.push_back({"rejected"});
-  if (rows.has_truth()) totals.push_back({"right, % of the decided"});
-  TextTable table(totals);
+  const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
+  std::vector<ResultColumn> columns = {{.header = fmt::format("all {} rows", result.rows), .align = Align::left}};
+  for (std::size_t c = 0; c < shown_classes; ++c) columns.push_back({.header = pattern.label(c)});
+  columns.push_back({.header = "rejected"});
+  if (has_truth) columns.push_back({.header = "right, % of the decided", .scale = 100.0});
+  ResultTable table(std::move(columns));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<std::string> cells = {all[i].name};
-    if (by_class)
-      for (const std::size_t decided : tallies[i].decided) cells.push_back(fmt::format("{}", decided));
-    cells.push_back(fmt::format("{}", tallies[i].rejected));
-    if (rows.has_truth())
-      cells.push_back(tallies[i].judged == 0 ? "–"
-                                             : fmt::format("{:.2f}", 100.0 * static_cast<double>(tallies[i].right) /
-                                                                         static_cast<double>(tallies[i].judged)));
-    table.row(cells);
+    const Tally& tally = result.tallies[i];
+    std::vector<Cell> cells = {all[i].name};
+    for (std::size_t c = 0; c < shown_classes; ++c) cells.emplace_back(tally.decided[c]);
+    cells.emplace_back(tally.rejected);
+    if (has_truth) cells.emplace_back(tally.accuracy());
+    table.row(std::move(cells));
   }
-  table.print();
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (tallies[i].excluded > 0)
-      fmt::print("{}: {} rows excluded every class and were judged by the prior\n", all[i].name, tallies[i].excluded);
+  return table;
+}
 
-  if (options.explain)
-    for (const ShownRow& row : shown) {
-      fmt::print("\nline {}\n", row.line);
-      for (const Contestant& contestant : all)
-        std::visit([&](const auto& classifier) { print_explanation(contestant.name, classifier, row.readings); },
-                   contestant.classifier);
-    }
-
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+Json summary_of_rows(const ClassifyOptions& options, const RandomVariable& pattern, const std::vector<Contestant>& all,
+                     const Classified& result, const RowReader& rows) {
+  Json summary = summary_of(options.output);
   summary["model"] = options.model;
   summary["file"] = options.file;
-  summary["rows"] = count;
+  summary["rows"] = result.rows;
   summary["least_margin"] = options.least_margin;
+  if (rows.unseen_cells() > 0) summary["unseen_cells_counted_as_missing"] = rows.unseen_cells();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const Tally& tally = result.tallies[i];
     Json one;
-    for (std::size_t c = 0; c < pattern.size(); ++c) one["decided"][pattern.label(c)] = tallies[i].decided[c];
-    one["rejected"] = tallies[i].rejected;
-    if (tallies[i].judged > 0)
-      one["accuracy_of_the_decided"] = static_cast<double>(tallies[i].right) / static_cast<double>(tallies[i].judged);
+    for (std::size_t c = 0; c < pattern.size(); ++c) one["decided"][pattern.label(c)] = tally.decided[c];
+    one["rejected"] = tally.rejected;
+    if (tally.judged > 0) one["accuracy_of_the_decided"] = *tally.accuracy();
     summary["classifiers"][all[i].name] = one;
   }
-  AtomicFile summary_json = summary_file(summary, *directory);
-  commit_all(*file, summary_json);
-  print_written({"predictions.csv", "summary.json"}, options.out);
+  return summary;
+}
+
+void run_classify(const ClassifyOptions& options) {
+  ResultFiles files(options.output);
+  const ModelFile model_file = read_model(options.model);
+  const LearnedModel& model = model_file.model;
+  const auto& pattern = model.counts.pattern();
+  auto all = classifiers(model, model_file.kinds);
+
+  CsvReader reader = open_csv(options.file);
+  RowReader rows(model, reader, options.unseen == "missing");
+  const Classified result = classify_all(options, model, all, reader, rows, files.open("predictions.csv"));
+  if (result.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+
+  print_text(options.output, fmt::format("{}: {} rows, by {}\n\n", reader.file(), result.rows, options.model));
+  if (rows.unseen_cells() > 0)
+    print_text(options.output, fmt::format("{} cells count as missing, since the model does not know them; the first: "
+                                           "{}\n\n",
+                                           rows.unseen_cells(), rows.first_unseen()));
+  if (!result.shown.empty()) {
+    shown_table(model.label, rows.has_truth(), all, result.shown).print(options.output.width());
+    fmt::print("\n");
+  }
+  totals_table(pattern, rows.has_truth(), all, result).print(options.output.width());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (result.tallies[i].excluded > 0)
+      print_text(options.output, fmt::format("{}: {} rows excluded every class and were judged by the prior",
+                                             all[i].name, result.tallies[i].excluded));
+  if (options.explain)
+    for (const ShownRow& row : result.shown) {
+      fmt::print("\nline {}\n", row.line);
+      for (const Contestant& contestant : all)
+        std::visit(
+            [&](const auto& classifier) {
+              print_explanation(options.output, contestant.name, classifier, row.readings);
+            },
+            contestant.classifier);
+    }
+  files.write_json("summary.json", summary_of_rows(options, pattern, all, result, rows));
+  files.commit();
+}
+
+}  // namespace
+
+void add_classify(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<ClassifyOptions>();
+  options->output.command = command;
+  CLI::App& app = *program.add_subcommand("classify", "Classifies the rows of a file by a model.");
+  app.add_option("model", options->model, "A model that `train` wrote")->required()->type_name("MODEL.json");
+  app.add_option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
+      ->required()
+      ->type_name("DATA");
+  app.add_flag("--explain", options->explain, "Say why, for the rows that are shown");
+  app.add_option("--rows", options->rows, "How many rows to show")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  app.add_option("--least-margin", options->least_margin,
+                 "Reject decisions whose lead in probability, or necessity, is smaller")
+      ->check(number_in(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
+      ->check(CLI::IsMember({"refuse", "missing"}))
+      ->capture_default_str();
+  add_output(app, options->output);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
+      "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
+  app.callback([options] { run_classify(*options); });
 }
 
 }  // namespace sigmax::apps

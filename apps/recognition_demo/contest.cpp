@@ -1,17 +1,12 @@
 #include "recognition_demo/contest.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/recognition/decision.hpp>
-
-#include "support/parallel.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -75,47 +70,42 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
   return follow_reports(contestant, truth, reports);
 }
 
-std::vector<Score> score(const std::vector<Contestant>& contestants, std::size_t runs, int threads,
-                         const std::function<RunTraces(std::size_t run)>& trace,
-                         const std::function<void(std::size_t run, const RunTraces& traces)>& see) {
-  std::vector<Score> scores(contestants.size());
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    scores[i].name = contestants[i].name;
-    scores[i].fuzzy = is_fuzzy(contestants[i]);
+Scoreboard::Scoreboard(const std::vector<Contestant>& contestants) {
+  for (const Contestant& contestant : contestants) {
+    same_.emplace_back(sums_.size(), true);
+    sums_.push_back(
+        {.name = contestant.name, .fuzzy = is_fuzzy(contestant), .has_possibilities = contestant.has_possibilities});
   }
-  for_each_run(runs, threads, trace, [&](std::size_t run, const RunTraces& result) {
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      const Trace& one = result.traces[i];
-      Score& all = scores[i];
-      all.accuracy.resize(one.credit.size(), 0.0);
-      for (std::size_t k = 0; k < one.credit.size(); ++k) all.accuracy[k] += one.credit[k];
-      all.final_credits.push_back(one.credit.back());
-      all.belief_in_truth += one.belief[result.truth];
-      double others = 0.0;
-      for (std::size_t c = 0; c < one.belief.size(); ++c)
-        if (c != result.truth) others = std::max(others, one.belief[c]);
-      all.necessity_of_truth += 1.0 - others;
-      if (one.credit.back() > 0.0 && one.credit.back() < 1.0) all.ties += 1.0;
-      all.refused += one.refused;
-    }
-    see(run, result);
-  });
-  const auto n = static_cast<double>(runs);
-  for (Score& all : scores) {
-    for (double& value : all.accuracy) value /= n;
-    all.belief_in_truth /= n;
-    all.necessity_of_truth /= n;
-    all.ties /= n;
+}
+
+void Scoreboard::add(const RunTraces& run) {
+  const auto last = [&](std::size_t i) { return run.traces[i].credit.back(); };
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Trace& trace = run.traces[i];
+    Score& sum = sums_[i];
+    sum.accuracy.resize(trace.credit.size(), 0.0);
+    for (std::size_t k = 0; k < trace.credit.size(); ++k) sum.accuracy[k] += trace.credit[k];
+    sum.minus_first.add(last(i) - last(0));
+    sum.belief_in_truth += trace.belief[run.truth];
+    sum.necessity_of_truth += 1.0 - greatest_other(trace.belief, run.truth);
+    if (last(i) > 0.0 && last(i) < 1.0) sum.ties += 1.0;
+    sum.refused += trace.refused;
+    for (std::size_t j = 0; j < i; ++j)
+      if (last(j) != last(i)) same_[i][j] = false;
+  }
+  ++runs_;
+}
+
+std::vector<Score> Scoreboard::scores() const {
+  std::vector<Score> scores = sums_;
+  const auto n = static_cast<double>(runs_);
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    Score& score = scores[i];
+    for (double& value : score.accuracy) value /= n;
+    for (double* value : {&score.belief_in_truth, &score.necessity_of_truth, &score.ties}) *value /= n;
+    score.same_as = static_cast<std::size_t>(std::find(same_[i].begin(), same_[i].end(), true) - same_[i].begin());
   }
   return scores;
 }
-
-Interval paired_difference(const Score& a, const Score& b) { return paired_interval(a.final_credits, b.final_credits); }
-
-std::string points(const Interval& difference) {
-  return fmt::format("{:+.2f} ± {:.2f}", 100.0 * difference.mean, 100.0 * difference.half_width);
-}
-
-std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share); }
 
 }  // namespace sigmax::apps

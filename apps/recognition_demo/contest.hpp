@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +25,7 @@ struct Contestant {
   std::variant<SigmaClassifier, MaxClassifier> classifier;
   /// For a sigma classifier of something finer than the pattern: the pattern of each of its outcomes.
   std::optional<Relation<Random, Random>> pattern_given_state = std::nullopt;
+  bool has_possibilities = true;  ///< anywhere: of the pattern, of the feature, or of the reading
 };
 
 /// What a classifier made of one run.
@@ -53,12 +52,14 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
 struct Score {
   std::string name;
   bool fuzzy = false;
-  std::vector<double> accuracy;       ///< mean credit after 1, 2, … reports
-  std::vector<double> final_credits;  ///< of every run, after its last report
-  double belief_in_truth = 0.0;       ///< mean probability or possibility of the truth after the last report
-  double necessity_of_truth = 0.0;    ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
-  double ties = 0.0;                  ///< share of the runs that end in a tie that includes the truth
-  std::size_t refused = 0;
+  bool has_possibilities = false;
+  std::vector<double> accuracy{};   ///< mean credit after 1, 2, … reports
+  RunningMean minus_first{};        ///< credit after the last report, less that of the first contestant, by run
+  double belief_in_truth = 0.0;     ///< mean probability or possibility of the truth after the last report
+  double necessity_of_truth = 0.0;  ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
+  double ties = 0.0;                ///< share of the runs that end in a tie that includes the truth
+  std::size_t refused = 0;          ///< reports that were passed over
+  std::size_t same_as = 0;          ///< the first contestant with the same credit at the end of every run
 };
 
 /// The traces of one run, one a contestant in their order, and its truth.
@@ -67,19 +68,28 @@ struct RunTraces {
   std::vector<Trace> traces;
 };
 
-/// Scores of the contestants over runs 0 … runs − 1; `trace(run)` may be called by any thread, `see(run, traces)` is
-/// called by one, in the order of the runs.
-std::vector<Score> score(const std::vector<Contestant>& contestants, std::size_t runs, int threads,
-                         const std::function<RunTraces(std::size_t run)>& trace,
-                         const std::function<void(std::size_t run, const RunTraces& traces)>& see);
+/// Follows the same reports by every contestant.
+template <class Reports>
+RunTraces follow_all(const std::vector<Contestant>& contestants, std::size_t truth, const Reports& reports) {
+  RunTraces result{truth, {}};
+  for (const Contestant& contestant : contestants) result.traces.push_back(follow(contestant, truth, reports));
+  return result;
+}
 
-/// Difference of the accuracies after the last report, a − b, paired by run.
-Interval paired_difference(const Score& a, const Score& b);
+/// Adds up runs in their order; their number is all that it keeps of them.
+class Scoreboard {
+ public:
+  explicit Scoreboard(const std::vector<Contestant>& contestants);
 
-/// "+1.25 ± 0.40", in percentage points.
-std::string points(const Interval& difference);
+  void add(const RunTraces& run);
 
-/// A share as "97.5", in per cent.
-std::string percent(double share);
+  /// Of the runs so far.
+  std::vector<Score> scores() const;
+
+ private:
+  std::vector<Score> sums_;
+  std::vector<std::vector<bool>> same_;  // by contestant, then by one before it
+  std::size_t runs_ = 0;
+};
 
 }  // namespace sigmax::apps

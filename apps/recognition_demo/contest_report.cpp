@@ -1,16 +1,13 @@
 #include "recognition_demo/contest_report.hpp"
 
-#include <algorithm>
-#include <cstdio>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include "support/csv.hpp"
-#include "support/table.hpp"
-#include "version.hpp"
-
 namespace sigmax::apps {
+namespace {
 
+/// Some of 1 … reports to show: 1, 2, 5, 10, 20, … and the last.
 std::vector<std::size_t> shown_reports(std::size_t reports) {
   std::vector<std::size_t> shown;
   for (std::size_t decade = 1; decade < reports; decade *= 10)
@@ -20,75 +17,73 @@ std::vector<std::size_t> shown_reports(std::size_t reports) {
   return shown;
 }
 
-void print_scores(const std::vector<Score>& scores, const std::string& what_is_counted) {
+/// A cell of the column for one kind of contestants.
+Cell only_if(bool holds, double value) { return holds ? Cell(value) : Cell(); }
+
+}  // namespace
+
+void add_draws(CLI::App& app, DrawOptions& options) {
+  app.add_option("--runs", options.runs, "Simulated runs")->check(CLI::Range(2, 100000000))->capture_default_str();
+  add_seed(app, options.seed);
+  add_threads(app, options.threads);
+  add_output(app, options.output);
+}
+
+ResultTable scores_table(const std::vector<Score>& scores, const std::string& what_is_counted) {
   const auto shown = shown_reports(scores.front().accuracy.size());
-  std::vector<TextTable::Column> columns = {{fmt::format("right, % after {}:", what_is_counted), Align::left}};
-  for (const std::size_t k : shown) columns.push_back({fmt::format("{}", k)});
-  columns.push_back({"last − the first row's, points"});
-  columns.push_back({"ties, %"});
-  columns.push_back({"p or π of truth"});
-  columns.push_back({"N of truth"});
-  TextTable table(columns);
-  bool refused = false;
+  std::vector<ResultColumn> columns = {
+      {.key = "classifier", .header = fmt::format("right, % after {}:", what_is_counted), .align = Align::left}};
+  for (const std::size_t k : shown) columns.push_back({.header = fmt::format("{}", k), .digits = 1, .scale = 100.0});
+  const std::vector<ResultColumn> others = {
+      {.key = "accuracy"},
+      {.key = "accuracy_minus_that_of_the_first",
+       .header = "last, more than row 1",
+       .unit = "points",
+       .scale = 100.0,
+       .sign = true,
+       .interval = true},
+      {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
+      {.key = "mean_probability_of_truth"},
+      {.key = "mean_possibility_of_truth"},
+      {.header = "p or π of truth", .digits = 3},
+      {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+      {.key = "reports_passed_over"}};
+  columns.insert(columns.end(), others.begin(), others.end());
+  ResultTable table(std::move(columns));
   for (const Score& score : scores) {
-    std::vector<std::string> cells = {score.name};
-    for (const std::size_t k : shown) cells.push_back(percent(score.accuracy[k - 1]));
+    std::vector<Cell> cells = {score.name};
+    for (const std::size_t k : shown) cells.emplace_back(score.accuracy[k - 1]);
     const bool first = &score == &scores.front();
-    cells.push_back(first || score.final_credits.size() < 2 ? "" : points(paired_difference(score, scores.front())));
-    cells.push_back(percent(score.ties));
-    cells.push_back(fmt::format("{:.3f}", score.belief_in_truth));
-    cells.push_back(score.fuzzy ? fmt::format("{:.3f}", score.necessity_of_truth) : "");
-    table.row(cells);
-    refused = refused || score.refused > 0;
+    const std::vector<Cell> rest = {score.accuracy.back(),
+                                    first ? Cell() : Cell(score.minus_first.interval()),
+                                    score.ties,
+                                    only_if(!score.fuzzy, score.belief_in_truth),
+                                    only_if(score.fuzzy, score.belief_in_truth),
+                                    score.belief_in_truth,
+                                    only_if(score.fuzzy, score.necessity_of_truth),
+                                    score.refused > 0 ? Cell(score.refused) : Cell()};
+    cells.insert(cells.end(), rest.begin(), rest.end());
+    table.row(std::move(cells));
   }
-  table.print();
-  fmt::print("(Ties share the credit. Differences ± 95 % by paired runs. Means over the runs.)\n");
-  if (!refused) return;
+  return table;
+}
+
+void print_scores(const OutputOptions& options, const std::vector<Score>& scores, const std::string& what_is_counted) {
+  scores_table(scores, what_is_counted).print(options.width());
+  print_text(options,
+             "(Ties share the credit. Differences ± 95 % by paired runs. Means over the runs. Necessity: 1 − the "
+             "possibility of the best other.)");
   for (const Score& score : scores)
     if (score.refused > 0)
-      fmt::print("{}: {} reports excluded every pattern that was left and were passed over\n", score.name,
-                 score.refused);
+      print_text(options, fmt::format("{}: {} reports excluded every pattern that was left and were passed over",
+                                      score.name, score.refused));
 }
 
-AtomicFile curves_file(const std::vector<Score>& scores, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("curves.csv");
-  file.write("report,classifier,accuracy\n");
+std::string curves_csv(const std::vector<Score>& scores) {
+  ResultTable table({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
   for (const Score& score : scores)
-    for (std::size_t k = 0; k < score.accuracy.size(); ++k)
-      file.print("{},{},{}\n", k + 1, csv_field(score.name), shortest(score.accuracy[k]));
-  return file;
-}
-
-Json as_json(const Interval& interval) {
-  return {{"mean", interval.mean}, {"lower", interval.lower()}, {"upper", interval.upper()}};
-}
-
-Json as_json(const std::vector<Score>& scores) {
-  Json all;
-  for (const Score& score : scores) {
-    Json one = {{"accuracy", score.accuracy.back()}, {"ties", score.ties}};
-    one[score.fuzzy ? "mean_possibility_of_truth" : "mean_probability_of_truth"] = score.belief_in_truth;
-    if (score.fuzzy) one["mean_necessity_of_truth"] = score.necessity_of_truth;
-    if (score.refused > 0) one["reports_passed_over"] = score.refused;
-    if (&score != &scores.front() && score.final_credits.size() > 1)
-      one["accuracy_minus_that_of_the_first"] = as_json(paired_difference(score, scores.front()));
-    all[score.name] = one;
-  }
-  return all;
-}
-
-Json summary_of(const std::string& command) { return {{"version", version}, {"command", command}}; }
-
-AtomicFile summary_file(const Json& summary, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("summary.json");
-  file.write(summary.dump(2) + "\n");
-  return file;
-}
-
-void print_written(const std::vector<std::string>& files, const std::string& directory) {
-  std::string list = files.front();
-  for (std::size_t i = 1; i < files.size(); ++i) list += (i + 1 == files.size() ? " and " : ", ") + files[i];
-  fmt::print("\nWrote {} to {}\n", list, directory);
+    for (std::size_t k = 0; k < score.accuracy.size(); ++k) table.row({k + 1, score.name, score.accuracy[k]});
+  return table.csv();
 }
 
 }  // namespace sigmax::apps

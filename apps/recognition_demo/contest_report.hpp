@@ -1,38 +1,59 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "recognition_demo/contest.hpp"
-#include "support/output.hpp"
+#include "support/command_line.hpp"
+#include "support/parallel.hpp"
+#include "support/progress.hpp"
+#include "support/random.hpp"
+#include "support/result_files.hpp"
+#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 
 using Json = nlohmann::ordered_json;
 
-/// Some of 1 … reports to show: 1, 2, 5, 10, 20, … and the last.
-std::vector<std::size_t> shown_reports(std::size_t reports);
+/// The options that subcommands with random draws share.
+struct DrawOptions {
+  std::size_t runs = 1000;
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: as many as the machine has
+  OutputOptions output;
+};
+void add_draws(CLI::App& app, DrawOptions& options);
 
-/// Prints the accuracy after some numbers of reports, the belief in the truth, and each difference from the first.
-void print_scores(const std::vector<Score>& scores, const std::string& what_is_counted = "reports");
+/// Calls add(run, draw(random, run)) for every run in order, by all threads and with a progress bar. Each run has its
+/// own random numbers: those of stream `run · streams + stream`.
+template <class Draw, class Add>
+void for_each_draw(const DrawOptions& options, Progress& progress, const Draw& draw, const Add& add,
+                   std::size_t streams = 1, std::size_t stream = 0) {
+  for_each_run(
+      options.runs, threads_or_all(options.threads),
+      [&](std::size_t run) {
+        RandomStream random(options.seed, run * streams + stream);
+        return draw(random);
+      },
+      [&](std::size_t run, auto result) {
+        progress.advance();
+        add(run, result);
+      });
+}
 
-/// curves.csv, not yet committed: report,classifier,accuracy.
-AtomicFile curves_file(const std::vector<Score>& scores, const OutputDirectory& directory);
+/// Shares of right decisions after some numbers of reports, the belief in the truth, and each difference from the
+/// first.
+ResultTable scores_table(const std::vector<Score>& scores, const std::string& what_is_counted = "reports");
 
-/// All figures that `print_scores` prints.
-Json as_json(const std::vector<Score>& scores);
-Json as_json(const Interval& interval);
+/// Prints this table, and what it cannot say.
+void print_scores(const OutputOptions& options, const std::vector<Score>& scores,
+                  const std::string& what_is_counted = "reports");
 
-/// What every summary begins with.
-Json summary_of(const std::string& command);
-
-/// summary.json, not yet committed.
-AtomicFile summary_file(const Json& summary, const OutputDirectory& directory);
-
-/// "Wrote a.csv and summary.json to DIR", after an empty line.
-void print_written(const std::vector<std::string>& files, const std::string& directory);
+/// report,classifier,accuracy.
+std::string curves_csv(const std::vector<Score>& scores);
 
 }  // namespace sigmax::apps

@@ -1,6 +1,8 @@
 #include "recognition_demo/data_table.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iostream>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -8,8 +10,7 @@
 #include <set>
 
 #include <fmt/format.h>
-
-#include <sigmax/recognition/report.hpp>
+#include <fmt/ranges.h>
 
 #include "support/input.hpp"
 #include "support/progress.hpp"
@@ -25,15 +26,21 @@ constexpr std::size_t most_values = 4096;
 /// Words numbered as they come.
 class Words {
  public:
-  std::size_t code(std::string_view word) {
+  Code code(std::string_view word) {
     const auto found = codes_.find(word);
     if (found != codes_.end()) return found->second;
-    return codes_.emplace(std::string(word), codes_.size()).first->second;
+    return codes_.emplace(std::string(word), static_cast<Code>(codes_.size())).first->second;
   }
   std::size_t size() const { return codes_.size(); }
+  bool contains(std::string_view word) const { return codes_.contains(word); }
+  std::size_t numbers() const {
+    return static_cast<std::size_t>(std::count_if(
+        codes_.begin(), codes_.end(), [](const auto& word) { return parse_number(word.first).has_value(); }));
+  }
+  const std::string& first_in_order() const { return codes_.begin()->first; }
 
   /// The words in order, numbers by their value, and renumbers the codes accordingly.
-  std::vector<std::string> sorted(std::vector<std::size_t>& codes) const {
+  std::vector<std::string> sorted(std::vector<Code>& codes) const {
     std::vector<std::string> words(codes_.size());
     for (const auto& [word, code] : codes_) words[code] = word;
     const bool numbers = std::all_of(words.begin(), words.end(), [](const auto& word) { return parse_number(word); });
@@ -45,67 +52,80 @@ class Words {
       return words[a] < words[b];
     });
     std::vector<std::string> result;
-    std::vector<std::size_t> rank(words.size());
+    std::vector<Code> rank(words.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       result.push_back(words[order[i]]);
-      rank[order[i]] = i;
+      rank[order[i]] = static_cast<Code>(i);
     }
-    for (std::size_t& code : codes)
-      if (code != missing) code = rank[code];
+    for (Code& code : codes)
+      if (code != missing_code) code = rank[code];
     return result;
   }
 
  private:
-  std::map<std::string, std::size_t, std::less<>> codes_;
+  std::map<std::string, Code, std::less<>> codes_;
+};
+
+/// A word among numbers, where it was found first.
+struct Slip {
+  std::size_t line;
+  std::string word;
 };
 
 /// A column while it is read: numeric until a cell is not, and then the words so far are what counts.
 class ColumnReader {
  public:
-  ColumnReader(std::size_t index, bool categorical) : index_(index), numeric_(!categorical) {}
+  ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
 
-  void take(const CsvRow& row) {
+  void take(const CsvRow& row, const MissingWords& missing) {
     const std::string_view cell = trimmed(row[index_]);
-    const bool empty = is_missing(cell);
-    if (numeric_) {
-      const auto number = empty ? std::optional(nan) : parse_number(cell);
-      if (number) {
-        numbers_.push_back(*number);
-      } else {
-        if (too_many_words_)
-          throw row.error(index_, fmt::format("a number, as in the {} rows before", numbers_.size()),
-                          "leave the cell empty where there is none");
-        numeric_ = false;
-        numbers_ = {};
-      }
+    const bool empty = missing(cell);
+    const auto number = empty ? std::nullopt : parse_number(cell);
+    const bool is_word = !empty && !number && !missing.among_numbers(cell);
+    if (number || is_word) ++cells_;
+    if (number) ++numeric_cells_;
+    if (is_word && !slip_) {
+      slip_ = Slip{row.line(), std::string(cell)};
+      numbers_ = {};
     }
+    if (could_be_numeric()) numbers_.push_back(number.value_or(nan));
     if (too_many_words_) return;
-    codes_.push_back(empty ? missing : words_.code(cell));
+    codes_.push_back(empty ? missing_code : words_.code(cell));
     if (words_.size() <= most_values) return;
-    if (!numeric_)
-      throw row.error(index_, fmt::format("one of at most {} different values", most_values),
-                      "leave the column out by --ignore");
     too_many_words_ = true;
     codes_ = {};
+    if (!could_be_numeric() && !nearly_all_numbers())
+      throw row.error(index_, fmt::format("one of at most {} different values", most_values),
+                      "leave the column out by --ignore");
   }
 
-  DataColumn column(const CsvReader& reader, std::size_t first_line) && {
+  /// Throws if the column is neither numbers nor words.
+  void refuse_slip(const CsvReader& reader) const {
+    if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
     const std::string& name = reader.names()[index_];
-    const std::size_t rows = std::max(numbers_.size(), codes_.size());
-    const auto useless = [&](std::string_view found) {
-      return InputError(message({.where = fmt::format("{}:{}", reader.file(), first_line),
-                                 .what = fmt::format("column {}", in_quotes(name)),
-                                 .found = found,
-                                 .expected = "at least two different values",
-                                 .remedy = fmt::format("leave the column out by --ignore {}", name)}));
-    };
-    if (!too_many_words_ && words_.size() == 0) throw useless(fmt::format("no value in any of {} rows", rows));
-    if (!too_many_words_ && words_.size() == 1) {
-      std::vector<std::size_t> one = {0};
-      throw useless(fmt::format("{} in all of {} rows", in_quotes(words_.sorted(one).front()), rows));
-    }
-    DataColumn result{name, numeric_, {}, {}, {}};
-    if (numeric_) {
+    throw InputError(message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                              .what = fmt::format("column {}", in_quotes(name)),
+                              .found = in_quotes(slip_->word),
+                              .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
+                              .remedy = fmt::format("correct it, name it by --missing {0}, or take the column as words "
+                                                    "by --categorical {1}",
+                                                    slip_->word, name)}));
+  }
+
+  /// Whether the name of the column looks like one of its cells.
+  bool contains(std::string_view name) const {
+    return is_numeric() ? parse_number(name).has_value() : words_.contains(trimmed(name));
+  }
+
+  /// What there is to see, if it is not two different values: "'red'", or "no value".
+  std::string lone_value() const {
+    if (too_many_words_ || words_.size() > 1) return "";
+    return words_.size() == 0 ? "no value" : in_quotes(words_.first_in_order());
+  }
+
+  DataColumn column(const std::string& name) && {
+    DataColumn result{name, is_numeric(), {}, {}, {}};
+    if (result.numeric) {
       result.numbers = std::move(numbers_);
     } else {
       result.codes = std::move(codes_);
@@ -114,31 +134,77 @@ class ColumnReader {
     return result;
   }
 
+  std::size_t index() const { return index_; }
+
  private:
+  bool could_be_numeric() const { return !categorical_ && !slip_; }
+  bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
+  /// Nine of ten cells, or half of them where there are more numbers than words would have.
+  bool nearly_all_numbers() const {
+    constexpr std::size_t most_words = 20;
+    if (10 * numeric_cells_ >= 9 * cells_) return true;
+    return 2 * numeric_cells_ >= cells_ && words_.numbers() > most_words;
+  }
+
   std::size_t index_;
-  bool numeric_;
+  bool categorical_;
+  std::optional<Slip> slip_;
+  std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
+  std::size_t numeric_cells_ = 0;
   bool too_many_words_ = false;
   Words words_;
-  std::vector<std::size_t> codes_;
+  std::vector<Code> codes_;
   std::vector<double> numbers_;
 };
 
-}  // namespace
-
-bool is_missing(std::string_view cell) {
-  const std::string_view text = trimmed(cell);
-  return text.empty() || text == "?";
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return result;
 }
 
-DataTable read_data(const std::filesystem::path& path, const DataOptions& options) {
-  CsvReader reader{path};
-  const std::size_t label = reader.column(options.label);
+/// Columns with their lone values, all at once: throws if there is such a one.
+void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
+  std::vector<std::string> found, names;
+  for (const ColumnReader& column : columns) {
+    const std::string value = column.lone_value();
+    if (value.empty()) continue;
+    names.push_back(reader.names()[column.index()]);
+    found.push_back(fmt::format("{} in column {}", value, in_quotes(names.back())));
+  }
+  if (names.empty()) return;
+  throw InputError(
+      message({.where = reader.file(),
+               .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
+               .expected = "at least two different values",
+               .remedy = fmt::format("leave out what never changes by --ignore {}", fmt::join(names, ","))}));
+}
+
+/// What a reader of the results should know of the file.
+std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<ColumnReader>& columns) {
+  std::vector<std::string> warnings;
+  std::vector<std::string> like_cells;
+  for (const ColumnReader& column : columns)
+    if (column.contains(reader.names()[column.index()]))
+      like_cells.push_back(in_quotes(reader.names()[column.index()]));
+  if (2 * like_cells.size() > columns.size())
+    warnings.push_back(
+        fmt::format("{}: the first row looks like data ({}): it was taken for the names of the columns, "
+                    "and is not counted; put a row of names above it",
+                    reader.file(), fmt::join(like_cells, ", ")));
+  for (std::size_t i = 0; i < reader.names().size(); ++i)
+    if (reader.names()[i].empty())
+      warnings.push_back(fmt::format("{}: column {} has no name and is left out", reader.file(), i + 1));
+  return warnings;
+}
+
+std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions& options, std::size_t label) {
   std::set<std::size_t> left_out = {label}, categorical;
   for (const auto& name : options.ignore) left_out.insert(reader.column(name));
   const bool all_categorical = options.categorical == std::vector<std::string>{"all"};
   if (!all_categorical)
     for (const auto& name : options.categorical) categorical.insert(reader.column(name));
-
   std::vector<ColumnReader> columns;
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     if (!left_out.contains(i) && !reader.names()[i].empty())
@@ -147,20 +213,50 @@ DataTable read_data(const std::filesystem::path& path, const DataOptions& option
     throw InputError(message({.where = reader.file(),
                               .what = fmt::format("there is no column beside {}", in_quotes(options.label)),
                               .expected = "one with a feature"}));
+  return columns;
+}
+
+}  // namespace
+
+MissingWords::MissingWords(std::vector<std::string> more) : more_(std::move(more)) {}
+
+bool MissingWords::operator()(std::string_view cell) const {
+  const std::string_view text = trimmed(cell);
+  return text.empty() || text == "?" || std::find(more_.begin(), more_.end(), text) != more_.end();
+}
+
+bool MissingWords::among_numbers(std::string_view cell) const {
+  constexpr std::array<std::string_view, 15> words = {"-",    "--",   "na",       "n/a",       "#n/a",
+                                                      "nan",  "null", "none",     "nil",       "inf",
+                                                      "-inf", "+inf", "infinity", "-infinity", "."};
+  if (operator()(cell)) return true;
+  const std::string text = lower_case(trimmed(cell));
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+CsvReader open_csv(const std::string& file) {
+  return file == "-" ? CsvReader{std::cin, "standard input"} : CsvReader{std::filesystem::path{file}};
+}
+
+DataTable read_data(const std::string& file, const DataOptions& options, bool quiet) {
+  CsvReader reader = open_csv(file);
+  const std::size_t label = reader.column(options.label);
+  const MissingWords missing(options.missing);
+  auto columns = columns_of(reader, options, label);
 
   DataTable table;
   table.file = reader.file();
   table.label = options.label;
   Words classes;
-  Progress progress("reading", reader.bytes_total().value_or(0), options.quiet || !reader.bytes_total());
+  Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
-    if (is_missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
+    if (missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
     table.labels.push_back(classes.code(trimmed(row[label])));
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
-    table.lines.push_back(row.line());
-    for (auto& column : columns) column.take(row);
+    table.lines.push_back(static_cast<std::uint32_t>(row.line()));
+    for (auto& column : columns) column.take(row, missing);
   }
   progress.finish();
   if (table.labels.empty())
@@ -172,7 +268,10 @@ DataTable read_data(const std::filesystem::path& path, const DataOptions& option
                  .what = fmt::format("column {}", in_quotes(options.label)),
                  .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.labels.size()),
                  .expected = "at least two classes"}));
-  for (auto& column : columns) table.columns.push_back(std::move(column).column(reader, table.lines.front()));
+  for (const auto& column : columns) column.refuse_slip(reader);
+  refuse_useless(reader, columns, table.labels.size());
+  table.warnings = warnings_of(reader, columns);
+  for (auto& column : columns) table.columns.push_back(std::move(column).column(reader.names()[column.index()]));
   return table;
 }
 

@@ -1,5 +1,5 @@
-#include "recognition_demo/encounter.hpp"
-
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,13 +10,19 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
 #include "recognition_demo/encounter_data.hpp"
-#include "support/parallel.hpp"
-#include "support/csv.hpp"
-#include "support/progress.hpp"
-#include "support/table.hpp"
+#include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+struct EncounterOptions {
+  std::string file;
+  std::size_t reports = 10;
+  DrawOptions draws;
+  std::string track;  ///< a recording to classify instead of draws
+  double every_s = 10.0;
+  std::optional<double> ground_ft;  ///< nothing: the lowest altitude of the recording
+};
 
 template <PossibilityTransform Method>
 Contestant max_by(const std::string& name, const Counts& counts, const Method& method) {
@@ -31,10 +37,10 @@ std::vector<Contestant> contestants(const Counts& counts) {
 }
 
 void print_counts(const EncounterOptions& options, const Counts& counts) {
-  fmt::print(
-      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are equally\n"
-      "plausible before\n",
-      options.file);
+  print_text(options.draws.output,
+             fmt::format("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes "
+                         "are equally plausible before",
+                         options.file));
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     double samples = 0.0;
     for (const double count : counts.of(0, c)) samples += count;
@@ -42,51 +48,52 @@ void print_counts(const EncounterOptions& options, const Counts& counts) {
   }
 }
 
-void draw_and_report(const EncounterOptions& options, const EncounterData& data,
-                     const std::optional<OutputDirectory>& directory) {
+void draw_and_report(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
+  const DrawOptions& draws = options.draws;
   const auto all = contestants(data.counts);
   const auto relations = learned_relations(data.counts, 0.0);
-  const auto trace = [&](std::size_t run) {
-    RandomStream random(options.seed, run);
-    RunTraces result{draw_index(random, data.counts.pattern().size()), {}};
-    std::vector<Readings> reports(options.reports);
-    for (Readings& report : reports)
-      for (const auto& relation : relations) report.push_back(draw(random, relation.row(result.truth)));
-    for (const Contestant& contestant : all) result.traces.push_back(follow(contestant, result.truth, reports));
-    return result;
-  };
-  Progress progress("runs", options.runs, options.quiet);
-  const auto scores = score(all, options.runs, threads_or_all(options.threads), trace,
-                            [&](std::size_t, const RunTraces&) { progress.advance(); });
+  Scoreboard board(all);
+  Progress progress("runs", draws.runs, draws.output.quiet);
+  for_each_draw(
+      draws, progress,
+      [&](RandomStream& random) {
+        const std::size_t truth = draw_index(random, data.counts.pattern().size());
+        std::vector<Readings> reports(options.reports);
+        for (Readings& report : reports)
+          for (const auto& relation : relations) report.push_back(draw(random, relation.row(truth)));
+        return follow_all(all, truth, reports);
+      },
+      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
   progress.finish();
 
-  fmt::print(
-      "{} seeded draws from the counts themselves, every feature and report independent, as sigma inference assumes;\n"
-      "seed {}\n\n",
-      options.runs, options.seed);
-  print_scores(scores);
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+  const auto scores = board.scores();
+  print_text(draws.output, fmt::format("{} seeded draws from the counts themselves, every feature and report "
+                                       "independent, as sigma inference assumes; seed {}\n\n",
+                                       draws.runs, draws.seed));
+  print_scores(draws.output, scores);
+
+  Json summary = summary_of(draws.output);
   summary["file"] = options.file;
   summary["drawn_from"] = "the counts";
-  summary["runs"] = options.runs;
+  summary["runs"] = draws.runs;
   summary["reports"] = options.reports;
-  summary["seed"] = options.seed;
-  summary["classifiers"] = as_json(scores);
-  AtomicFile curves = curves_file(scores, *directory), summary_json = summary_file(summary, *directory);
-  commit_all(curves, summary_json);
-  print_written({"curves.csv", "summary.json"}, options.out);
+  summary["seed"] = draws.seed;
+  summary["classifiers"] = scores_table(scores).json();
+  files.write("curves.csv", curves_csv(scores));
+  files.write_json("summary.json", summary);
 }
 
 /// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
 struct TrackOutcome {
+  std::string name;
   std::vector<double> single;
   std::vector<double> belief;
 };
 
 template <class Kind>
-TrackOutcome follow_track(Classifier<Kind, Kind> classifier, const std::vector<TrackReport>& reports) {
-  TrackOutcome outcome{std::vector<double>(classifier.prior().size(), 0.0), {}};
+TrackOutcome follow_track(const std::string& name, Classifier<Kind, Kind> classifier,
+                          const std::vector<TrackReport>& reports) {
+  TrackOutcome outcome{name, std::vector<double>(classifier.prior().size(), 0.0), {}};
   for (const TrackReport& report : reports) {
     classifier.reset();
     classifier.observe(report.readings);
@@ -100,16 +107,10 @@ TrackOutcome follow_track(Classifier<Kind, Kind> classifier, const std::vector<T
   return outcome;
 }
 
-void track_and_report(const EncounterOptions& options, const EncounterData& data,
-                      const std::optional<OutputDirectory>& directory) {
-  const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
-  const auto all = contestants(data.counts);
-  const auto& pattern = data.counts.pattern();
-
-  fmt::print("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more\n\n",
-             options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(),
-             options.every_s);
-  TextTable seen({{"feature", Align::left}, {"values seen, % of the reports", Align::left}});
+/// What was seen of each feature.
+ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
+  ResultTable table(
+      {{.header = "feature", .align = Align::left}, {.header = "values seen, % of the reports", .align = Align::left}});
   for (std::size_t i = 0; i < data.bins.size(); ++i) {
     std::vector<double> shares(data.bins[i].size(), 0.0);
     for (const TrackReport& report : track.reports)
@@ -117,66 +118,121 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
     std::string text;
     for (std::size_t b = 0; b < shares.size(); ++b)
       if (shares[b] > 0.0)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", data.bins[i].labels()[b], percent(shares[b]));
-    seen.row({data.counts.features()[i].name(), text.empty() ? "none" : text});
+        text += fmt::format("{}{}: {:.1f}", text.empty() ? "" : ", ", data.bins[i].labels()[b], 100.0 * shares[b]);
+    table.row({data.counts.features()[i].name(), text.empty() ? "none" : text});
   }
-  seen.print();
-  fmt::print("\n");
+  return table;
+}
 
-  std::vector<TextTable::Column> columns = {{"% of single reports that say", Align::left}};
-  for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({pattern.label(c)});
+/// What the classifiers make of a recording.
+ResultTable decisions_table(const RandomVariable& pattern, const std::vector<TrackOutcome>& outcomes) {
+  std::vector<ResultColumn> columns = {{.header = "classifier", .align = Align::left}};
   for (std::size_t c = 0; c < pattern.size(); ++c)
-    columns.push_back({(c == 0 ? "p or π after all: " : "") + pattern.label(c)});
-  TextTable table(columns);
-  Json summary = summary_of(options.command);
+    columns.push_back(
+        {.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"});
+  for (std::size_t c = 0; c < pattern.size(); ++c)
+    columns.push_back({.header = pattern.label(c), .group = "p or π after all:"});
+  ResultTable table(std::move(columns));
+  for (const TrackOutcome& outcome : outcomes) {
+    std::vector<Cell> cells = {outcome.name};
+    cells.insert(cells.end(), outcome.single.begin(), outcome.single.end());
+    for (const double value : outcome.belief) cells.emplace_back(fmt::format("{:.2g}", value));
+    table.row(std::move(cells));
+  }
+  return table;
+}
+std::string reports_csv(const EncounterData& data, const TrackReports& track) {
+  std::vector<ResultColumn> columns = {{.key = "time_s"}};
+  for (const auto& feature : data.counts.features()) columns.push_back({.key = feature.name()});
+  ResultTable table(std::move(columns));
+  for (const TrackReport& report : track.reports) {
+    std::vector<Cell> cells = {report.time_s};
+    for (std::size_t i = 0; i < report.readings.size(); ++i)
+      cells.push_back(report.readings[i] == missing ? Cell() : Cell(data.bins[i].labels()[report.readings[i]]));
+    table.row(std::move(cells));
+  }
+  return table.csv();
+}
+
+void track_and_report(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
+  const OutputOptions& output = options.draws.output;
+  const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
+  const auto& pattern = data.counts.pattern();
+  std::vector<TrackOutcome> outcomes;
+  for (const Contestant& contestant : contestants(data.counts))
+    outcomes.push_back(
+        std::visit([&](const auto& classifier) { return follow_track(contestant.name, classifier, track.reports); },
+                   contestant.classifier));
+
+  print_text(output,
+             fmt::format("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart "
+                         "or more\n\n",
+                         options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft,
+                         track.reports.size(), options.every_s));
+  seen_table(data, track).print(output.width());
+  fmt::print("\n");
+  decisions_table(pattern, outcomes).print(output.width());
+  print_text(output,
+             "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
+             "independent: the belief after all of them is more certain than it should be.)");
+
+  Json summary = summary_of(output);
   summary["file"] = options.file;
   summary["track"] = options.track;
   summary["reports"] = track.reports.size();
   summary["ground_ft"] = track.ground_ft;
-  for (const Contestant& contestant : all) {
-    const TrackOutcome outcome = std::visit(
-        [&](const auto& classifier) { return follow_track(classifier, track.reports); }, contestant.classifier);
-    std::vector<std::string> cells = {contestant.name};
-    for (const double share : outcome.single) cells.push_back(percent(share));
-    for (const double value : outcome.belief) cells.push_back(fmt::format("{:.2g}", value));
-    table.row(cells);
+  for (const TrackOutcome& outcome : outcomes)
     for (std::size_t c = 0; c < pattern.size(); ++c) {
-      summary["classifiers"][contestant.name]["share_of_single_reports"][pattern.label(c)] = outcome.single[c];
-      summary["classifiers"][contestant.name]["belief_after_all"][pattern.label(c)] = outcome.belief[c];
+      Json& one = summary["classifiers"][outcome.name];
+      one["share_of_single_reports"][pattern.label(c)] = outcome.single[c];
+      one["belief_after_all"][pattern.label(c)] = outcome.belief[c];
     }
-  }
-  table.print();
-  fmt::print(
-      "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
-      "independent:\n"
-      "the belief after all of them is more certain than it should be.)\n");
-  if (!directory) return;
-  AtomicFile file = directory->file("reports.csv");
-  file.write("time_s");
-  for (const auto& feature : data.counts.features()) file.print(",{}", feature.name());
-  file.write("\n");
-  for (const TrackReport& report : track.reports) {
-    file.print("{}", shortest(report.time_s));
-    for (std::size_t i = 0; i < report.readings.size(); ++i)
-      file.print(",{}", report.readings[i] == missing ? "" : csv_field(data.bins[i].labels()[report.readings[i]]));
-    file.write("\n");
-  }
-  AtomicFile summary_json = summary_file(summary, *directory);
-  commit_all(file, summary_json);
-  print_written({"reports.csv", "summary.json"}, options.out);
+  files.write("reports.csv", reports_csv(data, track));
+  files.write_json("summary.json", summary);
+}
+
+void run_encounter(const EncounterOptions& options) {
+  ResultFiles files(options.draws.output);
+  const EncounterData data = read_encounter(options.file);
+  print_counts(options, data.counts);
+  (options.track.empty() ? draw_and_report : track_and_report)(options, data, files);
+  files.commit();
 }
 
 }  // namespace
 
-void encounter_and_report(const EncounterOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
-  const EncounterData data = read_encounter(options.file);
-  print_counts(options, data.counts);
-  if (options.track.empty())
-    draw_and_report(options, data, directory);
-  else
-    track_and_report(options, data, directory);
+void add_encounter(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<EncounterOptions>();
+  options->draws.output.command = command;
+  options->draws.runs = 50000;
+  CLI::App& app = *program.add_subcommand(
+      "encounter", "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
+  app.add_option("counts", options->file, "Counts by class and feature: class,feature,bin,lower,upper,count")
+      ->required()
+      ->type_name("COUNTS.csv");
+  app.add_option("--reports", options->reports, "Reports in a drawn run")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  CLI::Option* const track =
+      app.add_option("--track", options->track,
+                     "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), "
+                     "groundspeed_kt (or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
+          ->type_name("FILE.csv");
+  app.add_option("--every", options->every_s, "Seconds between two reports of a recording")
+      ->check(number_in(0.001, 1e6))
+      ->needs(track)
+      ->capture_default_str();
+  app.add_option("--ground", options->ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
+      ->check(number_in(-2000.0, 30000.0))
+      ->needs(track)
+      ->type_name("FT");
+  add_draws(app, options->draws);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo encounter encounter_features.csv\n"
+      "  recognition_demo encounter encounter_features.csv --track helicopter.csv \\\n"
+      "    --every 30");
+  app.callback([options] { run_encounter(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,6 +1,5 @@
-#include "recognition_demo/esm.hpp"
-
-#include <optional>
+#include <CLI/CLI.hpp>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -9,14 +8,20 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
-#include "support/parallel.hpp"
-#include "support/csv.hpp"
-#include "support/progress.hpp"
+#include "recognition_demo/subcommands.hpp"
+#include "support/error.hpp"
 
 namespace sigmax::apps {
 namespace {
 
 constexpr double hit = 0.7;
+
+struct EsmOptions {
+  std::string usage = "uniform";  ///< or dirichlet
+  double alpha = 0.5;
+  std::size_t reports = 40;
+  DrawOptions draws;
+};
 
 Usage usage_of(const EsmOptions& options) {
   if (options.usage == "dirichlet") return {Usage::Kind::dirichlet, options.alpha};
@@ -50,74 +55,102 @@ std::string described_usage(const EsmOptions& options) {
                    options.alpha);
 }
 
-/// The header of runs.csv: a row for each run with the truth, the readings, and what each classifier believed at last.
-std::string runs_header(const EsmWorld& world, const std::vector<Contestant>& contestants) {
-  std::string header = "run,platform,readings";
+/// A run with what was read in it.
+struct EsmTraces : RunTraces {
+  std::vector<Readings> reports;
+};
+
+/// runs.csv: a row for each run with the truth, the readings, and what each classifier believed at last.
+ResultTable runs_table(const EsmWorld& world, const std::vector<Contestant>& contestants) {
+  std::vector<ResultColumn> columns = {{.key = "run"}, {.key = "platform"}, {.key = "readings"}};
   for (const Contestant& contestant : contestants)
     for (std::size_t c = 0; c < world.platform.size(); ++c)
-      header += "," + csv_field(contestant.name + ": " + world.platform.label(c));
-  return header + "\n";
+      columns.push_back({.key = contestant.name + ": " + world.platform.label(c)});
+  return ResultTable(std::move(columns));
 }
 
-}  // namespace
+std::vector<Cell> row_of_run(const EsmWorld& world, std::size_t run, const EsmTraces& traces) {
+  std::string readings;
+  for (const Readings& report : traces.reports)
+    readings += (readings.empty() ? "" : " ") + world.reading.label(report.front());
+  std::vector<Cell> cells = {run + 1, world.platform.label(traces.truth), readings};
+  for (const Trace& trace : traces.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+  return cells;
+}
 
-void esm_and_report(const EsmOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
+void run_esm(const EsmOptions& options) {
+  const DrawOptions& draws = options.draws;
+  ResultFiles files(draws.output);
   const EsmWorld world;
   const EsmTruth truth{.usage = usage_of(options), .hit = hit};
   const auto all = contestants(world, options);
+  const ResultTable runs = runs_table(world, all);
+  AtomicFile* const runs_file = files.open("runs.csv");
+  if (runs_file) runs_file->write(runs.csv_header());
 
-  std::optional<AtomicFile> runs_file;
-  if (directory) {
-    runs_file.emplace(directory->file("runs.csv"));
-    runs_file->write(runs_header(world, all));
-  }
-  const auto reports_of = [&](std::size_t run) {
-    RandomStream random(options.seed, run);
-    return draw_run(world, truth, options.reports, random);
-  };
-  const auto trace = [&](std::size_t run) {
-    const EsmRun drawn = reports_of(run);
-    RunTraces result{drawn.platform, {}};
-    for (const Contestant& contestant : all) result.traces.push_back(follow(contestant, drawn.platform, drawn.reports));
-    return result;
-  };
-  Progress progress("runs", options.runs, options.quiet);
-  const auto see = [&](std::size_t run, const RunTraces& result) {
-    progress.advance();
-    if (!runs_file) return;
-    std::string readings;
-    for (const Readings& report : reports_of(run).reports)
-      readings += (readings.empty() ? "" : " ") + world.reading.label(report.front());
-    runs_file->print("{},{},{}", run + 1, world.platform.label(result.truth), readings);
-    for (const Trace& one : result.traces)
-      for (const double value : one.belief) runs_file->print(",{}", shortest(value));
-    runs_file->write("\n");
-  };
-  const auto scores = score(all, options.runs, threads_or_all(options.threads), trace, see);
+  Scoreboard board(all);
+  Progress progress("runs", draws.runs, draws.output.quiet);
+  for_each_draw(
+      draws, progress,
+      [&](RandomStream& random) {
+        EsmRun drawn = draw_run(world, truth, options.reports, random);
+        return EsmTraces{follow_all(all, drawn.platform, drawn.reports), std::move(drawn.reports)};
+      },
+      [&](std::size_t run, const EsmTraces& traces) {
+        board.add(traces);
+        if (runs_file) runs_file->write(runs.csv_line(row_of_run(world, run, traces)));
+      });
   progress.finish();
 
-  fmt::print(
-      "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports the\n"
-      "true emitter with probability {}, each other with {:.3g}\n"
-      "Usage: {}\n{} runs of {} reports, seed {}\n\n",
-      hit, (1.0 - hit) / 4.0, described_usage(options), options.runs, options.reports, options.seed);
-  print_scores(scores);
+  const auto scores = board.scores();
+  print_text(draws.output,
+             fmt::format("Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor "
+                         "reports the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of "
+                         "{} reports, seed {}\n\n",
+                         hit, (1.0 - hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed));
+  print_scores(draws.output, scores);
 
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+  Json summary = summary_of(draws.output);
   summary["synthetic"] = true;
   summary["usage"] = options.usage;
   if (options.usage == "dirichlet") summary["alpha"] = options.alpha;
   summary["probability_of_a_right_reading"] = hit;
-  summary["runs"] = options.runs;
+  summary["runs"] = draws.runs;
   summary["reports"] = options.reports;
-  summary["seed"] = options.seed;
-  summary["classifiers"] = as_json(scores);
-  AtomicFile curves = curves_file(scores, *directory), summary_json = summary_file(summary, *directory);
-  commit_all(curves, *runs_file, summary_json);
-  print_written({"curves.csv", "runs.csv", "summary.json"}, options.out);
+  summary["seed"] = draws.seed;
+  summary["classifiers"] = scores_table(scores).json();
+  files.write("curves.csv", curves_csv(scores));
+  files.write_json("summary.json", summary);
+  files.commit();
+}
+
+}  // namespace
+
+void add_esm(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<EsmOptions>();
+  options->draws.output.command = command;
+  options->draws.runs = 20000;
+  CLI::App& app =
+      *program.add_subcommand("esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
+  app.add_option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
+      ->check(CLI::IsMember({"uniform", "dirichlet"}))
+      ->capture_default_str();
+  const CLI::Option* const alpha =
+      app.add_option("--alpha", options->alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
+          ->check(number_in(0.01, 1000.0))
+          ->capture_default_str();
+  app.add_option("--reports", options->reports, "Reports in a run")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  add_draws(app, options->draws);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo esm --usage dirichlet --alpha 0.5\n"
+      "  recognition_demo esm --reports 100 --runs 5000 --out results");
+  app.callback([options, alpha] {
+    if (alpha->count() > 0 && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
+    run_esm(*options);
+  });
 }
 
 }  // namespace sigmax::apps

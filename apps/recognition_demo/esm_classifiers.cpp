@@ -50,7 +50,7 @@ std::vector<std::vector<double>> usage_grid(std::size_t size, const Usage& usage
 
 Contestant sigma_contestant(std::string name, const Relation<Random, Random>& emitter_given_platform,
                             const std::vector<Relation<Random, Random>>& sensors) {
-  return {std::move(name), read_by(emitter_given_platform, sensors)};
+  return {std::move(name), read_by(emitter_given_platform, sensors), std::nullopt, false};
 }
 
 Contestant max_contestant(std::string name, const Relation<Fuzzy, Fuzzy>& emitter_given_platform,
@@ -90,7 +90,7 @@ Contestant usage_aware_contestant(std::string name, const EsmWorld& world, const
   for (const auto& sensor : sensors)
     features.emplace_back(Relation<Random, Random>{world.emitter, variable, usages}, sensor);
   return {std::move(name), SigmaClassifier{normalized(variable, prior), std::move(features)},
-          Relation<Random, Random>{world.platform, variable, platforms}};
+          Relation<Random, Random>{world.platform, variable, platforms}, false};
 }
 
 }  // namespace sigmax::apps

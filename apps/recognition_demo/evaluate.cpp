@@ -1,263 +1,377 @@
-#include "recognition_demo/evaluate.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <optional>
 #include <random>
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>
 
-#include "recognition_demo/contest_report.hpp"
+#include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/subcommands.hpp"
 #include "support/parallel.hpp"
-#include "recognition_demo/train.hpp"
-#include "support/csv.hpp"
 #include "support/progress.hpp"
-#include "support/table.hpp"
+#include "support/result_files.hpp"
+#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-/// What one classifier believes of one row.
-using AnyBelief = std::variant<Belief<Random>, Belief<Fuzzy>>;
+using Json = nlohmann::ordered_json;
 
-/// The rows of one fold, classified by what was learned from the others.
-struct FoldResult {
-  std::vector<std::size_t> rows;
-  std::vector<std::vector<AnyBelief>> beliefs;  ///< by classifier, then by row
-  std::vector<std::size_t> excluded;            ///< by classifier: rows that excluded every class
+struct EvaluateOptions {
+  std::string file;
+  DataOptions data;
+  LearningOptions learning;
+  std::size_t folds = 10;
+  std::size_t foldings = 20;  ///< divisions into folds
+  std::uint64_t seed = 1;     ///< of the folds
+  int threads = 0;            ///< 0: as many as the machine has
+  OutputOptions output;
 };
 
-/// One classifier over all rows.
+/// The scores of one classifier.
 struct Outcome {
   std::string name;
-  std::vector<std::optional<AnyBelief>> beliefs;  ///< by row
   std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
-  std::size_t ties = 0;
-  std::size_t excluded = 0;
+  std::size_t excluded = 0;  ///< rows that excluded every class
+
+  const ConfusionMatrix& confusion() const {
+    return std::visit([](const auto& e) -> const ConfusionMatrix& { return e.confusion(); }, evaluation);
+  }
+  double ties() const {
+    return std::visit([](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); },
+                      evaluation);
+  }
 };
 
-FoldResult classify_fold(const DataTable& data, std::span<const std::size_t> fold_of_row, std::size_t fold,
-                         const EvaluateOptions& options) {
-  std::vector<std::size_t> training;
-  FoldResult result;
-  for (std::size_t row = 0; row < fold_of_row.size(); ++row)
-    (fold_of_row[row] == fold ? result.rows : training).push_back(row);
-  const LearnedModel model = learn(data, training, options.learning);
-  const std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
-  for (Contestant& contestant : classifiers(model, kinds)) {
-    auto& beliefs = result.beliefs.emplace_back();
-    auto& excluded = result.excluded.emplace_back(0);
-    std::visit(
-        [&](auto& classifier) {
-          for (const std::size_t row : result.rows) {
-            classifier.reset();
-            try {
-              classifier.observe(readings(model, data, row));
-            } catch (const std::domain_error&) {
-              ++excluded;  // the prior is what is left to say
-            }
-            beliefs.emplace_back(classifier.log_belief());
+/// The rows of one fold, classified by what the others teach.
+struct FoldResult {
+  std::vector<std::size_t> rows;
+  std::vector<Outcome> outcomes;         ///< by classifier
+  std::vector<std::vector<bool>> right;  ///< by classifier, then by row
+};
+
+Outcome no_outcome(const Contestant& contestant) {
+  return {contestant.name, std::visit(
+                               [](const auto& classifier) -> decltype(Outcome::evaluation) {
+                                 return Evaluation{classifier.prior().variable()};
+                               },
+                               contestant.classifier)};
+}
+
+std::vector<std::size_t> folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
+  const std::vector<std::size_t> labels(data.labels.begin(), data.labels.end());
+  return stratified_folds(labels, folds, generator);
+}
+
+/// Calls see(row, belief, whether every class was excluded) for the rows of one fold.
+template <class See>
+void classify_rows(const LearnedModel& model, const DataTable& data, const std::vector<std::size_t>& rows,
+                   const Contestant& contestant, const See& see) {
+  std::visit(
+      [&](auto classifier) {
+        Readings readings;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+          classifier.reset();
+          read(model, data, rows[k], readings);
+          bool excluded = false;
+          try {
+            classifier.observe(readings);
+          } catch (const std::domain_error&) {
+            excluded = true;  // the prior is what is left to say
           }
-        },
-        contestant.classifier);
+          see(k, classifier.log_belief(), excluded);
+        }
+      },
+      contestant.classifier);
+}
+
+/// The rows of a fold, and the classifiers that the others teach.
+struct Fold {
+  std::vector<std::size_t> rows;
+  LearnedModel model;
+  std::vector<Contestant> contestants;
+};
+
+Fold learned(const DataTable& data, std::span<const std::size_t> fold_of_row, std::size_t fold,
+             const LearningOptions& options) {
+  std::vector<std::size_t> inside, outside;
+  for (std::size_t row = 0; row < fold_of_row.size(); ++row)
+    (fold_of_row[row] == fold ? inside : outside).push_back(row);
+  LearnedModel model = learn(data, outside, options);
+  const std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
+  auto contestants = classifiers(model, kinds);
+  return {std::move(inside), std::move(model), std::move(contestants)};
+}
+
+FoldResult classify_fold(const DataTable& data, std::span<const std::size_t> fold_of_row, std::size_t fold,
+                         const LearningOptions& options) {
+  Fold learned_fold = learned(data, fold_of_row, fold, options);
+  FoldResult result{std::move(learned_fold.rows), {}, {}};
+  for (const Contestant& contestant : learned_fold.contestants) {
+    Outcome& outcome = result.outcomes.emplace_back(no_outcome(contestant));
+    auto& right = result.right.emplace_back(result.rows.size());
+    classify_rows(learned_fold.model, data, result.rows, contestant,
+                  [&](std::size_t k, const auto& belief, bool excluded) {
+                    using Kind = typename std::decay_t<decltype(belief)>::kind;
+                    auto& evaluation = std::get<Evaluation<Kind>>(outcome.evaluation);
+                    right[k] = evaluation.add(data.labels[result.rows[k]], belief) > 0.0;
+                    if (excluded) ++outcome.excluded;
+                  });
   }
   return result;
 }
 
-std::vector<Outcome> outcomes(const DataTable& data) {
-  std::vector<Outcome> result;
-  std::vector<std::size_t> all_rows(data.labels.size());
-  const RandomVariable pattern{data.label, data.classes};
-  for (const char* name :
-       {"sigma", "max, ratio scale", "max, Dubois-Prade", "sigma-max, ratio scale", "sigma-max, Dubois-Prade"}) {
-    const bool fuzzy = result.size() > 0;
-    Outcome outcome{name, std::vector<std::optional<AnyBelief>>(data.labels.size()), Evaluation<Random>{pattern}};
-    if (fuzzy) outcome.evaluation = Evaluation<Fuzzy>{as_fuzzy(pattern)};
-    result.push_back(std::move(outcome));
+/// Adds up folds in their order. Of a row it keeps how often each classifier was right.
+class Results {
+ public:
+  explicit Results(std::size_t rows) : rows_(rows) {}
+
+  void add(const FoldResult& fold) {
+    if (outcomes_.empty()) {
+      outcomes_ = fold.outcomes;
+      right_.assign(outcomes_.size(), std::vector<std::uint32_t>(rows_, 0));
+    } else {
+      for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+        outcomes_[i].excluded += fold.outcomes[i].excluded;
+        std::visit(
+            [&](auto& evaluation) {
+              evaluation.add(std::get<std::decay_t<decltype(evaluation)>>(fold.outcomes[i].evaluation));
+            },
+            outcomes_[i].evaluation);
+      }
+    }
+    for (std::size_t i = 0; i < right_.size(); ++i)
+      for (std::size_t k = 0; k < fold.rows.size(); ++k)
+        if (fold.right[i][k]) ++right_[i][fold.rows[k]];
   }
-  return result;
-}
 
-std::span<const double> correct(const Outcome& outcome) {
-  return std::visit([](const auto& e) { return e.correct(); }, outcome.evaluation);
-}
+  const std::vector<Outcome>& outcomes() const { return outcomes_; }
 
-const ConfusionMatrix& confusion(const Outcome& outcome) {
-  return std::visit([](const auto& e) -> const ConfusionMatrix& { return e.confusion(); }, outcome.evaluation);
-}
+  /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
+  Interval minus_first(std::size_t i, std::size_t foldings) const {
+    RunningMean difference;
+    for (std::size_t row = 0; row < rows_; ++row)
+      difference.add((static_cast<double>(right_[i][row]) - static_cast<double>(right_[0][row])) /
+                     static_cast<double>(foldings));
+    return difference.interval();
+  }
 
-std::string fixed(double value) { return fmt::format("{:.3f}", value); }
+ private:
+  std::size_t rows_;
+  std::vector<Outcome> outcomes_;
+  std::vector<std::vector<std::uint32_t>> right_;  // by classifier, then by row
+};
 
-void print_outcomes(const std::vector<Outcome>& all) {
-  TextTable table({{"classifier", Align::left},
-                   {"right, %"},
-                   {"− sigma's, points"},
-                   {"macro F1"},
-                   {"ties, %"},
-                   {"log-loss"},
-                   {"Brier"},
-                   {"N of truth"},
-                   {"covered, %"},
-                   {"classes in the cut"}});
-  for (const Outcome& outcome : all) {
-    const auto n = static_cast<double>(correct(outcome).size());
-    std::vector<std::string> cells = {
-        outcome.name, fmt::format("{:.2f}", 100.0 * confusion(outcome).accuracy()),
-        &outcome == &all.front() ? "" : points(paired_interval(correct(outcome), correct(all.front()))),
-        fixed(confusion(outcome).macro_f1()), percent(static_cast<double>(outcome.ties) / n)};
+ResultTable outcomes_table(const Results& results, std::size_t foldings) {
+  ResultTable table({{.key = "classifier", .header = "classifier", .align = Align::left},
+                     {.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0},
+                     {.key = "accuracy_minus_that_of_sigma",
+                      .header = "− sigma's",
+                      .unit = "points",
+                      .scale = 100.0,
+                      .sign = true,
+                      .interval = true},
+                     {.key = "macro_f1", .header = "macro F1", .digits = 3},
+                     {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
+                     {.key = "log_loss", .header = "log-loss", .digits = 3},
+                     {.key = "brier", .header = "Brier", .digits = 3},
+                     {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+                     {.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
+                     {.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
+                     {.key = "rows_that_excluded_every_class"}});
+  for (std::size_t i = 0; i < results.outcomes().size(); ++i) {
+    const Outcome& outcome = results.outcomes()[i];
+    std::vector<Cell> cells = {outcome.name, outcome.confusion().accuracy(),
+                               i == 0 ? Cell() : Cell(results.minus_first(i, foldings)), outcome.confusion().macro_f1(),
+                               outcome.ties()};
+    cells.resize(11);
     if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
-      for (const double value : {mean(random->log_losses()), mean(random->briers())}) cells.push_back(fixed(value));
-      cells.insert(cells.end(), 3, "");
+      cells[5] = random->log_loss();
+      cells[6] = random->brier();
     } else {
       const auto& fuzzy = std::get<Evaluation<Fuzzy>>(outcome.evaluation);
-      cells.insert(cells.end(), 2, "");
-      cells.push_back(fixed(mean(fuzzy.necessities())));
-      cells.push_back(percent(mean(fuzzy.covered())));
-      cells.push_back(fmt::format("{:.2f}", mean(fuzzy.cut_sizes())));
+      cells[7] = fuzzy.necessity();
+      cells[8] = fuzzy.coverage();
+      cells[9] = fuzzy.cut_size();
     }
-    table.row(cells);
+    if (outcome.excluded > 0) cells[10] = outcome.excluded;
+    table.row(std::move(cells));
   }
-  table.print();
-  fmt::print(
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. A truth is\n"
-      "covered if its possibility is at least ½: the cut holds as many classes on average.)\n");
+  return table;
 }
 
-void print_confusion(const DataTable& data, const Outcome& outcome) {
-  constexpr std::size_t most_classes = 10;
-  if (data.classes.size() > most_classes) return;
-  std::vector<TextTable::Column> columns = {{fmt::format("{}: true class", outcome.name), Align::left}};
-  for (const auto& name : data.classes) columns.push_back({name});
-  TextTable table(columns);
-  const auto& matrix = confusion(outcome);
+ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
+  std::vector<ResultColumn> columns = {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}};
+  for (const auto& name : data.classes) columns.push_back({.header = name, .digits = foldings == 1 ? 0 : 1});
+  ResultTable table(std::move(columns));
   for (std::size_t truth = 0; truth < data.classes.size(); ++truth) {
-    std::vector<std::string> cells = {data.classes[truth]};
-    for (std::size_t c = 0; c < data.classes.size(); ++c) cells.push_back(fmt::format("{}", matrix(truth, c)));
-    table.row(cells);
+    std::vector<Cell> cells = {data.classes[truth]};
+    for (std::size_t c = 0; c < data.classes.size(); ++c)
+      cells.emplace_back(outcome.confusion()(truth, c) / static_cast<double>(foldings));
+    table.row(std::move(cells));
   }
-  fmt::print("\n");
-  table.print();
+  return table;
 }
 
-AtomicFile predictions_file(const DataTable& data, std::span<const std::size_t> fold_of_row,
-                            const std::vector<Outcome>& all, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("predictions.csv");
-  file.write("line,fold,truth,classifier,decision");
-  for (const auto& name : data.classes) file.print(",{}", csv_field(name));
-  file.write("\n");
-  for (std::size_t row = 0; row < data.labels.size(); ++row)
-    for (const Outcome& outcome : all)
-      std::visit(
-          [&](const auto& belief) {
-            file.print("{},{},{},{},{}", data.lines[row], fold_of_row[row] + 1,
-                       csv_field(data.classes[data.labels[row]]), csv_field(outcome.name),
-                       csv_field(data.classes[decide(belief).pattern]));
-            for (std::size_t c = 0; c < belief.size(); ++c) file.print(",{}", shortest(belief[c]));
-            file.write("\n");
-          },
-          *outcome.beliefs[row]);
-  return file;
-}
-
-AtomicFile confusion_file(const DataTable& data, const std::vector<Outcome>& all, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("confusion.csv");
-  file.write("classifier,truth,decision,rows\n");
-  for (const Outcome& outcome : all)
+std::string confusion_csv(const DataTable& data, const Results& results, std::size_t foldings) {
+  ResultTable table({{.key = "classifier"}, {.key = "truth"}, {.key = "decision"}, {.key = "rows"}});
+  for (const Outcome& outcome : results.outcomes())
     for (std::size_t truth = 0; truth < data.classes.size(); ++truth)
       for (std::size_t c = 0; c < data.classes.size(); ++c)
-        file.print("{},{},{},{}\n", csv_field(outcome.name), csv_field(data.classes[truth]), csv_field(data.classes[c]),
-                   confusion(outcome)(truth, c));
-  return file;
+        table.row({outcome.name, data.classes[truth], data.classes[c],
+                   outcome.confusion()(truth, c) / static_cast<double>(foldings)});
+  return table.csv();
 }
 
-Json as_json(const Outcome& outcome, const Outcome& first) {
-  Json json = {
-      {"accuracy", confusion(outcome).accuracy()}, {"macro_f1", confusion(outcome).macro_f1()}, {"ties", outcome.ties}};
-  if (&outcome != &first)
-    json["accuracy_minus_that_of_sigma"] = apps::as_json(paired_interval(correct(outcome), correct(first)));
-  if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
-    json["log_loss"] = mean(random->log_losses());
-    json["brier"] = mean(random->briers());
-  } else {
-    const auto& fuzzy = std::get<Evaluation<Fuzzy>>(outcome.evaluation);
-    json["mean_necessity_of_truth"] = mean(fuzzy.necessities());
-    json["coverage"] = mean(fuzzy.covered());
-    json["mean_classes_in_the_cut"] = mean(fuzzy.cut_sizes());
+/// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
+void write_predictions(const DataTable& data, const EvaluateOptions& options, AtomicFile& file) {
+  std::vector<ResultColumn> columns = {
+      {.key = "line"}, {.key = "fold"}, {.key = "truth"}, {.key = "classifier"}, {.key = "decision"}};
+  for (const auto& name : data.classes) columns.push_back({.key = name});
+  const ResultTable table(std::move(columns));
+  file.write(table.csv_header());
+  std::mt19937_64 generator(options.seed);
+  const auto fold_of_row = folds_of(data, options.folds, generator);
+  for (std::size_t fold = 0; fold < options.folds; ++fold) {
+    const Fold taught = learned(data, fold_of_row, fold, options.learning);
+    for (const Contestant& contestant : taught.contestants)
+      classify_rows(taught.model, data, taught.rows, contestant, [&](std::size_t k, const auto& belief, bool) {
+        const std::size_t row = taught.rows[k];
+        std::vector<Cell> cells = {data.lines[row], fold + 1, data.classes[data.labels[row]], contestant.name,
+                                   data.classes[decide(belief).pattern]};
+        for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+        file.write(table.csv_line(cells));
+      });
   }
-  if (outcome.excluded > 0) json["rows_that_excluded_every_class"] = outcome.excluded;
-  return json;
 }
 
-}  // namespace
+/// Throws unless every class can be learned whichever fold is left out.
+void refuse_rare_classes(const DataTable& data) {
+  std::vector<std::size_t> rows(data.classes.size(), 0), line(data.classes.size(), 0);
+  for (std::size_t row = 0; row < data.labels.size(); ++row) {
+    ++rows[data.labels[row]];
+    line[data.labels[row]] = data.lines[row];
+  }
+  std::vector<std::string> rare;
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    if (rows[c] < 2) rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), line[c]));
+  if (rare.empty()) return;
+  throw InputError(message({.where = data.file,
+                            .what = fmt::format("column {}", in_quotes(data.label)),
+                            .found = fmt::format("a single row of {}", fmt::join(rare, ", ")),
+                            .expected = "at least two of every class: one to learn from, one to classify",
+                            .remedy = "add rows, or remove those of the class"}));
+}
 
-void evaluate_and_report(const EvaluateOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
-  const DataTable data = read_data(options.file, options.data);
+Results evaluated(const DataTable& data, const EvaluateOptions& options) {
+  Results results(data.labels.size());
+  const int threads = threads_or_all(options.threads);
+  Progress progress("folds", options.folds * options.foldings, options.output.quiet);
+  std::mt19937_64 generator(options.seed);
+  for (std::size_t folding = 0; folding < options.foldings; ++folding) {
+    const auto fold_of_row = folds_of(data, options.folds, generator);
+    for_each_run(
+        options.folds, threads,
+        [&](std::size_t fold) { return classify_fold(data, fold_of_row, fold, options.learning); },
+        [&](std::size_t, const FoldResult& fold) {
+          progress.advance();
+          results.add(fold);
+        },
+        2 * static_cast<std::size_t>(threads));
+  }
+  progress.finish();
+  return results;
+}
+
+void print_evaluation(const DataTable& data, const Results& results, const EvaluateOptions& options) {
+  const OutputOptions& output = options.output;
+  print_text(output, fmt::format("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}\n\n", data.file,
+                                 described(data), options.folds,
+                                 options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
+                                 options.seed, described(options.learning)));
+  outcomes_table(results, options.foldings).print(output.width());
+  print_text(
+      output,
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. "
+      "Necessity: 1 − the possibility of the best other class. A truth is covered if its possibility is at least "
+      "½.)");
+  for (const Outcome& outcome : results.outcomes())
+    if (outcome.excluded > 0)
+      print_text(output, fmt::format("{}: {} rows excluded every class and were judged by the prior", outcome.name,
+                                     outcome.excluded));
+  if (options.learning.misread == 0.0)
+    print_text(output,
+               "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
+               "inference.)");
+  constexpr std::size_t most_classes = 10;
+  if (data.classes.size() > most_classes) return;
+  for (const std::size_t i : {0U, 1U}) {
+    fmt::print("\n");
+    confusion_table(data, results.outcomes()[i], options.foldings).print(output.width());
+  }
+}
+
+void run_evaluate(const EvaluateOptions& options) {
+  ResultFiles files(options.output);
+  const DataTable data = read_data(options.file, options.data, options.output.quiet);
+  print_warnings(data);
   if (options.folds > data.labels.size())
     throw InputError(message({.where = data.file,
                               .found = fmt::format("{} rows", data.labels.size()),
                               .expected = fmt::format("at least as many as the {} folds", options.folds)}));
-  std::mt19937_64 generator(options.seed);
-  const auto fold_of_row = stratified_folds(data.labels, options.folds, generator);
+  refuse_rare_classes(data);
+  const Results results = evaluated(data, options);
+  print_evaluation(data, results, options);
+  if (!files.wanted()) return;
 
-  auto all = outcomes(data);
-  Progress progress("folds", options.folds, options.quiet);
-  for_each_run(
-      options.folds, threads_or_all(options.threads),
-      [&](std::size_t fold) { return classify_fold(data, fold_of_row, fold, options); },
-      [&](std::size_t, FoldResult result) {
-        progress.advance();
-        for (std::size_t i = 0; i < all.size(); ++i) {
-          all[i].excluded += result.excluded[i];
-          for (std::size_t k = 0; k < result.rows.size(); ++k)
-            all[i].beliefs[result.rows[k]] = std::move(result.beliefs[i][k]);
-        }
-      });
-  progress.finish();
-  for (Outcome& outcome : all)
-    for (std::size_t row = 0; row < data.labels.size(); ++row)
-      std::visit(
-          [&](const auto& belief) {
-            using Kind = typename std::decay_t<decltype(belief)>::kind;
-            std::get<Evaluation<Kind>>(outcome.evaluation).add(data.labels[row], belief);
-            if (decide(belief).tied > 1) ++outcome.ties;
-          },
-          *outcome.beliefs[row]);
-
-  fmt::print("{}: {}\n{} folds of equal shares of every class, seed {}; {}\n\n", data.file, described(data),
-             options.folds, options.seed, described(options.learning));
-  print_outcomes(all);
-  for (const Outcome& outcome : all)
-    if (outcome.excluded > 0)
-      fmt::print("{}: {} rows excluded every class and were judged by the prior\n", outcome.name, outcome.excluded);
-  if (options.learning.misread == 0.0)
-    fmt::print(
-        "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)\n");
-  print_confusion(data, all[0]);
-  print_confusion(data, all[1]);
-
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+  Json summary = summary_of(options.output);
   summary["file"] = data.file;
   summary["rows"] = data.labels.size();
   summary["classes"] = data.classes;
   summary["folds"] = options.folds;
+  summary["foldings"] = options.foldings;
   summary["seed"] = options.seed;
   summary["smoothing"] = options.learning.smoothing;
   summary["misread"] = options.learning.misread;
   summary["bins"] = options.learning.bins;
-  for (const Outcome& outcome : all) summary["classifiers"][outcome.name] = as_json(outcome, all.front());
-  AtomicFile predictions = predictions_file(data, fold_of_row, all, *directory);
-  AtomicFile confusion_csv = confusion_file(data, all, *directory), summary_json = summary_file(summary, *directory);
-  commit_all(predictions, confusion_csv, summary_json);
-  print_written({"predictions.csv", "confusion.csv", "summary.json"}, options.out);
+  summary["classifiers"] = outcomes_table(results, options.foldings).json();
+  write_predictions(data, options, *files.open("predictions.csv"));
+  files.write("confusion.csv", confusion_csv(data, results, options.foldings));
+  files.write_json("summary.json", summary);
+  files.commit();
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  options->output.command = command;
+  CLI::App& app = *program.add_subcommand("evaluate", "Cross-validates every kind of classifier on labelled data.");
+  add_learning(app, options->file, options->data, options->learning);
+  app.add_option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
+      ->check(CLI::Range(2, 1000000))
+      ->capture_default_str();
+  app.add_option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  add_seed(app, options->seed, "of the folds");
+  add_threads(app, options->threads);
+  add_output(app, options->output);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"
+      "  recognition_demo evaluate letter.csv --label letter --categorical all \\\n"
+      "    --out results");
+  app.callback([options] { run_evaluate(*options); });
 }
 
 }  // namespace sigmax::apps

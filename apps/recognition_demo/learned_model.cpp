@@ -1,7 +1,9 @@
 #include "recognition_demo/learned_model.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -61,12 +63,6 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
   return {name, MaxClassifier{prior, std::move(features)}};
 }
 
-/// The line of the first row of a class.
-std::size_t line_of_class(const DataTable& data, std::size_t c) {
-  const auto row = std::find(data.labels.begin(), data.labels.end(), c) - data.labels.begin();
-  return data.lines[static_cast<std::size_t>(row)];
-}
-
 }  // namespace
 
 LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, const LearningOptions& options) {
@@ -79,25 +75,76 @@ LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, con
     codes.push_back(std::move(code));
   }
   Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
-  LearnedModel model{data.label, std::move(codes), std::move(counts), options};
-  for (const std::size_t row : rows) model.counts.observe(data.labels[row], readings(model, data, row));
-  for (std::size_t c = 0; c < data.classes.size(); ++c)
-    if (model.counts.rows(c) == 0.0)
-      throw InputError(
-          message({.where = fmt::format("{}:{}", data.file, line_of_class(data, c)),
-                   .what = fmt::format("class {} of column {}", in_quotes(data.classes[c]), in_quotes(data.label)),
-                   .found = "no row to learn from",
-                   .expected = "at least two in the file",
-                   .remedy = "add rows, or remove those of the class"}));
+  LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
+  Readings readings;
+  for (const std::size_t row : rows) {
+    read(model, data, row, readings);
+    model.counts.observe(data.labels[row], readings);
+  }
   return model;
 }
 
-Readings readings(const LearnedModel& model, const DataTable& data, std::size_t row) {
-  Readings result;
-  for (std::size_t i = 0; i < data.columns.size(); ++i)
-    result.push_back(data.columns[i].numeric ? model.features[i].bins->bin(data.columns[i].numbers[row])
-                                             : data.columns[i].codes[row]);
-  return result;
+void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings) {
+  readings.clear();
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    const DataColumn& column = data.columns[i];
+    if (column.numeric)
+      readings.push_back(model.features[i].bins->bin(column.numbers[row]));
+    else
+      readings.push_back(column.codes[row] == missing_code ? missing : column.codes[row]);
+  }
+}
+
+void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning) {
+  const auto add_list = [&](const char* name, std::vector<std::string>& words, const char* help, const char* type) {
+    app.add_option(name, words, help)
+        ->type_name(type)
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  app.add_option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
+      ->required()
+      ->type_name("DATA");
+  app.add_option("--label", data.label, "The column with the class")->required()->type_name("COLUMN");
+  add_list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all",
+           "COLUMN,…|all");
+  add_list("--ignore", data.ignore, "Columns to leave out", "COLUMN,…");
+  add_list("--missing", data.missing,
+           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers", "WORD,…");
+  app.add_option("--bins", learning.bins, "Bins of a numeric column")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
+  app.add_option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
+      ->check(number_in(0.0, 1e9))
+      ->capture_default_str();
+  app.add_option("--misread", learning.misread,
+                 "Probability that a reading is not the feature's value but one of the others")
+      ->check(number_in(0.0, 0.999))
+      ->capture_default_str();
+  app.add_flag("--equal-prior", learning.equal_prior,
+               "Every class is equally plausible before, whatever its share of the rows");
+}
+
+void print_warnings(const DataTable& data) {
+  for (const auto& warning : data.warnings)
+    std::fputs(fmt::format("recognition_demo: warning: {}\n", warning).c_str(), stderr);
+}
+
+std::string described(const DataTable& data) {
+  const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
+  return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.labels.size(),
+                     data.classes.size(), data.columns.size(), static_cast<long>(data.columns.size()) - numeric,
+                     numeric);
+}
+
+std::string described(const LearningOptions& options) {
+  std::string text = options.smoothing == 1.0 ? std::string("counts smoothed by Laplace's rule")
+                                              : fmt::format("{} added to every count", options.smoothing);
+  text += options.equal_prior ? "; every class equally plausible before" : "; prior by the classes' shares of the rows";
+  if (options.misread > 0.0) text += fmt::format("; a reading is wrong with probability {}", options.misread);
+  return text;
 }
 
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds) {

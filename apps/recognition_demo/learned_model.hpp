@@ -13,6 +13,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 
@@ -37,16 +38,29 @@ struct LearningOptions {
 /// What was learned from labelled data: the counts, and how to read further data.
 struct LearnedModel {
   std::string label;
+  std::vector<std::string> missing;  ///< words that stand for nothing, beside the usual ones
   std::vector<FeatureCode> features;
   Counts counts;
   LearningOptions options;
 };
 
-/// Fits bins and counts on some rows of the data. Throws InputError for a class without any of them.
+/// Fits bins and counts on some rows of the data.
 LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, const LearningOptions& options);
 
-/// One row of the data as readings.
-Readings readings(const LearnedModel& model, const DataTable& data, std::size_t row);
+/// One row of the data as readings, into room that is used again.
+void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings);
+
+/// The options of learning, and those of the data that are learned from.
+void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning);
+
+/// Prints the warnings of a table to standard error.
+void print_warnings(const DataTable& data);
+
+/// "101 rows, 7 classes, 16 features (15 categorical, 1 numeric)".
+std::string described(const DataTable& data);
+
+/// "counts smoothed by Laplace's rule; prior by the classes' shares of the rows", and what else was chosen.
+std::string described(const LearningOptions& options);
 
 /// The kinds of classifiers: "sigma", "max", "sigma-max".
 inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};

@@ -1,7 +1,6 @@
-#include "recognition_demo/manoeuvre.hpp"
-
+#include <CLI/CLI.hpp>
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -11,10 +10,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/manoeuvre_scenario.hpp"
-#include "support/parallel.hpp"
-#include "support/csv.hpp"
-#include "support/progress.hpp"
-#include "support/table.hpp"
+#include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -38,152 +34,207 @@ std::vector<Pairing> pairings(const ManoeuvreScenario& scenario) {
 }
 
 struct TargetScores {
-  std::size_t target;
+  std::string target;
   std::vector<Score> scores;
 };
 
-void print(const ManoeuvreScenario& scenario, const std::vector<TargetScores>& all) {
-  std::vector<TextTable::Column> columns = {{"right, % after the last sample", Align::left}};
+/// A flight with what the classifiers made of it.
+struct Flight : RunTraces {
+  ManoeuvreRun run;
+};
+
+ResultTable targets_table(const ManoeuvreScenario& scenario, const std::vector<TargetScores>& all) {
+  std::vector<ResultColumn> columns = {{.header = "after the last sample", .align = Align::left}};
+  for (std::size_t c = 0; c < all.size(); ++c)
+    columns.push_back({.header = fmt::format("{} ({} m/s²)", all[c].target, scenario.acceleration[c]),
+                       .digits = 1,
+                       .scale = 100.0,
+                       .group = "right, %:"});
   for (const TargetScores& target : all)
-    columns.push_back(
-        {fmt::format("{} ({} m/s²)", scenario.target.label(target.target), scenario.acceleration[target.target])});
-  for (const TargetScores& target : all) columns.push_back({"p or π of " + scenario.target.label(target.target)});
-  columns.push_back({"runs that end in a tie, %"});
-  TextTable table(columns);
+    columns.push_back({.header = target.target, .digits = 3, .group = "p or π of"});
+  columns.push_back({.header = "runs that end in a tie", .unit = "%", .digits = 1, .scale = 100.0});
+  ResultTable table(std::move(columns));
   for (std::size_t i = 0; i < all.front().scores.size(); ++i) {
-    std::vector<std::string> cells = {all.front().scores[i].name};
+    std::vector<Cell> cells = {all.front().scores[i].name};
     double ties = 0.0;
     for (const TargetScores& target : all) {
-      cells.push_back(percent(target.scores[i].accuracy.back()));
+      cells.emplace_back(target.scores[i].accuracy.back());
       ties += target.scores[i].ties / static_cast<double>(all.size());
     }
-    for (const TargetScores& target : all) cells.push_back(fmt::format("{:.3f}", target.scores[i].belief_in_truth));
-    cells.push_back(percent(ties));
-    table.row(cells);
+    for (const TargetScores& target : all) cells.emplace_back(target.scores[i].belief_in_truth);
+    cells.emplace_back(ties);
+    table.row(std::move(cells));
   }
-  table.print();
-  fmt::print("(Ties share the credit.)\n");
+  return table;
 }
 
-void print_differences(const ManoeuvreScenario& scenario, const std::vector<TargetScores>& all) {
+ResultTable differences_table(const std::vector<TargetScores>& all) {
   const auto& names = all.front().scores;
-  std::vector<TextTable::Column> columns = {{fmt::format("− that of {}, points", names.front().name), Align::left}};
-  for (const TargetScores& target : all) columns.push_back({scenario.target.label(target.target)});
-  TextTable table(columns);
+  std::vector<ResultColumn> columns = {
+      {.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}};
+  for (const TargetScores& target : all) columns.push_back({.header = target.target, .scale = 100.0, .sign = true});
+  ResultTable table(std::move(columns));
   for (std::size_t i = 1; i < names.size(); ++i) {
-    std::vector<std::string> cells = {names[i].name};
-    for (const TargetScores& target : all)
-      cells.push_back(points(paired_difference(target.scores[i], target.scores.front())));
-    table.row(cells);
+    std::vector<Cell> cells = {names[i].name};
+    for (const TargetScores& target : all) cells.emplace_back(target.scores[i].minus_first.interval());
+    table.row(std::move(cells));
   }
-  fmt::print("\n");
-  table.print();
-  fmt::print("(± 95 % by paired runs.)\n");
+  return table;
 }
 
-void print_dominated(const std::vector<Pairing>& pairings) {
-  for (const Pairing& pairing : pairings)
+void print_dominated(const OutputOptions& options, const std::vector<Contestant>& contestants) {
+  for (const Contestant& contestant : contestants)
     std::visit(
         [&](const auto& classifier) {
           const auto& target = classifier.prior().variable();
           for (const Dominance& found : dominated_patterns(classifier))
-            fmt::print("{} can never prefer the {}: whatever is seen, the {} is at least as possible\n",
-                       pairing.contestant.name, target.label(found.pattern), target.label(found.dominator));
+            print_text(options,
+                       fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as "
+                                   "possible",
+                                   contestant.name, target.label(found.pattern), target.label(found.dominator)));
         },
-        pairing.contestant.classifier);
+        contestant.classifier);
+}
+
+/// samples.csv: the measured positions, and the weights of the filters' modes.
+ResultTable samples_table(const ManoeuvreScenario& scenario) {
+  std::vector<ResultColumn> columns = {{.key = "target"}, {.key = "run"}, {.key = "sample"}, {.key = "position_m"}};
+  for (const char* filter : {"imm", "himm"})
+    for (std::size_t j = 0; j < scenario.mode.size(); ++j)
+      columns.push_back({.key = fmt::format("{}_{}", filter, scenario.mode.label(j))});
+  return ResultTable(std::move(columns));
+}
+
+/// runs.csv: what each classifier believed at the end of every run.
+ResultTable runs_table(const ManoeuvreScenario& scenario, const std::vector<Contestant>& contestants) {
+  std::vector<ResultColumn> columns = {{.key = "target"}, {.key = "run"}};
+  for (const Contestant& contestant : contestants)
+    for (std::size_t c = 0; c < scenario.target.size(); ++c)
+      columns.push_back({.key = contestant.name + ": " + scenario.target.label(c)});
+  return ResultTable(std::move(columns));
+}
+
+/// Writes samples.csv and runs.csv bit by bit.
+class FlightFiles {
+ public:
+  FlightFiles(const ManoeuvreScenario& scenario, const std::vector<Contestant>& contestants, ResultFiles& files)
+      : scenario_(scenario),
+        samples_(samples_table(scenario)),
+        runs_(runs_table(scenario, contestants)),
+        samples_file_(files.open("samples.csv")),
+        runs_file_(files.open("runs.csv")) {
+    if (!samples_file_) return;
+    samples_file_->write(samples_.csv_header());
+    runs_file_->write(runs_.csv_header());
+  }
+
+  void write(std::size_t run, const Flight& flight) {
+    if (!samples_file_) return;
+    const std::string& target = scenario_.target.label(flight.truth);
+    for (std::size_t k = 0; k < ManoeuvreScenario::samples; ++k) {
+      std::vector<Cell> cells = {target, run + 1, k + 1, flight.run.positions[k]};
+      for (const auto* weights : {&flight.run.imm[k], &flight.run.himm[k]})
+        for (std::size_t j = 0; j < scenario_.mode.size(); ++j)
+          cells.push_back(weights->empty() ? Cell() : Cell(std::exp((*weights)[j])));
+      samples_file_->write(samples_.csv_line(cells));
+    }
+    std::vector<Cell> cells = {target, run + 1};
+    for (const Trace& trace : flight.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+    runs_file_->write(runs_.csv_line(cells));
+  }
+
+ private:
+  const ManoeuvreScenario& scenario_;
+  ResultTable samples_, runs_;
+  AtomicFile *samples_file_, *runs_file_;
+};
+
+Flight flown(const ManoeuvreScenario& scenario, const std::vector<Pairing>& pairings, std::size_t target,
+             RandomStream& random) {
+  Flight flight{{target, {}}, fly(scenario, scenario.acceleration[target], random)};
+  const auto by_sum = reports_by_sum(scenario, flight.run), by_max = reports_by_max(scenario, flight.run);
+  for (const Pairing& pairing : pairings)
+    flight.traces.push_back(follow(pairing.contestant, target, pairing.of_himm ? by_max : by_sum));
+  return flight;
+}
+
+std::string curves_of_targets(const std::vector<TargetScores>& all) {
+  ResultTable table({{.key = "target"}, {.key = "sample"}, {.key = "classifier"}, {.key = "accuracy"}});
+  for (const TargetScores& target : all)
+    for (const Score& score : target.scores)
+      for (std::size_t k = 0; k < score.accuracy.size(); ++k)
+        table.row({target.target, ManoeuvreScenario::first_classified + k, score.name, score.accuracy[k]});
+  return table.csv();
+}
+
+void print_manoeuvres(const DrawOptions& options, const ManoeuvreScenario& scenario,
+                      const std::vector<TargetScores>& results, const std::vector<Contestant>& contestants) {
+  using Scenario = ManoeuvreScenario;
+  const OutputOptions& output = options.output;
+  print_text(output,
+             fmt::format("Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to "
+                         "{} m; from {} m at {} m/s, accelerated during samples {}-{}. IMM and HIMM: constant "
+                         "velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. From sample {} on their mode weights are the "
+                         "reports: cv weak, ±3 g medium, ±5 g strong.\n\n",
+                         options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position,
+                         Scenario::start_m, Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated,
+                         Scenario::sigma_w, Scenario::stay, Scenario::first_classified));
+  targets_table(scenario, results).print(output.width());
+  print_text(output, "(Ties share the credit.)\n\n");
+  differences_table(results).print(output.width());
+  print_text(output, "(± 95 % by paired runs.)\n\n");
+  print_dominated(output, contestants);
+}
+
+void run_manoeuvre(const DrawOptions& options) {
+  ResultFiles files(options.output);
+  const ManoeuvreScenario scenario;
+  const auto all = pairings(scenario);
+  std::vector<Contestant> contestants;
+  for (const Pairing& pairing : all) contestants.push_back(pairing.contestant);
+  FlightFiles flights(scenario, contestants, files);
+
+  const std::size_t targets = scenario.target.size();
+  std::vector<TargetScores> results;
+  Progress progress("runs", options.runs * targets, options.output.quiet);
+  for (std::size_t target = 0; target < targets; ++target) {
+    Scoreboard board(contestants);
+    for_each_draw(
+        options, progress, [&](RandomStream& random) { return flown(scenario, all, target, random); },
+        [&](std::size_t run, const Flight& flight) {
+          board.add(flight);
+          flights.write(run, flight);
+        },
+        targets, target);
+    results.push_back({scenario.target.label(target), board.scores()});
+  }
+  progress.finish();
+  print_manoeuvres(options, scenario, results, contestants);
+
+  Json summary = summary_of(options.output);
+  summary["simulated"] = true;
+  summary["runs"] = options.runs;
+  summary["seed"] = options.seed;
+  for (const TargetScores& result : results) summary["targets"][result.target] = scores_table(result.scores).json();
+  files.write("curves.csv", curves_of_targets(results));
+  files.write_json("summary.json", summary);
+  files.commit();
 }
 
 }  // namespace
 
-void manoeuvre_and_report(const ManoeuvreOptions& options) {
-  using Scenario = ManoeuvreScenario;
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
-  const Scenario scenario;
-  const auto all = pairings(scenario);
-  std::vector<Contestant> contestants;
-  for (const Pairing& pairing : all) contestants.push_back(pairing.contestant);
-
-  std::optional<AtomicFile> samples, runs;
-  if (directory) {
-    samples.emplace(directory->file("samples.csv"));
-    samples->write("target,run,sample,position_m");
-    for (const char* filter : {"imm", "himm"})
-      for (std::size_t j = 0; j < scenario.mode.size(); ++j) samples->print(",{}_{}", filter, scenario.mode.label(j));
-    samples->write("\n");
-    runs.emplace(directory->file("runs.csv"));
-    runs->write("target,run");
-    for (const Contestant& contestant : contestants)
-      for (std::size_t c = 0; c < scenario.target.size(); ++c)
-        runs->print(",{}", csv_field(contestant.name + ": " + scenario.target.label(c)));
-    runs->write("\n");
-  }
-
-  std::vector<TargetScores> results;
-  Progress progress("runs", options.runs * scenario.target.size(), options.quiet);
-  for (std::size_t target = 0; target < scenario.target.size(); ++target) {
-    const auto flown = [&](std::size_t run) {
-      RandomStream random(options.seed, run * scenario.target.size() + target);
-      return fly(scenario, scenario.acceleration[target], random);
-    };
-    const auto trace = [&](std::size_t run) {
-      const ManoeuvreRun flight = flown(run);
-      const auto by_sum = reports_by_sum(scenario, flight), by_max = reports_by_max(scenario, flight);
-      RunTraces result{target, {}};
-      for (const Pairing& pairing : all)
-        result.traces.push_back(follow(pairing.contestant, target, pairing.of_himm ? by_max : by_sum));
-      return result;
-    };
-    const auto see = [&](std::size_t run, const RunTraces& result) {
-      progress.advance();
-      if (!directory) return;
-      const ManoeuvreRun flight = flown(run);
-      for (std::size_t k = 0; k < Scenario::samples; ++k) {
-        samples->print("{},{},{},{}", scenario.target.label(target), run + 1, k + 1, shortest(flight.positions[k]));
-        for (const auto* weights : {&flight.imm[k], &flight.himm[k]})
-          for (std::size_t j = 0; j < scenario.mode.size(); ++j)
-            samples->print(",{}", weights->empty() ? "" : shortest(std::exp((*weights)[j])));
-        samples->write("\n");
-      }
-      runs->print("{},{}", scenario.target.label(target), run + 1);
-      for (const Trace& one : result.traces)
-        for (const double value : one.belief) runs->print(",{}", shortest(value));
-      runs->write("\n");
-    };
-    results.push_back({target, score(contestants, options.runs, threads_or_all(options.threads), trace, see)});
-  }
-  progress.finish();
-
-  fmt::print(
-      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
-      "{} m/s,\n"
-      "accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}.\n"
-      "From sample {} on their mode weights are the reports: cv weak, ±3 g medium, ±5 g strong.\n\n",
-      options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position, Scenario::start_m,
-      Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated, Scenario::sigma_w, Scenario::stay,
-      Scenario::first_classified);
-  print(scenario, results);
-  print_differences(scenario, results);
-  fmt::print("\n");
-  print_dominated(all);
-
-  if (!directory) return;
-  AtomicFile curves = directory->file("curves.csv");
-  curves.write("target,sample,classifier,accuracy\n");
-  for (const TargetScores& result : results)
-    for (const Score& score : result.scores)
-      for (std::size_t k = 0; k < score.accuracy.size(); ++k)
-        curves.print("{},{},{},{}\n", scenario.target.label(result.target), Scenario::first_classified + k,
-                     csv_field(score.name), shortest(score.accuracy[k]));
-  Json summary = summary_of(options.command);
-  summary["simulated"] = true;
-  summary["runs"] = options.runs;
-  summary["seed"] = options.seed;
-  for (const TargetScores& result : results)
-    summary["targets"][scenario.target.label(result.target)] = as_json(result.scores);
-  AtomicFile summary_json = summary_file(summary, *directory);
-  commit_all(*samples, *runs, curves, summary_json);
-  print_written({"samples.csv", "runs.csv", "curves.csv", "summary.json"}, options.out);
+void add_manoeuvre(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<DrawOptions>();
+  options->runs = 1000;
+  options->output.command = command;
+  CLI::App& app = *program.add_subcommand(
+      "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
+  add_draws(app, *options);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo manoeuvre\n"
+      "  recognition_demo manoeuvre --runs 20000 --out results");
+  app.callback([options] { run_manoeuvre(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -111,8 +111,16 @@ FeatureCode feature_code(const Node& node) {
 }
 
 Json parsed(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  const auto first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  if (first < text.size() && text[first] != '{' && text[first] != '[')
+    throw InputError(message({.where = path.native(),
+                              .what = "is no model",
+                              .found = in_quotes(text.substr(first, text.find('\n', first) - first)),
+                              .expected = "JSON as `recognition_demo train` writes it",
+                              .remedy = "the model comes first, then the data"}));
   try {
-    return Json::parse(read_text(path));
+    return Json::parse(text);
   } catch (const Json::parse_error& error) {
     // Its words are "[json.exception.parse_error.101] parse error at line 3, column 1: …".
     std::string what = error.what();
@@ -121,6 +129,10 @@ Json parsed(const std::filesystem::path& path) {
                               .what = what,
                               .expected = "a model as `recognition_demo train` writes it",
                               .remedy = "train it again if the file was cut off"}));
+  } catch (const Json::exception&) {  // a number as 1e400
+    throw InputError(message({.where = path.native(),
+                              .what = "holds a number that no double can hold",
+                              .expected = "a model as `recognition_demo train` writes it"}));
   }
 }
 
@@ -135,6 +147,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
                {"smoothing", model.options.smoothing},
                {"misread", model.options.misread},
                {"equal_prior", model.options.equal_prior}};
+  if (!model.missing.empty()) json["missing"] = model.missing;
   for (std::size_t c = 0; c < counts.pattern().size(); ++c)
     json["classes"].push_back({{"name", counts.pattern().label(c)}, {"rows", counts.rows(c)}});
   for (std::size_t i = 0; i < model.features.size(); ++i) {
@@ -221,7 +234,9 @@ ModelFile read_model(const std::filesystem::path& path) {
       if (sum == 0.0 && options.smoothing == 0.0) throw tables[c].error("a count above zero, as there is no smoothing");
     }
   }
-  LearnedModel model{label, std::move(codes), std::move(counts), options};
+  std::vector<std::string> missing_words;
+  if (root.has("missing")) missing_words = names(root.at("missing"), "words");
+  LearnedModel model{label, std::move(missing_words), std::move(codes), std::move(counts), options};
   return {std::move(model), std::move(kinds)};
 }
 

@@ -1,9 +1,8 @@
-#include "recognition_demo/performance.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -12,12 +11,19 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
-#include "support/parallel.hpp"
 #include "recognition_demo/performance_data.hpp"
-#include "support/progress.hpp"
+#include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+struct PerformanceOptions {
+  std::string file;
+  std::string drawn_from = "density";  ///< or "triangle"
+  std::size_t bins = 40;
+  double least = 0.01;  ///< possibility of what lies outside [minimum, maximum]
+  DrawOptions draws;
+};
 
 /// Bins of one quantity that hold all but a thousandth of every type's density at either end.
 Discretization bins_of(const std::vector<Performance>& types, std::size_t bins) {
@@ -104,58 +110,93 @@ double mean_probability_inside(const PerformanceData& data) {
   return sum / static_cast<double>(data.table.size() * data.types.size());
 }
 
-}  // namespace
+/// A type and, independently, its quantities; a report is one of them.
+RunTraces drawn_run(const PerformanceData& data, const World& world, const PerformanceOptions& options,
+                    RandomStream& random) {
+  const std::size_t truth = draw_index(random, data.types.size());
+  std::vector<Readings> reports;
+  for (std::size_t v = 0; v < data.variables.size(); ++v) {
+    const Performance& of_type = data.table[v][truth];
+    const double u = random.uniform();
+    const double value = options.drawn_from == "density" ? of_type.density.quantile(u) : draw_from(of_type.triangle, u);
+    reports.emplace_back(data.variables.size(), missing)[v] = world.bins[v].bin(value);
+  }
+  return follow_all(world.contestants, truth, reports);
+}
 
-void performance_and_report(const PerformanceOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
+void print_performance(const PerformanceOptions& options, const PerformanceData& data,
+                       const std::vector<Score>& scores) {
+  const OutputOptions& output = options.draws.output;
+  print_text(output,
+             fmt::format("{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
+                         "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to "
+                         "be {}",
+                         options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data),
+                         options.least));
+  for (const auto& remark : data.remarks) print_text(output, remark);
+  print_text(output, fmt::format("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} "
+                                 "bins a quantity\n\n",
+                                 options.draws.runs,
+                                 options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                                                 : "densities in proportion to the triangles",
+                                 options.draws.seed, options.bins));
+  print_scores(output, scores, "quantities");
+}
+
+void run_performance(const PerformanceOptions& options) {
+  const DrawOptions& draws = options.draws;
+  ResultFiles files(draws.output);
   const PerformanceData data = read_performance(options.file);
   const World world = world_of(data, options);
-
-  const auto trace = [&](std::size_t run) {
-    RandomStream random(options.seed, run);
-    RunTraces result{draw_index(random, data.types.size()), {}};
-    std::vector<Readings> reports;
-    for (std::size_t v = 0; v < data.variables.size(); ++v) {
-      const Performance& of_type = data.table[v][result.truth];
-      const double u = random.uniform();
-      const double value = options.draws == "density" ? of_type.density.quantile(u) : draw_from(of_type.triangle, u);
-      reports.emplace_back(data.variables.size(), missing)[v] = world.bins[v].bin(value);
-    }
-    for (const Contestant& contestant : world.contestants)
-      result.traces.push_back(follow(contestant, result.truth, reports));
-    return result;
-  };
-  Progress progress("runs", options.runs, options.quiet);
-  const auto scores = score(world.contestants, options.runs, threads_or_all(options.threads), trace,
-                            [&](std::size_t, const RunTraces&) { progress.advance(); });
+  Scoreboard board(world.contestants);
+  Progress progress("runs", draws.runs, draws.output.quiet);
+  for_each_draw(
+      draws, progress, [&](RandomStream& random) { return drawn_run(data, world, options, random); },
+      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
   progress.finish();
+  const auto scores = board.scores();
+  print_performance(options, data, scores);
 
-  fmt::print(
-      "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
-      "[min, max] holds {} % of the density on average; outside it the possibility is taken to be {}\n",
-      options.file, data.types.size(), data.variables.size(), percent(mean_probability_inside(data)), options.least);
-  for (const auto& remark : data.remarks) fmt::print("{}\n", remark);
-  fmt::print("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a quantity\n\n",
-             options.runs,
-             options.draws == "density" ? "the densities: sigma inference knows them"
-                                        : "densities in proportion to the triangles",
-             options.seed, options.bins);
-  print_scores(scores, "quantities");
-
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+  Json summary = summary_of(draws.output);
   summary["file"] = options.file;
-  summary["drawn_from"] = options.draws;
+  summary["drawn_from"] = options.drawn_from;
   summary["bins"] = options.bins;
   summary["least_possibility"] = options.least;
-  summary["runs"] = options.runs;
-  summary["seed"] = options.seed;
+  summary["runs"] = draws.runs;
+  summary["seed"] = draws.seed;
   summary["remarks"] = data.remarks;
-  summary["classifiers"] = as_json(scores);
-  AtomicFile curves = curves_file(scores, *directory), summary_json = summary_file(summary, *directory);
-  commit_all(curves, summary_json);
-  print_written({"curves.csv", "summary.json"}, options.out);
+  summary["classifiers"] = scores_table(scores).json();
+  files.write("curves.csv", curves_csv(scores));
+  files.write_json("summary.json", summary);
+  files.commit();
+}
+
+}  // namespace
+
+void add_performance(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<PerformanceOptions>();
+  options->draws.output.command = command;
+  options->draws.runs = 10000;
+  CLI::App& app = *program.add_subcommand(
+      "performance", "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
+  app.add_option("data", options->file,
+                 "A CSV file with type, variable, optimum, minimum, maximum, model and parameters")
+      ->required()
+      ->type_name("PERFORMANCE.csv");
+  app.add_option("--draws", options->drawn_from, "What the quantities are drawn from")
+      ->check(CLI::IsMember({"density", "triangle"}))
+      ->capture_default_str();
+  app.add_option("--bins", options->bins, "Bins of a quantity")->check(CLI::Range(2, 10000))->capture_default_str();
+  app.add_option("--least", options->least, "Possibility of what lies outside [min, max]")
+      ->check(number_in(0.0, 1.0))
+      ->capture_default_str();
+  add_draws(app, options->draws);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo performance openap_performance.csv\n"
+      "  recognition_demo performance openap_performance.csv --draws triangle \\\n"
+      "    --least 0.1");
+  app.callback([options] { run_performance(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,7 +1,7 @@
-#include "recognition_demo/regimes.hpp"
-
+#include <CLI/CLI.hpp>
 #include <functional>
-#include <optional>
+#include <memory>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -12,10 +12,7 @@
 #include "recognition_demo/draws.hpp"
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
-#include "support/parallel.hpp"
-#include "support/csv.hpp"
-#include "support/progress.hpp"
-#include "support/table.hpp"
+#include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -23,11 +20,17 @@ namespace {
 /// What the classifiers believe of the sensor unless a regime says otherwise.
 constexpr double believed_hit = 0.7;
 
+struct RegimesOptions {
+  std::size_t reports = 40;
+  DrawOptions draws;
+};
+
 /// One setting: what really happens, and what the classifiers know, which may be learned anew in every run.
 struct Setting {
   std::string name;
   EsmTruth truth;
   std::function<std::vector<Contestant>(RandomStream&)> contestants;
+  bool learned = false;
 };
 
 /// Settings of one kind, in which one number changes.
@@ -50,7 +53,8 @@ std::vector<Contestant> equally_informed(const Relation<Random, Random>& probabl
   const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
   return {sigma_contestant("sigma", probable, {sensors, sensor}),
           sigma_max_contestant("sigma-max", possible, {sensors, sensor}),
-          max_contestant("max, Dubois-Prade", possible, {sensors, dubois_prade})};
+          max_contestant("max, Dubois-Prade", possible, {sensors, dubois_prade}),
+          max_sigma_contestant("max-sigma, Dubois-Prade", probable, {sensors, dubois_prade})};
 }
 
 /// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion,
@@ -123,9 +127,10 @@ std::vector<Regime> regimes(const EsmWorld& world) {
     const Usage usages{Usage::Kind::dirichlet, alpha};
     for (const std::size_t seen : {1U, 3U, 10U, 30U, 100U, 1000U})
       few.settings.push_back(
-          {fmt::format("n = {}", seen), {.usage = usages}, [&world, usages, seen](RandomStream& random) {
-             return learned(world, usages, seen, random);
-           }});
+          {fmt::format("n = {}", seen),
+           {.usage = usages},
+           [&world, usages, seen](RandomStream& random) { return learned(world, usages, seen, random); },
+           true});
     all.push_back(std::move(few));
   }
 
@@ -147,113 +152,142 @@ std::vector<Regime> regimes(const EsmWorld& world) {
   return all;
 }
 
-void print_regime(const Regime& regime, std::span<const SettingScores> settings) {
-  std::vector<TextTable::Column> columns = {{"right, %", Align::left}};
+ResultTable regime_table(std::span<const SettingScores> settings) {
+  std::vector<ResultColumn> columns = {{.header = "setting", .align = Align::left}};
   const auto& first = settings.front().scores;
   for (const Score& score : first) {
-    columns.push_back({score.name});
-    if (&score != &first.front()) columns.push_back({"− sigma's"});
+    columns.push_back({.header = "right, %", .digits = 1, .scale = 100.0, .group = score.name + ":"});
+    if (&score != &first.front())
+      columns.push_back({.header = "− sigma's", .scale = 100.0, .sign = true, .group = score.name + ":"});
   }
-  TextTable table(columns);
+  ResultTable table(std::move(columns));
   for (const SettingScores& setting : settings) {
-    std::vector<std::string> cells = {setting.setting};
+    std::vector<Cell> cells = {setting.setting};
     for (const Score& score : setting.scores) {
-      cells.push_back(percent(score.accuracy.back()));
-      if (&score != &setting.scores.front()) cells.push_back(points(paired_difference(score, setting.scores.front())));
+      cells.emplace_back(score.accuracy.back());
+      if (&score != &setting.scores.front()) cells.emplace_back(score.minus_first.interval());
     }
-    table.row(cells);
+    table.row(std::move(cells));
   }
-  fmt::print("\n{}\n\n", regime.description);
-  table.print();
+  return table;
 }
 
-/// Where possibilities did better, and where worse, by more than the interval.
-void print_verdict(const std::vector<SettingScores>& all) {
-  std::string better;
-  std::size_t better_count = 0, worse = 0, level = 0;
+/// Where possibilities did better, and where worse, by more than the interval. What is the same in every run counts
+/// once.
+void print_verdict(const OutputOptions& options, const std::vector<SettingScores>& all) {
+  ResultTable better({{.header = "regime", .align = Align::left},
+                      {.header = "setting", .align = Align::left},
+                      {.header = "better than sigma", .align = Align::left},
+                      {.header = "points", .scale = 100.0, .sign = true}});
+  std::size_t better_count = 0, worse = 0, undecided = 0;
+  for (const SettingScores& setting : all)
+    for (std::size_t i = 0; i < setting.scores.size(); ++i) {
+      const Score& score = setting.scores[i];
+      if (!score.has_possibilities || score.same_as < i) continue;
+      const Interval difference = score.minus_first.interval();
+      ++(difference.above_zero() ? better_count : difference.below_zero() ? worse : undecided);
+      if (difference.above_zero()) better.row({setting.regime, setting.setting, score.name, difference});
+    }
+  fmt::print("\n");
+  print_text(options, fmt::format("Of {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} "
+                                  "better; one in forty would be better by chance. Classifiers that decide alike in "
+                                  "every run count once{}",
+                                  better_count + worse + undecided, worse, undecided, better_count,
+                                  better.empty() ? "." : ".\n\n"));
+  if (!better.empty()) better.print(options.width());
+}
+
+std::string regimes_csv(const std::vector<SettingScores>& all) {
+  ResultTable table({{.key = "regime"},
+                     {.key = "setting"},
+                     {.key = "classifier"},
+                     {.key = "accuracy"},
+                     {.key = "difference"},
+                     {.key = "lower"},
+                     {.key = "upper"}});
   for (const SettingScores& setting : all)
     for (const Score& score : setting.scores) {
-      if (!score.fuzzy) continue;
-      const Interval difference = paired_difference(score, setting.scores.front());
-      if (difference.lower() > 0.0) {
-        ++better_count;
-        better += fmt::format("  {}, {}: {} {}\n", setting.regime, setting.setting, score.name, points(difference));
-      } else {
-        ++(difference.upper() < 0.0 ? worse : level);
-      }
+      const Interval difference = score.minus_first.interval();
+      table.row({setting.regime, setting.setting, score.name, score.accuracy.back(), difference.mean,
+                 difference.lower(), difference.upper()});
     }
-  fmt::print(
-      "\nOf {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} better (one in forty "
-      "would\n"
-      "be by chance){}\n{}",
-      better_count + worse + level, worse, level, better_count, better.empty() ? "." : ":", better);
+  return table.csv();
 }
 
-AtomicFile regimes_file(const std::vector<SettingScores>& all, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("regimes.csv");
-  file.write("regime,setting,classifier,accuracy,difference,lower,upper\n");
-  for (const SettingScores& setting : all)
-    for (const Score& score : setting.scores) {
-      file.print("{},{},{},{}", csv_field(setting.regime), csv_field(setting.setting), csv_field(score.name),
-                 shortest(score.accuracy.back()));
-      const Interval difference = paired_difference(score, setting.scores.front());
-      file.print(",{},{},{}\n", shortest(difference.mean), shortest(difference.lower()), shortest(difference.upper()));
-    }
-  return file;
+SettingScores scores_of(const EsmWorld& world, const Regime& regime, const Setting& setting,
+                        const RegimesOptions& options, Progress& progress) {
+  RandomStream for_names(options.draws.seed, 0);
+  const auto all = setting.contestants(for_names);
+  Scoreboard board(all);
+  for_each_draw(
+      options.draws, progress,
+      [&](RandomStream& random) {
+        const auto learned_anew =
+            setting.learned ? std::optional(setting.contestants(random)) : std::optional<std::vector<Contestant>>();
+        const EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
+        return follow_all(learned_anew ? *learned_anew : all, drawn.platform, drawn.reports);
+      },
+      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
+  return {regime.name, setting.name, board.scores()};
 }
 
-}  // namespace
-
-void regimes_and_report(const RegimesOptions& options) {
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.out.empty()) directory.emplace(options.out);
+void run_regimes(const RegimesOptions& options) {
+  const DrawOptions& draws = options.draws;
+  ResultFiles files(draws.output);
   const EsmWorld world;
   const auto all = regimes(world);
   std::size_t settings = 0;
   for (const Regime& regime : all) settings += regime.settings.size();
 
   std::vector<SettingScores> results;
-  Progress progress("runs", options.runs * settings, options.quiet);
+  Progress progress("runs", draws.runs * settings, draws.output.quiet);
   for (const Regime& regime : all)
-    for (const Setting& setting : regime.settings) {
-      const auto trace = [&](std::size_t run) {
-        RandomStream random(options.seed, run);
-        const auto contestants = setting.contestants(random);
-        const EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
-        RunTraces result{drawn.platform, {}};
-        for (const Contestant& contestant : contestants)
-          result.traces.push_back(follow(contestant, drawn.platform, drawn.reports));
-        return result;
-      };
-      RandomStream for_names(options.seed, 0);
-      results.push_back({regime.name, setting.name,
-                         score(setting.contestants(for_names), options.runs, threads_or_all(options.threads), trace,
-                               [&](std::size_t, const RunTraces&) { progress.advance(); })});
-    }
+    for (const Setting& setting : regime.settings)
+      results.push_back(scores_of(world, regime, setting, options, progress));
   progress.finish();
 
-  fmt::print(
-      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. Differences are\n"
-      "points ± 95 % by paired runs\n",
-      options.runs, options.reports, options.seed);
+  print_text(draws.output, fmt::format("Synthetic emitter world, not recorded data; {} runs of {} reports for each "
+                                       "setting, seed {}. Differences are points ± 95 % by paired runs.",
+                                       draws.runs, options.reports, draws.seed));
   std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
-    print_regime(regime, rest.first(regime.settings.size()));
+    fmt::print("\n");
+    print_text(draws.output, regime.description + "\n\n");
+    regime_table(rest.first(regime.settings.size())).print(draws.output.width());
     rest = rest.subspan(regime.settings.size());
   }
-  print_verdict(results);
+  print_verdict(draws.output, results);
 
-  if (!directory) return;
-  Json summary = summary_of(options.command);
+  Json summary = summary_of(draws.output);
   summary["synthetic"] = true;
-  summary["runs"] = options.runs;
+  summary["runs"] = draws.runs;
   summary["reports"] = options.reports;
-  summary["seed"] = options.seed;
+  summary["seed"] = draws.seed;
   for (const SettingScores& setting : results)
-    summary["regimes"][setting.regime][setting.setting] = as_json(setting.scores);
-  AtomicFile csv = regimes_file(results, *directory), summary_json = summary_file(summary, *directory);
-  commit_all(csv, summary_json);
-  print_written({"regimes.csv", "summary.json"}, options.out);
+    summary["regimes"][setting.regime][setting.setting] = scores_table(setting.scores).json();
+  files.write("regimes.csv", regimes_csv(results));
+  files.write_json("summary.json", summary);
+  files.commit();
+}
+
+}  // namespace
+
+void add_regimes(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<RegimesOptions>();
+  options->draws.output.command = command;
+  options->draws.runs = 5000;
+  CLI::App& app = *program.add_subcommand(
+      "regimes",
+      "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
+  app.add_option("--reports", options->reports, "Reports in a run")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  add_draws(app, options->draws);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo regimes\n"
+      "  recognition_demo regimes --reports 10 --runs 5000 --out results");
+  app.callback([options] { run_regimes(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,52 +1,81 @@
-#include "recognition_demo/train.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "support/table.hpp"
+#include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/subcommands.hpp"
+#include "support/result_table.hpp"
 
 namespace sigmax::apps {
+namespace {
 
-std::string described(const DataTable& data) {
-  const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
-  return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.labels.size(),
-                     data.classes.size(), data.columns.size(), static_cast<long>(data.columns.size()) - numeric,
-                     numeric);
+struct TrainOptions {
+  std::string file;
+  DataOptions data;
+  LearningOptions learning;
+  std::vector<std::string> kinds{std::begin(kind_names), std::end(kind_names)};
+  std::string model;  ///< the file to write
+  OutputOptions output;
+};
+
+ResultTable features_table(const LearnedModel& model) {
+  ResultTable table({{.header = "feature", .align = Align::left},
+                     {.header = "values"},
+                     {.header = "what they are", .align = Align::left}});
+  for (const FeatureCode& feature : model.features) {
+    constexpr std::size_t shown = 6;
+    auto labels = feature.labels();
+    const std::size_t size = labels.size();
+    if (size > shown) {
+      labels.resize(shown);
+      labels.push_back("…");
+    }
+    table.row({feature.name, size, fmt::format("{}", fmt::join(labels, ", "))});
+  }
+  return table;
 }
 
-std::string described(const LearningOptions& options) {
-  std::string text = options.smoothing == 1.0 ? std::string("counts smoothed by Laplace's rule")
-                                              : fmt::format("{} added to every count", options.smoothing);
-  text += options.equal_prior ? "; every class equally plausible before" : "; prior by the classes' shares of the rows";
-  if (options.misread > 0.0) text += fmt::format("; a reading is wrong with probability {}", options.misread);
-  return text;
-}
-
-void train_and_report(const TrainOptions& options) {
-  const DataTable data = read_data(options.file, options.data);
+void run_train(const TrainOptions& options) {
+  const DataTable data = read_data(options.file, options.data, options.output.quiet);
+  print_warnings(data);
   std::vector<std::size_t> rows(data.labels.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  const LearnedModel model = learn(data, rows, options.learning);
+  LearnedModel model = learn(data, rows, options.learning);
+  model.missing = options.data.missing;
   const auto all = classifiers(model, options.kinds);
   write_model(model, options.kinds, options.model);
 
-  fmt::print("{}: {}\n{}\n\n", data.file, described(data), described(options.learning));
-  TextTable table({{"feature", Align::left}, {"values"}, {"what they are", Align::left}});
-  for (const FeatureCode& feature : model.features) {
-    const auto labels = feature.labels();
-    constexpr std::size_t shown = 6;
-    std::string list = fmt::format(
-        "{}",
-        fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(std::min(shown, labels.size())), ", "));
-    if (labels.size() > shown) list += ", …";
-    table.row({feature.name, fmt::format("{}", labels.size()), list});
-  }
-  table.print();
-  for (const auto& warning : warnings(all)) fmt::print("warning: {}\n", warning);
+  print_text(options.output, fmt::format("{}: {}\n{}\n\n", data.file, described(data), described(options.learning)));
+  features_table(model).print(options.output.width());
+  for (const auto& warning : warnings(all)) print_text(options.output, "warning: " + warning);
   fmt::print("\nWrote {}\n", options.model);
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, const std::string& command) {
+  const auto options = std::make_shared<TrainOptions>();
+  options->output.command = command;
+  CLI::App& app = *program.add_subcommand("train", "Learns a model from labelled data.");
+  add_learning(app, options->file, options->data, options->learning);
+  app.add_option("--model", options->model, "The model to write")->required()->type_name("MODEL.json");
+  app.add_option("--kinds", options->kinds, "The kinds of classifiers in the model")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"sigma", "max", "sigma-max"}))
+      ->option_text("sigma,max,sigma-max [all]");
+  add_quiet(app, options->output.quiet);
+  add_wide(app, options->output.wide);
+  app.footer(
+      "Examples:\n"
+      "  recognition_demo train zoo.csv --label type --ignore name --categorical all \\\n"
+      "    --model zoo.json\n"
+      "  recognition_demo train wine.csv --label class --bins 5 --kinds sigma,max \\\n"
+      "    --model wine.json");
+  app.callback([options] { run_train(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "support/table.hpp"
@@ -19,6 +20,9 @@ struct OutputOptions {
 
   std::size_t width() const { return wide ? any_width : terminal_width; }
 };
+
+/// Prints a paragraph, broken to the width of the tables.
+void print_text(const OutputOptions& options, std::string_view text);
 
 /// --out, --quiet and --wide.
 void add_output(CLI::App& app, OutputOptions& options);

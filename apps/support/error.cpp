@@ -36,15 +36,24 @@ std::string in_quotes(std::string_view text) {
     while (size > 0 && continues_a_character(text[size])) --size;
     text = text.substr(0, size);
   }
-  std::string shown = "'";
-  for (const char byte : text) {
-    const auto code = static_cast<unsigned char>(byte);
-    if (code < 0x20U || code == 0x7FU)
+  return "'" + printable(text) + (cut ? "…'" : "'");
+}
+
+std::string printable(std::string_view text, bool keep_line_breaks) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F are control characters too
+      shown += fmt::format("\\x{:02X}", next);
+      ++i;
+    } else if ((code < 0x20U || code == 0x7FU) && !(keep_line_breaks && text[i] == '\n')) {
       shown += fmt::format("\\x{:02X}", code);
-    else
-      shown += byte;
+    } else {
+      shown += text[i];
+    }
   }
-  return shown += cut ? "…'" : "'";
+  return shown;
 }
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }

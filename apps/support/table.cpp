@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "support/error.hpp"
+
 namespace sigmax::apps {
 namespace {
 
@@ -183,11 +185,16 @@ std::string text_of(const std::vector<Laid>& block) {
 
 TextTable::TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {
   if (columns_.empty()) throw std::invalid_argument("a table needs a column");
+  for (Column& column : columns_) {
+    column.header = printable(column.header);
+    column.group = printable(column.group);
+  }
 }
 
 void TextTable::row(std::vector<std::string> cells) {
   if (cells.size() != columns_.size())
     throw std::invalid_argument(fmt::format("a row of {} cells in a table of {}", cells.size(), columns_.size()));
+  for (std::string& cell : cells) cell = printable(cell);
   rows_.push_back(std::move(cells));
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <sigmax/core/bif.hpp>
+#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>

@@ -52,6 +52,12 @@ void size(const Outcomes& variable, Row row, std::size_t size) {
                                 std::to_string(size) + " values were given");
 }
 
+void rows(const Outcomes& to, const Outcomes& from, std::size_t rows) {
+  if (rows != from.size())
+    throw std::invalid_argument("the relation '" + to.name() + "' given '" + from.name() + "' needs " +
+                                std::to_string(from.size()) + " rows, but " + std::to_string(rows) + " were given");
+}
+
 void some_positive(const Outcomes& variable, Row row, std::span<const double> values) {
   for (const double value : values)
     if (value > 0.0) return;

@@ -5,7 +5,7 @@
 #include <sigmax/core/algebra.hpp>
 #include <sigmax/core/banded_rows.hpp>
 #include <sigmax/core/belief.hpp>
-#include <sigmax/core/bif.hpp>
+#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/distribution.hpp>

@@ -5,6 +5,13 @@
 
 namespace sigmax {
 
+void ConfusionMatrix::add(const ConfusionMatrix& other) {
+  if (other.size() != size())
+    throw std::invalid_argument("a confusion matrix of " + std::to_string(other.size()) +
+                                " patterns does not add to one of " + std::to_string(size()));
+  for (std::size_t i = 0; i < counts_.values().size(); ++i) counts_.values()[i] += other.counts_.values()[i];
+}
+
 double ConfusionMatrix::accuracy() const {
   double right = 0.0, all = 0.0;
   for (std::size_t truth = 0; truth < size(); ++truth) {
@@ -33,13 +40,6 @@ double ConfusionMatrix::macro_f1() const {
   }
   if (patterns == 0.0) throw std::domain_error("the F1 of no case is not defined");
   return sum / patterns;
-}
-
-double mean(std::span<const double> scores) {
-  if (scores.empty()) throw std::domain_error("the mean of no score is not defined");
-  double sum = 0.0;
-  for (const double score : scores) sum += score;
-  return sum / static_cast<double>(scores.size());
 }
 
 Interval paired_interval(std::span<const double> a, std::span<const double> b) {

@@ -2,6 +2,7 @@
 
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
+#include "support/table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -39,6 +40,14 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
+/// Twenty rows with a number each.
+std::string many_rows() {
+  std::string rows;
+  for (int i = 0; i < 20; ++i)
+    rows += (i % 2 == 0 ? "red," : "blue,") + std::to_string(i) + (i % 3 == 0 ? ",a\n" : ",b\n");
+  return rows;
+}
+
 std::vector<Case> cases() {
   std::vector<Case> all;
   // One statement each: a single list of so many takes compilers very long.
@@ -66,15 +75,20 @@ std::vector<Case> cases() {
       {"data.csv:3: column 'kind': found an empty cell, expected the name of a class"});
   add("SingleClass", "colour,size,kind\nred,1,a\nblue,2,a\n", good_model, train, 3,
       {"data.csv:2: column 'kind': found 'a' in all of 2 rows, expected at least two classes"});
-  add("ConstantColumn", "colour,size,kind\nred,1,a\nred,2,b\n", good_model, train, 3,
-      {"data.csv:2: column 'colour': found 'red' in all of 2 rows", "--ignore colour"});
-  add("ColumnWithoutValues", "colour,size,kind\n?,1,a\n,2,b\n", good_model, train, 3,
-      {"data.csv:2: column 'colour': found no value in any of 2 rows"});
+  add("ConstantColumns", "colour,shape,size,leaf,kind\nred,round,1,,a\nred,long,1,?,b\n", good_model, train, 3,
+      {"data.csv: found 'red' in column 'colour', '1' in column 'size', no value in column 'leaf', in all of 2 rows",
+       "--ignore colour,size,leaf"});
+  add("WordAmongNumbers", "colour,size,kind\n" + many_rows() + "red,large,a\n", good_model, train, 3,
+      {"data.csv:22: column 'size': found 'large', expected a number, as 20 of 21 cells have", "--missing large",
+       "--categorical size"});
   add("TruncatedData", "colour,size,kind\nred,1,a\nblue,2,b\nred,", good_model, evaluate, 3,
       {"data.csv:4: found 2 fields, expected 3"});
   add("OpenQuote", "colour,size,kind\n\"red,1,a\n", good_model, train, 3, {"data.csv:2", "quote"});
   add("ClassOfOneRow", "colour,size,kind\nred,1,a\nblue,2,b\nred,3,a\nblue,4,b\nred,5,c\n", good_model,
-      with(evaluate, {"--folds", "2"}), 3, {"data.csv:6: class 'c' of column 'kind': found no row to learn from"});
+      with(evaluate, {"--folds", "2"}), 3,
+      {"data.csv: column 'kind': found a single row of 'c' (line 6), expected at least two"});
+  add("RareClasses", "colour,size,kind\nred,1,a\nblue,2,b\nred,3,a\nblue,4,c\n", good_model,
+      with(evaluate, {"--folds", "2"}), 3, {"found a single row of 'b' (line 3), 'c' (line 5)"});
   add("MoreFoldsThanRows", good_csv, good_model, evaluate, 3,
       {"found 4 rows, expected at least as many as the 10 folds"});
   add("OutIsAFile", good_csv, good_model, {"evaluate", "DATA", "--label", "kind", "--out", "MODEL"}, 3, {"model.json"});
@@ -89,6 +103,17 @@ std::vector<Case> cases() {
   add("WordForANumber", "colour,size\nred,1\nred,large\n", good_model, classify, 3,
       {"data.csv:3: column 'size': found 'large', expected a finite number"});
   add("MissingColumn", "colour\nred\n", good_model, classify, 3, {"there is no column 'size'"});
+  add("SwappedModelAndData", good_csv, good_model, {"classify", "DATA", "MODEL"}, 3,
+      {"data.csv: is no model: found 'colour,size,kind', expected JSON", "the model comes first, then the data"});
+  add("HugeNumberInAModel", good_csv, model_with("[2.5]", "[1e400]"), classify, 3,
+      {"model.json: holds a number that no double can hold"});
+  add("MisspeltOption", good_csv, good_model, {"train", "DATA", "--lable", "kind", "--model", "OUT"}, 2,
+      {"train has no option '--lable'; did you mean '--label'?"});
+  add("MisspeltSubcommand", good_csv, good_model, {"clasify"}, 2, {"did you mean 'classify'?"});
+  add("NegativeSeed", good_csv, good_model, {"esm", "--seed", "-1"}, 2, {"--seed", "expected a whole number from 0"});
+  add("LongSeed", good_csv, good_model, {"esm", "--seed", "12345678901234567890123"}, 2, {"--seed"});
+  add("MarginThatIsNoNumber", good_csv, good_model, with(classify, {"--least-margin", "nan"}), 2,
+      {"--least-margin: found 'nan', expected a number in [0 - 1]"});
   add("NothingToClassify", "colour,size\n", good_model, classify, 3, {"there is no row below the header"});
   add("ModelOfAnotherVersion", good_csv, model_with("\"version\": 1", "\"version\": 2"), classify, 3,
       {"model.json: 'version': found '2', expected version 1", "train the model again"});
@@ -174,6 +199,7 @@ TEST(RecognitionDemoErrors, EverySubcommandHasTwoExamplesInItsHelp) {
        {"esm", "regimes", "manoeuvre", "encounter", "performance", "train", "classify", "evaluate"}) {
     const auto help = recognition_demo({subcommand, "--help"});
     EXPECT_EQ(help.status, 0);
+    for (const std::string& line : lines_of(help.output, any_width)) EXPECT_LE(display_width(line), 80U) << line;
     std::size_t examples = 0;
     const std::string start = "\n  recognition_demo " + subcommand;
     for (auto at = help.output.find(start); at != std::string::npos; at = help.output.find(start, at + 1)) ++examples;

@@ -6,6 +6,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
+#include "support/table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -130,11 +131,29 @@ TEST(RecognitionDemoEsm, TheSeedChoosesTheRuns) {
   EXPECT_NE(contents(directory.path() / "1" / "runs.csv"), contents(directory.path() / "2" / "runs.csv"));
 }
 
-TEST(RecognitionDemoEsm, IsWhatTheProgramRunsWithoutArguments) {
-  const auto plain = recognition_demo({});
+TEST(RecognitionDemoEsm, IsWhatTheProgramRunsWithoutASubcommand) {
+  const auto plain = recognition_demo({"--runs", "50"});
   EXPECT_EQ(plain.status, 0);
-  EXPECT_EQ(plain.output, recognition_demo({"esm"}).output);
+  EXPECT_EQ(plain.output, recognition_demo({"esm", "--runs", "50"}).output);
   EXPECT_TRUE(plain.output.starts_with("Synthetic emitter world, not recorded data")) << plain.output;
+}
+
+/// The widest tables of every subcommand.
+TEST(RecognitionDemoEsm, TablesFitATerminalUnlessTheyMayBeWide) {
+  const auto widest = [](const std::string& text) {
+    std::size_t width = 0;
+    for (const std::string& line : lines_of(text, any_width)) width = std::max(width, display_width(line));
+    return width;
+  };
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"esm", "--usage", "dirichlet", "--runs", "5"},
+        {"regimes", "--runs", "2", "--reports", "3"},
+        {"manoeuvre", "--runs", "2"}}) {
+    EXPECT_LE(widest(recognition_demo(arguments).output), 80U) << arguments.front();
+    auto wide = arguments;
+    wide.push_back("--wide");
+    EXPECT_GT(widest(recognition_demo(wide).output), 100U) << arguments.front();
+  }
 }
 
 TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
@@ -152,7 +171,7 @@ TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
       EXPECT_EQ(row.at("accuracy"), last.at(row.at("classifier"))) << row.at("classifier");
       ++compared;
     }
-  EXPECT_EQ(compared, 3U);
+  EXPECT_EQ(compared, 4U);
   const auto summary = nlohmann::json::parse(contents(directory.path() / "regimes" / "summary.json"));
   EXPECT_EQ(summary.at("regimes").at("conflict").size(), 4U);
 }

@@ -8,6 +8,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
+#include "support/table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -191,8 +192,8 @@ TEST_P(Learning, EveryFoldIsClassifiedByWhatTheOthersTeach) {
   const auto trees = forest(90);
   const auto data = directory.write("forest.csv", csv(trees));
   const auto ending =
-      recognition_demo(with_columns({"evaluate", data}, {"--folds", "4", "--bins", "3", "--misread", GetParam(),
-                                                         "--quiet", "--out", directory.path() / "out"}));
+      recognition_demo(with_columns({"evaluate", data}, {"--folds", "4", "--foldings", "1", "--bins", "3", "--misread",
+                                                         GetParam(), "--quiet", "--out", directory.path() / "out"}));
   ASSERT_EQ(ending.status, 0) << ending.output;
   const auto rows = rows_of(directory.path() / "out" / "predictions.csv");
   ASSERT_EQ(rows.size(), 5 * trees.size());
@@ -225,6 +226,157 @@ TEST(RecognitionDemoLearning, TheNumberOfThreadsChangesNoByte) {
         0);
   for (const char* file : {"predictions.csv", "confusion.csv"})
     EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+}
+
+/// A table of one numeric column, where some cells are `gap`, and of one of words.
+std::string with_gaps(const std::string& gap) {
+  std::ostringstream text;
+  text << "size,colour,kind\n";
+  for (const Tree& tree : forest(200))
+    text << (tree.height ? std::to_string(*tree.height) : gap) << ',' << (tree.colour ? colours[*tree.colour] : "?")
+         << ',' << classes[tree.kind] << '\n';
+  std::string csv = text.str();
+  for (auto at = csv.find("green, dark"); at != std::string::npos; at = csv.find("green, dark"))
+    csv.replace(at, 11, "green");
+  return csv;
+}
+
+TEST(RecognitionDemoLearning, WordsForMissingNumbersLeaveAColumnNumeric) {
+  const TemporaryDirectory directory;
+  const auto result = [&](const std::string& gap, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "evaluate", directory.write("trees.csv", with_gaps(gap)), "--label", "kind", "--foldings", "1", "--wide"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return recognition_demo(arguments).output;
+  };
+  const std::string expected = result("", {});
+  EXPECT_NE(expected.find("2 features (1 categorical, 1 numeric)"), std::string::npos) << expected;
+  for (const char* gap : {"NA", "nan", "N/A", "null", "-", "inf", "?", " NA ", "NaN", "NULL"})
+    EXPECT_EQ(result(gap, {}), expected) << gap;
+  EXPECT_EQ(result("none at all", {"--missing", "gone,none at all"}), expected);
+  EXPECT_NE(result("unknown", {}).find("found 'unknown', expected a number"), std::string::npos);
+}
+
+TEST(RecognitionDemoLearning, ClassifyTakesTheSameWordsForMissing) {
+  const TemporaryDirectory directory;
+  const auto model = directory.path() / "trees.json";
+  const auto data = directory.write("trees.csv", with_gaps("lost"));
+  ASSERT_EQ(recognition_demo({"train", data, "--label", "kind", "--missing", "lost", "--model", model}).status, 0);
+  const auto predictions = [&](const std::string& name, const std::string& gap) {
+    const auto ending = recognition_demo(
+        {"classify", model, directory.write(name + ".csv", with_gaps(gap)), "--out", directory.path() / name});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    return contents(directory.path() / name / "predictions.csv");
+  };
+  const std::string expected = predictions("a", "");
+  EXPECT_EQ(predictions("b", "lost"), expected);
+  EXPECT_EQ(predictions("c", "NA"), expected);
+}
+
+TEST(RecognitionDemoLearning, AFirstRowOfDataIsPointedOut) {
+  const TemporaryDirectory directory;
+  const auto evaluate = [&](const std::string& csv, const std::string& label) {
+    const auto ending = recognition_demo(
+        {"evaluate", directory.write("data.csv", csv), "--label", label, "--folds", "2", "--foldings", "1"});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    return ending.output;
+  };
+  const std::string rows = "1.5,red,a\n2.5,blue,b\n1.25,red,a\n3,blue,b\n";
+  EXPECT_NE(evaluate("2.75,blue,b\n" + rows, "b").find("the first row looks like data ('2.75', 'blue')"),
+            std::string::npos);
+  EXPECT_EQ(evaluate("size,colour,kind\n" + rows, "kind").find("warning"), std::string::npos);
+  EXPECT_NE(evaluate("size,,kind\n" + rows, "kind").find("column 2 has no name and is left out"), std::string::npos);
+}
+
+TEST(RecognitionDemoLearning, UnseenValuesAreMissingIfThatIsWanted) {
+  const TemporaryDirectory directory;
+  const auto model = directory.path() / "trees.json";
+  ASSERT_EQ(
+      recognition_demo({"train", directory.write("trees.csv", with_gaps("")), "--label", "kind", "--model", model})
+          .status,
+      0);
+  const auto predictions = [&](const std::string& name, const std::string& rows) {
+    const auto ending =
+        recognition_demo({"classify", model, directory.write(name + ".csv", "size,colour,kind\n" + rows), "--unseen",
+                          "missing", "--out", directory.path() / name});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    return std::pair{contents(directory.path() / name / "predictions.csv"), ending.output};
+  };
+  const auto [expected, said] = predictions("a", "7,,oak\n,red,\n");
+  const auto [found, warned] = predictions("b", "7,mauve,oak\nhuge,red,pine\n");
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(said.find("count as missing"), std::string::npos) << said;
+  EXPECT_NE(warned.find("3 cells count as missing"), std::string::npos) << warned;
+  EXPECT_NE(warned.find("b.csv:2: column 'colour': found 'mauve'"), std::string::npos) << warned;
+}
+
+TEST(RecognitionDemoLearning, ReadsTheStandardInput) {
+  const TemporaryDirectory directory;
+  const auto data = directory.write("trees.csv", with_gaps(""));
+  const auto from = [&](const std::string& arguments) {
+    return program::run("/bin/sh", {"-c", program::quoted(SIGMAX_RECOGNITION_DEMO) + " " + arguments});
+  };
+  const std::string file = program::quoted(data.string()), model = program::quoted((directory.path() / "m").string());
+  const std::string options = " --label kind --foldings 2 ";
+  std::string expected = from("evaluate " + file + options).output;
+  expected.replace(expected.find(data.string()), data.string().size(), "standard input");
+  EXPECT_EQ(lines_of(from("evaluate - " + options + " < " + file).output, any_width).back(),
+            lines_of(expected, any_width).back());
+  EXPECT_EQ(from("train - --label kind --model " + model + " < " + file).status, 0);
+  const auto classified = from("classify " + model + " - < " + file);
+  EXPECT_TRUE(classified.output.starts_with("standard input: 200 rows")) << classified.output;
+}
+
+TEST(RecognitionDemoLearning, FoldingsAreAveraged) {
+  const TemporaryDirectory directory;
+  const auto data = directory.write("trees.csv", with_gaps(""));
+  const auto accuracy = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"evaluate", data, "--label", "kind",
+                                          "--folds",  "3",  "--out",   directory.path() / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(recognition_demo(arguments).status, 0);
+    return nlohmann::json::parse(contents(directory.path() / name / "summary.json"))
+        .at("classifiers")
+        .at("max, Dubois-Prade")
+        .at("accuracy")
+        .get<double>();
+  };
+  // The first folding is that of one alone; more foldings change the mean, and the seed the first.
+  const double one = accuracy("one", {"--foldings", "1"}), two = accuracy("two", {"--foldings", "2"});
+  EXPECT_NE(one, two);
+  EXPECT_NEAR(two, one, 0.1);
+  EXPECT_NE(accuracy("seed", {"--foldings", "1", "--seed", "2"}), one);
+}
+
+TEST(RecognitionDemoLearning, EscapeCodesInNamesNeverReachTheTerminal) {
+  const TemporaryDirectory directory;
+  const auto data =
+      directory.write("trees.csv", "si\x1B[31mze,kind\n1,\x1B]0;x\x07 a\n2,b\x1B[2J\n1,\x1B]0;x\x07 a\n2,b\x1B[2J\n");
+  const auto model = directory.path() / "trees.json";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"evaluate", data, "--label", "kind", "--folds", "2", "--foldings", "1"},
+        {"train", data, "--label", "kind", "--model", model},
+        {"classify", model, data, "--explain"}}) {
+    const auto ending = recognition_demo(arguments);
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    EXPECT_EQ(ending.output.find('\x1B'), std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find('\x07'), std::string::npos) << ending.output;
+  }
+}
+
+TEST(RecognitionDemoLearning, TheTableOfTheReadmeTeachesWhatItHasNotSeen) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
+  const auto model = directory.path() / "fruit.json";
+  const auto out = directory.path() / "out";
+  ASSERT_EQ(recognition_demo({"train", data / "fruit.csv", "--label", "fruit", "--model", model}).status, 0);
+  ASSERT_EQ(
+      recognition_demo({"classify", model, data / "fruit_new.csv", "--rows", "1", "--explain", "--out", out}).status,
+      0);
+  const auto summary = nlohmann::json::parse(contents(out / "summary.json"));
+  EXPECT_EQ(summary.at("rows"), 40);
+  for (const auto& [name, one] : summary.at("classifiers").items())
+    EXPECT_GE(one.at("accuracy_of_the_decided").get<double>(), 0.9) << name;
 }
 
 TEST(RecognitionDemoLearning, AModelHoldsOnlyTheKindsAskedFor) {

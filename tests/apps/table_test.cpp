@@ -37,6 +37,13 @@ TEST(Table, DrawsRulesBetweenRows) {
             "   22\n");
 }
 
+TEST(Table, ShowsControlCharactersInsteadOfObeyingThem) {
+  TextTable table{{{"na\tme", Align::left}}};
+  table.row({"\x1B[31mred\n"});
+  table.row({"\xC2\x9B 2J"});
+  EXPECT_EQ(table.text(), "na\\x09me\n───────────────\n\\x1B[31mred\\x0A\n\\x9B 2J\n");
+}
+
 TEST(Table, NeedsACellAColumn) {
   TextTable table = example();
   EXPECT_THROW(table.row({"1", "2"}), std::invalid_argument);

@@ -46,6 +46,19 @@ TEST(MeanInterval, IsOfSomething) {
   EXPECT_THROW(RunningMean{}.mean(), std::domain_error);
 }
 
+TEST(RunningMean, IsTheSameOfPartsAddedTogether) {
+  const Numbers numbers{2.0, 4.0, 4.5, -1.0, 6.0, 0.25};
+  const Interval whole = mean_interval(numbers);
+  for (std::size_t cut = 0; cut <= numbers.size(); ++cut) {
+    RunningMean first, second;
+    for (std::size_t i = 0; i < numbers.size(); ++i) (i < cut ? first : second).add(numbers[i]);
+    first.add(second);
+    EXPECT_EQ(first.count(), numbers.size());
+    EXPECT_NEAR(first.interval().mean, whole.mean, 1e-14);
+    EXPECT_NEAR(first.interval().half_width, whole.half_width, 1e-14);
+  }
+}
+
 TEST(RunningMean, KeepsItsDigitsFarFromZero) {
   RunningMean mean;
   Numbers numbers;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <sigmax/core/bif.hpp>
+#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>
@@ -55,7 +55,9 @@ class PublishedNetwork : public testing::TestWithParam<const char*> {
 
 plain::Network plain_of(const RelationNetwork& network, bool all_by_max = false) {
   plain::Network result;
-  for (const auto& [variable, parents, rows] : network.vertices()) {
+  for (const auto& vertex : network.vertices()) {
+    const auto& [variable, parents, stored] = vertex;
+    const Table rows = vertex.table();
     plain::Network::Node node{all_by_max || variable.is<Fuzzy>() ? By::max : By::sum, variable.size(), parents, {}};
     for (std::size_t r = 0; r < rows.rows(); ++r) node.rows.emplace_back(rows.row(r).begin(), rows.row(r).end());
     result.nodes.push_back(node);
@@ -200,7 +202,8 @@ TEST(PublishedNetworks, AreReadWhole) {
     std::size_t found_arcs = 0, found_parameters = 0;
     for (const auto& vertex : network.vertices()) {
       found_arcs += vertex.parents.size();
-      found_parameters += vertex.rows.rows() * (vertex.rows.columns() - 1);
+      const Table rows = vertex.table();
+      found_parameters += rows.rows() * (rows.columns() - 1);
     }
     EXPECT_EQ(network.size(), variables) << name;
     EXPECT_EQ(found_arcs, arcs) << name;
@@ -213,7 +216,7 @@ TEST(PublishedNetworks, OfAlarmHaveTheNumbersOfTheFile) {
   const RelationNetwork network = read("alarm");
   const auto& cvp = network[network.index_of("CVP")];
   EXPECT_EQ(network[cvp.parents.front()].variable.name(), "LVEDVOLUME");
-  EXPECT_PRED_FORMAT3(near, cvp.rows.values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}),
+  EXPECT_PRED_FORMAT3(near, cvp.table().values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}),
                       1e-15);
 }
 

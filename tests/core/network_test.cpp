@@ -41,10 +41,10 @@ TEST(RelationNetwork, HoldsDistributionsRelationsAndTablesAsTheyWereDeclared) {
   ASSERT_EQ(network.size(), 3U);
   EXPECT_EQ(network[1].variable, NetworkVariable{mood});
   EXPECT_EQ(network[1].parents, std::vector<std::size_t>{0});
-  EXPECT_EQ(network[1].rows(1, 1), 0.6);
+  EXPECT_EQ(network[1].table()(1, 1), 0.6);
   EXPECT_EQ(network[2].parents, (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(network[2].rows.rows(), 4U);
-  EXPECT_EQ(network[2].rows(1, 2), 0.3);  // young and wild
+  EXPECT_EQ(network[2].table().rows(), 4U);
+  EXPECT_EQ(network[2].table()(1, 2), 0.3);  // young and wild
   EXPECT_EQ(network.index_of("speed"), 2U);
   EXPECT_EQ(network.index_of(mood), 1U);
 }
@@ -149,8 +149,8 @@ TEST(RelationNetwork, IsMadeFuzzyRowByRow) {
   EXPECT_EQ(fuzzy[0].variable, NetworkVariable(FuzzyVariable{"a", 2}));
   EXPECT_EQ(fuzzy[1].variable, NetworkVariable(FuzzyVariable{"b", {"x", "y"}}));
   EXPECT_EQ(fuzzy[1].parents, std::vector<std::size_t>{0});
-  EXPECT_PRED_FORMAT3(near, fuzzy[0].rows.values(), (std::vector{0.25, 1.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, fuzzy[1].rows.values(), (std::vector{1.0, 1.0, 1.0, 1.0 / 9.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, fuzzy[0].table().values(), (std::vector{0.25, 1.0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, fuzzy[1].table().values(), (std::vector{1.0, 1.0, 1.0, 1.0 / 9.0}), 1e-15);
 }
 
 TEST(RelationNetwork, IsMadeFuzzyWhereNamedAndByAnyTransform) {
@@ -161,9 +161,9 @@ TEST(RelationNetwork, IsMadeFuzzyWhereNamedAndByAnyTransform) {
   const RowTransform halves = [](std::span<const double> row) { return std::vector<double>(row.size(), 0.5); };
   const RelationNetwork mixed = as_fuzzy(network, halves, {"b"});
   EXPECT_EQ(mixed[0].variable, NetworkVariable{a});
-  EXPECT_PRED_FORMAT3(near, mixed[0].rows.values(), (std::vector{0.2, 0.8}), 0.0);
+  EXPECT_PRED_FORMAT3(near, mixed[0].table().values(), (std::vector{0.2, 0.8}), 0.0);
   EXPECT_TRUE(mixed[1].variable.is<Fuzzy>());
-  EXPECT_PRED_FORMAT3(near, mixed[1].rows.values(), (std::vector{1.0, 1.0, 1.0, 1.0}), 0.0);
+  EXPECT_PRED_FORMAT3(near, mixed[1].table().values(), (std::vector{1.0, 1.0, 1.0, 1.0}), 0.0);
   EXPECT_EQ(as_fuzzy(mixed, halves)[1].variable, mixed[1].variable);  // fuzzy ones stay as they are
 
   const RowTransform nothing = [](std::span<const double> row) { return std::vector<double>(row.size(), 0.0); };

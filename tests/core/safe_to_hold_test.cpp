@@ -46,7 +46,7 @@ static_assert(ValuesAreOwned<Distribution<Fuzzy>> && ValuesAreOwned<const Distri
 static_assert(ValuesAreOwned<Induced<Distribution<Fuzzy>>>);
 static_assert(ValuesAreOwned<Table> && ValuesAreOwned<NetworkAnswer>);
 static_assert(IsOwned<decltype(temporary<Belief<Fuzzy>>().logs())>);
-static_assert(IsOwned<decltype(temporary<Likelihood<Fuzzy>>().all_logs())>);
+static_assert(IsOwned<decltype(temporary<Likelihood<Fuzzy>>().logs())>);
 static_assert(IsOwned<decltype(temporary<Relation<Fuzzy, Fuzzy>>().row(0))>);
 static_assert(IsOwned<decltype(temporary<Induced<Relation<Random, Fuzzy>>>().row(0))>);
 static_assert(IsOwned<decltype(temporary<Relation<Fuzzy, Fuzzy>>().table())>);
@@ -88,7 +88,7 @@ TEST(SafeToHold, ARangeForOverATemporarysNumbersSeesThem) {
   for (const double value : compose(step, step).table().row(3)) sum += value;
   for (const double value : invert(step, uninformative(x)).relation.row(3)) sum += value;
   for (const double log : update(Belief{uninformative(x)}, Likelihood{x}).logs()) sum += std::exp(log);
-  for (const double log : step.likelihood(3).all_logs()) sum += std::exp(log);
+  for (const double log : step.likelihood(3).logs()) sum += std::exp(log);
   EXPECT_NEAR(sum, 7.0, 1e-12);
   const auto kept = compose(step, uninformative(x)).values();
   EXPECT_NEAR(kept[19], 0.05, 1e-15);

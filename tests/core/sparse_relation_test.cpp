@@ -376,9 +376,9 @@ TEST(SparseRelation, IsDeclaredInANetworkAsItsTable) {
   network.declare(uninformative(cell));
   network.declare(
       Relation<Random, Random>{next, cell, SparseRows{{{0, 0.75}, {3, 0.25}}, {{1, 1.0}}, {{0, 1.0}}, {{3, 1.0}}}});
-  EXPECT_EQ(network[1].rows(0, 3), 0.25);
-  EXPECT_EQ(network[1].rows(0, 1), 0.0);
-  EXPECT_EQ(network[1].rows(3, 3), 1.0);
+  EXPECT_EQ(network[1].table()(0, 3), 0.25);
+  EXPECT_EQ(network[1].table()(0, 1), 0.0);
+  EXPECT_EQ(network[1].table()(3, 3), 1.0);
 }
 
 TEST(SparseRelation, SaysThatItHasNoTable) {

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <limits>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/witness.hpp>
@@ -117,6 +118,20 @@ TEST(Witness, OfSparseRelationsIsThatOfDenseOnes) {
         RC_ASSERT(sparse.winner(i, k) == dense.winner(i, k));
       }
   });
+}
+
+TEST(Witness, OfAnImpossiblePairInsideABandIsTheFirst) {
+  const FuzzyVariable x{"x", 2}, y{"y", 2}, z{"z", 3};
+  const Relation<Fuzzy, Fuzzy> y_given_x{y, x, BandedRows{{0, {0.5, 1.0}}, {0, {0.5, 1.0}}}};
+  const Relation<Fuzzy, Fuzzy> z_given_y{z, y, BandedRows{{0, {1.0}}, {2, {1.0}}}};  // nothing leads to 1
+  const auto witnessed = compose_with_witness(z_given_y, y_given_x);
+  ASSERT_TRUE(std::holds_alternative<BandedRows>(witnessed.relation().rows()));
+  for (const std::size_t from : {0U, 1U}) {
+    EXPECT_EQ(witnessed.relation()(from, 1), 0.0);
+    EXPECT_EQ(witnessed.winner(from, 0), 0U);
+    EXPECT_EQ(witnessed.winner(from, 1), 0U);
+    EXPECT_EQ(witnessed.winner(from, 2), 1U);
+  }
 }
 
 }  // namespace

@@ -208,6 +208,60 @@ TYPED_TEST(ClassifierWithFeatures, InABatchIsTheSequenceForgettingIncluded) {
   });
 }
 
+/// Many reports for one pattern and as many for the other end where they began, however they are split into batches.
+TYPED_TEST(ClassifierWithFeatures, AsManyReportsForOnePatternAsForTheOtherEndInATie) {
+  const Variable<TypeParam> pattern{"pattern", 2}, feature{"feature", 2};
+  const Rows rows = by_kind<TypeParam> == By::sum ? Rows{{0.9, 0.1}, {0.1, 0.9}} : Rows{{1.0, 0.1}, {0.1, 1.0}};
+  for (const std::size_t n : {1U, 17U, 1000U, 50000U}) {
+    Classifier classifier{uninformative(pattern), Relation{feature, pattern, rows}};
+    classifier.observe_all(std::vector<Readings>(n, Readings{0}));
+    classifier.observe_all(std::vector<Readings>(n, Readings{1}));
+    EXPECT_NEAR(classifier.log_belief().log(0), classifier.log_belief().log(1), tie_tolerance) << n;
+    classifier.reset();
+    std::vector<Readings> mixed(n, Readings{0});
+    mixed.resize(2 * n, Readings{1});
+    classifier.observe_all(mixed);
+    EXPECT_NEAR(classifier.log_belief().log(0), classifier.log_belief().log(1), tie_tolerance) << n;
+  }
+}
+
+TEST(Classifier, TakesAListOfReadings) {
+  const RandomVariable pattern{"pattern", 2}, feature{"feature", 2};
+  const Relation relation{feature, pattern, {{0.75, 0.25}, {0.25, 0.75}}};
+  Classifier one{uninformative(pattern), relation};
+  one.observe({1});
+  EXPECT_PRED_FORMAT3(near, one.belief().values(), (Numbers{0.25, 0.75}), 1e-15);
+  Classifier two{uninformative(pattern), std::vector{relation, relation}};
+  two.observe({1, missing});
+  EXPECT_PRED_FORMAT3(near, two.belief().values(), (Numbers{0.25, 0.75}), 1e-15);
+  EXPECT_THROW(two.observe({1}), std::invalid_argument);
+}
+
+/// A pattern that no feature reaches had an uninformative row, and under maxima was fully possible for ever.
+TYPED_TEST(ClassifierWithFeatures, APatternThatNoFeatureReachesIsImpossible) {
+  using Kind = TypeParam;
+  const Variable<Kind> pattern{"pattern", 3}, feature{"feature", 2};
+  const double half = by_kind<Kind> == By::sum ? 0.5 : 1.0;
+  const Relation<Kind, Kind> pattern_given_feature{pattern, feature, {{1.0, 0.0, 0.0}, {half, half, 0.0}}};
+  const auto inverse = invert(pattern_given_feature, uninformative(feature));
+  ASSERT_EQ(inverse.unreachable, std::vector<std::size_t>{2});
+  Classifier<Kind, Kind> classifier{uninformative(pattern), inverse};
+  EXPECT_EQ(classifier.prior()[2], 0.0);
+  classifier.observe({1});
+  EXPECT_EQ(classifier.belief()[2], 0.0);
+
+  Classifier<Kind, Kind> predicted{uninformative(pattern), inverse.relation};
+  predicted.observe_predicted(Likelihood{feature, {0.5, 1.0}}, pattern_given_feature, uninformative(feature));
+  EXPECT_EQ(predicted.belief()[2], 0.0);
+}
+
+template <class Kind>
+concept CanBeClassified = requires {
+  typename Classifier<Kind, Kind>;
+};
+static_assert(CanBeClassified<Random> && CanBeClassified<Fuzzy>);
+static_assert(!CanBeClassified<Ordinal>, "min cannot be undone: refused by the constraint, not inside");
+
 TYPED_TEST(ClassifierWithFeatures, ForgetsByPowersOfTheBelief) {
   holds([] {
     const Case<TypeParam> with;

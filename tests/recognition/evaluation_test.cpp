@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <random>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,37 +48,66 @@ const FuzzyVariable target{"target", {"T1", "T2", "T3"}};
 
 TEST(Evaluation, ScoresProbabilities) {
   Evaluation<Random> evaluation{animal};
-  evaluation.add(0, Belief{Distribution{animal, {0.5, 0.25, 0.25}}});
-  evaluation.add(2, Belief{Distribution{animal, {0.5, 0.5, 0.0}}});
+  EXPECT_EQ(evaluation.add(0, Belief{Distribution{animal, {0.5, 0.25, 0.25}}}), 1.0);
+  EXPECT_EQ(evaluation.add(2, Belief{Distribution{animal, {0.5, 0.5, 0.0}}}), 0.0);
   EXPECT_EQ(evaluation.size(), 2U);
-  EXPECT_PRED_FORMAT3(near, evaluation.correct(), (Numbers{1.0, 0.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, evaluation.log_losses(), (Numbers{std::log(2.0), -std::log(1e-15)}), 1e-14);
-  EXPECT_PRED_FORMAT3(near, evaluation.briers(), (Numbers{0.375, 1.5}), 1e-15);
+  EXPECT_EQ(evaluation.ties(), 1U);
+  EXPECT_PRED_FORMAT3(near, evaluation.log_loss(), 0.5 * (std::log(2.0) - std::log(1e-15)), 1e-14);
+  EXPECT_PRED_FORMAT3(near, evaluation.brier(), 0.5 * (0.375 + 1.5), 1e-15);
   EXPECT_PRED_FORMAT3(near, evaluation.confusion().accuracy(), 0.5, 0.0);
   EXPECT_EQ(evaluation.confusion()(2, 0), 1.0);  // the tie went to the first
 }
 
 TEST(Evaluation, ScoresPossibilities) {
   Evaluation<Fuzzy> evaluation{target, 0.6};
-  evaluation.add(0, Belief{Distribution{target, {1.0, 0.25, 0.625}}});
-  evaluation.add(2, Belief{Distribution{target, {1.0, 0.25, 0.625}}});
-  evaluation.add(1, Belief{Distribution{target, {1.0, 0.25, 0.625}}});
-  EXPECT_PRED_FORMAT3(near, evaluation.correct(), (Numbers{1.0, 0.0, 0.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, evaluation.necessities(), (Numbers{0.375, 0.0, 0.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, evaluation.covered(), (Numbers{1.0, 1.0, 0.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, evaluation.cut_sizes(), (Numbers{2.0, 2.0, 2.0}), 0.0);
+  EXPECT_EQ(evaluation.add(0, Belief{Distribution{target, {1.0, 0.25, 0.625}}}), 1.0);
+  EXPECT_EQ(evaluation.add(2, Belief{Distribution{target, {1.0, 0.25, 0.625}}}), 0.0);
+  EXPECT_EQ(evaluation.add(1, Belief{Distribution{target, {1.0, 0.25, 0.625}}}), 0.0);
+  EXPECT_PRED_FORMAT3(near, evaluation.necessity(), 0.375 / 3.0, 1e-15);
+  EXPECT_PRED_FORMAT3(near, evaluation.coverage(), 2.0 / 3.0, 1e-15);
+  EXPECT_PRED_FORMAT3(near, evaluation.cut_size(), 2.0, 0.0);
+}
+
+TEST(Evaluation, AddsUpPartsOfTheData) {
+  const Belief<Fuzzy> belief{Distribution{target, {1.0, 0.25, 0.625}}};
+  Evaluation<Fuzzy> whole{target}, first{target}, second{target};
+  for (const std::size_t truth : {0U, 1U, 2U, 2U, 0U}) {
+    whole.add(truth, belief);
+    (truth == 2 ? first : second).add(truth, belief);
+  }
+  first.add(second);
+  EXPECT_EQ(first.size(), 5U);
+  EXPECT_EQ(first.ties(), whole.ties());
+  EXPECT_EQ(first.confusion()(2, 0), 2.0);
+  EXPECT_PRED_FORMAT3(near, first.necessity(), whole.necessity(), 1e-15);
+  EXPECT_PRED_FORMAT3(near, first.coverage(), whole.coverage(), 1e-15);
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        first.add(Evaluation<Fuzzy>{FuzzyVariable{"x", 3}});
+      },
+      {"'target'", "'x'"}));
+  ConfusionMatrix two{2};
+  EXPECT_THROW(two.add(first.confusion()), std::invalid_argument);
+}
+
+TEST(Evaluation, OfNoCaseHasNoScore) {
+  EXPECT_THROW(Evaluation<Fuzzy>{target}.necessity(), std::domain_error);
+  EXPECT_THROW(Evaluation<Random>{animal}.log_loss(), std::domain_error);
 }
 
 template <class E>
-concept HasLogLosses = requires(const E& evaluation) {
-  evaluation.log_losses();
+concept HasLogLoss = requires(const E& evaluation) {
+  evaluation.log_loss();
 };
 template <class E>
-concept HasNecessities = requires(const E& evaluation) {
-  evaluation.necessities();
+concept HasNecessity = requires(const E& evaluation) {
+  evaluation.necessity();
 };
-static_assert(HasLogLosses<Evaluation<Random>> && !HasNecessities<Evaluation<Random>>);
-static_assert(HasNecessities<Evaluation<Fuzzy>> && !HasLogLosses<Evaluation<Fuzzy>>);
+static_assert(HasLogLoss<Evaluation<Random>> && !HasNecessity<Evaluation<Random>>);
+static_assert(HasNecessity<Evaluation<Fuzzy>> && !HasLogLoss<Evaluation<Fuzzy>>);
+
+// Of a temporary a copy is returned, so that the reference in the loop does not dangle.
+static_assert(std::is_same_v<decltype(std::declval<Evaluation<Random>>().confusion()), ConfusionMatrix>);
 
 TEST(Evaluation, RefusesABeliefOfAnotherVariable) {
   Evaluation<Fuzzy> evaluation{target};
@@ -90,11 +120,6 @@ TEST(Evaluation, RefusesABeliefOfAnotherVariable) {
       throws<std::invalid_argument>([&] { evaluation.add(3, Belief{uninformative(target)}); }, {"'target'", "3"}));
   EXPECT_TRUE(throws<std::invalid_argument>([&] { Evaluation<Fuzzy>(target, 0.0); }, {"cut", "0.0"}));
   EXPECT_EQ(evaluation.size(), 0U);
-}
-
-TEST(Mean, IsOfSomething) {
-  EXPECT_EQ(mean(Numbers{1.0, 2.0, 6.0}), 3.0);
-  EXPECT_THROW(mean(Numbers{}), std::domain_error);
 }
 
 TEST(PairedInterval, IsTheStatedFormula) {

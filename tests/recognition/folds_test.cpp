@@ -55,6 +55,31 @@ TEST(StratifiedFolds, AreTheSameForASeedAndOthersForAnother) {
   EXPECT_NE(folds, stratified_folds(labels, 5, other));
 }
 
+/// Fisher–Yates from the last row of a label to the first, by the remainders of the raw draws; then dealt like cards.
+TEST(StratifiedFolds, AreDealtByTheRawDrawsOfTheGenerator) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Labels labels(50);
+    for (std::size_t row = 0; row < labels.size(); ++row) labels[row] = (row * row) % 7;
+    Labels expected(labels.size());
+    std::mt19937_64 raw(seed), generator(seed);
+    std::size_t dealt = 0;
+    for (std::size_t label = 0; label < 7; ++label) {
+      Labels rows;
+      for (std::size_t row = 0; row < labels.size(); ++row)
+        if (labels[row] == label) rows.push_back(row);
+      for (std::size_t left = rows.size(); left >= 2; --left) {
+        const std::size_t other = raw() % left;  // a draw beyond the last whole multiple is too rare to meet here
+        const std::size_t kept = rows[left - 1];
+        rows[left - 1] = rows[other];
+        rows[other] = kept;
+      }
+      for (const std::size_t row : rows) expected[row] = dealt++ % 4;
+    }
+    EXPECT_EQ(stratified_folds(labels, 4, generator), expected) << seed;
+    EXPECT_EQ(generator(), raw()) << "another number of draws was taken";
+  }
+}
+
 /// Every row is as likely in one fold as in another: χ² with one degree of freedom for each row.
 TEST(StratifiedFolds, FavourNoRow) {
   const Labels labels{0, 0, 0, 1, 1, 1, 1, 1};

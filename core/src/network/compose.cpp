@@ -15,17 +15,25 @@ namespace {
 
 /// The joint of `asked` that these tables give without evidence.
 elimination::Factor joint(const RelationNetwork& network, const std::vector<Vertex>& tables,
-                          const std::vector<Vertex>& asked) {
-  auto factors = elimination::factors_of(network, tables, elimination::findings_of(network, {}), asked);
+                          const std::vector<Vertex>& asked, std::size_t table_limit) {
+  const auto findings = elimination::findings_of(network, {});
+  const auto parts = elimination::parts_of(network, tables, findings, asked);
   std::vector<std::pair<Vertex, Role>> fixed;
-  for (const Vertex v : asked) fixed.emplace_back(v, Role::fixed);
-  const auto order = elimination::order_of_elimination(elimination::order_problem(network, factors, fixed));
-  return elimination::joint(network, std::move(factors), order, asked);
+  double numbers = 1.0;
+  for (const Vertex v : asked) {
+    fixed.emplace_back(v, Role::fixed);
+    numbers *= static_cast<double>(network[v].variable.size());
+  }
+  const auto order = elimination::order_of_elimination(elimination::order_problem(network, parts, fixed));
+  elimination::refuse_above(table_limit, order.greatest_table, order.greatest_scope, network);
+  elimination::refuse_above(table_limit, numbers, asked, network);
+  return elimination::joint(network, elimination::factors_of(network, parts, findings), order, asked);
 }
 
 }  // namespace
 
-ComposedRelation compose(const RelationNetwork& network, std::string_view from_name, std::string_view to_name) {
+ComposedRelation compose(const RelationNetwork& network, std::string_view from_name, std::string_view to_name,
+                         std::size_t table_limit) {
   const Vertex from = network.index_of(from_name), to = network.index_of(to_name);
   if (from == to) throw std::invalid_argument("compose: '" + std::string(from_name) + "' is given twice");
   const NetworkVariable& from_variable = network[from].variable;
@@ -38,14 +46,13 @@ ComposedRelation compose(const RelationNetwork& network, std::string_view from_n
   std::optional<elimination::Factor> marginal;
   if (!only_away_from) {
     tables = elimination::relevant(network, {from, to});
-    marginal = joint(network, elimination::relevant(network, {from}), {from});
+    marginal = joint(network, elimination::relevant(network, {from}), {from}, table_limit);
   }
-  const auto numbers = joint(network, tables, {from, to});
+  const auto numbers = joint(network, tables, {from, to}, table_limit);
 
-  const auto factors = elimination::factors_of(network, tables, elimination::findings_of(network, {}), {from, to});
-  const bool induced = !elimination::order_of_elimination(
-                            elimination::order_problem(network, factors, {{from, Role::fixed}, {to, Role::kept}}))
-                            .complete;
+  const auto parts = elimination::parts_of(network, tables, elimination::findings_of(network, {}), {from, to});
+  const auto problem = elimination::order_problem(network, parts, {{from, Role::fixed}, {to, Role::kept}});
+  const bool induced = !elimination::order_of_elimination(problem).complete;
 
   Table rows(from_variable.size(), to_variable.size());
   std::vector<std::size_t> unreachable;

@@ -1,14 +1,15 @@
 #include <sigmax/core/network/explanation.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "solve.hpp"
 
 namespace sigmax {
 
 using elimination::Factor;
+using elimination::Role;
 using elimination::Vertex;
 
 std::string Explanation::operator[](std::string_view variable) const {
@@ -17,20 +18,43 @@ std::string Explanation::operator[](std::string_view variable) const {
   throw std::invalid_argument("the network has no variable '" + std::string(variable) + "'");
 }
 
-Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence) {
+Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence, std::size_t table_limit) {
+  std::vector<std::string> all;
+  for (const auto& vertex : network.vertices()) all.push_back(vertex.variable.name());
+  return most_likely_outcomes(network, all, evidence, table_limit);
+}
+
+Explanation most_likely_outcomes(const RelationNetwork& network, const std::vector<std::string>& variables,
+                                 const Evidence& evidence, std::size_t table_limit) {
+  const auto asked = elimination::vertices_of(network, variables);
   const auto findings = elimination::findings_of(network, evidence);
   const auto sizes = elimination::sizes_of(network);
-  std::vector<Vertex> all(network.size());
-  std::iota(all.begin(), all.end(), Vertex{0});
-  auto factors = elimination::factors_of(network, all, findings, {});
-  auto problem = elimination::order_problem(network, factors, {});
-  problem.fuzzy.assign(network.size(), true);  // all by the maximum
+  const auto parts = elimination::parts_of(network, elimination::relevant(network, asked, findings), findings, {});
+
+  // The others by their kinds, then those asked for by the maximum, on what is left of the factors.
+  std::vector<std::pair<Vertex, Role>> fixed;
+  for (const Vertex v : asked) fixed.emplace_back(v, Role::fixed);
+  auto problem = elimination::order_problem(network, parts, fixed);
+  const auto within = elimination::order_of_elimination(problem);
+  elimination::refuse_above(table_limit, within.greatest_table, within.greatest_scope, network);
+  auto factors = elimination::eliminated(
+      elimination::factors_of(network, parts, findings), within.vertices, sizes,
+      [&](const auto& bucket, Vertex v) { return elimination::eliminate_by_kind(network, bucket, v, sizes); });
+
+  problem.kinds.assign(network.size(), 0);  // as if of one kind
+  problem.roles.assign(network.size(), Role::absent);
+  problem.scopes.clear();
+  for (const Factor& factor : factors) {
+    problem.scopes.push_back(factor.scope);
+    for (const Vertex v : factor.scope) problem.roles[v] = Role::eliminated;
+  }
   const auto order = elimination::order_of_elimination(problem);
+  elimination::refuse_above(table_limit, order.greatest_table, order.greatest_scope, network);
 
   // Max is selective: what each elimination selected is read off its factors afterwards, outermost variable first.
   std::vector<std::vector<Factor>> buckets;
   const auto left =
-      elimination::eliminated(std::move(factors.all), order.vertices, [&](std::vector<Factor> bucket, Vertex v) {
+      elimination::eliminated(std::move(factors), order.vertices, sizes, [&](std::vector<Factor> bucket, Vertex v) {
         Factor result = elimination::eliminate<Max>(bucket, v, sizes);
         buckets.push_back(std::move(bucket));
         return result;
@@ -38,21 +62,23 @@ Explanation most_likely_explanation(const RelationNetwork& network, const Eviden
   const ScaledNumber best = elimination::product(left, {}, sizes).values.front();
   if (best.is_zero()) elimination::refuse(findings);
 
-  Explanation explanation{{}, std::vector<std::size_t>(network.size(), 0), best.log()};
-  for (Vertex v = 0; v < network.size(); ++v) {
-    explanation.variables.push_back(network[v].variable);
-    explanation.outcomes[v] = factors.known[v].value_or(0);
-  }
+  std::vector<std::size_t> outcomes(network.size(), 0);
+  for (Vertex v = 0; v < network.size(); ++v) outcomes[v] = parts.known[v].value_or(0);
   for (std::size_t step = order.vertices.size(); step-- > 0;) {
     const Vertex v = order.vertices[step];
     auto factors_of_v = std::move(buckets[step]);
     for (Factor& factor : factors_of_v) {
       const std::vector<Vertex> scope = factor.scope;
       for (const Vertex other : scope)
-        if (other != v) factor = elimination::restricted(factor, other, explanation.outcomes[other], sizes);
+        if (other != v) factor = elimination::restricted(factor, other, outcomes[other], sizes);
     }
     const auto values = elimination::product(factors_of_v, {v}, sizes).values;
-    explanation.outcomes[v] = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    outcomes[v] = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  }
+  Explanation explanation{{}, {}, best.log()};
+  for (const Vertex v : asked) {
+    explanation.variables.push_back(network[v].variable);
+    explanation.outcomes.push_back(outcomes[v]);
   }
   return explanation;
 }

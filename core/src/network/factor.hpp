@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <set>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,13 +22,11 @@ struct Factor {
   std::vector<ScaledNumber> values;  ///< one number if the scope is empty
 };
 
-/// How many outcomes the variables have together. Throws std::length_error if no table can be that large.
+/// How many outcomes the variables have together; that a table may be that large was found out before.
 inline std::size_t outcomes_of(std::span<const Vertex> scope, std::span<const std::size_t> sizes) {
-  constexpr double greatest = 0x1p40;
-  double count = 1.0;
-  for (const Vertex v : scope) count *= static_cast<double>(sizes[v]);
-  if (count > greatest) throw std::length_error("the query needs a table of " + std::to_string(count) + " numbers");
-  return static_cast<std::size_t>(count);
+  std::size_t count = 1;
+  for (const Vertex v : scope) count *= sizes[v];
+  return count;
 }
 
 /// Calls visit(index, product of all factors) for all outcomes of the scope in order, the last variable fastest. The

@@ -2,11 +2,31 @@
 
 #include <cstddef>
 #include <ostream>
+#include <string>
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/graphviz.hpp>
 
 namespace sigmax {
+
+namespace {
+
+/// In DOT a backslash escapes what follows, the closing quote as well.
+std::string quoted(const std::string& name) {
+  if (name.find('\\') == std::string::npos) return boost::escape_dot_string(name);
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + '"';
+}
+
+bool selects(const NetworkVariable& variable) {
+  return variable.visit([]<class Kind>(const Variable<Kind>&) { return SelectiveAlgebra<AlgebraOf<Kind>>; });
+}
+
+}  // namespace
 
 void write_graphviz(std::ostream& out, const RelationNetwork& network) {
   boost::adjacency_list<boost::vecS, boost::vecS, boost::bidirectionalS> graph(network.size());
@@ -14,8 +34,7 @@ void write_graphviz(std::ostream& out, const RelationNetwork& network) {
     for (const std::size_t parent : network[child].parents) boost::add_edge(parent, child, graph);
   boost::write_graphviz(out, graph, [&](std::ostream& text, std::size_t v) {
     const NetworkVariable& variable = network[v].variable;
-    text << "[label=" << boost::escape_dot_string(variable.name())
-         << ", shape=" << (variable.is<Fuzzy>() ? "box" : "ellipse") << "]";
+    text << "[label=" << quoted(variable.name()) << ", shape=" << (selects(variable) ? "box" : "ellipse") << "]";
   });
 }
 

@@ -4,53 +4,89 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include <sigmax/core/network/transform.hpp>
+
+#include "row_label.hpp"
 
 namespace sigmax {
 namespace {
 
 /// The condition of row `row`, for a message: one outcome of all parents together, "(age, mood)" = "(old, calm)".
 Outcomes condition(const std::vector<NetworkVariable>& parents, std::size_t row) {
-  std::string names, labels;
-  for (std::size_t p = parents.size(); p-- > 0;) {
-    const NetworkVariable& parent = parents[p];
-    names = parent.name() + (names.empty() ? "" : ", ") + names;
-    labels = parent.label(row % parent.size()) + (labels.empty() ? "" : ", ") + labels;
-    row /= parent.size();
+  std::string names;
+  std::vector<Outcomes> outcomes;
+  for (const auto& parent : parents) {
+    names += (names.empty() ? "" : ", ") + parent.name();
+    outcomes.push_back(parent.outcomes());
   }
+  const std::string labels = labels_of_row(outcomes, row);
   if (parents.size() == 1) return {names, {labels}};
   return {"(" + names + ")", {"(" + labels + ")"}};
 }
 
-template <Uncertainty Kind>
-void prove_row(const Variable<Kind>& variable, const std::vector<NetworkVariable>& parents, std::size_t row,
-               const std::vector<double>& values) {
+/// Runs `prove(row)`; only where that throws is the row's condition put into words.
+template <class Prove>
+void prove_row(const std::vector<NetworkVariable>& parents, std::size_t row, const Prove& prove) {
   try {
-    prove_normalized<Kind>(variable, {}, values);
+    prove(check::Row{});
   } catch (const std::invalid_argument&) {
     if (parents.empty()) throw;
     const Outcomes given = condition(parents, row);
-    prove_normalized<Kind>(variable, {&given, 0}, values);
+    prove(check::Row{&given, 0});
   }
+}
+
+void prove_number_of_rows(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
+                          std::size_t rows) {
+  std::size_t expected = 1;
+  for (const auto& parent : parents) expected *= parent.size();
+  if (rows != expected)
+    throw std::invalid_argument("the table of '" + variable.name() + "' needs " + std::to_string(expected) +
+                                " rows, one for the outcomes of its parents together, but " + std::to_string(rows) +
+                                " were given");
 }
 
 }  // namespace
 
 void RelationNetwork::declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                               const std::vector<std::vector<double>>& rows) {
-  std::size_t expected = 1;
-  for (const auto& parent : parents) expected *= parent.size();
-  if (rows.size() != expected)
-    throw std::invalid_argument("the table of '" + variable.name() + "' needs " + std::to_string(expected) +
-                                " rows, one for the outcomes of its parents together, but " +
-                                std::to_string(rows.size()) + " were given");
+  prove_number_of_rows(variable, parents, rows.size());
   Table table(rows.size(), variable.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    variable.visit([&](const auto& typed) { prove_row(typed, parents, row, rows[row]); });
+    variable.visit([&]<class Kind>(const Variable<Kind>& typed) {
+      prove_row(parents, row, [&](check::Row at) { prove_normalized<Kind>(typed, at, rows[row]); });
+    });
     std::copy(rows[row].begin(), rows[row].end(), table.row(row).begin());
   }
   append(variable, parents, std::move(table));
+}
+
+void RelationNetwork::declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
+                              SparseRows rows) {
+  prove_number_of_rows(variable, parents, rows.rows());
+  for (std::size_t row = 0; row < rows.rows(); ++row)
+    variable.visit([&]<class Kind>(const Variable<Kind>& typed) {
+      prove_row(parents, row, [&](check::Row at) { prove_entries_normalized<Kind>(typed, at, rows.entries(row)); });
+    });
+  rows.widen(variable.size());
+  append(variable, parents, std::move(rows));
+}
+
+Distribution<Random> RelationNetwork::given(std::size_t v, std::span<const std::size_t> outcomes) const {
+  const RandomVariable& variable = vertices_[v].variable.as<Random>();
+  std::size_t row = 0;
+  for (const std::size_t parent : vertices_[v].parents)
+    row = row * vertices_[parent].variable.size() + outcomes[parent];
+  Table values(1, variable.size());
+  std::visit(
+      [&](const auto& rows) {
+        const auto entries = rows.entries(row);
+        for (std::size_t k = 0; k < entries.size(); ++k) values(0, entries.index(k)) = entries.value(k);
+      },
+      vertices_[v].rows);
+  return {variable, std::move(values), detail::ByLaw{}};
 }
 
 std::size_t RelationNetwork::index_of(std::string_view name) const {
@@ -69,7 +105,8 @@ std::size_t RelationNetwork::index_of(const NetworkVariable& variable) const {
   return index;
 }
 
-void RelationNetwork::append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, Table rows) {
+void RelationNetwork::append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
+                             AnyRows rows) {
   if (index_.contains(variable.name()))
     throw std::invalid_argument("variable '" + variable.name() + "' is declared twice");
   std::vector<std::size_t> indices;
@@ -105,18 +142,14 @@ RelationNetwork as_fuzzy(const RelationNetwork& network, const RowTransform& tra
     const auto& [variable, parents, table] = network[v];
     std::vector<NetworkVariable> conditions;
     for (const std::size_t parent : parents) conditions.push_back(result[parent].variable);
-    std::vector<std::vector<double>> rows;
-    for (std::size_t r = 0; r < table.rows(); ++r) rows.emplace_back(table.row(r).begin(), table.row(r).end());
     if (!chosen.contains(v)) {
-      result.declare(variable, conditions, rows);
+      result.append(variable, conditions, table);
       continue;
     }
+    AnyRows rows = table;
     const FuzzyVariable fuzzy = interpreted_as<Fuzzy>(variable.outcomes());
-    for (auto& row : rows) {
-      const Distribution possibilities = normalized(fuzzy, transform(row));
-      row.assign(possibilities.values().begin(), possibilities.values().end());
-    }
-    result.declare(fuzzy, conditions, rows);
+    detail::transform_rows<Max>(rows, fuzzy, nullptr, transform);
+    result.append(fuzzy, conditions, std::move(rows));
   }
   return result;
 }

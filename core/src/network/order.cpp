@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <queue>
+#include <set>
+#include <utility>
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/depth_first_search.hpp>
@@ -10,123 +12,256 @@
 namespace sigmax::elimination {
 namespace {
 
-/// Two variables are joined if some factor has both.
-using Interactions = boost::adjacency_list<boost::setS, boost::vecS, boost::undirectedS>;
+/// The graph of variables that some factor joins, with the fill of each: the edges that its elimination would add.
+/// Every change costs about as much as it changes.
+class Interactions {
+ public:
+  explicit Interactions(const OrderProblem& problem) : around_(problem.sizes.size()), fill_(problem.sizes.size(), 0) {
+    for (const auto& scope : problem.scopes) join_all(scope);
+    changed_.clear();
+  }
 
-auto neighbours(const Interactions& graph, Vertex v) {
-  const auto [first, last] = boost::adjacent_vertices(v, graph);
-  return std::vector<Vertex>(first, last);
-}
+  const std::vector<Vertex>& around(Vertex v) const { return around_[v]; }
+  std::size_t fill(Vertex v) const { return fill_[v]; }
 
-Interactions interactions(const OrderProblem& problem) {
-  Interactions graph(problem.sizes.size());
-  for (const auto& scope : problem.scopes)
-    for (std::size_t i = 0; i < scope.size(); ++i)
-      for (std::size_t j = i + 1; j < scope.size(); ++j) boost::add_edge(scope[i], scope[j], graph);
-  return graph;
-}
-
-/// Edges that eliminating `v` would add; counting stops where they exceed `enough`.
-std::size_t fill(const Interactions& graph, Vertex v, std::size_t enough) {
-  const auto around = neighbours(graph, v);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < around.size(); ++i)
-    for (std::size_t j = i + 1; j < around.size(); ++j) {
-      if (!boost::edge(around[i], around[j], graph).second) ++count;
-      if (count > enough) return count;
+  /// Joins the neighbours of `v` and takes it away. Returns the vertices whose fill or neighbours changed.
+  std::vector<Vertex> eliminate(Vertex v) {
+    const std::vector<Vertex> neighbours = around_[v];
+    join_all(neighbours);
+    for (const Vertex w : neighbours) {
+      fill_[w] -= around_[w].size() - neighbours.size();  // the pairs of v and what v is not joined to
+      around_[w].erase(std::lower_bound(around_[w].begin(), around_[w].end(), v));
+      changed_.push_back(w);
     }
-  return count;
-}
+    around_[v].clear();
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    return std::exchange(changed_, {});
+  }
 
-double table_of(const Interactions& graph, const std::vector<std::size_t>& sizes, Vertex v) {
-  auto outcomes = static_cast<double>(sizes[v]);
-  for (const Vertex u : neighbours(graph, v)) outcomes *= static_cast<double>(sizes[u]);
-  return outcomes;
-}
+ private:
+  bool joined(Vertex a, Vertex b) const { return std::binary_search(around_[a].begin(), around_[a].end(), b); }
 
-/// Which variables cannot be brought innermost, for one of another kind within them is joined to them, be it through
-/// variables within that one.
-std::vector<bool> blocked(const Interactions& graph, const OrderProblem& problem, const std::vector<Role>& roles) {
-  const auto ranked = [&](Vertex v) { return roles[v] == Role::eliminated || roles[v] == Role::kept; };
-  std::vector<bool> result(roles.size(), false);
-  std::vector<Vertex> seen_from(roles.size(), roles.size());
-  std::vector<Vertex> open;
-  for (Vertex c = roles.size(); c-- > 0;) {
-    if (!ranked(c)) continue;
-    open.assign(1, c);
-    seen_from[c] = c;
-    while (!open.empty()) {
-      const Vertex w = open.back();
-      open.pop_back();
-      const auto [first, last] = boost::adjacent_vertices(w, graph);
-      for (auto u = first; u != last; ++u) {
-        if (!ranked(*u) || seen_from[*u] == c) continue;
-        if (*u < c) {
-          if (problem.fuzzy[*u] != problem.fuzzy[c]) result[*u] = true;
-          continue;
-        }
-        seen_from[*u] = c;
-        open.push_back(*u);
+  void join_all(const std::vector<Vertex>& scope) {
+    for (std::size_t i = 0; i < scope.size(); ++i)
+      for (std::size_t j = i + 1; j < scope.size(); ++j)
+        if (!joined(scope[i], scope[j])) join(scope[i], scope[j]);
+  }
+
+  void join(Vertex a, Vertex b) {
+    if (around_[a].size() > around_[b].size()) std::swap(a, b);
+    std::size_t common = 0;
+    for (const Vertex c : around_[a])
+      if (joined(b, c)) {
+        ++common;
+        --fill_[c];
+        changed_.push_back(c);
       }
+    for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
+      fill_[v] += around_[v].size() - common;
+      around_[v].insert(std::lower_bound(around_[v].begin(), around_[v].end(), other), other);
+      changed_.push_back(v);
     }
   }
-  return result;
-}
+
+  std::vector<std::vector<Vertex>> around_;  // ascending
+  std::vector<std::size_t> fill_;
+  std::vector<Vertex> changed_;
+};
+
+bool is_ranked(Role role) { return role == Role::eliminated || role == Role::kept; }
+
+/// Which variables cannot be brought innermost: a variable of another kind within such a one, its blocker, is joined to
+/// it, be it through variables within the blocker. A blocker blocks until it is eliminated itself.
+class Blocking {
+ public:
+  Blocking(const Interactions& graph, const OrderProblem& problem, const std::vector<Role>& roles)
+      : graph_(&graph), kinds_(&problem.kinds), roles_(&roles), blocked_(roles.size(), false), by_(roles.size()) {
+    if (of_two_kinds(problem)) find_all();
+  }
+
+  bool blocked(Vertex v) const { return blocked_[v]; }
+
+  /// After `v` was eliminated: the variables that are free now.
+  std::vector<Vertex> freed_by(Vertex v) {
+    std::vector<Vertex> freed;
+    for (const Vertex u : std::exchange(by_[v], {}))
+      if ((*roles_)[u] != Role::absent && !find(u)) freed.push_back(u);
+    return freed;
+  }
+
+ private:
+  bool ranked(Vertex v) const { return is_ranked((*roles_)[v]); }
+
+  void block(Vertex u, Vertex by) {
+    blocked_[u] = true;
+    by_[by].push_back(u);
+  }
+
+  /// Innermost first: what has been visited falls into parts that are joined, each with the variables outside of it
+  /// that it is joined to.
+  void find_all() {
+    const std::size_t n = roles_->size();
+    std::vector<std::size_t> part(n, n);
+    std::vector<std::set<Vertex>> outside(n);
+    const auto root = [&part](Vertex v) {
+      while (part[v] != v) v = part[v] = part[part[v]];
+      return v;
+    };
+    std::vector<Vertex> blocker(n, n);
+    for (Vertex c = n; c-- > 0;) {
+      if (!ranked(c)) continue;
+      part[c] = c;
+      std::set<Vertex> all;
+      for (const Vertex u : graph_->around(c)) {
+        if (!ranked(u)) continue;
+        if (u < c) {
+          all.insert(u);
+        } else if (const Vertex r = root(u); r != c) {
+          if (outside[r].size() > all.size()) std::swap(outside[r], all);
+          all.insert(outside[r].begin(), outside[r].end());
+          outside[r].clear();
+          part[r] = c;
+        }
+      }
+      all.erase(c);
+      for (const Vertex u : all)
+        if ((*kinds_)[u] != (*kinds_)[c]) blocker[u] = c;
+      outside[c] = std::move(all);
+    }
+    for (Vertex u = 0; u < n; ++u)
+      if (blocker[u] < n) block(u, blocker[u]);
+  }
+
+  /// Looks for a blocker of `u`: the path to each variable within u whose outermost variable is as far within as can
+  /// be.
+  bool find(Vertex u) {
+    blocked_[u] = false;
+    std::priority_queue<std::pair<Vertex, Vertex>> open;  // outermost of the path, its end
+    std::set<Vertex> seen;
+    const auto extend = [&](Vertex from, Vertex outermost) {
+      for (const Vertex x : graph_->around(from))
+        if (x > u && ranked(x) && !seen.contains(x)) open.push({std::min(outermost, x), x});
+    };
+    extend(u, roles_->size());
+    while (!open.empty()) {
+      const auto [outermost, x] = open.top();
+      open.pop();
+      if (!seen.insert(x).second) continue;
+      if (outermost == x && (*kinds_)[x] != (*kinds_)[u]) {
+        block(u, x);
+        return true;
+      }
+      extend(x, outermost);
+    }
+    return false;
+  }
+
+  const Interactions* graph_;
+  const std::vector<std::size_t>* kinds_;
+  const std::vector<Role>* roles_;
+  std::vector<bool> blocked_;
+  std::vector<std::vector<Vertex>> by_;  // whom each is known to block
+};
+
+/// The variables that are left, by fill, then by table, then innermost first. Tables are computed when they matter.
+class Candidates {
+ public:
+  Candidates(const Interactions& graph, const std::vector<std::size_t>& sizes)
+      : graph_(&graph), sizes_(&sizes), entries_(sizes.size()) {}
+
+  bool empty() const { return order_.empty(); }
+  bool contains(Vertex v) const { return entries_[v].present; }
+  void insert(Vertex v) {
+    entries_[v] = {graph_->fill(v), unknown, true};
+    order_.insert(key(v));
+  }
+  void erase(Vertex v) {
+    order_.erase(key(v));
+    entries_[v].present = false;
+  }
+  std::size_t least_fill() const {
+    return order_.empty() ? std::numeric_limits<std::size_t>::max() : order_.begin()->fill;
+  }
+
+  /// The first variable, and the outcomes that its elimination ranges over.
+  std::pair<Vertex, double> first() {
+    while (order_.begin()->table == unknown) {
+      const Vertex v = order_.begin()->v;
+      order_.erase(order_.begin());
+      double outcomes = static_cast<double>((*sizes_)[v]);
+      for (const Vertex u : graph_->around(v)) outcomes *= static_cast<double>((*sizes_)[u]);
+      entries_[v].table = outcomes;
+      order_.insert(key(v));
+    }
+    return {order_.begin()->v, order_.begin()->table};
+  }
+
+ private:
+  static constexpr double unknown = 0.0;  // below all others, so that it is asked for before they are chosen
+  struct Entry {
+    std::size_t fill = 0;
+    double table = unknown;
+    bool present = false;
+  };
+  struct Key {
+    std::size_t fill;
+    double table;
+    Vertex v;
+    bool operator<(const Key& other) const {
+      if (fill != other.fill) return fill < other.fill;
+      if (table != other.table) return table < other.table;
+      return v > other.v;
+    }
+  };
+  Key key(Vertex v) const { return {entries_[v].fill, entries_[v].table, v}; }
+
+  const Interactions* graph_;
+  const std::vector<std::size_t>* sizes_;
+  std::vector<Entry> entries_;
+  std::set<Key> order_;
+};
+
+}  // namespace
 
 bool of_two_kinds(const OrderProblem& problem) {
-  std::optional<bool> first;
+  const std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::size_t first = none;
   for (Vertex v = 0; v < problem.roles.size(); ++v) {
-    if (problem.roles[v] != Role::eliminated && problem.roles[v] != Role::kept) continue;
-    if (first && *first != problem.fuzzy[v]) return true;
-    first = problem.fuzzy[v];
+    if (!is_ranked(problem.roles[v])) continue;
+    if (first != none && first != problem.kinds[v]) return true;
+    first = problem.kinds[v];
   }
   return false;
 }
 
-}  // namespace
-
 Order order_of_elimination(const OrderProblem& problem) {
   Order order;
-  Interactions graph = interactions(problem);
+  Interactions graph(problem);
   std::vector<Role> roles = problem.roles;
-  const bool mixed = of_two_kinds(problem);
-  while (true) {
-    const std::vector<bool> forbidden = mixed ? blocked(graph, problem, roles) : std::vector<bool>(roles.size(), false);
-    struct Choice {
-      std::optional<Vertex> vertex;
-      std::size_t fill = std::numeric_limits<std::size_t>::max();
-      double table = std::numeric_limits<double>::infinity();
-    };
-    Choice allowed, any;
-    const auto consider = [&](Choice& best, Vertex v) {
-      const std::size_t f = fill(graph, v, best.fill);
-      if (f > best.fill) return;
-      const double t = table_of(graph, problem.sizes, v);
-      if (f < best.fill || t < best.table) best = {v, f, t};
-    };
-    for (Vertex v = roles.size(); v-- > 0;) {
-      if (roles[v] != Role::eliminated) continue;
-      if (!forbidden[v]) consider(allowed, v);
-      if (mixed) consider(any, v);
-    }
-    if (!allowed.vertex) {
-      order.complete = !any.vertex;
-      break;
-    }
-    if (mixed && any.fill < allowed.fill) order.forced = true;
-    const Vertex v = *allowed.vertex;
-    order.vertices.push_back(v);
-    order.greatest_table = std::max(order.greatest_table, allowed.table);
-    const auto around = neighbours(graph, v);
-    for (std::size_t i = 0; i < around.size(); ++i)
-      for (std::size_t j = i + 1; j < around.size(); ++j) boost::add_edge(around[i], around[j], graph);
-    boost::clear_vertex(v, graph);
-    roles[v] = Role::absent;
-  }
-  double left = 1.0;
+  Blocking blocking(graph, problem, roles);
+  Candidates free(graph, problem.sizes), blocked(graph, problem.sizes);
   for (Vertex v = 0; v < roles.size(); ++v)
-    if (roles[v] != Role::absent) left *= static_cast<double>(problem.sizes[v]);
-  order.greatest_table = std::max(order.greatest_table, left);
+    if (roles[v] == Role::eliminated) (blocking.blocked(v) ? blocked : free).insert(v);
+  while (!free.empty()) {
+    if (blocked.least_fill() < free.least_fill()) order.forced = true;
+    const auto [v, outcomes] = free.first();
+    order.vertices.push_back(v);
+    if (outcomes > order.greatest_table) {
+      order.greatest_table = outcomes;
+      order.greatest_scope = graph.around(v);
+      order.greatest_scope.push_back(v);
+    }
+    free.erase(v);
+    const std::vector<Vertex> changed = graph.eliminate(v);
+    roles[v] = Role::absent;
+    for (const Vertex u : changed)
+      for (Candidates* const candidates : {&free, &blocked})
+        if (candidates->contains(u)) candidates->erase(u), candidates->insert(u);
+    for (const Vertex u : blocking.freed_by(v))
+      if (blocked.contains(u)) blocked.erase(u), free.insert(u);
+  }
+  order.complete = blocked.empty();
   return order;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "factor.hpp"
@@ -20,24 +19,28 @@ enum class Role {
 /// The problem of ordering: by index of the vertex, which is its rank in the order of declaration.
 struct OrderProblem {
   std::vector<std::size_t> sizes;
-  std::vector<bool> fuzzy;
+  std::vector<std::size_t> kinds;  ///< equal numbers for equal kinds
   std::vector<Role> roles;
   std::vector<std::vector<Vertex>> scopes;  ///< of the factors
 };
 
 struct Order {
   std::vector<Vertex> vertices;
-  double greatest_table = 1.0;  ///< the most outcomes that one elimination, or what is left in the end, ranges over
-  bool forced = false;          ///< whether the kinds ever forbade a vertex of less fill than the one chosen
-  bool complete = true;         ///< whether all that should be eliminated could be; false only if some are kept
+  double greatest_table = 1.0;         ///< the most outcomes that one elimination ranges over
+  std::vector<Vertex> greatest_scope;  ///< the variables of that elimination
+  bool forced = false;                 ///< whether the kinds ever forbade a vertex of less fill than the one chosen
+  bool complete = true;                ///< whether all that should be eliminated could be; false only if some are kept
 };
+
+/// Whether variables of different kinds are eliminated or kept.
+bool of_two_kinds(const OrderProblem& problem);
 
 /// An order of elimination that provably gives the value of the reverse order of declaration; by the least fill.
 ///
 /// Eliminations of the same kind that follow each other may be exchanged. So may those of different kinds if no chain
 /// of factors joins them through variables that are eliminated within both: the product then falls into two, and each ⊕
 /// passes by the half that does not have its variable. A variable is free to be eliminated next if such exchanges bring
-/// it innermost. One that is free stays so, so that the greedy choice never closes a way.
+/// it innermost. Freedom is never lost, so the greedy choice cannot get stuck.
 Order order_of_elimination(const OrderProblem& problem);
 
 /// The vertices with parents before children, as early as their index allows. Calls `on_cycle(child, parent)`, which

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "solve.hpp"
 
@@ -34,48 +35,70 @@ const NetworkVariable& NetworkAnswer::only() const& {
   return variables_.front();
 }
 
-NetworkAnswer query(const RelationNetwork& network, const std::vector<std::string>& variables,
-                    const Evidence& evidence) {
-  std::vector<Vertex> asked;
-  std::vector<NetworkVariable> answered;
-  for (const auto& name : variables) {
-    const Vertex v = network.index_of(name);
-    if (std::find(asked.begin(), asked.end(), v) != asked.end())
-      throw std::invalid_argument("the query has variable '" + name + "' twice");
-    asked.push_back(v);
-    answered.push_back(network[v].variable);
-  }
-  const auto findings = elimination::findings_of(network, evidence);
-  std::vector<Vertex> targets = asked;
-  for (Vertex v = 0; v < network.size(); ++v)
-    if (findings.weights[v]) targets.push_back(v);
-  auto factors = elimination::factors_of(network, elimination::relevant(network, targets), findings, asked);
+namespace {
 
+/// A query up to its arithmetic.
+struct Plan {
+  std::vector<Vertex> asked;
+  elimination::Findings findings;
+  elimination::Parts parts;
+  elimination::Order order;
+  Elimination cost;
+  double numbers = 1.0;  // of the answer
+  bool induced = false;
+};
+
+Plan plan_of(const RelationNetwork& network, const std::vector<std::string>& variables, const Evidence& evidence) {
+  Plan plan{elimination::vertices_of(network, variables), elimination::findings_of(network, evidence), {}, {}, {}};
+  plan.parts = elimination::parts_of(network, elimination::relevant(network, plan.asked, plan.findings), plan.findings,
+                                     plan.asked);
   std::vector<std::pair<Vertex, Role>> fixed, kept;
-  for (const Vertex v : asked) {
+  for (const Vertex v : plan.asked) {
     fixed.emplace_back(v, Role::fixed);
     kept.emplace_back(v, Role::kept);
+    plan.numbers *= static_cast<double>(network[v].variable.size());
   }
-  const auto problem = elimination::order_problem(network, factors, fixed);
-  const auto order = elimination::order_of_elimination(problem);
-  const bool induced = !elimination::order_of_elimination(elimination::order_problem(network, factors, kept)).complete;
+  const auto problem = elimination::order_problem(network, plan.parts, fixed);
+  plan.order = elimination::order_of_elimination(problem);
+  const auto as_declared = elimination::order_problem(network, plan.parts, kept);
+  plan.induced = elimination::of_two_kinds(as_declared) && !elimination::order_of_elimination(as_declared).complete;
 
-  Elimination done{{}, order.greatest_table, order.forced, order.greatest_table};
-  for (const Vertex v : order.vertices) done.order.push_back(network[v].variable.name());
-  if (order.forced) {
+  Elimination& cost = plan.cost;
+  cost.forced = plan.order.forced;
+  cost.greatest_table = cost.greatest_table_if_one_kind = std::max(plan.order.greatest_table, plan.numbers);
+  for (const Vertex v : plan.order.vertices) cost.order.push_back(network[v].variable.name());
+  if (cost.forced) {
     auto of_one_kind = problem;
-    of_one_kind.fuzzy.assign(network.size(), false);
-    done.greatest_table_if_one_kind = elimination::order_of_elimination(of_one_kind).greatest_table;
+    of_one_kind.kinds.assign(network.size(), 0);
+    cost.greatest_table_if_one_kind =
+        std::max(elimination::order_of_elimination(of_one_kind).greatest_table, plan.numbers);
   }
+  return plan;
+}
 
-  auto joint = elimination::joint(network, std::move(factors), order, asked);
-  std::vector<Vertex> innermost_first = asked;
+}  // namespace
+
+NetworkAnswer query(const RelationNetwork& network, const std::vector<std::string>& variables, const Evidence& evidence,
+                    std::size_t table_limit) {
+  Plan plan = plan_of(network, variables, evidence);
+  elimination::refuse_above(table_limit, plan.order.greatest_table, plan.order.greatest_scope, network);
+  elimination::refuse_above(table_limit, plan.numbers, plan.asked, network);
+  auto joint =
+      elimination::joint(network, elimination::factors_of(network, plan.parts, plan.findings), plan.order, plan.asked);
+  const auto sizes = elimination::sizes_of(network);
+  std::vector<Vertex> innermost_first = plan.asked;
   std::sort(innermost_first.rbegin(), innermost_first.rend());
   std::vector<elimination::Factor> total{joint};
-  for (const Vertex v : innermost_first) total = {elimination::eliminate_by_kind(network, total, v, problem.sizes)};
+  for (const Vertex v : innermost_first) total = {elimination::eliminate_by_kind(network, total, v, sizes)};
   const ScaledNumber sum = total.front().values.front();
-  if (sum.is_zero()) elimination::refuse(findings);
-  return {std::move(answered), std::move(joint.values), sum, induced, std::move(done)};
+  if (sum.is_zero()) elimination::refuse(plan.findings);
+  std::vector<NetworkVariable> answered;
+  for (const Vertex v : plan.asked) answered.push_back(network[v].variable);
+  return {std::move(answered), std::move(joint.values), sum, plan.induced, std::move(plan.cost)};
+}
+
+Elimination cost(const RelationNetwork& network, const std::vector<std::string>& variables, const Evidence& evidence) {
+  return plan_of(network, variables, evidence).cost;
 }
 
 }  // namespace sigmax

@@ -1,17 +1,52 @@
 #include "solve.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
+#include <variant>
 
 namespace sigmax::elimination {
 namespace {
 
-Factor table_factor(const RelationNetwork& network, Vertex v) {
-  const auto& vertex = network[v];
-  Factor factor{vertex.parents, {}};
-  factor.scope.push_back(v);
-  factor.values.reserve(vertex.rows.size());
-  for (const double value : vertex.rows.values()) factor.values.emplace_back(value);
+std::vector<Vertex> scope_of(const RelationNetwork& network, Vertex v, const Parts& parts) {
+  std::vector<Vertex> scope;
+  for (const Vertex parent : network[v].parents)
+    if (!parts.known[parent]) scope.push_back(parent);
+  if (!parts.known[v]) scope.push_back(v);
+  return scope;
+}
+
+/// The table of `v` where what is known has its outcome.
+Factor table_factor(const RelationNetwork& network, Vertex v, const Parts& parts,
+                    const std::vector<std::size_t>& sizes) {
+  Factor factor{scope_of(network, v, parts), {}};
+  factor.values.resize(outcomes_of(factor.scope, sizes));
+  const std::vector<std::size_t>& parents = network[v].parents;
+  const std::size_t row_size = parts.known[v] ? 1 : sizes[v];
+  std::vector<std::size_t> digits(parents.size(), 0);
+  std::size_t row_of_factor = 0;
+  const auto read = [&](const auto& rows) {
+    for (std::size_t r = 0; r < rows.rows(); ++r) {
+      bool fits = true;
+      for (std::size_t p = 0; p < parents.size(); ++p)
+        fits = fits && digits[p] == parts.known[parents[p]].value_or(digits[p]);
+      if (fits) {
+        ScaledNumber* const out = factor.values.data() + row_size * row_of_factor++;
+        const auto entries = rows.entries(r);
+        for (std::size_t k = 0; k < entries.size(); ++k) {
+          if (!parts.known[v])
+            out[entries.index(k)] = ScaledNumber{entries.value(k)};
+          else if (entries.index(k) == *parts.known[v])
+            *out = ScaledNumber{entries.value(k)};
+        }
+      }
+      for (std::size_t p = parents.size(); p-- > 0;) {
+        if (++digits[p] < sizes[parents[p]]) break;
+        digits[p] = 0;
+      }
+    }
+  };
+  std::visit(read, network[v].rows);
   return factor;
 }
 
@@ -65,51 +100,91 @@ std::vector<Vertex> relevant(const RelationNetwork& network, const std::vector<V
   return result;
 }
 
-Factors factors_of(const RelationNetwork& network, const std::vector<Vertex>& tables, const Findings& findings,
-                   const std::vector<Vertex>& asked) {
-  const std::vector<std::size_t> sizes = sizes_of(network);
-  Factors factors{{}, std::vector<std::optional<std::size_t>>(network.size())};
-  for (const Vertex v : tables) {
-    const auto& weights = findings.weights[v];
-    if (weights) factors.all.push_back({{v}, *weights});
-    if (std::find(asked.begin(), asked.end(), v) != asked.end()) continue;
-    const auto possible = [&](std::size_t i) { return !weights || !(*weights)[i].is_zero(); };
-    std::size_t first = 0, count = 0;
-    for (std::size_t i = sizes[v]; i-- > 0;)
-      if (possible(i)) first = i, ++count;
-    if (count == 1) factors.known[v] = first;
-  }
-  for (const Vertex v : tables) factors.all.push_back(table_factor(network, v));
-  for (Factor& factor : factors.all) {
-    const std::vector<Vertex> scope = factor.scope;
-    for (const Vertex v : scope)
-      if (factors.known[v]) factor = restricted(factor, v, *factors.known[v], sizes);
-  }
-  return factors;
+std::vector<Vertex> relevant(const RelationNetwork& network, std::vector<Vertex> targets, const Findings& findings) {
+  for (Vertex v = 0; v < network.size(); ++v)
+    if (findings.weights[v]) targets.push_back(v);
+  return relevant(network, targets);
 }
 
-OrderProblem order_problem(const RelationNetwork& network, const Factors& factors,
+std::vector<Vertex> vertices_of(const RelationNetwork& network, const std::vector<std::string>& names) {
+  std::vector<Vertex> vertices;
+  std::vector<bool> seen(network.size(), false);
+  for (const auto& name : names) {
+    vertices.push_back(network.index_of(name));
+    if (seen[vertices.back()]) throw std::invalid_argument("the query has variable '" + name + "' twice");
+    seen[vertices.back()] = true;
+  }
+  return vertices;
+}
+
+Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const Findings& findings,
+               const std::vector<Vertex>& asked) {
+  Parts parts{std::move(tables), std::vector<std::optional<std::size_t>>(network.size())};
+  std::vector<bool> is_asked(network.size(), false);
+  for (const Vertex v : asked) is_asked[v] = true;
+  for (const Vertex v : parts.tables) {
+    const auto& weights = findings.weights[v];
+    const std::size_t size = network[v].variable.size();
+    if (is_asked[v] || (!weights && size > 1)) continue;
+    std::size_t first = 0, count = 0;
+    for (std::size_t i = size; i-- > 0;)
+      if (!weights || !(*weights)[i].is_zero()) first = i, ++count;
+    if (count == 1) parts.known[v] = first;
+  }
+  return parts;
+}
+
+OrderProblem order_problem(const RelationNetwork& network, const Parts& parts,
                            const std::vector<std::pair<Vertex, Role>>& roles) {
   OrderProblem problem{sizes_of(network), {}, std::vector<Role>(network.size(), Role::absent), {}};
-  for (const auto& vertex : network.vertices()) problem.fuzzy.push_back(vertex.variable.is<Fuzzy>());
-  for (const Factor& factor : factors.all) {
-    for (const Vertex v : factor.scope) problem.roles[v] = Role::eliminated;
-    problem.scopes.push_back(factor.scope);
+  for (const auto& vertex : network.vertices()) problem.kinds.push_back(vertex.variable.kind());
+  for (const Vertex v : parts.tables) {
+    problem.scopes.push_back(scope_of(network, v, parts));
+    for (const Vertex u : problem.scopes.back()) problem.roles[u] = Role::eliminated;
   }
-  for (const auto& [v, role] : roles) problem.roles[v] = role;
+  for (const auto& [v, role] : roles)
+    if (!parts.known[v]) problem.roles[v] = role;
   return problem;
+}
+
+void refuse_above(std::size_t limit, double numbers, const std::vector<Vertex>& scope, const RelationNetwork& network) {
+  const double bytes = numbers * static_cast<double>(sizeof(ScaledNumber));
+  if (bytes <= static_cast<double>(limit)) return;
+  constexpr std::size_t shown = 12;
+  std::ostringstream message;
+  message.precision(3);
+  message << "the query needs a table of " << numbers << " numbers (" << bytes / 0x1p30 << " GiB), above the limit of "
+          << static_cast<double>(limit) / 0x1p30 << " GiB: over ";
+  for (std::size_t k = 0; k < scope.size() && k < shown; ++k)
+    message << (k > 0 ? ", '" : "'") << network[scope[k]].variable.name() << "'";
+  if (scope.size() > shown) message << ", … (" << scope.size() << " variables)";
+  throw std::length_error(message.str());
+}
+
+std::vector<Factor> factors_of(const RelationNetwork& network, const Parts& parts, const Findings& findings) {
+  const std::vector<std::size_t> sizes = sizes_of(network);
+  std::vector<Factor> factors;
+  for (const Vertex v : parts.tables) {
+    if (!findings.weights[v]) continue;
+    if (parts.known[v])
+      factors.push_back({{}, {(*findings.weights[v])[*parts.known[v]]}});
+    else
+      factors.push_back({{v}, *findings.weights[v]});
+  }
+  for (const Vertex v : parts.tables) factors.push_back(table_factor(network, v, parts, sizes));
+  return factors;
 }
 
 Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
                          const std::vector<std::size_t>& sizes) {
-  return network[vertex].variable.visit(
-      [&]<class Kind>(const Variable<Kind>&) { return eliminate<AlgebraOf<Kind>>(factors, vertex, sizes); });
+  return with_algebra_of(network[vertex].variable, [&]<class A>(A) { return eliminate<A>(factors, vertex, sizes); });
 }
 
-Factor joint(const RelationNetwork& network, Factors factors, const Order& order, const std::vector<Vertex>& asked) {
+Factor joint(const RelationNetwork& network, std::vector<Factor> factors, const Order& order,
+             const std::vector<Vertex>& asked) {
   const std::vector<std::size_t> sizes = sizes_of(network);
   const auto left = eliminated(
-      std::move(factors.all), order.vertices,
+      std::move(factors), order.vertices, sizes,
       [&](const std::vector<Factor>& bucket, Vertex v) { return eliminate_by_kind(network, bucket, v, sizes); });
   return product(left, asked, sizes);
 }

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <sigmax/core/network.hpp>
 #include <sigmax/core/network/evidence.hpp>
+#include <sigmax/core/network/query.hpp>
 
 #include "factor.hpp"
 #include "order.hpp"
@@ -29,43 +31,68 @@ Findings findings_of(const RelationNetwork& network, const Evidence& evidence);
 
 std::vector<std::size_t> sizes_of(const RelationNetwork& network);
 
+/// The vertices of these names. Throws std::invalid_argument if one is not the network's, or is there twice.
+std::vector<Vertex> vertices_of(const RelationNetwork& network, const std::vector<std::string>& names);
+
 /// The vertices whose tables bear on `targets`: these and their ancestors, in order. Any other table's variable is
 /// eliminated to one before all that it depends on. The way up ends at `barrier`, which is not included.
 std::vector<Vertex> relevant(const RelationNetwork& network, const std::vector<Vertex>& targets,
                              std::optional<Vertex> barrier = {});
 
-/// Tables and evidence as factors, where variables of which only one outcome is left are put in place: each is
-/// substituted by whichever ⊕, which therefore may be done first.
-struct Factors {
-  std::vector<Factor> all;
-  std::vector<std::optional<std::size_t>> known;  ///< that outcome, by index of the vertex
-};
-Factors factors_of(const RelationNetwork& network, const std::vector<Vertex>& tables, const Findings& findings,
-                   const std::vector<Vertex>& asked);
+/// The same, with everything that there is evidence about.
+std::vector<Vertex> relevant(const RelationNetwork& network, std::vector<Vertex> targets, const Findings& findings);
 
-/// The ordering problem of the factors: variables are eliminated unless they are known, or `roles` says otherwise.
-OrderProblem order_problem(const RelationNetwork& network, const Factors& factors,
+/// The tables that take part. Variables of which the evidence leaves one outcome are put in place: each is substituted
+/// by whichever ⊕, which therefore may be done first.
+struct Parts {
+  std::vector<Vertex> tables;
+  std::vector<std::optional<std::size_t>> known;  ///< the outcome put in place, by index of the vertex
+};
+
+/// Variables in `asked` stay as they are, even if known.
+Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const Findings& findings,
+               const std::vector<Vertex>& asked);
+
+/// The ordering problem of the parts: variables are eliminated unless they are known, or `roles` says otherwise.
+OrderProblem order_problem(const RelationNetwork& network, const Parts& parts,
                            const std::vector<std::pair<Vertex, Role>>& roles);
 
-/// Eliminates in this order; `eliminate(factors, vertex)` gives the factor that takes the place of all that have it.
+/// Throws std::length_error, naming the variables, if a table of this many numbers takes more than `limit` bytes.
+void refuse_above(std::size_t limit, double numbers, const std::vector<Vertex>& scope, const RelationNetwork& network);
+
+/// Tables and evidence as factors. The order must have passed `refuse_above`, for they are made dense.
+std::vector<Factor> factors_of(const RelationNetwork& network, const Parts& parts, const Findings& findings);
+
+/// Eliminates in this order, each variable from the factors that have it; `eliminate(factors, vertex)` gives the factor
+/// that takes their place. Returns those that are left.
 template <class Eliminate>
 std::vector<Factor> eliminated(std::vector<Factor> factors, const std::vector<Vertex>& order,
-                               const Eliminate& eliminate) {
-  for (const Vertex v : order) {
-    const auto has_not = [v](const Factor& f) { return std::find(f.scope.begin(), f.scope.end(), v) == f.scope.end(); };
-    const auto first = std::partition(factors.begin(), factors.end(), has_not);
-    std::vector<Factor> bucket(std::make_move_iterator(first), std::make_move_iterator(factors.end()));
-    factors.erase(first, factors.end());
-    factors.push_back(eliminate(std::move(bucket), v));
-  }
-  return factors;
+                               const std::vector<std::size_t>& sizes, const Eliminate& eliminate) {
+  std::vector<std::size_t> place(sizes.size(), order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  std::vector<std::vector<Factor>> buckets(order.size() + 1);  // by the first of its variables to go; the last stays
+  const auto put = [&](Factor factor) {
+    std::size_t first = order.size();
+    for (const Vertex v : factor.scope) first = std::min(first, place[v]);
+    buckets[first].push_back(std::move(factor));
+  };
+  for (Factor& factor : factors) put(std::move(factor));
+  for (std::size_t k = 0; k < order.size(); ++k) put(eliminate(std::move(buckets[k]), order[k]));
+  return std::move(buckets.back());
 }
 
-/// ⊕ over one variable by its own kind: the only place where a network's kind chooses the algebra.
+/// action(algebra) with the algebra of a variable's kind: the only place where a network's kind chooses it.
+template <class Action>
+decltype(auto) with_algebra_of(const NetworkVariable& variable, const Action& action) {
+  return variable.visit([&]<class Kind>(const Variable<Kind>&) -> decltype(auto) { return action(AlgebraOf<Kind>{}); });
+}
+
+/// ⊕ over one variable by its own kind.
 Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
                          const std::vector<std::size_t>& sizes);
 
 /// The joint of `asked`, all others eliminated by their kinds in the order given.
-Factor joint(const RelationNetwork& network, Factors factors, const Order& order, const std::vector<Vertex>& asked);
+Factor joint(const RelationNetwork& network, std::vector<Factor> factors, const Order& order,
+             const std::vector<Vertex>& asked);
 
 }  // namespace sigmax::elimination

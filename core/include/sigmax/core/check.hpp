@@ -45,6 +45,9 @@ void index(const Outcomes& variable, std::size_t index);
 /// There are as many values as the variable has outcomes.
 void size(const Outcomes& variable, Row row, std::size_t size);
 
+/// There are as many rows of a relation as `from` has outcomes.
+void rows(const Outcomes& to, const Outcomes& from, std::size_t rows);
+
 /// Not every value is zero.
 void some_positive(const Outcomes& variable, Row row, std::span<const double> values);
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -114,6 +115,14 @@ Distribution<Kind> normalized(Variable<Kind> variable, std::span<const double> w
   std::copy(weights.begin(), weights.end(), table.data());
   condition<AlgebraOf<Kind>>(table.values());
   return {std::move(variable), std::move(table), detail::ByLaw{}};
+}
+
+/// The same of counts, or of numbers of another precision.
+template <Uncertainty Kind, class Number>
+  requires(std::is_arithmetic_v<Number>)
+Distribution<Kind> normalized(Variable<Kind> variable, const std::vector<Number>& weights) {
+  const std::vector<double> numbers(weights.begin(), weights.end());
+  return normalized(std::move(variable), std::span(numbers));
 }
 
 /// What is known of a variable before anything is known: 1/n each for a random, one each for any other variable.

@@ -41,6 +41,7 @@ class Likelihood {
     check::size(variable_, {}, values.size());
     check::values(variable_, {}, values, detail::greatest_weight<AlgebraOf<Kind>>);
     numbers_ = Row(values);
+    take_logs();
   }
 
   /// One for every outcome: evidence that says nothing.
@@ -59,21 +60,19 @@ class Likelihood {
 
   /// Numbers of any size, and logarithms, for the verbs.
   Likelihood(Variable<Kind> variable, Row numbers, detail::ByLaw)
-      : variable_(std::move(variable)), numbers_(std::move(numbers)) {}
+      : variable_(std::move(variable)), numbers_(std::move(numbers)) {
+    take_logs();
+  }
   Likelihood(Variable<Kind> variable, Table logs, detail::ByLaw) requires has_logs : variable_(std::move(variable)),
                                                                                      logs_(std::move(logs)) {}
 
-  /// Sets the logarithm of one likelihood, −∞ for an excluded outcome; all are kept as logarithms then. Throws
+  /// Sets the logarithm of one likelihood, −∞ for an excluded outcome; logarithms are all that is kept then. Throws
   /// std::invalid_argument for NaN or +∞.
   void set_log(std::size_t index, double log_likelihood) requires has_logs {
     if (!(log_likelihood <= std::numeric_limits<double>::max()))
       throw std::invalid_argument("the log-likelihood of '" + variable_.name() + "' at outcome '" +
                                   variable_.label(index) + "' is not a number below infinity");
-    if (!keeps_logs()) {
-      logs_.reshape(1, size());
-      for (std::size_t i = 0; i < numbers_.size(); ++i) logs_(0, i) = numbers_.log(i);
-      numbers_ = {};
-    }
+    numbers_.clear();
     logs_(0, index) = log_likelihood;
   }
 
@@ -81,23 +80,22 @@ class Likelihood {
   Variable<Kind> variable() const&& { return variable_; }
   std::size_t size() const { return variable_.size(); }
 
-  double log(std::size_t index) const requires has_logs { return keeps_logs() ? logs_(0, index) : numbers_.log(index); }
-
-  /// All logarithms, by value.
-  std::vector<double> all_logs() const requires has_logs {
-    std::vector<double> logs(size());
-    for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log(i);
-    return logs;
-  }
+  /// The logarithms: a view that lives as long as the likelihood; of a temporary, a copy.
+  std::span<const double> logs() const& requires has_logs { return logs_.values(); }
+  std::vector<double> logs() const&& requires has_logs { return Table(logs_).values(); }
+  double log(std::size_t index) const requires has_logs { return logs_(0, index); }
 
   /// One likelihood as a number that does not underflow; of an ordinal variable a double.
   typename Row::Number number(std::size_t index) const {
     if constexpr (has_logs)
-      if (keeps_logs()) return ScaledNumber::exp(logs_(0, index));
+      if (numbers_.size() == 0) return ScaledNumber::exp(logs_(0, index));
     return numbers_[index];
   }
   bool excludes(std::size_t index) const {
-    return keeps_logs() ? logs_(0, index) == log_zero : Row::is_zero(numbers_[index]);
+    if constexpr (has_logs)
+      return logs_(0, index) == log_zero;
+    else
+      return Row::is_zero(numbers_[index]);
   }
 
   /// One likelihood as a double, exactly as it was given unless that was a logarithm. `at` throws std::invalid_argument
@@ -110,10 +108,15 @@ class Likelihood {
   }
 
  private:
-  bool keeps_logs() const { return logs_.size() > 0; }
+  void take_logs() {
+    if constexpr (has_logs) {
+      logs_.reshape(1, numbers_.size());
+      for (std::size_t i = 0; i < numbers_.size(); ++i) logs_(0, i) = numbers_.log(i);
+    }
+  }
 
   Variable<Kind> variable_;
-  Row numbers_;  // empty if they are kept as logarithms
+  Row numbers_;  // empty if only logarithms are known
   Table logs_{0, 0};
 };
 

@@ -30,6 +30,16 @@ class RunningMean {
     squares_ += before * (number - mean_);
   }
 
+  /// Adds all numbers of another one, which may have been collected elsewhere.
+  void add(const RunningMean& other) {
+    if (other.count_ == 0) return;
+    const auto n = static_cast<double>(count_), m = static_cast<double>(other.count_);
+    const double apart = other.mean_ - mean_;
+    count_ += other.count_;
+    mean_ += apart * (m / (n + m));
+    squares_ += other.squares_ + apart * apart * (n * m / (n + m));
+  }
+
   std::size_t count() const { return count_; }
 
   /// Throws std::domain_error if there is no number.

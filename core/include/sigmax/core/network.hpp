@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <sigmax/core/network/variable.hpp>
@@ -28,7 +29,12 @@ class RelationNetwork {
   struct Vertex {
     NetworkVariable variable;
     std::vector<std::size_t> parents;  ///< indices of vertices, all lower than its own
-    Table rows;                        ///< a row per outcome of the parents, of which the last varies fastest
+    AnyRows rows;                      ///< a row per outcome of the parents, of which the last varies fastest
+
+    /// All rows as one dense table.
+    Table table() const {
+      return std::visit([](const auto& stored) { return dense_table(stored); }, rows);
+    }
   };
 
   /// A variable without parents. Throws std::invalid_argument if one of its name was declared.
@@ -40,13 +46,16 @@ class RelationNetwork {
   /// A variable with one parent, `relation.from()`. Throws std::invalid_argument if that was not declared.
   template <NetworkKind To, NetworkKind From>
   void declare(const Relation<To, From>& relation) {
-    append(relation.to(), {relation.from()}, relation.dense().table());
+    append(relation.to(), {relation.from()}, relation.rows());
   }
 
   /// A variable with any number of parents. Throws std::invalid_argument, naming variable, row and value, if a parent
   /// was not declared before it (so no cycle can be made), if the sizes do not fit, or if a row is no distribution.
   void declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                const std::vector<std::vector<double>>& rows);
+
+  /// The same of rows that store only some of their numbers: none is ever made dense but by a query that needs it.
+  void declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, SparseRows rows);
 
   std::size_t size() const { return vertices_.size(); }
 
@@ -56,12 +65,27 @@ class RelationNetwork {
   const Vertex& operator[](std::size_t index) const& { return vertices_[index]; }
   Vertex operator[](std::size_t index) const&& { return vertices_[index]; }
 
+  /// The variable of this name. Throws std::invalid_argument if there is none, or it is of another kind.
+  ///
+  ///     network.variable<Fuzzy>("age")
+  template <NetworkKind Kind>
+  Variable<Kind> variable(std::string_view name) const {
+    return (*this)[index_of(name)].variable.template as<Kind>();
+  }
+
+  /// The distribution of random variable `v` given outcomes of all variables before it. Throws std::invalid_argument if
+  /// it is not random.
+  Distribution<Random> given(std::size_t v, std::span<const std::size_t> outcomes) const;
+
   /// Throws std::invalid_argument if no such variable was declared.
   std::size_t index_of(std::string_view name) const;
   std::size_t index_of(const NetworkVariable& variable) const;
 
  private:
-  void append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, Table rows);
+  friend RelationNetwork as_fuzzy(const RelationNetwork&,
+                                  const std::function<std::vector<double>(std::span<const double>)>&,
+                                  const std::vector<std::string>&);
+  void append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, AnyRows rows);
 
   std::vector<Vertex> vertices_;
   std::map<std::string, std::size_t, std::less<>> index_;

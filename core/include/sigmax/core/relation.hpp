@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -121,7 +122,7 @@ class Relation : public ConditionalTable<To, From> {
       : Relation(std::move(to), std::move(from), std::vector<std::vector<double>>(rows.begin(), rows.end())) {}
   Relation(Variable<To> to, Variable<From> from, const std::vector<std::vector<double>>& rows)
       : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
-    prove_number_of_rows(rows.size());
+    check::rows(this->to_, this->from_, rows.size());
     Table table(this->from_.size(), this->to_.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       prove_normalized<To>(this->to_, {&this->from_, i}, rows[i]);
@@ -189,22 +190,35 @@ class Relation : public ConditionalTable<To, From> {
     return all;
   }
 
-  void prove_number_of_rows(std::size_t rows) const {
-    if (rows != this->from_.size())
-      throw std::invalid_argument("the relation '" + this->to_.name() + "' given '" + this->from_.name() + "' needs " +
-                                  std::to_string(this->from_.size()) + " rows, but " + std::to_string(rows) +
-                                  " were given");
-  }
-
   template <class SomeRows>
   SomeRows proved(SomeRows rows) const {
-    prove_number_of_rows(rows.rows());
+    check::rows(this->to_, this->from_, rows.rows());
     for (std::size_t i = 0; i < rows.rows(); ++i)
       prove_entries_normalized<To>(this->to_, {&this->from_, i}, rows.entries(i));
     rows.widen(this->to_.size());
     return rows;
   }
 };
+
+/// The relation whose rows are in proportion to these weights: counts, or numbers of any precision. Throws
+/// std::invalid_argument, naming variable, row and value, as `normalized` of one row does.
+///
+///     normalized(reading, target, std::vector<std::vector<int>>{{17, 3}, {2, 8}})
+template <Uncertainty To, Uncertainty From, class Number>
+  requires std::is_arithmetic_v<Number> Relation<To, From> normalized(const Variable<To>& to,
+                                                                      const Variable<From>& from,
+                                                                      const std::vector<std::vector<Number>>& rows) {
+    check::rows(to, from, rows.size());
+    Table table(from.size(), to.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      check::size(to, {&from, i}, rows[i].size());
+      const std::span<double> row = table.row(i);
+      for (std::size_t k = 0; k < row.size(); ++k) row[k] = static_cast<double>(rows[i][k]);
+      detail::prove_weights<AlgebraOf<To>>(to, {&from, i}, row);
+      condition<AlgebraOf<To>>(row);
+    }
+    return {to, from, std::move(table), detail::ByLaw{}};
+  }
 
 /// A line per row: "mood given age = young: calm 0.3, wild 1".
 template <Uncertainty To, Uncertainty From>

@@ -141,24 +141,31 @@ Distribution<Random> to_probability(const Distribution<Fuzzy>& pi, const Method&
 
 namespace detail {
 
-/// A relation whose every row is in proportion to method(row). Rows that store only some of their numbers go on doing
-/// so, for a transform gives zero for zero.
+/// Makes every row the distribution in proportion to method(row). Rows that store only some of their numbers go on
+/// doing so, for a transform gives zero for zero. `from` is what the rows are given, for messages, if there is one
+/// variable.
+template <Algebra A, class Method>
+void transform_rows(AnyRows& all, const Outcomes& to, const Outcomes* from, const Method& method) {
+  const auto transform = [&](auto& rows) {
+    for_each_stored_row(rows, [&](std::size_t r) {
+      const check::Row at = from ? check::Row{from, r} : check::Row{};
+      const std::span<double> row = rows.values(r);
+      const std::vector<double> weights = method(std::span<const double>(row));
+      check::size(to, at, to.size() - row.size() + weights.size());
+      prove_weights<A>(to, at, weights);
+      std::copy(weights.begin(), weights.end(), row.begin());
+      condition<A>(row);
+    });
+  };
+  std::visit(transform, all);
+}
+
+/// A relation whose every row is in proportion to method(row).
 template <Uncertainty To, Uncertainty Old, Uncertainty From, class Method>
 Relation<To, From> transformed(const Relation<Old, From>& relation, const Variable<To>& to, const Method& method) {
-  AnyRows all = relation.rows();
-  std::visit(
-      [&](auto& rows) {
-        for_each_stored_row(rows, [&](std::size_t r) {
-          const std::span<double> row = rows.values(r);
-          const std::vector<double> weights = method(std::span<const double>(row));
-          check::size(to, {&relation.from(), r}, to.size() - row.size() + weights.size());
-          prove_weights<AlgebraOf<To>>(to, {&relation.from(), r}, weights);
-          std::copy(weights.begin(), weights.end(), row.begin());
-          condition<AlgebraOf<To>>(row);
-        });
-      },
-      all);
-  return {to, relation.from(), std::move(all), ByLaw{}};
+  AnyRows rows = relation.rows();
+  transform_rows<AlgebraOf<To>>(rows, to, &relation.from(), method);
+  return {to, relation.from(), std::move(rows), ByLaw{}};
 }
 
 }  // namespace detail

@@ -31,20 +31,34 @@ Belief<Kind> update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihoo
   return result;
 }
 
+namespace detail {
+
+/// values(k) = product(k) of a scaling algebra, up to a common power of two, so that none underflows for being small.
+template <class Product>
+void assign_in_proportion(std::span<double> values, const Product& product) {
+  ScaledNumber top;
+  for (std::size_t k = 0; k < values.size(); ++k) top = std::max(top, product(k));
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = product(k).value_in_units_of(top.exponent());
+}
+
+}  // namespace detail
+
 /// Posterior distribution, (8), (19), (20).
 ///
 ///     update(uninformative(age), speed_given_age.likelihood("fast"))
 template <Uncertainty Kind>
 Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind>& likelihood) {
-  using Row = typename Likelihood<Kind>::Row;
+  using A = AlgebraOf<Kind>;
   check::same(prior.variable(), likelihood.variable(), "update");
-  Row joint(prior.values());
-  for (std::size_t i = 0; i < joint.size(); ++i) joint[i] = Row::times(joint[i], likelihood.number(i));
-  if (joint.is_zero()) check::excluded(prior.variable());
-  Table values(1, prior.size());
-  joint.to_values(values.values());
-  condition<AlgebraOf<Kind>>(values.values());
-  return {prior.variable(), std::move(values), detail::ByLaw{}};
+  Table joint(1, prior.size());
+  if constexpr (ScalingAlgebra<A>)
+    detail::assign_in_proportion(joint.values(),
+                                 [&](std::size_t i) { return ScaledNumber{prior[i]} * likelihood.number(i); });
+  else
+    for (std::size_t i = 0; i < joint.size(); ++i) joint(0, i) = A::times(prior[i], likelihood.number(i));
+  if (total<Kind>(joint.values()) == A::zero()) check::excluded(prior.variable());
+  condition<A>(joint.values());
+  return {prior.variable(), std::move(joint), detail::ByLaw{}};
 }
 
 /// What `invert` gives: "from given to", and the outcomes of `to` that nothing reaches.
@@ -59,15 +73,12 @@ namespace detail {
 /// Multiplies the numbers of a row by those of the prior, up to a common factor, so that none underflows.
 template <Uncertainty Kind, class Entries>
 void weigh(const Distribution<Kind>& prior, const Entries& row, std::span<double> values) {
-  using Row = typename Likelihood<Kind>::Row;
-  if constexpr (ScalingAlgebra<AlgebraOf<Kind>>) {
-    const auto product = [&](std::size_t k) { return ScaledNumber{prior[row.index(k)]} * ScaledNumber{row.value(k)}; };
-    ScaledNumber top;
-    for (std::size_t k = 0; k < row.size(); ++k) top = std::max(top, product(k));
-    for (std::size_t k = 0; k < row.size(); ++k) values[k] = product(k).value_in_units_of(top.exponent());
-  } else {
-    for (std::size_t k = 0; k < row.size(); ++k) values[k] = Row::times(prior[row.index(k)], row.value(k));
-  }
+  using A = AlgebraOf<Kind>;
+  if constexpr (ScalingAlgebra<A>)
+    assign_in_proportion(values,
+                         [&](std::size_t k) { return ScaledNumber{prior[row.index(k)]} * ScaledNumber{row.value(k)}; });
+  else
+    for (std::size_t k = 0; k < row.size(); ++k) values[k] = A::times(prior[row.index(k)], row.value(k));
 }
 template <Uncertainty Kind, class Entries>
 void weigh(const Belief<Kind>& prior, const Entries& row, std::span<double> values) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
@@ -21,8 +21,9 @@ namespace sigmax {
 struct GridOptions {
   /// What is below this part of the greatest number is dropped: of a belief, and of each row of a transition.
   double negligible = 1e-12;
-  /// Cells along each axis that what is not negligible shall at least have; up to four times as many are left alone.
-  Eigen::Index cells = 50;
+  /// Least number of cells per axis across the non-negligible part; up to four times as many are left alone. Zero
+  /// stands for 400 on a line, 60 in the plane and 20 in space.
+  Eigen::Index cells = 0;
   /// Cells that the grid may have in all.
   std::size_t most = 100000;
 };
@@ -36,9 +37,9 @@ struct GridOptions {
 ///     filter.update([&](const Vector<1>& x) { return -0.5 * square(z - x(0)) / R; });
 ///
 /// A belief is a number for each cell's centre. With cells of h, a sum over centres of a Gaussian of deviation σ is off
-/// by about exp(−2π²σ²/h²), a maximum by up to h²/8σ² in its logarithm, at each step; σ is at most that of the noise
-/// and, after `adapt`, at least h. Each row of the transition is normalised by its own ⊕ over the cells, see
-/// `grid_transition`. The grid follows the belief, see `adapt`.
+/// by about exp(−2π²σ²/h²) at each step. A maximum is refined by the parabola through the best cell and its neighbours,
+/// so it is exact where the logarithm is one. Each row of the transition is normalised by its own ⊕ over the cells, see
+/// `grid_transition`. The grid follows the belief: it is made finer where it is evaluated anew, see `adapt`.
 template <Uncertainty Kind, int N>
 class GridFilter {
  public:
@@ -47,8 +48,10 @@ class GridFilter {
   /// std::domain_error if every cell is excluded.
   template <class LogWeight>
   GridFilter(Grid<N> grid, const LogWeight& log_weight, GridOptions options = {})
-      : options_(options), grid_(std::move(grid)), belief_(uninformative(cells_of(grid_))) {
-    if (!(options.negligible > 0.0 && options.negligible < 1.0) || options.cells < 1 || options.most < 1)
+      : options_(with_cells(options)),
+        grid_(finer(std::move(grid), options_)),
+        belief_(uninformative(cells_of(grid_))) {
+    if (!(options.negligible > 0.0 && options.negligible < 1.0) || options.cells < 0 || options.most < 1)
       throw std::invalid_argument("a grid filter needs a negligible part between 0 and 1, and cells");
     update(log_weight);
   }
@@ -59,13 +62,20 @@ class GridFilter {
   const Distribution<Kind>& belief() const { return belief_; }
 
   /// Prediction, (23) or (36), of x_k = f(x_{k−1}) + w with w ~ N(0, Q), or as possible as that on the ratio scale.
-  /// Adapts the grid first, to cells no wider than the noise.
+  /// The prediction has at least the cells wanted; before a sum, cells are cut until they are no wider than the noise.
   /// Throws std::domain_error if Q is not positive definite or f(x) is not finite, std::length_error if the prediction
   /// would need more than ten times the cells allowed.
   template <class Dynamics>
   void predict(const Dynamics& f, const SquareMatrix<N>& Q) {
     const GridNoise<N> noise(Q, options_.negligible);
-    adapt(noise.widths());
+    crop();
+    for (Eigen::Index axis = 0; axis < N; ++axis) {
+      while ((grid_.extent()(axis) < std::min<Eigen::Index>(options_.cells, fewest) ||
+              (!selective && grid_.step()(axis) > noise.widths()(axis))) &&
+             2 * grid_.size() <= options_.most)
+        cut(axis);
+      join(axis, noise.widths()(axis));
+    }
     std::vector<Vector<N>> means(grid_.size());
     typename Grid<N>::Lattice first, last;
     first.setConstant(std::numeric_limits<Eigen::Index>::max());
@@ -82,12 +92,32 @@ class GridFilter {
     if (!(cells <= 10.0 * static_cast<double>(options_.most)))
       throw std::length_error("a prediction needs a grid of " + std::to_string(cells) + " cells; " +
                               std::to_string(options_.most) + " are allowed");
-    move(grid_.window(first, last), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
-      if (belief_[i] == 0.0)
+    const Grid<N> to = finer(grid_.window(first, last), options_);  // rather than halves of the belief's own cells
+    Suprema suprema(selective ? to.size() : 0);
+    const auto fill = [&](const Grid<N>&, std::size_t i, GridRow& row) {
+      if (belief_[i] == 0.0) {
         row.add(0, 0.0);  // any row will do: nothing is there to be moved
-      else
-        noise.fill(to, means[i], row);
-    });
+        return;
+      }
+      noise.fill(to, means[i], row);
+      if constexpr (selective) suprema.note(i, std::log(belief_[i]), row);
+    };
+    if constexpr (selective) {
+      const Grid<N> from = grid_;
+      const Distribution<Kind> before = belief_;
+      move(to, fill);
+      refine(
+          suprema,
+          [&](const typename Grid<N>::Lattice& place, std::size_t j) {
+            const auto offset = (place - from.first()).array();
+            if ((offset < 0).any() || (offset >= from.extent().array()).any()) return log_zero;
+            const std::size_t i = from.cell(place);
+            return before[i] == 0.0 ? log_zero : std::log(before[i]) + noise.log(to.centre(j) - means[i]);
+          },
+          from);
+    } else {
+      move(to, fill);
+    }
   }
 
   /// Measurement, (24) or (37): multiplies by exp(log_likelihood(x)) and normalises. Returns the logarithm of the ⊕ by
@@ -111,25 +141,14 @@ class GridFilter {
   ///
   /// Two cells share equally what the one had: each half of its probability, or all of its possibility. A joint cell
   /// has the ⊕ of both. That is exact for a belief constant within cells; to the variance it adds about H²/16, with H
-  /// the greater step. `predict` calls this; a state that does not move needs it called.
+  /// the greater step. `predict` needs no cells cut; a state that does not move needs this called.
   void adapt(const Vector<N>& widest = Vector<N>::Constant(std::numeric_limits<double>::infinity())) {
     crop();
     for (Eigen::Index axis = 0; axis < N; ++axis) {
       while ((grid_.extent()(axis) < options_.cells || grid_.step()(axis) > widest(axis)) &&
              2 * grid_.size() <= options_.most)
-        move(grid_.halved(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
-          typename Grid<N>::Lattice place = grid_.place(i);
-          place(axis) *= 2;
-          row.add(to.cell(place), 0.0);
-          ++place(axis);
-          row.add(to.cell(place), 0.0);
-        });
-      while (grid_.extent()(axis) > 4 * options_.cells && 2.0 * grid_.step()(axis) <= widest(axis))
-        move(grid_.doubled(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
-          typename Grid<N>::Lattice place = grid_.place(i);
-          place(axis) = Grid<N>::half(place(axis));
-          row.add(to.cell(place), 0.0);
-        });
+        cut(axis);
+      join(axis, widest(axis));
     }
   }
 
@@ -154,6 +173,91 @@ class GridFilter {
   }
 
  private:
+  static constexpr bool selective = SelectiveAlgebra<AlgebraOf<Kind>>;
+  static constexpr Eigen::Index fewest = 8;  // below, a belief is no curve any more
+
+  /// For each cell of a prediction the cell from which it is most possible.
+  struct Suprema {
+    std::vector<double> logs;
+    std::vector<std::size_t> winners;
+
+    explicit Suprema(std::size_t size) : logs(size, log_zero), winners(size, 0) {}
+    void note(std::size_t i, double log_belief, GridRow& row) {
+      for (std::size_t k = 0; k < row.cells().size(); ++k) {
+        const double log = log_belief + row.numbers()[k];
+        if (log <= logs[row.cells()[k]]) continue;
+        logs[row.cells()[k]] = log;
+        winners[row.cells()[k]] = i;
+      }
+    }
+  };
+
+  /// The supremum over states lies between the centres of cells: the vertex of the parabola through the best of them
+  /// and its neighbours. `log(place, j)` is that of moving from a cell to j, −∞ outside.
+  template <class Log>
+  void refine(const Suprema& suprema, const Log& log, const Grid<N>& from) {
+    using Lattice = typename Grid<N>::Lattice;
+    std::vector<double> logs = suprema.logs;
+    for (std::size_t j = 0; j < logs.size(); ++j) {
+      if (logs[j] == log_zero) continue;
+      const Lattice best = from.place(suprema.winners[j]);
+      Vector<N> g;
+      SquareMatrix<N> H;
+      for (Eigen::Index a = 0; a < N; ++a) {
+        const Lattice step = Lattice::Unit(a);
+        const double up = log(best + step, j), down = log(best - step, j);
+        g(a) = 0.5 * (up - down);
+        H(a, a) = 2.0 * logs[j] - up - down;
+        for (Eigen::Index b = 0; b < a; ++b) {
+          const Lattice other = Lattice::Unit(b);
+          H(a, b) = H(b, a) = 0.25 * (log(best + step - other, j) + log(best - step + other, j) -
+                                      log(best + step + other, j) - log(best - step - other, j));
+        }
+      }
+      if (!g.allFinite() || !H.allFinite()) continue;  // at the border
+      const Eigen::LLT<SquareMatrix<N>> factor(H);
+      if (factor.info() != Eigen::Success) continue;
+      const Vector<N> vertex = factor.solve(g);
+      if (vertex.cwiseAbs().maxCoeff() <= 1.0) logs[j] += 0.5 * g.dot(vertex);
+    }
+    const double greatest = *std::max_element(logs.begin(), logs.end());
+    for (double& each : logs) each = std::exp(each - greatest);
+    belief_ = normalized(belief_.variable(), logs);
+  }
+
+  static GridOptions with_cells(GridOptions options) {
+    if (options.cells == 0) options.cells = N == 1 ? 400 : N == 2 ? 60 : 20;
+    return options;
+  }
+
+  /// The same box with at least the cells wanted.
+  static Grid<N> finer(Grid<N> grid, const GridOptions& options) {
+    for (Eigen::Index axis = 0; axis < N; ++axis)
+      while (grid.extent()(axis) < options.cells && 2 * grid.size() <= options.most) grid = grid.halved(axis);
+    return grid;
+  }
+
+  /// Cells become two along an axis.
+  void cut(Eigen::Index axis) {
+    move(grid_.halved(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
+      typename Grid<N>::Lattice place = grid_.place(i);
+      place(axis) *= 2;
+      row.add(to.cell(place), 0.0);
+      ++place(axis);
+      row.add(to.cell(place), 0.0);
+    });
+  }
+
+  /// Cells become one in pairs, while there are more than four times as many as wanted and they stay below `widest`.
+  void join(Eigen::Index axis, double widest) {
+    while (grid_.extent()(axis) > 4 * options_.cells && 2.0 * grid_.step()(axis) <= widest)
+      move(grid_.doubled(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
+        typename Grid<N>::Lattice place = grid_.place(i);
+        place(axis) = Grid<N>::half(place(axis));
+        row.add(to.cell(place), 0.0);
+      });
+  }
+
   static Variable<Kind> cells_of(const Grid<N>& grid) { return {"cell", grid.size()}; }
 
   /// The belief on another grid; fill(to, i, row) adds where cell i goes.

@@ -95,6 +95,9 @@ class GridNoise {
   /// The deviation along each axis when the other components are known: cells should not be wider.
   Vector<N> widths() const { return inverse_.diagonal().cwiseSqrt().cwiseInverse(); }
 
+  /// The logarithm of noise w, less that of none.
+  double log(const Vector<N>& w) const { return -0.5 * w.dot(inverse_ * w); }
+
   /// Adds the cells within reach of m. Beside the nearest of them, those further than the noise is wide weigh nothing:
   /// noise narrower than a cell leads to the nearest one.
   void fill(const Grid<N>& grid, const Vector<N>& m, GridRow& row) const {
@@ -102,10 +105,8 @@ class GridNoise {
     const Lattice last_of_grid = grid.first() + grid.extent() - Lattice::Ones();
     const Lattice first = grid.place_of(m - reach_).cwiseMax(grid.first());
     const Lattice last = grid.place_of(m + reach_).cwiseMin(last_of_grid);
-    Grid<N>::for_each_place(first, last, [&](const Lattice& place) {
-      const Vector<N> x = grid.centre(place) - m;
-      row.add(grid.cell(place), -0.5 * x.dot(inverse_ * x));
-    });
+    Grid<N>::for_each_place(first, last,
+                            [&](const Lattice& place) { row.add(grid.cell(place), log(grid.centre(place) - m)); });
   }
 
  private:

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,10 +13,15 @@
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
+#include <sigmax/recognition/detail/pairwise_sum.hpp>
 #include <sigmax/recognition/feature_model.hpp>
 #include <sigmax/recognition/report.hpp>
 
 namespace sigmax {
+
+/// A kind whose evidence can be accumulated: its ⊗ can be undone. `Ordinal` is none.
+template <class Kind>
+concept ScalableUncertainty = Uncertainty<Kind> && ScalingAlgebra<AlgebraOf<Kind>>;
 
 /// Sequential pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and
 /// features are random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor
@@ -30,7 +37,7 @@ namespace sigmax {
 /// The kind of the pattern is that of the prior, and chooses the ⊕ that normalises; the kind of the features chooses
 /// the ⊕ that eliminates them. Features, and reports, are independent given the pattern. The static p(feature|pattern)
 /// may be built from p(pattern|feature) by `invert`, or learned from counts.
-template <Uncertainty Pattern, Uncertainty Feature>
+template <ScalableUncertainty Pattern, ScalableUncertainty Feature>
 class Classifier {
  public:
   using pattern_kind = Pattern;
@@ -48,10 +55,19 @@ class Classifier {
     for (const auto& feature : features_) check::same(prior.variable(), feature.pattern(), "Classifier");
   }
 
+  /// The same of p(c|f) inverted under a belief in the features, (43) or (46). A pattern that no feature reaches is
+  /// impossible: nothing is known of its features, and under maxima it would tie with the winner for ever. Throws
+  /// std::domain_error if that leaves none.
+  Classifier(const Distribution<Pattern>& prior, const Inverse<Feature, Pattern>& inverse)
+      : Classifier(reached(prior, inverse.unreachable), inverse.relation) {}
+
   /// Takes one report of crisp readings, an index for each feature in order or `missing`: (42) and (41), or (45) and
   /// (44). Throws std::invalid_argument if there are not as many as features or a reading does not exist, and
   /// std::domain_error if the report excludes every pattern that was left; the belief is then unchanged.
   void observe(std::span<const std::size_t> readings) { observe_likelihood(likelihood(readings)); }
+  void observe(std::initializer_list<std::size_t> readings) {
+    observe(std::span<const std::size_t>(readings.begin(), readings.size()));
+  }
 
   /// The same of a report that may be graded.
   void observe(const Report<Feature>& report) { observe_likelihood(likelihood(report)); }
@@ -67,10 +83,16 @@ class Classifier {
   void observe_all(const Reports& reports) {
     Table logs(1, prior_.size());
     double weight = 1.0;  // of what was believed before
-    for (const auto& report : reports) {
-      for (double& log : logs.values()) log = faded(forgetting_, log);
-      add_log_likelihood(report, logs.values());
-      weight *= forgetting_;
+    if (forgetting_ == 1.0) {
+      detail::PairwiseSum sum(prior_.size());
+      for (const auto& report : reports) add_log_likelihood(report, sum.next());
+      std::ranges::copy(sum.total(), logs.values().begin());
+    } else {
+      for (const auto& report : reports) {
+        for (double& log : logs.values()) log = faded(forgetting_, log);
+        add_log_likelihood(report, logs.values());
+        weight *= forgetting_;
+      }
     }
     observe_likelihood({prior_.variable(), std::move(logs), detail::ByLaw{}}, weight);
   }
@@ -80,11 +102,14 @@ class Classifier {
   ///
   /// If `feature_prediction` is all that is known of the pattern, that is if the belief is p(c|f_k) composed with it,
   /// then the belief cancels: afterwards it is p(c|f_k) composed with the updated prediction, and no evidence
-  /// accumulates but through the prediction.
+  /// accumulates but through the prediction. A pattern that the prediction does not reach is excluded.
   void observe_predicted(const Likelihood<Feature>& report, const Relation<Pattern, Feature>& pattern_given_feature,
                          const Distribution<Feature>& feature_prediction) {
     check::same(prior_.variable(), pattern_given_feature.to(), "Classifier");
-    observe_likelihood(compose(report, invert(pattern_given_feature, feature_prediction).relation));
+    const auto inverse = invert(pattern_given_feature, feature_prediction);
+    auto likelihood_of_patterns = compose(report, inverse.relation);
+    for (const std::size_t c : inverse.unreachable) likelihood_of_patterns.set_log(c, log_zero);
+    observe_likelihood(likelihood_of_patterns);
   }
 
   /// How well each pattern explains one report, L(z|c), whatever was believed: (42), (45), (17), (18).
@@ -95,7 +120,8 @@ class Classifier {
   Distribution<Pattern> belief() const { return belief_.distribution(); }
 
   /// The same as logarithms, where nothing underflows: what decisions and scores are made from.
-  const Belief<Pattern>& log_belief() const { return belief_; }
+  const Belief<Pattern>& log_belief() const& { return belief_; }
+  Belief<Pattern> log_belief() const&& { return belief_; }
 
   /// Forgets all reports: the belief is the prior again.
   void reset() { belief_ = initial_; }
@@ -110,10 +136,19 @@ class Classifier {
   }
   double forgetting() const { return forgetting_; }
 
-  const Distribution<Pattern>& prior() const { return prior_; }
-  std::span<const FeatureModel<Pattern, Feature>> features() const { return features_; }
+  const Distribution<Pattern>& prior() const& { return prior_; }
+  Distribution<Pattern> prior() const&& { return prior_; }
+  std::span<const FeatureModel<Pattern, Feature>> features() const& { return features_; }
+  std::vector<FeatureModel<Pattern, Feature>> features() const&& { return features_; }
 
  private:
+  static Distribution<Pattern> reached(const Distribution<Pattern>& prior, std::span<const std::size_t> unreachable) {
+    if (unreachable.empty()) return prior;
+    Likelihood<Pattern> reach{prior.variable()};
+    for (const std::size_t c : unreachable) reach.set_log(c, log_zero);
+    return update(prior, reach);
+  }
+
   static double faded(double factor, double log) { return log == log_zero ? log_zero : factor * log; }
 
   const FeatureModel<Pattern, Feature>& only_feature() const {
@@ -161,7 +196,7 @@ class Classifier {
         if (*reading != missing) add<1>({features_[i].log_likelihoods(*reading).data()}, logs);
       } else {
         const auto graded = compose(std::get<Likelihood<Feature>>(report[i]), features_[i].relation());
-        add<1>({graded.all_logs().data()}, logs);
+        add<1>({graded.logs().data()}, logs);
       }
     }
   }

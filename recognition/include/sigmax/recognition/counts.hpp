@@ -31,14 +31,21 @@ class Counts {
   /// Counts one value of one feature only, for data that are counts already. Throws as above.
   void observe_value(std::size_t pattern, std::size_t feature, std::size_t value, double times = 1.0);
 
-  const RandomVariable& pattern() const { return pattern_; }
-  const std::vector<RandomVariable>& features() const { return features_; }
+  const RandomVariable& pattern() const& { return pattern_; }
+  RandomVariable pattern() const&& { return pattern_; }
+  const std::vector<RandomVariable>& features() const& { return features_; }
+  std::vector<RandomVariable> features() const&& { return features_; }
 
   /// How many rows there were of a pattern.
   double rows(std::size_t pattern) const { return rows_[pattern]; }
 
   /// How often each value of a feature was seen with a pattern.
-  std::span<const double> of(std::size_t feature, std::size_t pattern) const { return tables_[feature].row(pattern); }
+  /// The view lives as long as the counts; of a temporary it is a copy.
+  std::span<const double> of(std::size_t feature, std::size_t pattern) const& { return tables_[feature].row(pattern); }
+  std::vector<double> of(std::size_t feature, std::size_t pattern) const&& {
+    const auto row = of(feature, pattern);
+    return {row.begin(), row.end()};
+  }
 
  private:
   RandomVariable pattern_;

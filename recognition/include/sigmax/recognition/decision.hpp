@@ -11,6 +11,16 @@
 
 namespace sigmax {
 
+/// The greatest of some values but that at `index`; zero if there is no other. Of possibilities, 1 less it is the
+/// necessity N({index}).
+template <class Values>
+double greatest_other(const Values& values, std::size_t index) {
+  double greatest = 0.0;
+  for (std::size_t c = 0; c < values.size(); ++c)
+    if (c != index) greatest = std::max(greatest, values[c]);
+  return greatest;
+}
+
 /// What a belief is decided for.
 struct Decision {
   std::size_t pattern;  ///< the winner
@@ -26,12 +36,9 @@ template <Uncertainty Kind>
 Decision decide(const Belief<Kind>& belief) {
   const std::size_t pattern = first_of_tied(belief.logs());
   const double greatest = belief.log(index_of_greatest(belief.logs()));
-  double second = 0.0;
-  for (std::size_t c = 0; c < belief.size(); ++c)
-    if (c != pattern) second = std::max(second, belief[c]);
   const auto tied = static_cast<std::size_t>(std::count_if(
       belief.logs().begin(), belief.logs().end(), [greatest](double log) { return ties(log, greatest); }));
-  return {pattern, tied == 1 ? belief[pattern] - second : 0.0, tied};
+  return {pattern, tied == 1 ? belief[pattern] - greatest_other(belief, pattern) : 0.0, tied};
 }
 
 /// The same, or nothing if the margin is below `least_margin`: the reject option, by necessity or by posterior margin.

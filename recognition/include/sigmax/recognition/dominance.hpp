@@ -16,6 +16,8 @@ struct Dominance {
   bool equal;             ///< whether both have the same numbers throughout, so that they always tie
 };
 
+namespace detail {
+
 /// Whether `a` is at most `b` in the prior and in every number of every feature, hence after any reports.
 template <Uncertainty Pattern, Uncertainty Feature>
 bool never_exceeds(const Classifier<Pattern, Feature>& classifier, std::size_t a, std::size_t b) {
@@ -26,8 +28,14 @@ bool never_exceeds(const Classifier<Pattern, Feature>& classifier, std::size_t a
   return true;
 }
 
-/// The patterns that a classifier can never prefer, found before any data is seen, in order; each with the first
-/// pattern that dominates it and is not dominated itself.
+}  // namespace detail
+
+/// Patterns that a classifier can never prefer, found before any data is seen, in order; each with the first pattern
+/// that dominates it and is not dominated itself.
+///
+/// What is listed can never win. What is not listed may still never win, because several patterns together stand above
+/// it: of the possibilities (1, ½, 1), (½, 1, 1) and (0.7, 0.7, 1) the last is below the first or the second whatever
+/// is read, but below neither of them always. An empty list is no promise.
 ///
 /// c is dominated by c′ if L(f|c) ≤ L(f|c′) for every value f of every feature and its prior is no greater: then
 /// L(z|c) ≤ L(z|c′) for every report, since ⊕ and ⊗ are monotone, and c at best ties. Nested 0/1 tables make such
@@ -37,7 +45,7 @@ template <Uncertainty Pattern, Uncertainty Feature>
 std::vector<Dominance> dominated_patterns(const Classifier<Pattern, Feature>& classifier) {
   const std::size_t n = classifier.prior().size();
   const auto dominates = [&](std::size_t b, std::size_t a) {
-    return a != b && never_exceeds(classifier, a, b) && (b < a || !never_exceeds(classifier, b, a));
+    return a != b && detail::never_exceeds(classifier, a, b) && (b < a || !detail::never_exceeds(classifier, b, a));
   };
   std::vector<std::vector<std::size_t>> dominators(n);
   for (std::size_t a = 0; a < n; ++a)
@@ -47,7 +55,7 @@ std::vector<Dominance> dominated_patterns(const Classifier<Pattern, Feature>& cl
   for (std::size_t a = 0; a < n; ++a)
     for (const std::size_t b : dominators[a])
       if (dominators[b].empty()) {
-        result.push_back({a, b, never_exceeds(classifier, b, a)});
+        result.push_back({a, b, detail::never_exceeds(classifier, b, a)});
         break;
       }
   return result;

@@ -21,6 +21,9 @@ class ConfusionMatrix {
 
   void add(std::size_t truth, std::size_t decision) { counts_(truth, decision) += 1.0; }
 
+  /// Adds all cases of another one of as many patterns.
+  void add(const ConfusionMatrix& other);
+
   std::size_t size() const { return counts_.rows(); }
   double operator()(std::size_t truth, std::size_t decision) const { return counts_(truth, decision); }
 
@@ -38,13 +41,15 @@ class ConfusionMatrix {
   Table counts_;
 };
 
-/// How well beliefs fit the truth, case by case: for probabilities log-loss and Brier score, for possibilities the
-/// necessity of the truth and coverage, for both what was decided.
+/// How well beliefs fit the truth: for probabilities log-loss and Brier score, for possibilities the necessity of the
+/// truth and coverage, for both what was decided. Cases are not kept: the memory is that of the confusion matrix.
 ///
-///     Evaluation<Random> evaluation{animal};
-///     for (…) evaluation.add(truth, classifier.log_belief());
-///     evaluation.confusion().accuracy();
-///     paired_interval(evaluation.correct(), other.correct());
+///     Evaluation<Random> sums{animal};
+///     Evaluation<Fuzzy> maxima{as_fuzzy(animal)};
+///     RunningMean difference;
+///     for (…) difference.add(maxima.add(truth, max.log_belief()) - sums.add(truth, sigma.log_belief()));
+///     sums.confusion().accuracy();
+///     difference.interval();   // paired by case
 template <Uncertainty Kind>
 class Evaluation {
  public:
@@ -55,61 +60,81 @@ class Evaluation {
     if (!(cut > 0.0 && cut <= 1.0)) throw std::invalid_argument("a cut is in (0, 1], not " + std::to_string(cut));
   }
 
-  /// Scores what is believed of one object. Throws std::invalid_argument, naming the variable, if the belief is of
-  /// another one or has no such pattern.
-  void add(std::size_t truth, const Belief<Kind>& belief) {
+  /// Scores what is believed of one object. Returns one if it was recognised, else zero, to be paired with the answer
+  /// of another classifier. Throws std::invalid_argument, naming the variable, if the belief is of another one or has
+  /// no such pattern.
+  double add(std::size_t truth, const Belief<Kind>& belief) {
     check::same(pattern_, belief.variable(), "Evaluation");
     pattern_.label(truth);  // throws if there is no such pattern
-    const std::size_t decision = decide(belief).pattern;
-    confusion_.add(truth, decision);
-    correct_.push_back(decision == truth ? 1.0 : 0.0);
-    double others = 0.0, squares = 0.0, in_cut = 0.0;
-    for (std::size_t c = 0; c < belief.size(); ++c) {
-      const double value = belief[c];
-      if (c != truth) others = std::max(others, value);
-      const double error = value - (c == truth ? 1.0 : 0.0);
-      squares += error * error;
-      in_cut += value >= cut_ ? 1.0 : 0.0;
+    const Decision decision = decide(belief);
+    confusion_.add(truth, decision.pattern);
+    if (decision.tied > 1) ++ties_;
+    if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
+      double in_cut = 0.0;
+      for (std::size_t c = 0; c < belief.size(); ++c) in_cut += belief[c] >= cut_ ? 1.0 : 0.0;
+      necessity_.add(1.0 - greatest_other(belief, truth));
+      covered_.add(belief[truth] >= cut_ ? 1.0 : 0.0);
+      cut_size_.add(in_cut);
+    } else {
+      double squares = 0.0;
+      for (std::size_t c = 0; c < belief.size(); ++c) {
+        const double error = belief[c] - (c == truth ? 1.0 : 0.0);
+        squares += error * error;
+      }
+      log_loss_.add(-std::max(belief.log(truth), std::log(least_probability)));
+      brier_.add(squares);
     }
-    log_losses_.push_back(-std::max(belief.log(truth), std::log(least_probability)));
-    briers_.push_back(squares);
-    necessities_.push_back(1.0 - others);
-    covered_.push_back(belief[truth] >= cut_ ? 1.0 : 0.0);
-    cut_sizes_.push_back(in_cut);
+    ++size_;
+    return decision.pattern == truth ? 1.0 : 0.0;
   }
 
-  std::size_t size() const { return correct_.size(); }
-  const ConfusionMatrix& confusion() const { return confusion_; }
+  /// Adds all cases of another evaluation of the same pattern, say of another part of the data. Throws
+  /// std::invalid_argument, naming both variables, if it is of another one.
+  void add(const Evaluation& other) {
+    check::same(pattern_, other.pattern_, "Evaluation");
+    confusion_.add(other.confusion_);
+    for (const auto mean : {&Evaluation::log_loss_, &Evaluation::brier_, &Evaluation::necessity_, &Evaluation::covered_,
+                            &Evaluation::cut_size_})
+      (this->*mean).add(other.*mean);
+    ties_ += other.ties_;
+    size_ += other.size_;
+  }
 
-  /// The scores of the cases in order, for `mean` and for pairing with those of another classifier: one if it was
-  /// recognised, else zero;
-  std::span<const double> correct() const { return correct_; }
+  std::size_t size() const { return size_; }
 
-  /// −log p(truth), where a probability below 1e-15 counts as 1e-15;
-  std::span<const double> log_losses() const requires(!SelectiveAlgebra<AlgebraOf<Kind>>) { return log_losses_; }
+  /// How many cases ended in a tie for the best, which the first of the best patterns won.
+  std::size_t ties() const { return ties_; }
 
-  /// Σ_c (p(c) − [c = truth])², in [0, 2];
-  std::span<const double> briers() const requires(!SelectiveAlgebra<AlgebraOf<Kind>>) { return briers_; }
+  const ConfusionMatrix& confusion() const& { return confusion_; }
+  ConfusionMatrix confusion() && { return std::move(confusion_); }
 
-  /// N({truth}) = 1 − max over the other patterns of π;
-  std::span<const double> necessities() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return necessities_; }
+  /// Mean of −log p(truth), where a probability below 1e-15 counts as 1e-15. This mean and those below throw
+  /// std::domain_error if there was no case.
+  double log_loss() const requires(!SelectiveAlgebra<AlgebraOf<Kind>>) { return log_loss_.mean(); }
 
-  /// one if π(truth) ≥ cut, else zero, and how many patterns are that possible: the fewer, the more is said.
-  std::span<const double> covered() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return covered_; }
-  std::span<const double> cut_sizes() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return cut_sizes_; }
+  /// Mean of Σ_c (p(c) − [c = truth])², in [0, 2].
+  double brier() const requires(!SelectiveAlgebra<AlgebraOf<Kind>>) { return brier_.mean(); }
 
-  /// The smallest probability that `log_losses` distinguishes from zero.
+  /// Mean of N({truth}) = 1 − the greatest possibility of another pattern.
+  double necessity() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return necessity_.mean(); }
+
+  /// Share of the cases in which π(truth) ≥ cut.
+  double coverage() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return covered_.mean(); }
+
+  /// How many patterns are that possible, on average: the fewer, the more is said.
+  double cut_size() const requires(SelectiveAlgebra<AlgebraOf<Kind>>) { return cut_size_.mean(); }
+
+  /// The smallest probability that `log_loss` distinguishes from zero.
   static constexpr double least_probability = 1e-15;
 
  private:
   Variable<Kind> pattern_;
   double cut_;
   ConfusionMatrix confusion_;
-  std::vector<double> correct_, log_losses_, briers_, necessities_, covered_, cut_sizes_;
+  RunningMean log_loss_, brier_, necessity_, covered_, cut_size_;
+  std::size_t ties_ = 0;
+  std::size_t size_ = 0;
 };
-
-/// Mean of scores. Throws std::domain_error if there is none.
-double mean(std::span<const double> scores);
 
 /// The mean of a − b over the same cases with its interval, see `mean_interval`.
 ///

@@ -50,6 +50,8 @@ struct PatternExplanation {
   }
 };
 
+namespace detail {
+
 /// log a − log b, zero where both are excluded.
 inline double log_ratio_of(double log_a, double log_b) { return log_a == log_b ? 0.0 : log_a - log_b; }
 
@@ -79,6 +81,8 @@ std::string equation_of(const FeatureModel<Pattern, Feature>& feature, const std
   return text.str();
 }
 
+}  // namespace detail
+
 /// What one feature's finding says of a pattern, and against its rival. The finding is not `missing`.
 ///
 /// The value is the one for which L(z|f) ⊗ L(f|c) is greatest, of those within `tie_tolerance` the first. Max
@@ -101,8 +105,8 @@ Contribution contribution(const FeatureModel<Pattern, Feature>& feature, const F
   result.share = terms[value] == log_zero ? 0.0 : std::exp(terms[value] - likelihood.log(pattern));
   result.log_likelihood = likelihood.log(pattern);
   result.rival_log_likelihood = likelihood.log(rival);
-  result.log_ratio = log_ratio_of(result.log_likelihood, result.rival_log_likelihood);
-  result.equation = equation_of(feature, result.reading, evidence, likelihood[pattern], pattern, value);
+  result.log_ratio = detail::log_ratio_of(result.log_likelihood, result.rival_log_likelihood);
+  result.equation = detail::equation_of(feature, result.reading, evidence, likelihood[pattern], pattern, value);
   return result;
 }
 
@@ -126,7 +130,7 @@ PatternExplanation explain(const Classifier<Pattern, Feature>& classifier, std::
     return std::isfinite(log_ratio) ? weight(report) * log_ratio : log_ratio;
   };
   PatternExplanation result{
-      pattern, rival, log_prior, rival_log_prior, left(log_ratio_of(log_prior, rival_log_prior), 0), {}};
+      pattern, rival, log_prior, rival_log_prior, left(detail::log_ratio_of(log_prior, rival_log_prior), 0), {}};
   for (std::size_t k = 0; k < reports.size(); ++k) {
     if (reports[k].size() != classifier.features().size()) classifier.likelihood(reports[k]);  // throws
     for (std::size_t i = 0; i < reports[k].size(); ++i) {

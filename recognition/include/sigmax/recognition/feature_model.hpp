@@ -41,12 +41,16 @@ class FeatureModel {
   }
 
   /// L(f|c), (43) or (46).
-  const Relation<Feature, Pattern>& relation() const { return relation_; }
-  const Variable<Feature>& feature() const { return relation_.to(); }
-  const Variable<Pattern>& pattern() const { return relation_.from(); }
+  const Relation<Feature, Pattern>& relation() const& { return relation_; }
+  Relation<Feature, Pattern> relation() const&& { return relation_; }
+  const Variable<Feature>& feature() const& { return relation_.to(); }
+  Variable<Feature> feature() const&& { return relation_.to(); }
+  const Variable<Pattern>& pattern() const& { return relation_.from(); }
+  Variable<Pattern> pattern() const&& { return relation_.from(); }
 
   /// What is read: the sensor's variable, or without a sensor the feature.
-  const Outcomes& readings() const { return readings_; }
+  const Outcomes& readings() const& { return readings_; }
+  Outcomes readings() const&& { return readings_; }
   bool has_sensor() const { return !sensor_.empty(); }
 
   /// "p" if readings are random, "π" if they are fuzzy.
@@ -63,10 +67,15 @@ class FeatureModel {
   }
 
   /// log L(z|c) of a crisp reading z, for every pattern c: (42), (45), (17), (18), computed once. Throws
-  /// std::invalid_argument, naming the variable, if it has no such reading.
-  std::span<const double> log_likelihoods(std::size_t reading) const {
+  /// std::invalid_argument, naming the variable, if it has no such reading. The view lives as long as the model; of a
+  /// temporary it is a copy.
+  std::span<const double> log_likelihoods(std::size_t reading) const& {
     if (reading >= columns_.rows()) readings_.label(reading);  // throws
     return columns_.row(reading);
+  }
+  std::vector<double> log_likelihoods(std::size_t reading) const&& {
+    const auto row = log_likelihoods(reading);
+    return {row.begin(), row.end()};
   }
 
  private:
@@ -80,7 +89,7 @@ class FeatureModel {
     Table all(readings_.size(), pattern().size());
     for (std::size_t reading = 0; reading < all.rows(); ++reading) {
       const Likelihood<Pattern> column = likelihood_of(reading);
-      std::copy_n(column.all_logs().begin(), all.columns(), all.row(reading).begin());
+      std::copy_n(column.logs().begin(), all.columns(), all.row(reading).begin());
     }
     return all;
   }

@@ -52,6 +52,7 @@ class UnboundedRow {
 
   std::size_t size() const { return numbers_.size(); }
   std::size_t capacity() const { return numbers_.capacity(); }
+  void clear() { numbers_.clear(); }
   ScaledNumber operator[](std::size_t i) const { return numbers_[i]; }
   ScaledNumber& operator[](std::size_t i) { return numbers_[i]; }
   double log(std::size_t i) const { return numbers_[i].log(); }

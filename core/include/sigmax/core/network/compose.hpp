@@ -9,6 +9,7 @@
 
 #include <sigmax/core/induced.hpp>
 #include <sigmax/core/network.hpp>
+#include <sigmax/core/network/query.hpp>
 
 namespace sigmax {
 
@@ -58,7 +59,8 @@ class ComposedRelation {
 /// Where `from` bears on `to` only along paths away from `from`, it is the composition of the tables on these paths,
 /// (6), (7), (17), (18), whatever the table of `from` itself. Else (a common ancestor, or a path backwards) it is the
 /// joint of both over the marginal of `from`; of random variables it always is p(to|from). Throws std::invalid_argument
-/// if one is not the network's, or both are the same.
-ComposedRelation compose(const RelationNetwork& network, std::string_view from, std::string_view to);
+/// if one is not the network's, or both are the same, and std::length_error as `query` does.
+ComposedRelation compose(const RelationNetwork& network, std::string_view from, std::string_view to,
+                         std::size_t table_limit = default_table_limit);
 
 }  // namespace sigmax

@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <sigmax/core/likelihood.hpp>
+#include <sigmax/core/measure.hpp>
 #include <sigmax/core/network/variable.hpp>
 
 namespace sigmax {
@@ -46,8 +46,18 @@ class Evidence {
     return *this;
   }
 
-  std::span<const Outcome> outcomes() const { return outcomes_; }
-  std::span<const Weights> likelihoods() const { return likelihoods_; }
+  /// What was seen is only known to be one of the outcomes of an event.
+  template <NetworkKind Kind>
+  Evidence& observe(const Event<Kind>& event) {
+    std::vector<double> members(event.variable().size());
+    for (std::size_t i = 0; i < members.size(); ++i) members[i] = event.contains(i) ? 1.0 : 0.0;
+    return observe(Likelihood<Kind>{event.variable(), members});
+  }
+
+  const std::vector<Outcome>& outcomes() const& { return outcomes_; }
+  std::vector<Outcome> outcomes() const&& { return outcomes_; }
+  const std::vector<Weights>& likelihoods() const& { return likelihoods_; }
+  std::vector<Weights> likelihoods() const&& { return likelihoods_; }
 
  private:
   std::vector<Outcome> outcomes_;

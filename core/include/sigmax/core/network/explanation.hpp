@@ -7,12 +7,13 @@
 
 #include <sigmax/core/network.hpp>
 #include <sigmax/core/network/evidence.hpp>
+#include <sigmax/core/network/query.hpp>
 
 namespace sigmax {
 
-/// One outcome for every variable of a network, and what the network says of them all together.
+/// One outcome for each of some variables of a network, and what the network says of them all together.
 struct Explanation {
-  std::vector<NetworkVariable> variables;  ///< as they were declared
+  std::vector<NetworkVariable> variables;  ///< as they were asked for, or all as they were declared
   std::vector<std::size_t> outcomes;       ///< the index of the outcome of each
   double log_value;                        ///< logarithm of the product of all tables and the evidence there
 
@@ -26,6 +27,13 @@ struct Explanation {
 ///
 /// Throws std::invalid_argument if the evidence is about what the network has not, std::domain_error, naming the
 /// evidence, if that excludes every outcome.
-Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence = {});
+Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence = {},
+                                    std::size_t table_limit = default_table_limit);
+
+/// The outcomes of some variables together that are favoured most, all others eliminated by their own kinds within
+/// them: of random variables the marginal MAP. Throws as the others do, and std::invalid_argument for a variable that
+/// the network has not, or that is there twice.
+Explanation most_likely_outcomes(const RelationNetwork& network, const std::vector<std::string>& variables,
+                                 const Evidence& evidence = {}, std::size_t table_limit = default_table_limit);
 
 }  // namespace sigmax

@@ -85,12 +85,25 @@ class NetworkAnswer {
   Elimination elimination_;
 };
 
+/// The most memory in bytes that one table of a query may take, unless the caller says otherwise: 1 GiB.
+inline constexpr std::size_t default_table_limit = std::size_t{1} << 30;
+
 /// The numbers of `variables` under the evidence: all others eliminated innermost first, those asked for held fixed.
 /// The order in which it is done is one of those that provably give the same value, docs/networks.md.
 ///
 /// Throws std::invalid_argument if a variable or an outcome is not the network's or a variable is asked for twice,
-/// std::domain_error, naming the evidence, if that excludes every outcome.
+/// std::domain_error, naming the evidence, if that excludes every outcome, and std::length_error, naming variables,
+/// before any arithmetic, if a table would take more than `table_limit` bytes.
 NetworkAnswer query(const RelationNetwork& network, const std::vector<std::string>& variables,
-                    const Evidence& evidence = {});
+                    const Evidence& evidence = {}, std::size_t table_limit = default_table_limit);
+
+/// What a query would cost: its elimination, without any arithmetic and without a limit.
+Elimination cost(const RelationNetwork& network, const std::vector<std::string>& variables,
+                 const Evidence& evidence = {});
+
+/// query(network, {name}, evidence) of every variable, in the order of declaration: in two passes for all if they are
+/// of one kind. Of variables of different kinds each has an order of its own, and it is as many queries.
+std::vector<NetworkAnswer> marginals(const RelationNetwork& network, const Evidence& evidence = {},
+                                     std::size_t table_limit = default_table_limit);
 
 }  // namespace sigmax

@@ -12,9 +12,22 @@
 
 namespace sigmax {
 
-/// The kinds that can meet in one network.
+namespace detail {
+
+template <class... Kinds>
+struct KindList {
+  using AnyVariable = std::variant<Variable<Kinds>...>;
+  template <class Kind>
+  static constexpr bool has = (std::same_as<Kind, Kinds> || ...);
+};
+
+}  // namespace detail
+
+/// The kinds that can meet in one network; all that a network knows of them. They are mixable: their ⊗ is the product.
+using NetworkKinds = detail::KindList<Random, Fuzzy>;
+
 template <class Kind>
-concept NetworkKind = std::same_as<Kind, Random> || std::same_as<Kind, Fuzzy>;
+concept NetworkKind = NetworkKinds::has<Kind> && ScalingAlgebra<AlgebraOf<Kind>>;
 
 /// A variable whose kind is known only when the program runs.
 class NetworkVariable {
@@ -28,12 +41,15 @@ class NetworkVariable {
     return std::visit(action, variable_);
   }
 
+  /// The number of its kind among the kinds of networks.
+  std::size_t kind() const { return variable_.index(); }
+
   template <NetworkKind Kind>
   bool is() const {
     return std::holds_alternative<Variable<Kind>>(variable_);
   }
 
-  /// Throws std::invalid_argument if the variable is of the other kind.
+  /// Throws std::invalid_argument if the variable is of another kind.
   template <NetworkKind Kind>
   const Variable<Kind>& as() const& {
     if (const auto* const variable = std::get_if<Variable<Kind>>(&variable_)) return *variable;
@@ -63,10 +79,12 @@ class NetworkVariable {
   std::string label(std::size_t index) const { return outcomes().label(index); }
   std::size_t index_of(std::string_view label) const { return outcomes().index_of(label); }
 
-  friend bool operator==(const NetworkVariable& a, const NetworkVariable& b) { return a.variable_ == b.variable_; }
+  friend bool operator==(const NetworkVariable& a, const NetworkVariable& b) {
+    return a.kind() == b.kind() && a.outcomes() == b.outcomes();
+  }
 
  private:
-  std::variant<RandomVariable, FuzzyVariable> variable_;
+  NetworkKinds::AnyVariable variable_;
 };
 
 }  // namespace sigmax

@@ -20,4 +20,8 @@ inline constexpr double bif_tolerance = 1e-3;
 /// Throws std::invalid_argument that gives file (by `name`), line, what was found and what was expected.
 RelationNetwork read_bif(std::istream& in, std::string_view name);
 
+/// Writes a network of random variables in the same format, every number with the digits that it takes to read it
+/// again. Throws std::invalid_argument, with nothing written, for a fuzzy variable or a name with a quotation mark.
+void write_bif(std::ostream& out, const RelationNetwork& network, std::string_view name);
+
 }  // namespace sigmax

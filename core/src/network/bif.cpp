@@ -1,18 +1,24 @@
-#include <sigmax/core/bif.hpp>
+#include <sigmax/core/network/bif.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <istream>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include "network/order.hpp"
+#include "order.hpp"
+#include "row_label.hpp"
 
 namespace sigmax {
 namespace {
@@ -66,7 +72,9 @@ class Tokens {
   static std::string contents(std::istream& in) {
     std::ostringstream text;
     text << in.rdbuf();
-    return text.str();
+    std::string contents = text.str();
+    if (contents.starts_with("\xEF\xBB\xBF")) contents.erase(0, 3);  // a byte-order mark
+    return contents;
   }
 
   bool at(std::string_view text) const { return std::string_view(text_).substr(position_).starts_with(text); }
@@ -147,11 +155,12 @@ class Reader {
         tokens_.fail("'variable' or 'probability'");
       }
     }
+    if (blocks_.empty()) tokens_.fail("'variable'");
     return network();
   }
 
  private:
-  static constexpr std::size_t greatest_table = std::size_t{1} << 26;
+  static constexpr std::size_t greatest_table = std::size_t{1} << 22;
 
   void property(const std::string& expected) {
     if (!tokens_.is("property")) tokens_.fail(expected);
@@ -250,13 +259,9 @@ class Reader {
 
   /// "(young, calm)": the outcomes of the parents in one row, the last fastest.
   std::string condition(const Block& block, std::size_t row) const {
-    std::string labels;
-    for (std::size_t p = block.parents.size(); p-- > 0;) {
-      const auto& parent = blocks_[block.parents[p]].variable;
-      labels = parent.label(row % parent.size()) + (labels.empty() ? "" : ", ") + labels;
-      row /= parent.size();
-    }
-    return "(" + labels + ")";
+    std::vector<Outcomes> parents;
+    for (const std::size_t parent : block.parents) parents.push_back(blocks_[parent].variable);
+    return "(" + labels_of_row(parents, row) + ")";
   }
 
   void entry(Block& block) {
@@ -320,6 +325,7 @@ class Reader {
     const double sum = total<Random>(values);
     if (!(std::abs(sum - 1.0) <= bif_tolerance))
       tokens_.fail(line, "expected probabilities of the sum 1, found the sum " + std::to_string(sum));
+    if (std::abs(sum - 1.0) <= drift_tolerance) return;  // written with all digits
     for (double& value : values) value /= sum;
   }
 
@@ -354,8 +360,63 @@ class Reader {
   std::map<std::string, std::size_t, std::less<>> index_;
 };
 
+/// A name as the format reads it again. Throws std::invalid_argument for one that it cannot.
+std::string written(const std::string& name) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '+';
+  };
+  if (!name.empty() && std::all_of(name.begin(), name.end(), plain)) return name;
+  if (name.find('"') != std::string::npos)
+    throw std::invalid_argument("BIF cannot hold the name '" + name + "', for it has a quotation mark");
+  return '"' + name + '"';
+}
+
+/// The shortest digits that are read as the same number.
+std::string written(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
 }  // namespace
 
 RelationNetwork read_bif(std::istream& in, std::string_view name) { return Reader{in, name}.read(); }
+
+void write_bif(std::ostream& out, const RelationNetwork& network, std::string_view name) {
+  for (const auto& vertex : network.vertices()) vertex.variable.as<Random>();  // throws if it is not
+  std::ostringstream text;
+  text << "network " << written(std::string(name)) << " {\n}\n";
+  for (const auto& vertex : network.vertices()) {
+    const NetworkVariable& variable = vertex.variable;
+    text << "variable " << written(variable.name()) << " {\n  type discrete [ " << variable.size() << " ] {";
+    for (std::size_t i = 0; i < variable.size(); ++i) text << (i > 0 ? ", " : " ") << written(variable.label(i));
+    text << " };\n}\n";
+  }
+  for (const auto& vertex : network.vertices()) {
+    text << "probability ( " << written(vertex.variable.name());
+    std::size_t rows = 1;
+    const char* separator = " | ";
+    for (const std::size_t parent : vertex.parents) {
+      text << std::exchange(separator, ", ") << written(network[parent].variable.name());
+      rows *= network[parent].variable.size();
+    }
+    text << " ) {\n";
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::string labels;
+      for (std::size_t p = vertex.parents.size(), rest = row; p-- > 0;) {
+        const NetworkVariable& parent = network[vertex.parents[p]].variable;
+        labels = written(parent.label(rest % parent.size())) + (labels.empty() ? "" : ", ") + labels;
+        rest /= parent.size();
+      }
+      text << (vertex.parents.empty() ? "  table" : "  (" + labels + ")");
+      const auto value = [&](std::size_t i) {
+        return std::visit([&](const auto& all) { return all.at(row, i); }, vertex.rows);
+      };
+      for (std::size_t i = 0; i < vertex.variable.size(); ++i) text << (i > 0 ? ", " : " ") << written(value(i));
+      text << ";\n";
+    }
+    text << "}\n";
+  }
+  out << text.str();
+}
 
 }  // namespace sigmax
