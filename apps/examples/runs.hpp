@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/plot.hpp"
+#include "examples/plot.hpp"
 
 namespace examples {
 

@@ -4,15 +4,17 @@
 #include <cmath>
 
 #include "support/angle.hpp"
+#include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
-                             const RecordingReader& recording)
-    : file_(directory.file("estimates.csv")), recording_(recording) {
+                             const RecordingReader& recording, bool iso_times)
+    : file_(directory.file("estimates.csv")), recording_(recording), iso_times_(iso_times) {
   for (const auto& filter : filters)
     for (const auto& motion : filter.motions) turns_ = turns_ || !motion.linear();
   models_ = model_names(filters);
-  file_.write(recording_.has_tracks() ? "time_s,track,filter" : "time_s,filter");
+  file_.write(iso_times_ ? "time_s,time_utc" : "time_s");
+  file_.write(recording_.has_tracks() ? ",track,filter" : ",filter");
   file_.write(
       ",x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_x_m,sigma_y_m,sigma_z_m,"
       "sigma_vx_mps,sigma_vy_mps,sigma_vz_mps,nis");
@@ -23,9 +25,33 @@ EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector
 
 template <int Axes>
 void EstimatesFile::add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point) {
+  write(track, settings, point, std::nullopt);
+}
+
+template <int Axes>
+void EstimatesFile::add(const std::string& track, const FilterSettings& settings, TrackPoint<Axes> point,
+                        const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame) {
+  auto& [mean, covariance] = point.estimate;
+  const Vector<Axes> position = mean.template head<Axes>();
+  const SquareMatrix<Axes> turn = frame.local_axes(position);
+  for (Eigen::Index i = 0; i < mean.size(); i += Axes) {
+    mean.template segment<Axes>(i) = turn * mean.template segment<Axes>(i);
+    for (Eigen::Index j = 0; j < mean.size(); j += Axes)
+      covariance.template block<Axes, Axes>(i, j) =
+          (turn * covariance.template block<Axes, Axes>(i, j) * turn.transpose()).eval();
+  }
+  const Geodetic place = frame.to_geodetic(position);
+  mean.template head<Axes>() = anchor.to_local(place);
+  write(track, settings, point, place);
+}
+
+template <int Axes>
+void EstimatesFile::write(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
+                          const std::optional<Geodetic>& place) {
   const auto& estimate = point.estimate;
   const auto has = [&](int order, int axis) { return axis < Axes && order * Axes + axis < estimate.size(); };
   file_.write(shortest(point.time));
+  if (iso_times_) file_.print(",{}", iso_time(point.time));
   if (recording_.has_tracks()) file_.print(",{}", csv_field(track));
   file_.print(",{}", csv_field(settings.name));
   for (int order = 0; order < 3; ++order)
@@ -45,14 +71,10 @@ void EstimatesFile::add(const std::string& track, const FilterSettings& settings
              : std::optional(point.weights[static_cast<std::size_t>(own - settings.models.begin())]));
   }
   file_.print(",{}", settings.models[point.most_likely_mode]);
-  if (recording_.geodetic()) {
-    const double east = estimate.mean(0), north = estimate.mean(1);
-    const LocalFrame& frame = recording_.frame();
-    const Geodetic place =
-        Axes == 3 ? frame.to_geodetic({east, north, estimate.mean(Axes - 1)}) : frame.to_surface(east, north);
-    cell(place.latitude_deg());
-    cell(place.longitude_deg());
-    cell(Axes == 3 ? std::optional(place.altitude) : std::nullopt);
+  if (place) {
+    cell(place->latitude_deg);
+    cell(place->longitude_deg);
+    cell(Axes == 3 ? std::optional(place->altitude_m) : std::nullopt);
   }
   file_.write("\n");
 }
@@ -61,5 +83,9 @@ void EstimatesFile::cell(std::optional<double> value) { file_.print(",{}", value
 
 template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<2>&);
 template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<3>&);
+template void EstimatesFile::add(const std::string&, const FilterSettings&, TrackPoint<2>, const LocalFrame<2>&,
+                                 const LocalFrame<2>&);
+template void EstimatesFile::add(const std::string&, const FilterSettings&, TrackPoint<3>, const LocalFrame<3>&,
+                                 const LocalFrame<3>&);
 
 }  // namespace sigmax::apps

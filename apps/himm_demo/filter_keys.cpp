@@ -93,7 +93,8 @@ Key<Owner> number(std::string name, std::string meaning, Of of, Range range, dou
 
 /// The same where there may be none.
 template <class Owner>
-FilterKey optional_number(const std::string& name, std::string meaning, std::optional<double> Owner::*member, Range range) {
+FilterKey optional_number(const std::string& name, std::string meaning, std::optional<double> Owner::*member,
+                          Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),

@@ -23,6 +23,7 @@ struct Reading {
   };
 
   Gaussian<Axes> position;   ///< of a radar: converted, if only for the start
+  int measured = Axes;       ///< so many leading axes of the position were measured
   std::optional<Seen> seen;  ///< by a radar, if the filter takes that in the radar's own space
 
   /// What the filter steps with.
@@ -38,7 +39,7 @@ Reading<Axes> radar_reading(const Polar& measured, Polar sigma, const Vector<3>&
   if (form == RadarForm::debiased) conversion = Conversion::debiased;
   const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
   const Vector<3> mean = position.mean + radar_at;
-  Reading<Axes> reading{{mean.head<Axes>(), position.covariance.topLeftCorner<Axes, Axes>()}, std::nullopt};
+  Reading<Axes> reading{{mean.head<Axes>(), position.covariance.topLeftCorner<Axes, Axes>()}, Axes, std::nullopt};
   if (form == RadarForm::polar)
     reading.seen = {PolarSensor<Axes>(Vector<Axes>(radar_at.head<Axes>())),
                     PolarSensor<Axes>::measurement(measured, sigma)};

@@ -16,15 +16,61 @@ namespace sigmax::apps {
 namespace {
 
 constexpr double foot = 0.3048;
-constexpr std::array<std::string_view, 17> known = {
-    "time_s",           "x_m",         "y_m",     "z_m",         "latitude_deg",  "longitude_deg", "altitude_m",
-    "altitude_gnss_ft", "altitude_ft", "range_m", "azimuth_deg", "elevation_deg", "sensor",        "true_x_m",
-    "true_y_m",         "true_z_m",    "roll_deg"};
+
+/// A header that names a quantity with its unit.
+struct Header {
+  std::string_view name;
+  double unit;
+  std::string_view taken_for;
+  bool from_north = false;
+};
+using Headers = std::initializer_list<Header>;
+
+const Headers x_headers = {{"x_m", 1.0, "m"}, {"x_km", 1e3, "km"}};
+const Headers y_headers = {{"y_m", 1.0, "m"}, {"y_km", 1e3, "km"}};
+const Headers z_headers = {{"z_m", 1.0, "m"}, {"z_km", 1e3, "km"}, {"z_ft", foot, "ft"}};
+const Headers latitude_headers = {{"latitude_deg", 1.0, "° north"}};
+const Headers longitude_headers = {{"longitude_deg", 1.0, "° east"}};
+const Headers altitude_headers = {{"altitude_m", 1.0, "m above the ellipsoid"},
+                                  {"altitude_gnss_ft", foot, "ft above the ellipsoid"},
+                                  {"altitude_ft", foot, "ft above the ellipsoid"}};
+const Headers range_headers = {
+    {"range_m", 1.0, "m"}, {"range_km", 1e3, "km"}, {"range_nmi", 1852.0, "nautical miles"}, {"range_ft", foot, "ft"}};
+const Headers azimuth_headers = {{"azimuth_deg", 1.0, "°"},
+                                 {"azimuth_rad", 1.0 / degree, "rad"},
+                                 {"azimuth_deg_north", 1.0, "°", true},
+                                 {"azimuth_rad_north", 1.0 / degree, "rad", true}};
+const Headers elevation_headers = {{"elevation_deg", 1.0, "° above the horizon"},
+                                   {"elevation_rad", 1.0 / degree, "rad above the horizon"}};
+const Headers other_headers = {{"time_s", 1.0, "s"},
+                               {"sensor", 1.0, ""},
+                               {"true_x_m", 1.0, "m"},
+                               {"true_y_m", 1.0, "m"},
+                               {"true_z_m", 1.0, "m"},
+                               {"roll_deg", 1.0, "°"},
+                               {"sigma_x_m", 1.0, "m"},
+                               {"sigma_y_m", 1.0, "m"},
+                               {"sigma_z_m", 1.0, "m"},
+                               {"sigma_range_m", 1.0, "m"},
+                               {"sigma_azimuth_deg", 1.0, "°"},
+                               {"sigma_elevation_deg", 1.0, "°"}};
+
+/// No measurement of this world, in m or degrees, but what a device writes where it has none.
+constexpr double beyond_sense = 1e30;
+
+std::vector<std::string_view> known_headers() {
+  std::vector<std::string_view> names;
+  for (const Headers& headers : {other_headers, x_headers, y_headers, z_headers, latitude_headers, longitude_headers,
+                                 altitude_headers, range_headers, azimuth_headers, elevation_headers})
+    for (const auto& header : headers) names.push_back(header.name);
+  return names;
+}
 
 using Mapping = std::map<std::string, std::string, std::less<>>;
 
 Mapping mapping_of(const std::vector<std::string>& columns) {
   Mapping mapping;
+  const auto known = known_headers();
   for (const auto& column : columns) {
     const auto equals = column.find('=');
     const std::string name = column.substr(0, equals);
@@ -61,7 +107,7 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   if (!options.origin) return;
   if (!geodetic_) throw UsageError("--origin is for geodetic input, but " + csv_.file() + " is none");
   try {
-    frame_.emplace(Geodetic::from_degrees((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]));
+    origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--origin: {}", error.what()));
   }
@@ -73,13 +119,30 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
     const auto mapped = mapping.find(name);
     return mapped == mapping.end() ? csv_.find(name) : csv_.column(mapped->second);
   };
+  const auto find_quantity = [&](const Headers& headers) -> std::optional<Column> {
+    for (const auto& header : headers)
+      if (const auto index = find(header.name)) return Column{*index, header.unit, header.taken_for};
+    return std::nullopt;
+  };
   const auto time = find("time_s");
-  const Columns cartesian = {find("x_m"), find("y_m"), find("z_m")};
-  Columns geodetic = {find("latitude_deg"), find("longitude_deg"), {}};
-  for (const auto& [name, unit] : {std::pair{"altitude_m", 1.0}, {"altitude_gnss_ft", foot}, {"altitude_ft", foot}})
-    if (!geodetic[2] && (geodetic[2] = find(name))) altitude_unit_ = unit;
-  polar_ = {find("range_m"), find("azimuth_deg"), find("elevation_deg")};
-  truth_ = {find("true_x_m"), find("true_y_m"), find("true_z_m")};
+  const Columns cartesian = {find_quantity(x_headers), find_quantity(y_headers), find_quantity(z_headers)};
+  const Columns geodetic = {find_quantity(latitude_headers), find_quantity(longitude_headers),
+                            find_quantity(altitude_headers)};
+  polar_ = {find_quantity(range_headers), find_quantity(azimuth_headers), find_quantity(elevation_headers)};
+  for (const auto& header : azimuth_headers)
+    if (header.from_north && find(header.name) == (polar_[1] ? std::optional(polar_[1]->index) : std::nullopt) &&
+        find(header.name)) {
+      if (options.azimuth_from_north == false)
+        throw UsageError(fmt::format("--azimuth-from east contradicts the column {}", header.name));
+      from_north_ = true;
+    }
+  const auto find_plain = [&](std::string_view name) -> std::optional<Column> {
+    const auto index = find(name);
+    return index ? std::optional(Column{*index, 1.0, "m"}) : std::nullopt;
+  };
+  truth_ = {find_plain("true_x_m"), find_plain("true_y_m"), find_plain("true_z_m")};
+  sigma_position_ = {find_plain("sigma_x_m"), find_plain("sigma_y_m"), find_plain("sigma_z_m")};
+  sigma_polar_ = {find_plain("sigma_range_m"), find_plain("sigma_azimuth_deg"), find_plain("sigma_elevation_deg")};
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
 
@@ -136,17 +199,27 @@ bool RecordingReader::next(Fix& fix) {
   fix.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && fix.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
 
-  const auto position = numbers(position_);
+  fix.position.reset();
+  fix.place.reset();
+  fix.seen.reset();
+  fix.truth.reset();
+  if (const auto truth = numbers(truth_)) fix.truth = Vector<3>(truth->data());
+  if (senseless(position_) || senseless(polar_)) {
+    if (senseless_++ == 0) first_senseless_line_ = fix.line;
+    return true;
+  }
+  fix.no_height = false;
+  fix.sigma = {};
+  const auto position = numbers(position_, &fix.no_height);
   const auto seen = numbers(polar_);
   if (position && seen)
-    throw row_.error(*polar_[0], "an empty cell, since the row has a position", "give each sensor a row of its own");
-  fix.position.reset();
-  if (position) fix.position = geodetic_ ? local(*position) : Vector<3>(position->data());
-  fix.seen.reset();
+    throw row_.error(polar_[0]->index, "an empty cell, since the row has a position",
+                     "give each sensor a row of its own");
+  if (position && geodetic_) fix.place = place(*position);
+  if (position && !geodetic_) fix.position = Vector<3>(position->data());
   if (seen) fix.seen = polar(*seen);
-  const auto truth = numbers(truth_);
-  fix.truth.reset();
-  if (truth) fix.truth = Vector<3>(truth->data());
+  if (position) take_sigmas(fix, sigma_position_, 1.0);
+  if (seen) take_sigmas(fix, sigma_polar_, degree);
   return true;
 }
 
@@ -165,59 +238,107 @@ bool RecordingReader::take_time(Fix& fix) {
     throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
                      "correct the cell or drop the row");
   fix.time_s = *time;
-  const auto [last, first] = last_times_.emplace(fix.track, fix.time_s);
-  if (first) return true;
-  if (!(fix.time_s > last->second)) {
-    if (!skip_bad_times_)
-      throw row_.error(time_, fmt::format("a time after that of the row before, {}", shortest(last->second)),
-                       "sort the rows by time and drop repeated ones, or give --on-bad-time skip");
-    ++skipped_;
+  if (!refused_time(fix)) return true;
+  if (!skip_bad_times_)
+    throw row_.error(
+        time_, fmt::format("a time after that of the row before, {}", shortest(last_.find(fix.track)->second.time)),
+        sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
+                : "sort the rows by time and drop repeated ones, or give --on-bad-time skip");
+  ++skipped_;
+  return false;
+}
+
+/// Whether the time is not after that of the track's row before; several sensors may measure at one time.
+bool RecordingReader::refused_time(const Fix& fix) {
+  const std::string sensor{sensor_ ? trimmed(row_[*sensor_]) : std::string_view{}};
+  const auto [found, first] = last_.try_emplace(fix.track, Last{fix.time_s, {sensor}});
+  if (first) return false;
+  Last& last = found->second;
+  if (fix.time_s > last.time) {
+    last = {fix.time_s, {sensor}};
     return false;
   }
-  last->second = fix.time_s;
-  return true;
+  const bool spoke = std::find(last.sensors.begin(), last.sensors.end(), sensor) != last.sensors.end();
+  if (!(fix.time_s == last.time) || spoke) return true;
+  last.sensors.push_back(sensor);
+  return false;
+}
+
+/// Whether a cell has a number that stands for none.
+bool RecordingReader::senseless(const Columns& columns) const {
+  return std::any_of(columns.begin(), columns.end(), [&](const auto& column) {
+    const auto cell = column ? row_.optional_number(column->index) : std::nullopt;
+    return cell && std::abs(*cell) >= beyond_sense;
+  });
+}
+
+void RecordingReader::take_sigmas(Fix& fix, const Columns& columns, double angle) const {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!columns[i]) continue;
+    const auto sigma = row_.optional_number(columns[i]->index);
+    if (!sigma) continue;
+    if (!(*sigma > 0.0))
+      throw row_.error(columns[i]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
+    fix.sigma[i] = *sigma * (i == 0 ? 1.0 : angle);
+  }
 }
 
 /// The numbers in the columns that there are, 0 in those that there are not; nothing if all cells are empty.
-std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns) const {
+std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns, bool* no_height) const {
   std::array<double, 3> result = {0.0, 0.0, 0.0};
   std::size_t filled = 0;
   std::optional<std::size_t> empty;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i]) continue;
-    if (const auto cell = row_.optional_number(*columns[i])) {
-      result[i] = *cell;
+    if (const auto cell = row_.optional_number(columns[i]->index)) {
+      result[i] = *cell * columns[i]->unit;
       ++filled;
     } else if (!empty) {
-      empty = columns[i];
+      empty = columns[i]->index;
     }
   }
   if (filled == 0) return std::nullopt;
-  if (empty)
+  if (empty && no_height && filled == 2 && columns[2] && *empty == columns[2]->index)
+    *no_height = true;
+  else if (empty)
     throw row_.error(*empty, "a number, since the row's other coordinates are there",
                      "fill the cell or empty them all");
   return result;
 }
 
-Vector<3> RecordingReader::local(const std::array<double, 3>& cells) {
-  Geodetic point;
+Geodetic RecordingReader::place(const std::array<double, 3>& cells) const {
   try {
-    point = Geodetic::from_degrees(cells[0], cells[1], altitude_unit_ * cells[2]);
+    return Geodetic::checked(cells[0], cells[1], axes_ == 3 ? cells[2] : 0.0);
   } catch (const std::invalid_argument& error) {
-    throw row_.error(*position_[std::abs(cells[0]) > 90.0 ? 0 : 1], error.what(), "correct the cell or drop the row");
+    throw row_.error(position_[std::abs(cells[0]) > 90.0 ? 0 : 1]->index, error.what(),
+                     "correct the cell or drop the row");
   }
-  if (!frame_) frame_.emplace(point);
-  const EastNorthUp position = frame_->to_local(point);
-  return {position.east, position.north, axes_ == 3 ? position.up : 0.0};
 }
 
 Polar RecordingReader::polar(const std::array<double, 3>& cells) const {
   const auto [range, azimuth, elevation] = cells;
   if (!(range > 0.0))
-    throw row_.error(*polar_[0], "a range above 0 m", "correct the cell, or empty those of a missed measurement");
-  if (!(std::abs(azimuth) <= 360.0)) throw row_.error(*polar_[1], "degrees from −360 to 360", "correct the cell");
-  if (!(std::abs(elevation) <= 90.0)) throw row_.error(*polar_[2], "degrees from −90 to 90", "correct the cell");
+    throw row_.error(polar_[0]->index, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
+  if (!(std::abs(azimuth) <= 360.0)) throw row_.error(polar_[1]->index, "degrees from −360 to 360", "correct the cell");
+  if (!(std::abs(elevation) <= 90.0)) throw row_.error(polar_[2]->index, "degrees from −90 to 90", "correct the cell");
   return {range, (from_north_ ? 90.0 - azimuth : azimuth) * degree, elevation * degree};
+}
+
+std::string RecordingReader::taken() const {
+  std::vector<std::string> parts = {fmt::format("{} in s", csv_.names()[time_])};
+  const auto add = [&](const Columns& columns, std::string_view azimuth) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i])
+        parts.push_back(
+            fmt::format("{} in {}{}", csv_.names()[columns[i]->index], columns[i]->taken_for, i == 1 ? azimuth : ""));
+  };
+  add(position_, "");
+  add(polar_, from_north_ ? " clockwise from north" : " counter-clockwise from east");
+  add(truth_, "");
+  for (const auto& columns : {position_[0] ? sigma_position_ : Columns{}, polar_[0] ? sigma_polar_ : Columns{}})
+    for (const auto& column : columns)
+      if (column) parts.push_back(fmt::format("{} for the row's accuracy", csv_.names()[column->index]));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace sigmax::apps

@@ -28,18 +28,22 @@ struct RecordingOptions {
   bool skip_bad_times = false;                  ///< rather than refuse them
 };
 
-/// One row of a recording in local coordinates. A missed measurement has neither `position` nor `seen`.
+/// One row of a recording. A missed measurement has neither `position` nor `place` nor `seen`.
 struct Fix {
   std::size_t line = 0;
   double time_s = 0.0;
   std::string track;                  ///< empty without a column that tells tracks apart
   std::string sensor;                 ///< empty without a column `sensor`
   std::optional<Vector<3>> position;  ///< measured: east, north, up in m; z is 0 on two axes
+  std::optional<Geodetic> place;      ///< measured; the altitude is 0 on two axes
+  bool no_height = false;             ///< of three axes only the first two were measured
   std::optional<Polar> seen;          ///< measured by a radar; the elevation is 0 on two axes
+  /// What the row itself says of its accuracy: of x, y, z in m, or of range, azimuth, elevation in m and rad.
+  std::array<std::optional<double>, 3> sigma;
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
 
-  bool measured() const { return position || seen; }
+  bool measured() const { return position || place || seen; }
 };
 
 /// Reads a headed CSV recording row by row: Cartesian, geodetic or a radar's, or Cartesian and radar's rows mixed, as
@@ -62,21 +66,37 @@ class RecordingReader {
   bool has_roll() const { return roll_.has_value(); }
   const CsvReader& csv() const { return csv_; }
 
-  /// The frame of a geodetic recording, known after its first row.
-  const LocalFrame& frame() const { return *frame_; }
+  /// Where the frame of every track begins, if not at its own first row.
+  const std::optional<Geodetic>& origin() const { return origin_; }
+
+  /// What the columns were taken to be.
+  std::string taken() const;
+
+  /// Rows whose measurement is beyond all numbers of this world, and so counts as missed, and the line of the first.
+  std::size_t senseless() const { return senseless_; }
+  std::size_t first_senseless_line() const { return first_senseless_line_; }
 
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
  private:
-  using Columns = std::array<std::optional<std::size_t>, 3>;
+  /// Where a quantity stands, and what its numbers must be multiplied with.
+  struct Column {
+    std::size_t index;
+    double unit = 1.0;  ///< in m, or in degrees
+    std::string_view taken_for = {};
+  };
+  using Columns = std::array<std::optional<Column>, 3>;
 
   void find_columns(const RecordingOptions& options);
   void refuse_other_kinds(bool cartesian, bool time_known) const;
+  bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);
-  std::optional<std::array<double, 3>> numbers(const Columns& columns) const;
-  Vector<3> local(const std::array<double, 3>& point);
+  std::optional<std::array<double, 3>> numbers(const Columns& columns, bool* no_height = nullptr) const;
+  void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
+  Geodetic place(const std::array<double, 3>& cells) const;
+  bool refused_time(const Fix& fix);
   Polar polar(const std::array<double, 3>& cells) const;
 
   CsvReader csv_;
@@ -85,16 +105,24 @@ class RecordingReader {
   Columns position_;  // Cartesian, or geodetic
   Columns polar_;
   Columns truth_;
+  Columns sigma_position_;
+  Columns sigma_polar_;
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
   bool geodetic_ = false;
   bool from_north_ = false;
   bool skip_bad_times_ = false;
   int axes_ = 3;
-  double altitude_unit_ = 1.0;  ///< in m
-  std::optional<LocalFrame> frame_;
-  std::map<std::string, double, std::less<>> last_times_;  // by track
+  std::optional<Geodetic> origin_;
+  /// The time of a track's last row, and the sensors that spoke then.
+  struct Last {
+    double time;
+    std::vector<std::string> sensors;
+  };
+  std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t skipped_ = 0;
+  std::size_t senseless_ = 0;
+  std::size_t first_senseless_line_ = 0;
 };
 
 }  // namespace sigmax::apps

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "himm_demo/track_run.hpp"
 #include "support/angle.hpp"
 #include "support/output.hpp"
+#include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -24,6 +26,18 @@ void refuse_what_means_nothing(const TrackOptions& options, const RecordingReade
   if (recording.polar()) throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
   if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
   if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has two");
+}
+
+/// What is read must not be written over.
+void refuse_to_overwrite(const TrackOptions& options) {
+  for (const char* name : {"estimates.csv", "summary.json"})
+    for (const auto& input : {options.recording.file, options.config}) {
+      std::error_code none;
+      if (std::filesystem::equivalent(std::filesystem::path(options.output.out) / name, input, none))
+        throw UsageError(
+            message({.what = fmt::format("--out {} would write over the input {}", options.output.out, input),
+                     .remedy = "choose another directory"}));
+    }
 }
 
 void track_and_report(const TrackOptions& options) {
@@ -42,8 +56,9 @@ void track_and_report(const TrackOptions& options) {
   std::optional<OutputDirectory> directory;
   std::optional<EstimatesFile> estimates;
   if (!options.output.out.empty()) {
+    refuse_to_overwrite(options);
     directory.emplace(options.output.out);
-    estimates.emplace(*directory, filters, recording);
+    estimates.emplace(*directory, filters, recording, options.iso_times);
   }
   const TrackOutcome outcome = run_track(options, recording, filters, estimates ? &*estimates : nullptr);
   TrackReport found = report(options, recording, filters, outcome);
@@ -94,7 +109,7 @@ void add_track(CLI::App& program, const std::string& command) {
          "What to do where a time repeats or goes back [error]")
       ->check(CLI::IsMember({"error", "skip"}))
       ->option_text("error|skip");
-  add_triple(app, "--origin", options->recording.origin, "Origin of the local east-north-up frame [the first row]",
+  add_triple(app, "--origin", options->recording.origin, "Where positions are counted from [each track's first row]",
              "LAT,LON,ALT");
   app.add_option_function<std::string>(
          "--azimuth-from",
@@ -112,8 +127,12 @@ void add_track(CLI::App& program, const std::string& command) {
       "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
       "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
       "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
-      "Beside them may stand true_x_m,true_y_m[,true_z_m] and roll_deg. Times are seconds, or dates and times as\n"
-      "2016-01-12T13:02:11.218Z. A row without a position is a missed measurement.\n"
+      "Other units: x_km, z_ft, range_km, range_nmi, range_ft, azimuth_rad,\n"
+      "azimuth_deg_north (clockwise from north), elevation_rad. Beside them may stand\n"
+      "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
+      "accuracy of the row. Times are seconds, dates and times as\n"
+      "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
+      "without a position is a missed measurement; its height alone may be missing.\n"
       "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
@@ -121,6 +140,17 @@ void add_track(CLI::App& program, const std::string& command) {
       "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
       "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
       "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
+  app.add_option_function<std::string>(
+         "--predict-to",
+         [options](const std::string& text) {
+           options->predict_to = parse_timestamp(text);
+           if (!options->predict_to)
+             throw UsageError(
+                 message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
+         },
+         "A time up to which each target is predicted after its last row")
+      ->type_name("TIME");
+  app.add_flag("--iso-times", options->iso_times, "Also write times as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);

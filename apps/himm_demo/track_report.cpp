@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/output.hpp"
-#include "support/table.hpp"
+#include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -42,11 +42,10 @@ class Reporter {
                            {"sigma_elevation_deg", (*options_.radar)[2]}};
     }
     if (options_.radar || recording_.polar()) summary_["radar"]["at_m"] = radar_at();
-    if (recording_.geodetic()) {
-      const Geodetic& origin = recording_.frame().origin();
-      summary_["origin"] = {{"latitude_deg", origin.latitude_deg()},
-                            {"longitude_deg", origin.longitude_deg()},
-                            {"altitude_m", origin.altitude}};
+    if (const auto& origin = outcome_.origin) {
+      summary_["origin"] = {{"latitude_deg", origin->latitude_deg},
+                            {"longitude_deg", origin->longitude_deg},
+                            {"altitude_m", origin->altitude_m}};
     }
     summary_["rows"] = outcome_.rows;
     summary_["measurements"] = outcome_.measurements;
@@ -66,6 +65,7 @@ class Reporter {
                         !recording_.polar() ? ""
                         : converted         ? ", a radar's measurements converted"
                                             : ", a radar's measurements");
+    text_ += wrapped(fmt::format("Taken for: {}", recording_.taken()), options_.output.width());
     if (recording_.has_sensors()) {
       std::vector<std::string> counts;
       for (const auto& [sensor, count] : outcome_.sensors) counts.push_back(fmt::format("{} {}", sensor, count));
@@ -92,6 +92,9 @@ class Reporter {
       if (!counts.empty()) text_ += fmt::format("{}: {}\n", what, fmt::join(counts, ", "));
     };
     by_filter("rejected", "Measurements that the gate turned away", &FilterOutcome::rejected);
+    if (outcome_.refused_by_all > 0)
+      text_ += fmt::format("Turned away by every filter: {}, the first on line {}\n", outcome_.refused_by_all,
+                           outcome_.first_refused_line);
     by_filter("restarts", "Starts after a gap", &FilterOutcome::restarts);
     if (!options_.radar) return;
     const auto& sigma = *options_.radar;
@@ -105,7 +108,14 @@ class Reporter {
 
   void warn() {
     if (outcome_.validity.broken()) warnings_.push_back(outcome_.validity.warning(file_));
-    if (outcome_.outliers.any()) warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements));
+    if (outcome_.outliers.any())
+      warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements, options_.recording.track_id.empty()));
+    if (recording_.senseless() > 0)
+      warnings_.push_back(fmt::format(
+          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
+          file_, recording_.first_senseless_line(), recording_.senseless(),
+          recording_.senseless() == 1 ? "row counts" : "rows count"));
+    warn_of_low_nis();
     for (const auto& filter : filters_)
       for (const auto& [sensor, accuracy] : filter.sensors)
         if (!outcome_.sensors.contains(sensor))
@@ -114,57 +124,74 @@ class Reporter {
     if (!warnings_.empty()) summary_["warnings"] = warnings_;
   }
 
+  /// Where every filter finds its measurements much better than it believes.
+  void warn_of_low_nis() {
+    double greatest = 0.0;
+    for (const auto& filter : outcome_.filters) {
+      const Sums& sums = filter.sums[0];
+      if (sums.nis.count() < 10) return;
+      greatest = std::max(greatest, sums.nis.mean());
+    }
+    if (greatest >= 0.1 * recording_.axes()) return;
+    warnings_.push_back(fmt::format(
+        "{}: the mean NIS is {:.2g} at most, where {} is expected: the measurements are far better than the sensor's "
+        "sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, altitude_ft",
+        file_, greatest, recording_.axes()));
+  }
+
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
   void tabulate(std::size_t p) {
     const bool truth_known = options_.radar || recording_.has_truth();
-    std::vector<TextTable::Column> columns = {{std::string(parts[p].name), Align::left}, {"rows"}};
-    const auto add_columns = [&](std::string_view label) {
+    std::vector<ResultColumn> columns = {{.key = "filter", .header = std::string(parts[p].name), .align = Align::left},
+                                         {.key = "rows", .header = "rows"}};
+    const auto add_columns = [&](std::string_view key, const std::string& group) {
       for (std::size_t axis = 0; axis < axes(); ++axis)
-        columns.push_back({fmt::format("{}{}", axis == 0 ? label : "", axis_names[axis])});
+        columns.push_back({.key = fmt::format("{}_{}_m", key, axis_names[axis]),
+                           .header = axis_names[axis],
+                           .sized = true,
+                           .group = group});
     };
-    if (truth_known) add_columns("RMSE, m: ");
-    add_columns("σ, m: ");
-    columns.push_back({"mean NIS"});
-    columns.push_back({"mean weights", Align::left});
-    TextTable table(columns);
-    Json part;
-    if (truth_known) row(table, part, "measurement", outcome_.raw[p], nullptr, truth_known);
+    if (truth_known) add_columns("rmse", "RMSE, m:");
+    add_columns("sigma", "σ, m:");
+    columns.push_back({.key = "mean_nis", .header = "mean", .sized = true, .group = "NIS:"});
+    columns.push_back({.key = "median_nis", .header = "median", .sized = true, .group = "NIS:"});
+    columns.push_back({.key = "nis_inside_95", .header = "in 95 %", .digits = 1, .scale = 100.0, .group = "NIS:"});
+    columns.push_back({.header = "mean weights", .align = Align::left});
+    const auto models = model_names(filters_);
+    for (const auto& model : models) columns.push_back({.key = "mean_weight_" + model});
+    ResultTable table(columns);
+    if (truth_known) row(table, models, "measurement", outcome_.raw[p], nullptr, truth_known);
     for (std::size_t f = 0; f < filters_.size(); ++f)
-      row(table, part, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
-    text_ += "\n" + table.text();
-    summary_["results"][std::string(parts[p].name)] = part;
+      row(table, models, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
+    text_ += "\n" + table.text(options_.output.width());
+    summary_["results"][std::string(parts[p].name)] = table.json();
   }
 
-  void row(TextTable& table, Json& part, const std::string& name, const Sums& sums, const FilterSettings* filter,
-           bool truth_known) const {
-    std::vector<std::string> cells = {name};
-    Json result;
+  void row(ResultTable& table, const std::vector<std::string>& models, const std::string& name, const Sums& sums,
+           const FilterSettings* filter, bool truth_known) const {
     const std::size_t count = filter ? sums.count : sums.error[0].count();
-    result["rows"] = count;
-    cells.push_back(std::to_string(count));
-    const auto add_cells = [&](const char* key, const std::array<RootMeanSquare, 3>& values) {
-      for (std::size_t axis = 0; axis < axes(); ++axis) {
-        const bool known = values[axis].count() > 0;
-        cells.push_back(known ? fmt::format("{:.2f}", values[axis].value()) : filter ? "–" : "");
-        if (known) result[key][axis_names[axis]] = values[axis].value();
-      }
+    std::vector<Cell> cells = {Cell(name), Cell(count)};
+    const auto add_cells = [&](const std::array<RootMeanSquare, 3>& values) {
+      for (std::size_t axis = 0; axis < axes(); ++axis)
+        cells.push_back(values[axis].count() > 0 ? Cell(values[axis].value()) : filter ? Cell("–") : Cell());
     };
-    if (truth_known) add_cells("rmse_m", sums.error);
-    add_cells("sigma_m", sums.sigma);
+    if (truth_known) add_cells(sums.error);
+    add_cells(sums.sigma);
+    const bool judged = filter && sums.nis.count() > 0;
+    cells.push_back(judged ? Cell(sums.nis.mean()) : Cell());
+    cells.push_back(judged ? Cell(sums.nis.median()) : Cell());
+    cells.push_back(judged ? Cell(sums.nis.inside()) : Cell());
     std::string weights;
-    if (filter) {
-      if (sums.nis_count > 0) result["mean_nis"] = sums.nis / static_cast<double>(sums.nis_count);
-      for (std::size_t j = 0; j < filter->models.size() && count > 0; ++j) {
-        const double weight = sums.weights[j] / static_cast<double>(count);
-        weights += fmt::format("{}{} {:.3f}", j ? ", " : "", filter->models[j], weight);
-        result["mean_weight"][filter->models[j]] = weight;
-      }
+    std::vector<Cell> by_model(models.size());
+    for (std::size_t j = 0; filter && count > 0 && j < filter->models.size(); ++j) {
+      const double weight = sums.weights[j] / static_cast<double>(count);
+      weights += fmt::format("{}{} {:.3f}", j ? ", " : "", filter->models[j], weight);
+      by_model[static_cast<std::size_t>(std::find(models.begin(), models.end(), filter->models[j]) - models.begin())] =
+          Cell(weight);
     }
-    cells.push_back(filter && sums.nis_count > 0 ? fmt::format("{:.2f}", sums.nis / static_cast<double>(sums.nis_count))
-                                                 : "");
-    cells.push_back(weights);
-    table.row(cells);
-    part[name] = result;
+    cells.emplace_back(weights);
+    cells.insert(cells.end(), by_model.begin(), by_model.end());
+    table.row(std::move(cells));
   }
 
   std::size_t axes() const { return static_cast<std::size_t>(recording_.axes()); }

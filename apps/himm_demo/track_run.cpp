@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/scenario.hpp"
@@ -30,11 +34,20 @@ std::uint64_t stream_of(std::string_view track) {
   return hash;
 }
 
+/// The frame in which a filter follows a target from a start on.
+template <int Axes>
+struct Segment {
+  std::size_t first_tag;
+  std::size_t starts;
+  LocalFrame<Axes> frame;
+};
+
 /// One target of a recording, followed by every filter.
 template <int Axes>
 struct Target {
   Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
       : trackers(filters.begin(), filters.end()),
+        segments(filters.size()),
         random(random_stream),
         keeps_all(std::any_of(filters.begin(), filters.end(), [](const auto& filter) { return filter.smooth; })) {}
 
@@ -42,7 +55,18 @@ struct Target {
     return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
   }
 
+  /// The frame of a row's estimate; there is one if the recording is geodetic.
+  const LocalFrame<Axes>& frame(std::size_t filter, std::size_t tag) const {
+    const auto& all = segments[filter];
+    const auto after =
+        std::find_if(all.begin() + 1, all.end(), [&](const auto& segment) { return segment.first_tag > tag; });
+    return std::prev(after)->frame;
+  }
+
   std::vector<Tracker<Axes>> trackers;
+  std::optional<LocalFrame<Axes>> anchor;                    // where positions are counted from in the output
+  std::vector<std::vector<Segment<Axes>>> segments;          // of each filter
+  double before = std::numeric_limits<double>::quiet_NaN();  // the time of the row before
   RandomStream random;
   bool keeps_all;        // rows, if a filter is to be smoothed; else two: a start may wait for the row after it
   std::deque<Fix> rows;  // whose tags are their numbers
@@ -74,8 +98,11 @@ class TrackRun {
       done = recording_.csv().bytes_read();
     }
     progress.finish();
+    if (options_.predict_to) predict();
     for (auto& [name, target] : targets_) smooth(target);
     outcome_.tracks = targets_.size();
+    if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks()))
+      outcome_.origin = file_anchor_->origin();
     for (const auto& [name, target] : targets_) count(name, target);
     if (outcome_.never_started.size() == targets_.size()) refuse_nothing();
     return std::move(outcome_);
@@ -83,6 +110,17 @@ class TrackRun {
 
  private:
   const std::string& file() const { return recording_.csv().file(); }
+
+  /// A last step of each target that ended before the time asked for, without a measurement.
+  void predict() {
+    for (auto& [name, target] : targets_) {
+      Fix fix;
+      fix.line = target.rows.back().line;
+      fix.track = name;
+      fix.time_s = *options_.predict_to;
+      if (fix.time_s > target.before) step(target, fix);
+    }
+  }
 
   void count(const std::string& name, const Target<Axes>& target) {
     if (!target.all_started()) outcome_.never_started.push_back(name);
@@ -100,35 +138,86 @@ class TrackRun {
     auto target = targets_.find(fix.track);
     if (target == targets_.end())
       target = targets_.try_emplace(fix.track, filters_, RandomStream(options_.seed, stream_of(fix.track))).first;
-    if (options_.radar && fix.position) see_by_radar(fix, target->second.random);
+    if (fix.place) place(target->second, fix);
+    if (options_.radar && fix.position && !fix.no_height)
+      see_by_radar(fix, target->second.random);
+    else if (options_.radar)
+      fix.position.reset();
     if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
-    if (fix.truth && fix.measured())
+    if (fix.truth && fix.measured() && !fix.no_height)
       add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
         add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
       });
     step(target->second, fix);
   }
 
+  /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of
+  /// all for good, and the place a position in it.
+  void place(Target<Axes>& target, Fix& fix) {
+    if (!target.anchor) {
+      Geodetic here = *fix.place;
+      if (!file_anchor_) file_anchor_.emplace(recording_.origin().value_or(here));
+      target.anchor.emplace(fixed_ ? file_anchor_->origin() : recording_.origin().value_or(here));
+      const bool near = far_away(target.anchor->to_local(here)) == false;
+      for (std::size_t f = 0; f < filters_.size(); ++f) {
+        const bool stays = fixed_ || near || filters_[f].start == StartRule::given;
+        target.segments[f] = {{0, 0, stays ? *target.anchor : LocalFrame<Axes>(here)}};
+      }
+    }
+    if (!fixed_) return;
+    fix.position = Vector<3>::Zero();
+    fix.position->template head<Axes>() = target.anchor->to_local(*fix.place);
+    fix.place.reset();
+  }
+
+  /// So far from the origin of a frame its axes are no longer east and north.
+  static bool far_away(const Vector<Axes>& position) { return position.template head<2>().norm() > 50e3; }
+
+  /// Moves the frame of a filter along with a target that has gone far.
+  void follow(Target<Axes>& target, std::size_t f) {
+    Tracker<Axes>& tracker = target.trackers[f];
+    if (!target.anchor || fixed_ || !tracker.running()) return;
+    auto& segments = target.segments[f];
+    if (segments.back().starts == 0) segments.back().starts = tracker.starts();
+    if (tracker.starts() > segments.back().starts) {
+      segments.push_back({target.taken - 1, tracker.starts(), segments.back().frame});
+      if (!tracker.settings().smooth) segments.erase(segments.begin());
+    }
+    const Vector<Axes> position = tracker.now().estimate.mean.template head<Axes>();
+    if (!far_away(position)) return;
+    LocalFrame<Axes>& frame = segments.back().frame;
+    const SquareMatrix<Axes> turn = frame.local_axes(position);
+    if (tracker.transform(turn, -turn * position)) frame = LocalFrame<Axes>(frame.to_geodetic(position));
+  }
+
   void step(Target<Axes>& target, const Fix& fix) {
+    const bool again = fix.time_s == target.before;  // of another sensor: nothing starts from two rows of one time
+    target.before = fix.time_s;
     target.rows.push_back(fix);
     ++target.taken;
     if (!target.keeps_all && target.rows.size() > 2) target.rows.pop_front();
     std::optional<double> least;  // of the filters' NIS
+    std::size_t refusing = 0;     // filters whose gate turns the measurement away
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
       auto& tracker = target.trackers[f];
+      if (again && !tracker.running()) continue;
+      const std::size_t rejected = tracker.rejected();
       try {
-        tracker.take(fix.time_s, reading(fix, tracker.settings()), target.taken - 1, [&](std::size_t tag) {
+        tracker.take(fix.time_s, reading(fix, target, f), target.taken - 1, [&](std::size_t tag) {
           if (tracker.settings().smooth) return;
           const TrackPoint<Axes> now = tracker.now();
-          record(target.row(tag), f, now);
+          record(target, tag, f, now);
           if (tag + 1 == target.taken && now.nis && (!least || *now.nis < *least)) least = now.nis;
         });
+        follow(target, f);
       } catch (const InputError&) {
         throw;  // of the output
       } catch (const std::exception& error) {
         refuse_failure(f, fix, error);
       }
+      if (tracker.rejected() > rejected) ++refusing;
     }
+    if (refusing == filters_.size() && outcome_.refused_by_all++ == 0) outcome_.first_refused_line = fix.line;
     if (least) outcome_.outliers.add(fix.line, *least);
   }
 
@@ -157,22 +246,40 @@ class TrackRun {
         refuse_failure(f, target.rows.back(), error);
       }
       for (const auto& point : points)
-        if (!point.is_start) record(target.row(point.tag), f, point);
+        if (!point.is_start) record(target, point.tag, f, point);
     }
     target.rows.clear();
   }
 
   /// What a row measures, with the covariance that a filter believes.
-  std::optional<Reading<Axes>> reading(const Fix& fix, const FilterSettings& settings) const {
-    if (!fix.measured()) return std::nullopt;
+  std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
+    const Tracker<Axes>& tracker = target.trackers[f];
+    if (!fix.measured() || (fix.no_height && !tracker.running())) return std::nullopt;
+    const FilterSettings& settings = filters_[f];
     const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-    if (fix.seen) return radar_reading<Axes>(*fix.seen, accuracy.radar, radar_at_, settings.radar_measurement);
-    Gaussian<Axes> z{fix.position->template head<Axes>(), SquareMatrix<Axes>::Zero()};
-    for (Eigen::Index axis = 0; axis < Axes; ++axis) {
-      const auto& sigma = accuracy.position_m;
-      z.covariance(axis, axis) = std::pow(sigma.size() == 1 ? sigma[0] : sigma[static_cast<std::size_t>(axis)], 2);
+    const auto& own = fix.sigma;
+    if (fix.seen) {
+      const Polar& usual = accuracy.radar;
+      const Polar sigma{own[0].value_or(usual.range), own[1].value_or(usual.azimuth), own[2].value_or(usual.elevation)};
+      return radar_reading<Axes>(*fix.seen, sigma, radar_at_, settings.radar_measurement);
     }
-    return Reading<Axes>{z, std::nullopt};
+    Vector<Axes> position;
+    if (fix.place) {
+      const LocalFrame<Axes>& frame = target.segments[f].back().frame;
+      Geodetic place = *fix.place;  // without a height it is at the target's
+      if (fix.no_height)
+        place.altitude_m = frame.to_geodetic(tracker.now().estimate.mean.template head<Axes>()).altitude_m;
+      position = frame.to_local(place);
+    } else {
+      position = fix.position->template head<Axes>();
+    }
+    Gaussian<Axes> z{position, SquareMatrix<Axes>::Zero()};
+    for (Eigen::Index i = 0; i < Axes; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      const auto& sigma = accuracy.position_m;
+      z.covariance(i, i) = std::pow(own[axis].value_or(sigma.size() == 1 ? sigma[0] : sigma[axis]), 2);
+    }
+    return Reading<Axes>{z, fix.no_height ? Axes - 1 : Axes, std::nullopt};
   }
 
   template <class Add>
@@ -182,8 +289,13 @@ class TrackRun {
   }
 
   /// Takes down what filter f says of a row.
-  void record(const Fix& fix, std::size_t f, const TrackPoint<Axes>& point) {
-    if (estimates_) estimates_->add(fix.track, filters_[f], point);
+  void record(const Target<Axes>& target, std::size_t tag, std::size_t f, const TrackPoint<Axes>& point) {
+    const Fix& fix = target.row(tag);
+    if (estimates_ && target.anchor)
+      estimates_->add(fix.track, filters_[f], point, *target.anchor, target.frame(f, tag));
+    else if (estimates_)
+      estimates_->add(fix.track, filters_[f], point);
+    if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
     const auto& estimate = point.estimate;
     add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
       ++sums.count;
@@ -195,10 +307,7 @@ class TrackRun {
         add_error(sums, error);
       }
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-      if (point.nis) {
-        sums.nis += *point.nis;
-        ++sums.nis_count;
-      }
+      if (point.nis) sums.nis.add(*point.nis, usual_nis_);
     });
   }
 
@@ -229,6 +338,9 @@ class TrackRun {
   EstimatesFile* estimates_;
   std::map<std::string, Target<Axes>, std::less<>> targets_;
   TrackOutcome outcome_;
+  std::optional<LocalFrame<Axes>> file_anchor_;
+  double usual_nis_ = chi_square_quantile(0.95, Axes);
+  bool fixed_ = options_.radar || recording_.has_truth();  // whether all is about one point
   Vector<3> radar_at_ = Vector<3>::Zero();
 };
 

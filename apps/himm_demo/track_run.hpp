@@ -11,6 +11,7 @@
 
 #include <sigmax/estimation/metrics.hpp>
 
+#include "himm_demo/nis_tally.hpp"
 #include "himm_demo/track.hpp"
 #include "himm_demo/track_warnings.hpp"
 
@@ -34,8 +35,7 @@ struct Sums {
   std::array<RootMeanSquare, 3> error;
   std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
   std::vector<double> weights;
-  double nis = 0.0;
-  std::size_t nis_count = 0;
+  NisTally nis;
   std::size_t count = 0;
 };
 using SumsByPart = std::array<Sums, parts.size()>;
@@ -56,6 +56,9 @@ struct TrackOutcome {
   std::size_t tracks = 0;
   std::vector<std::string> never_started;      ///< tracks that are too short for a filter
   std::map<std::string, std::size_t> sensors;  ///< the rows of each
+  std::size_t refused_by_all = 0;              ///< measurements that every filter's gate turned away
+  std::size_t first_refused_line = 0;          ///< of the first of them
+  std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Validity validity;
   Outliers outliers;
 };

@@ -47,11 +47,13 @@ void Outliers::add(std::size_t line, double nis) {
   worst_nis_ = nis;
 }
 
-std::string Outliers::warning(const std::string& file, std::size_t measurements) const {
+std::string Outliers::warning(const std::string& file, std::size_t measurements, bool one_track) const {
+  const bool many = one_track && count_ >= 3 && 10 * count_ >= measurements;
   return fmt::format(
       "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
-      "or raise sigma_w or the sensor's sigmas",
-      file, worst_line_, worst_nis_, nis_limit, count_, measurements);
+      "or raise sigma_w or the sensor's sigmas{}",
+      file, worst_line_, worst_nis_, nis_limit, count_, measurements,
+      many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
 }
 
 }  // namespace sigmax::apps

@@ -33,7 +33,8 @@ class Outliers {
   void add(std::size_t line, double nis);
 
   bool any() const { return count_ > 0; }
-  std::string warning(const std::string& file, std::size_t measurements) const;
+  /// `one_track`: the rows were all taken for one target's.
+  std::string warning(const std::string& file, std::size_t measurements, bool one_track) const;
 
  private:
   std::size_t count_ = 0;

@@ -21,6 +21,17 @@ template <int Axes>
 AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag) {
   AnyPlot plot{.time = time, .tag = tag};
   if (!reading) return plot;
+  if (reading->measured < Axes) {
+    plot.sensor = AnyPlot::Sensor::components;
+    plot.size = reading->measured;
+    for (int i = 0; i < plot.size; ++i) {
+      plot.places[static_cast<std::size_t>(i)] = i;
+      plot.z[static_cast<std::size_t>(i)] = reading->position.mean(i);
+      for (int j = 0; j < plot.size; ++j)
+        plot.covariance[static_cast<std::size_t>(i * plot.size + j)] = reading->position.covariance(i, j);
+    }
+    return plot;
+  }
   plot.sensor = reading->seen ? AnyPlot::Sensor::polar : AnyPlot::Sensor::position;
   plot.size = Axes;
   const auto& z = reading->z();
@@ -60,6 +71,13 @@ void Tracker<Axes>::take(double time, const std::optional<Reading<Axes>>& readin
   target_.take(plot_of(time, reading, tag), [&](std::size_t of, bool is_start) {
     if (!is_start) stepped(of);
   });
+}
+
+template <int Axes>
+bool Tracker<Axes>::transform(const SquareMatrix<Axes>& A, const Vector<Axes>& b) {
+  const SquareMatrix<Axes> by_rows = A.transpose();
+  return target_.transform({by_rows.data(), static_cast<std::size_t>(by_rows.size())},
+                           {b.data(), static_cast<std::size_t>(b.size())});
 }
 
 template <int Axes>

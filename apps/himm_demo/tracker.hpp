@@ -47,6 +47,10 @@ class Tracker {
   /// How many measurements the gate has turned away.
   std::size_t rejected() const { return target_.rejected(); }
 
+  /// Tells what is known in other coordinates, A x + b; so the derivatives are turned by A. A target that waits for its
+  /// start or has rejected the last plots is left alone: returns whether it was told.
+  bool transform(const SquareMatrix<Axes>& A, const Vector<Axes>& b);
+
   /// The output now, as the settings ask for it.
   Point now() const;
 

@@ -1,61 +1,45 @@
 #pragma once
 
+#include <sigmax/estimation/gaussian.hpp>
+
 namespace sigmax::apps {
 
-/// A point above the WGS 84 ellipsoid: radians, and metres along the ellipsoid's normal.
+/// A point above the WGS 84 ellipsoid: degrees, and metres along the ellipsoid's normal.
 struct Geodetic {
-  double latitude = 0.0;
-  double longitude = 0.0;
-  double altitude = 0.0;
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double altitude_m = 0.0;
 
   /// Throws std::invalid_argument unless |latitude| ≤ 90°, |longitude| ≤ 360° and the altitude is finite.
-  static Geodetic from_degrees(double latitude_deg, double longitude_deg, double altitude_m);
-
-  double latitude_deg() const;
-  double longitude_deg() const;
+  static Geodetic checked(double latitude_deg, double longitude_deg, double altitude_m);
 };
 
-/// Metres in the frame that turns with the Earth: x to latitude and longitude zero, z to the north pole.
-struct Ecef {
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-};
-
-/// Metres in the plane that touches the ellipsoid's surface of equal altitude at an origin, and above it.
-struct EastNorthUp {
-  double east = 0.0;
-  double north = 0.0;
-  double up = 0.0;
-};
-
-Ecef to_ecef(const Geodetic& point);
-
-/// The inverse, good to rounding for altitudes above −5000 km; longitude in (−π, π], and 0 at the poles.
-Geodetic to_geodetic(const Ecef& point);
-
-/// East, north and up about an origin; at a pole the origin's longitude says which way is north.
+/// East, north and, with three axes, up about an origin, in m. At a pole the origin's longitude says which way is
+/// north.
+///
+/// Three axes are Cartesian. Two axes are a map of the ellipsoid that keeps distances and directions from the origin
+/// (azimuthal equidistant), so that no point of the Earth comes out near another.
+template <int Axes>
 class LocalFrame {
  public:
-  explicit LocalFrame(const Geodetic& origin);
+  explicit LocalFrame(const Geodetic& origin) : origin_(origin) {}
 
   const Geodetic& origin() const { return origin_; }
 
-  EastNorthUp to_local(const Ecef& point) const;
-  EastNorthUp to_local(const Geodetic& point) const { return to_local(apps::to_ecef(point)); }
-  Ecef to_ecef(const EastNorthUp& point) const;
-  Geodetic to_geodetic(const EastNorthUp& point) const { return apps::to_geodetic(to_ecef(point)); }
+  Vector<Axes> to_local(const Geodetic& point) const;
 
-  /// The point of altitude 0 this far east and north, for distances that are small beside the Earth's radius.
-  Geodetic to_surface(double east, double north) const;
+  /// With two axes the altitude is 0.
+  Geodetic to_geodetic(const Vector<Axes>& position) const;
+
+  /// What a velocity at this position is to east, north and up there: a rotation; with two axes it also undoes the
+  /// map's stretching.
+  SquareMatrix<Axes> local_axes(const Vector<Axes>& position) const;
 
  private:
   Geodetic origin_;
-  Ecef center_;
-  double sin_latitude_;
-  double cos_latitude_;
-  double sin_longitude_;
-  double cos_longitude_;
 };
+
+extern template class LocalFrame<2>;
+extern template class LocalFrame<3>;
 
 }  // namespace sigmax::apps

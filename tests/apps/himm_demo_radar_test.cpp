@@ -13,9 +13,8 @@
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/kinematic_model.hpp>
-#include <sigmax/estimation/observed.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/estimation/unscented.hpp>
@@ -111,7 +110,7 @@ Gaussian<Axes> converted(const Row& row, Conversion conversion) {
 }
 
 template <int Axes>
-void expect_near(const TextRow& found, const EstimateOf<KinematicModel<Axes, 2>>& expected, double nis) {
+void expect_near(const TextRow& found, const Gaussian<2 * Axes>& expected, double nis) {
   const std::vector<const char*> names = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
   for (int i = 0; i < 2 * Axes; ++i) {
     const std::string name = names[static_cast<std::size_t>(i / Axes * 3 + i % Axes)];
@@ -159,14 +158,15 @@ TEST(HimmDemoRadar, EachConversionIsTheLibrarys) {
 template <int Axes, template <class> class Member>
 void equals_own_space_by_hand(const std::string& member) {
   const PolarSensor<Axes> radar{Vector<Axes>(radar_at.head<Axes>())};
-  const Member seen{Observed{dwna<Axes>(2.0), radar}};
+  const Member seen{dwna<Axes>(2.0)};
   equals_by_hand<Axes>(
       passing_target(Axes, true), {"models=[dwna]", "sigma_w=2", "radar_measurement=polar", "member=" + member},
       Conversion::unbiased, [&](const Row& row, auto& estimate) {
         if (!row.by_radar)
           return update(dwna<Axes>(2.0), estimate, converted<Axes>(row, Conversion::standard), estimate)
               .squared_distance;
-        return update(seen, estimate, PolarSensor<Axes>::measurement(row.seen, sigma), estimate).squared_distance;
+        return update(seen, estimate, PolarSensor<Axes>::measurement(row.seen, sigma), radar, estimate)
+            .squared_distance;
       });
 }
 
@@ -184,8 +184,7 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
                                             "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
   ASSERT_EQ(found.size(), rows.size() - 3);
   const PolarSensor<2> radar{Vector<2>(radar_at.head<2>())};
-  const std::tuple models{Unscented{Observed{dwna<2>(2.0), radar}},
-                          Unscented{Observed{CoordinatedTurn<2>(0.25, 0.09 * degree * degree), radar}}};
+  const std::tuple models{Unscented{dwna<2>(2.0)}, Unscented{CoordinatedTurn<2>(0.25, 0.09 * degree * degree)}};
   const auto straight = two_point_start<2>({rows[1].time, converted<2>(rows[1], Conversion::unbiased)},
                                            {rows[2].time, converted<2>(rows[2], Conversion::unbiased)});
   Gaussian<5> turning{Vector<5>::Zero(), SquareMatrix<5>::Zero()};
@@ -196,7 +195,7 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
   InteractingMultipleModel filter{models, Relation{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}},
                                   std::tuple{straight, turning}};
   for (std::size_t k = 3; k < rows.size(); ++k) {
-    filter.step(rows[k].time - rows[k - 1].time, PolarSensor<2>::measurement(rows[k].seen, sigma));
+    filter.step(rows[k].time - rows[k - 1].time, PolarSensor<2>::measurement(rows[k].seen, sigma), radar);
     const auto estimate = filter.estimate();
     const auto& row = found[k - 3];
     SCOPED_TRACE("row " + std::to_string(k));

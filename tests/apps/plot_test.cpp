@@ -1,4 +1,4 @@
-#include "support/plot.hpp"
+#include "examples/plot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,84 @@
+// Tracks on the Earth: wherever they are and however far they go, places, speeds and climbs are those there.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "apps/recordings.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double equator = 6378137.0;
+
+std::vector<TextRow> estimates(const std::string& recording, std::vector<std::string> options) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("places.csv", recording);
+  options.insert(options.begin(), {"track", file, "--quiet", "--out", directory.path() / "out"});
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, options);
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  return rows(contents(directory.path() / "out" / "estimates.csv"));
+}
+
+TEST(HimmDemoPlaces, TwoShipsOfOneFileAreOnTheirHemispheres) {
+  std::string text = "time_s,ship,latitude_deg,longitude_deg\n";
+  for (int k = 0; k < 40; ++k) {
+    text += exact(10.0 * k) + ",north," + exact(50.0 + 0.0009 * k) + ",-1\n";
+    text += exact(10.0 * k) + ",south," + exact(-36.0 - 0.0009 * k) + ",175\n";
+  }
+  const auto found = estimates(text, {"--track-id", "ship", "--set", "sigma_position_m=1", "--set", "sigma_w=0.1"});
+  ASSERT_EQ(found.size(), 2U * 2U * 37U);
+  for (const auto& row : found) {
+    const bool north = row.at("track") == "north";
+    const double way = 0.00009 * number(row.at("time_s"));
+    EXPECT_NEAR(number(row.at("latitude_deg")), north ? 50.0 + way : -36.0 - way, 5e-5);
+    EXPECT_NEAR(number(row.at("longitude_deg")), north ? -1.0 : 175.0, 1e-6);
+    EXPECT_NEAR(number(row.at("vy_mps")), north ? 10.01 : -9.985, 0.6);
+    EXPECT_NEAR(number(row.at("vx_mps")), 0.0, 0.1);
+    EXPECT_NEAR(number(row.at("x_m")), 0.0, 0.5);  // of its own first row
+  }
+}
+
+TEST(HimmDemoPlaces, AnOriginFarAwayMovesNoShip) {
+  std::string text = "time_s,latitude_deg,longitude_deg\n";
+  for (int k = 0; k < 40; ++k) text += exact(10.0 * k) + ",0," + exact(120.0 + 0.0009 * k) + "\n";
+  for (const auto& row : estimates(text, {"--origin", "0,0,0", "--set", "sigma_position_m=1"})) {
+    EXPECT_NEAR(number(row.at("longitude_deg")), 120.0 + 0.00009 * number(row.at("time_s")), 5e-5);
+    EXPECT_NEAR(number(row.at("latitude_deg")), 0.0, 1e-6);
+    EXPECT_NEAR(number(row.at("vx_mps")), 10.02, 0.6);
+    EXPECT_GT(number(row.at("x_m")), 1.3e7);
+  }
+}
+
+TEST(HimmDemoPlaces, AShipThatGoesAroundTheEarthKeepsItsSpeed) {
+  std::string text = "time_s,latitude_deg,longitude_deg\n";
+  for (int k = 0; k < 450; ++k) text += exact(1000.0 * k) + ",0," + exact(1e4 * k / equator / degree) + "\n";
+  const auto found = estimates(text, {"--set", "sigma_w=0.0001", "--set", "models=dwna"});
+  ASSERT_EQ(found.size(), 2U * 447U);
+  for (const auto& row : found) {
+    EXPECT_NEAR(number(row.at("vx_mps")), 10.0, 0.02) << row.at("time_s");
+    EXPECT_NEAR(number(row.at("vy_mps")), 0.0, 0.02);
+    EXPECT_NEAR(number(row.at("longitude_deg")), number(row.at("time_s")) * 10.0 / equator / degree, 2e-4);
+  }
+}
+
+TEST(HimmDemoPlaces, LevelFlightClimbsNowhere) {
+  std::string text = "time_s,latitude_deg,longitude_deg,altitude_m\n";
+  for (int k = 0; k < 400; ++k)  // 800 km along a parallel at 60°
+    text += exact(10.0 * k) + ",60," + exact(2000.0 * k / (equator * 0.5) / degree) + ",10000\n";
+  for (const char* smooth : {"false", "true"})
+    for (const auto& row : estimates(text, {"--set", "sigma_w=0.05", "--set", std::string("smooth=") + smooth})) {
+      EXPECT_NEAR(number(row.at("vz_mps")), 0.0, 0.6) << row.at("time_s");
+      EXPECT_NEAR(number(row.at("altitude_m")), 10000.0, 30.0);
+      EXPECT_NEAR(number(row.at("latitude_deg")), 60.0, 5e-4);
+    }
+}
+
+}  // namespace
+}  // namespace sigmax::apps
