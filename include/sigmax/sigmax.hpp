@@ -38,6 +38,7 @@
 #include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
+#include <sigmax/estimation/cholesky.hpp>
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>

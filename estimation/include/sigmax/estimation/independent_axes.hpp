@@ -80,29 +80,36 @@ void predict_axes(const SquareMatrix<Order>& f, const SquareMatrix<Order>& q, co
                   Gaussian<Axes * Order>& result) {
   auto& x = result.mean;
   auto& P = result.covariance;
-  auto terms = P.diagonal().eval();           // of the variances of F P Fᵀ, before they may cancel
-  for (Eigen::Index a = 0; a < Order; ++a) {  // later blocks are still unchanged
-    if (f(a, a) != 1.0) {
-      terms.template segment<Axes>(a * Axes) *= f(a, a) * f(a, a);
-      x.template segment<Axes>(a * Axes) *= f(a, a);
-      P.template middleRows<Axes>(a * Axes) *= f(a, a);
+  Vector<Axes* Order> terms = P.diagonal();  // of the variances of F P Fᵀ, before they may cancel
+  // Plain loops: Eigen's expressions of all these blocks are slow to compile. Row a becomes f(a, a) · row a + …, and
+  // later rows are still unchanged; then the columns likewise.
+  constexpr Eigen::Index size = Axes * Order;
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const Eigen::Index a = row / Axes;
+    if (const double scale = f(a, a); scale != 1.0) {
+      terms(row) *= scale * scale;
+      x(row) *= scale;
+      for (Eigen::Index k = 0; k < size; ++k) P(row, k) *= scale;
     }
     for (Eigen::Index b = a + 1; b < Order; ++b) {
-      terms.template segment<Axes>(a * Axes) += f(a, b) * f(a, b) * terms.template segment<Axes>(b * Axes);
-      x.template segment<Axes>(a * Axes) += f(a, b) * x.template segment<Axes>(b * Axes);
-      P.template middleRows<Axes>(a * Axes) += f(a, b) * P.template middleRows<Axes>(b * Axes);
+      const Eigen::Index other = row + (b - a) * Axes;
+      terms(row) += f(a, b) * f(a, b) * terms(other);
+      x(row) += f(a, b) * x(other);
+      for (Eigen::Index k = 0; k < size; ++k) P(row, k) += f(a, b) * P(other, k);
     }
   }
-  for (Eigen::Index a = 0; a < Order; ++a) {
-    if (f(a, a) != 1.0) P.template middleCols<Axes>(a * Axes) *= f(a, a);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    const Eigen::Index a = column / Axes;
+    if (const double scale = f(a, a); scale != 1.0)
+      for (Eigen::Index k = 0; k < size; ++k) P(k, column) *= scale;
     for (Eigen::Index b = a + 1; b < Order; ++b)
-      P.template middleCols<Axes>(a * Axes) += f(a, b) * P.template middleCols<Axes>(b * Axes);
+      for (Eigen::Index k = 0; k < size; ++k) P(k, column) += f(a, b) * P(k, column + (b - a) * Axes);
   }
-  x += input;
-  for (Eigen::Index a = 0; a < Order; ++a)
-    for (Eigen::Index b = 0; b < Order; ++b)
-      P.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().array() += q(a, b);
-  P.diagonal() += rounding * terms;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    x(i) += input(i);
+    for (Eigen::Index b = 0; b < Order; ++b) P(i, i % Axes + b * Axes) += q(i / Axes, b);
+    P(i, i) += rounding * terms(i);
+  }
   mirror_lower(P);
 }
 

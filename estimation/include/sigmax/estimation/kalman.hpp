@@ -8,8 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include <Eigen/Cholesky>
-
+#include <sigmax/estimation/cholesky.hpp>
 #include <sigmax/estimation/sensing.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
@@ -77,13 +76,13 @@ namespace detail {
 /// Cholesky's factor of S. A pivot that drowned in the rounding of S, as where one model's spread is 10⁸ times as wide
 /// as the measurement, is lifted above it.
 template <int M, int MaxM>
-Eigen::LLT<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
-  Eigen::LLT<SquareMatrix<M, MaxM>> factors(S);
-  if (factors.info() == Eigen::Success &&
-      (factors.matrixLLT().diagonal().array().square() >= rounding * S.diagonal().array()).all())
-    return factors;
+std::optional<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
+  const auto L = cholesky_factor(S);
+  bool drowned = !L;
+  for (Eigen::Index k = 0; !drowned && k < S.rows(); ++k) drowned = !((*L)(k, k) * (*L)(k, k) >= rounding * S(k, k));
+  if (!drowned) return L;
   S.diagonal() *= 1.0 + rounding;
-  return factors.compute(S);
+  return cholesky_factor(S);
 }
 
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
@@ -91,18 +90,14 @@ Eigen::LLT<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
 template <int M, int MaxM>
 SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& measurement,
                             Innovation<M, MaxM>& innovation) {
-  const Eigen::LLT<SquareMatrix<M, MaxM>> S = factorised<M, MaxM>(innovation.covariance);
-  if (S.info() != Eigen::Success)
+  const auto L = factorised(innovation.covariance);
+  if (!L)
     throw std::domain_error("the innovation covariance of model '" + std::string(model) + "' is not positive definite");
-  // L⁻¹ column by column: for vectors of this size Eigen's triangular solver is unrolled. S⁻¹ = L⁻ᵀ L⁻¹.
-  const Eigen::Index m = measurement.size();
-  SquareMatrix<M, MaxM> L_inverse(m, m);
-  for (Eigen::Index column = 0; column < m; ++column)
-    L_inverse.col(column) = S.matrixL().solve(Vector<M, MaxM>::Unit(m, column));
+  const SquareMatrix<M, MaxM> L_inverse = lower_inverse(*L);  // S⁻¹ = L⁻ᵀ L⁻¹
   const Vector<M, MaxM> whitened = L_inverse * innovation.residual;
   innovation.squared_distance = whitened.squaredNorm();
-  innovation.log_likelihood = -0.5 * innovation.squared_distance - S.matrixLLT().diagonal().array().log().sum() -
-                              0.5 * static_cast<double>(m) * std::log(2.0 * std::numbers::pi);
+  innovation.log_likelihood = -0.5 * innovation.squared_distance - L->diagonal().array().log().sum() -
+                              0.5 * static_cast<double>(measurement.size()) * std::log(2.0 * std::numbers::pi);
   if (!std::isfinite(innovation.squared_distance)) {  // infinite also for a finite measurement that is too far off
     if (!all_finite(measurement))
       throw std::invalid_argument("a measurement of model '" + std::string(model) +

@@ -58,12 +58,13 @@ class Lifted {
   /// covariance += weight · the lifted covariance.
   void add_covariance(double weight, SquareMatrix<N, MaxN>& covariance) const {
     if (map_.nested) {
-      covariance.topLeftCorner(shared(), shared()) += weight * source_.covariance.topLeftCorner(shared(), shared());
-      const auto& own = receiver_.covariance;
-      if (rule_ == Lift::unbiased)
-        covariance.bottomRightCorner(missing(), missing()) += weight * own.bottomRightCorner(missing(), missing());
-      else if (rule_ == Lift::borrowed_variance)
-        covariance.diagonal().tail(missing()) += weight * own.diagonal().tail(missing());
+      const Eigen::Index both = shared();  // plain loops: Eigen's expressions of all these blocks are slow to compile
+      for (Eigen::Index k = 0; k < both; ++k)
+        for (Eigen::Index i = 0; i < both; ++i) covariance(i, k) += weight * source_.covariance(i, k);
+      if (rule_ == Lift::zero) return;
+      for (Eigen::Index k = both; k < size(); ++k)
+        for (Eigen::Index i = both; i < size(); ++i)
+          if (rule_ == Lift::unbiased || i == k) covariance(i, k) += weight * receiver_.covariance(i, k);
     } else {
       for (Eigen::Index i = 0; i < size(); ++i)
         for (Eigen::Index k = 0; k < size(); ++k) covariance(i, k) += weight * entry(i, k);

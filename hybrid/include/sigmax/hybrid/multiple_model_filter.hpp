@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include <sigmax/core/logarithm.hpp>
+#include <sigmax/estimation/cholesky.hpp>
 #include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
@@ -215,8 +214,8 @@ class MultipleModelFilter {
     return result;
   }
   static double squared_distance(const Predicted& innovation) {
-    const Eigen::LLT<SquareMatrix<Eigen::Dynamic, max_measurement_size>> S(innovation.covariance);
-    return S.matrixL().solve(innovation.mean).squaredNorm();
+    const auto L = cholesky_factor(innovation.covariance);
+    return L ? lower_solve(*L, innovation.mean).squaredNorm() : std::numeric_limits<double>::infinity();
   }
 
   template <int M, int MaxM>
