@@ -91,11 +91,11 @@ std::optional<std::size_t> CsvReader::find(std::string_view name) const {
 std::size_t CsvReader::column(std::string_view name) const {
   if (const auto index = find(name)) return *index;
   const auto& names = header_->names;
-  const bool other_separator = names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos;
+  const bool other_separator = names.size() == 1 && names[0].find(';') != std::string::npos;
   throw InputError(
       message({.where = file(),
                .what = fmt::format("there is no column {}", in_quotes(name)),
-               .remedy = other_separator ? "the fields seem to be separated by ';' or tabs: separate them by commas"
+               .remedy = other_separator ? "the fields seem to be separated by ';': separate them by commas or tabs"
                                          : fmt::format("the columns are {}", fmt::join(names, ", "))}));
 }
 
@@ -106,6 +106,9 @@ void CsvReader::read_header() {
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
     throw InputError(message({.where = file(), .found = "UTF-16 text", .expected = "UTF-8", .remedy = "convert it"}));
 
+  const std::string_view first_line = start.substr(0, start.find_first_of("\r\n", start.find_first_not_of("\r\n")));
+  if (first_line.find(',') == std::string_view::npos && first_line.find('\t') != std::string_view::npos)
+    separator_ = '\t';
   CsvRow row;
   if (!read_record(row))
     throw InputError(message({.where = file(),
@@ -144,15 +147,16 @@ bool CsvReader::read_record(CsvRow& row) {
     for (bool in_record = true; in_record;) {
       const std::size_t begin = row.ends_.empty() ? 0 : row.ends_.back();
       int byte = get();
-      for (; byte != ',' && byte != '\n' && byte != '\r' && byte != end_of_file; byte = get()) {
+      for (; byte != separator_ && byte != '\n' && byte != '\r' && byte != end_of_file; byte = get()) {
         if (byte == '"' && is_blank(std::string_view{row.text_}.substr(begin))) {
           row.text_.resize(begin);
           had_quotes = true;
           read_quoted(row);
-          while (peek() == ' ' || peek() == '\t') get();
-          if (const int after = peek(); after != ',' && after != '\n' && after != '\r' && after != end_of_file)
+          while (peek() != separator_ && (peek() == ' ' || peek() == '\t')) get();
+          if (const int after = peek(); after != separator_ && after != '\n' && after != '\r' && after != end_of_file)
             throw error(line_, {.found = in_quotes({&buffer_[position_], 1}) + " after a closing quote",
-                                .expected = "a comma or the end of the line",
+                                .expected = separator_ == ',' ? "a comma or the end of the line"
+                                                              : "a tab or the end of the line",
                                 .remedy = "write a quote inside quotes twice"});
         } else {
           append(row, byte);
@@ -160,7 +164,7 @@ bool CsvReader::read_record(CsvRow& row) {
       }
       row.ends_.push_back(row.text_.size());
       refuse_endless(row);
-      in_record = byte == ',';
+      in_record = byte == separator_;
       if (!in_record) end_line(byte);
     }
   } while (row.ends_.size() == 1 && !had_quotes && is_blank(row.text_));

@@ -53,8 +53,9 @@ class CsvRow {
 ///     const std::size_t x = reader.column("x_m");
 ///     for (CsvRow row; reader.next(row);) use(row.number(x));
 ///
-/// Lines end with LF, CR LF or CR, and blank ones are skipped; blanks around a quoted field are allowed. Malformed
-/// input throws InputError with file and line.
+/// Fields are separated by commas, or by tabs if the first line has tabs and no comma. Lines end with LF, CR LF or CR,
+/// and blank ones are skipped; blanks around a quoted field are allowed. Malformed input throws InputError with file
+/// and line.
 class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path);
@@ -107,6 +108,7 @@ class CsvReader {
   std::uint64_t bytes_before_ = 0;
   std::optional<std::uint64_t> bytes_total_;
   std::size_t line_ = 1;
+  char separator_ = ',';
   bool ended_ = false;  // the last record ran into the end of the file
 };
 

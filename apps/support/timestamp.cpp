@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "support/input.hpp"
 
@@ -52,6 +56,35 @@ class Scanner {
   std::string_view rest_;
 };
 
+struct TimeOfDay {
+  std::int64_t whole_s;
+  double fraction_s;
+};
+
+/// hh:mm:ss, and a fraction if any.
+std::optional<TimeOfDay> time_of_day(Scanner& scan) {
+  const auto hour = scan.number(2, 23);
+  if (!hour || !scan.take(':')) return std::nullopt;
+  const auto minute = scan.number(2, 59);
+  if (!minute || !scan.take(':')) return std::nullopt;
+  const auto second = scan.number(2, 60);
+  if (!second) return std::nullopt;
+  TimeOfDay time{(*hour * 60 + *minute) * 60 + *second, 0.0};
+  if (scan.take('.') || scan.take(',')) {
+    const auto fraction = scan.fraction();
+    if (!fraction) return std::nullopt;
+    time.fraction_s = *fraction;
+  }
+  return time;
+}
+
+std::optional<double> parse_time_of_day(std::string_view text) {
+  Scanner scan(text);
+  const auto time = time_of_day(scan);
+  if (!time || !scan.at_end()) return std::nullopt;
+  return static_cast<double>(time->whole_s) + time->fraction_s;
+}
+
 std::optional<double> parse_date_and_time(std::string_view text) {
   using namespace std::chrono;
   Scanner scan(text);
@@ -61,25 +94,13 @@ std::optional<double> parse_date_and_time(std::string_view text) {
   if (!month_number || !scan.take('-')) return std::nullopt;
   const auto day_number = scan.number(2, 31);
   if (!day_number || !(scan.take('T') || scan.take(' '))) return std::nullopt;
-  const auto hour = scan.number(2, 23);
-  if (!hour || !scan.take(':')) return std::nullopt;
-  const auto minute = scan.number(2, 59);
-  if (!minute || !scan.take(':')) return std::nullopt;
-  const auto second = scan.number(2, 60);
-  if (!second) return std::nullopt;
-
   const year_month_day date{year{*year_number}, month{static_cast<unsigned>(*month_number)},
                             day{static_cast<unsigned>(*day_number)}};
   if (!date.ok()) return std::nullopt;
+  const auto time = time_of_day(scan);
+  if (!time) return std::nullopt;
   const std::int64_t days = sys_days{date}.time_since_epoch().count();
-  std::int64_t whole = ((days * 24 + *hour) * 60 + *minute) * 60 + *second;
-
-  double fraction = 0.0;
-  if (scan.take('.') || scan.take(',')) {
-    const auto digits = scan.fraction();
-    if (!digits) return std::nullopt;
-    fraction = *digits;
-  }
+  std::int64_t whole = days * 86400 + time->whole_s;
 
   if (!scan.take('Z') && !scan.at_end()) {
     const bool ahead = scan.take('+');
@@ -91,7 +112,7 @@ std::optional<double> parse_date_and_time(std::string_view text) {
     whole -= (ahead ? 60 : -60) * (*hours * 60 + *minutes);
   }
   if (!scan.at_end()) return std::nullopt;
-  return static_cast<double>(whole) + fraction;
+  return static_cast<double>(whole) + time->fraction_s;
 }
 
 }  // namespace
@@ -99,7 +120,25 @@ std::optional<double> parse_date_and_time(std::string_view text) {
 std::optional<double> parse_timestamp(std::string_view text) {
   text = trimmed(text);
   if (const auto seconds = parse_number(text)) return seconds;
+  if (const auto seconds = parse_time_of_day(text)) return seconds;
   return parse_date_and_time(text);
+}
+
+std::string iso_time(double seconds) {
+  using namespace std::chrono;
+  if (!(seconds >= -62167219200.0 && seconds < 253402300799.0)) throw std::out_of_range("iso_time: no year 0 to 9999");
+  const microseconds total{std::llround(seconds * 1e6)};
+  const auto day = floor<days>(total);
+  const year_month_day date{sys_days{day}};
+  const hh_mm_ss time{total - day};
+  std::string text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                                 static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                                 time.hours().count(), time.minutes().count(), time.seconds().count());
+  if (time.subseconds().count() != 0) {
+    text += fmt::format(".{:06}", time.subseconds().count());
+    text.erase(text.find_last_not_of('0') + 1);
+  }
+  return text + "Z";
 }
 
 }  // namespace sigmax::apps

@@ -1,15 +1,21 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace sigmax::apps {
 
-/// A time in seconds: a plain number, or an ISO 8601 date and time as seconds since 1970-01-01 UTC.
+/// A time in seconds: a plain number, an ISO 8601 date and time as seconds since 1970-01-01 UTC, or a time of day,
+/// hh:mm:ss with a fraction if any, as seconds since midnight.
 ///
-/// The latter is YYYY-MM-DD, 'T' or a blank, hh:mm:ss, a fraction after '.' or ',' if any, and 'Z' or ±hh:mm, without
-/// which it is UTC. As in POSIX time a leap second, ss = 60, is the first second of the next minute. Blanks around it
-/// are allowed and nothing else.
+/// A date and time is YYYY-MM-DD, 'T' or a blank, hh:mm:ss, a fraction after '.' or ',' if any, and 'Z' or ±hh:mm,
+/// without which it is UTC. As in POSIX time a leap second, ss = 60, is the first second of the next minute. Blanks
+/// around it are allowed and nothing else.
 std::optional<double> parse_timestamp(std::string_view text);
+
+/// Seconds since 1970-01-01 UTC as a date and time, 2016-01-12T13:02:11.218Z, to the microsecond. Years 0 to 9999;
+/// others throw std::out_of_range.
+std::string iso_time(double seconds);
 
 }  // namespace sigmax::apps

@@ -147,7 +147,7 @@ TEST(Csv, NoticesAnotherSeparator) {
   std::istringstream stream{"time_s;x_m\n1;2"};
   const CsvReader reader{stream, "f.csv"};
   EXPECT_EQ(message_of<InputError>([&] { reader.column("x_m"); }),
-            "f.csv: there is no column 'x_m'; the fields seem to be separated by ';' or tabs: separate them by commas");
+            "f.csv: there is no column 'x_m'; the fields seem to be separated by ';': separate them by commas or tabs");
 }
 
 TEST(Csv, ReadsNumbers) {

@@ -1,5 +1,7 @@
 #include "support/timestamp.hpp"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
@@ -40,6 +42,21 @@ TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {
   EXPECT_EQ(parse_timestamp("2016-12-31T23:59:60Z"), parse_timestamp("2017-01-01T00:00:00Z"));
 }
 
+TEST(Timestamp, ATimeOfDayIsSecondsSinceMidnight) {
+  EXPECT_EQ(parse_timestamp("00:00:00"), 0.0);
+  EXPECT_EQ(parse_timestamp(" 10:15:08.5 "), 36908.5);
+  EXPECT_FALSE(parse_timestamp("24:00:00"));
+  EXPECT_FALSE(parse_timestamp("10:15"));
+  EXPECT_FALSE(parse_timestamp("10:15:08Z"));
+}
+
+TEST(Timestamp, WrittenDatesReadBack) {
+  EXPECT_EQ(iso_time(0.0), "1970-01-01T00:00:00Z");
+  for (const char* text : {"2016-02-29T23:59:59.25Z", "1969-12-31T23:59:59.999999Z", "0000-01-01T00:00:00Z"})
+    EXPECT_EQ(iso_time(*parse_timestamp(text)), text);
+  EXPECT_THROW(iso_time(1e300), std::out_of_range);
+}
+
 TEST(Timestamp, NothingElseIsATime) {
   for (const std::string text : {"",
                                  " ",
@@ -47,7 +64,7 @@ TEST(Timestamp, NothingElseIsATime) {
                                  "nan",
                                  "inf",
                                  "2016-01-12",
-                                 "13:02:11",
+
                                  "2016-1-12T13:02:11",
                                  "2016-01-12T13:02",
                                  "2016-01-12T13:02:11.",
