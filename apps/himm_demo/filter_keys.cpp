@@ -298,6 +298,14 @@ std::vector<FilterKey> made_filter_keys() {
       optional_number("restart_after_s",
                       "After so long without a measurement that passes, the filter starts again from the next three.",
                       &F::restart_after_s, {"a positive time, in s", positive}),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           number<F>(
+               "restart_after_rejections",
+               "After so many measurements in a row that the gate turned away, the filter starts again from them. 0 "
+               "is never.",
+               &F::restart_after_rejections,
+               {"a whole number from 0 to 1000",
+                [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
       smooth(),
       choice("radar_measurement",
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "

@@ -30,6 +30,7 @@ struct FilterSettings : TargetChoice {
   double leaving_possibility = 0.5;       ///< of a mode for each other one, unless `transition` is given
   double gate_probability = 1.0;          ///< that a right measurement passes the gate; 1 is no gate
   std::optional<double> restart_after_s;  ///< without a measurement that passes
+  double restart_after_rejections = 5.0;  ///< in a row; 0 is never
   bool smooth = false;                    ///< whether the output is of the whole recording rather than the past
   RadarForm radar_measurement = RadarForm::standard;
   Accuracy accuracy{{}, {10.0}};

@@ -95,7 +95,7 @@ class Reporter {
     if (outcome_.refused_by_all > 0)
       text_ += fmt::format("Turned away by every filter: {}, the first on line {}\n", outcome_.refused_by_all,
                            outcome_.first_refused_line);
-    by_filter("restarts", "Starts after a gap", &FilterOutcome::restarts);
+    by_filter("restarts", "Starts after a gap, or after rejections in a row", &FilterOutcome::restarts);
     if (!options_.radar) return;
     const auto& sigma = *options_.radar;
     const auto at = radar_at();

@@ -11,7 +11,7 @@ TargetChoice choice_of(const FilterSettings& settings, int axes) {
   TargetChoice choice = settings;
   choice.axes = axes;
   choice.rules = {.gate_probability = settings.gate_probability,
-                  .rejections = 0,
+                  .rejections = static_cast<std::size_t>(settings.restart_after_rejections),
                   .longest_gap = settings.restart_after_s.value_or(std::numeric_limits<double>::infinity()),
                   .record = settings.smooth};
   return choice;

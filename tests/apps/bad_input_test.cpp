@@ -267,7 +267,7 @@ std::vector<Case> cases() {
        2},
       {"AzimuthOfCartesianInput", good, {"--azimuth-from is for radar"}, with({"--azimuth-from", "north"}), "", 2},
       {"AzimuthFromWest", polar, {"--azimuth-from", "--help"}, with({"--azimuth-from", "west"}), "", 2},
-      {"UnknownName", good, {"'what' is not one of time_s, x_m"}, with({"--columns", "what=x_m"}), "", 2},
+      {"UnknownName", good, {"'what' is not one of time_s", "x_m"}, with({"--columns", "what=x_m"}), "", 2},
       {"SelectionWithoutValue", good, {"--select: 'x_m' is not COLUMN=VALUE"}, with({"--select", "x_m"}), "", 2},
   };
 }
