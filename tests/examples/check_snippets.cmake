@@ -11,7 +11,11 @@ function(plain_code text result)
 endfunction()
 
 file(READ "${DOCUMENT}" rest)
-file(READ "${TEST}" test)
+set(test "")
+foreach(file IN LISTS TEST)
+  file(READ "${file}" code)
+  string(APPEND test "${code}\n")
+endforeach()
 plain_code("${test}" test)
 
 set(blocks 0)
