@@ -223,7 +223,7 @@ TEST(TargetRecord, InOtherCoordinatesItIsThatOfMeasurementsInThem) {
 }
 
 TEST(TargetRecord, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
-  auto target = recording_target<Interacting, Random>();
+  auto target = recording_target<Interacting, Random>(0, {Lift::unbiased});
   for (const PlotType& plot : plots(80, 40)) target.take(plot);
   ASSERT_EQ(target.starts(), 2U);
   std::vector<State> before;
@@ -237,10 +237,9 @@ TEST(TargetRecord, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
   std::size_t k = 0;
   target.smoothed([&](const auto&, const auto& state) {
     State expected = before[k];
-    if (k >= last_start) transform(turned, moved, expected);
+    if (k++ >= last_start) transform(turned, moved, expected);
     ASSERT_PRED_FORMAT3(near_matrix, state.estimates[2].mean, expected.mean, 1e-9);
     ASSERT_PRED_FORMAT3(near_matrix, state.estimates[2].covariance, expected.covariance, 1e-7);
-    ++k;
   });
 }
 
