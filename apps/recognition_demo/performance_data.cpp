@@ -112,7 +112,7 @@ PerformanceData read_performance(const std::filesystem::path& path) {
                                          given, least, greatest, inside));
     Performance performance{Triangle(least, inside, greatest),
                             density(row, model, parameter_list, given, data.remarks)};
-    if (!cells.emplace(std::pair{of_type, of_variable}, std::move(performance)).second)
+    if (!cells.emplace(std::pair{of_type, of_variable}, performance).second)
       throw row.error(variable, "a quantity that the type does not have yet", "remove one of the two rows");
     remember(data.types, of_type);
     remember(data.variables, of_variable);

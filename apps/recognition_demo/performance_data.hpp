@@ -30,8 +30,8 @@ class FittedDensity {
  private:
   using Standard = std::variant<boost::math::normal_distribution<>, boost::math::gamma_distribution<>,
                                 boost::math::beta_distribution<>>;
-  FittedDensity(Standard standard, double location, double scale)
-      : standard_(std::move(standard)), location_(location), scale_(scale) {}
+  FittedDensity(const Standard& standard, double location, double scale)
+      : standard_(standard), location_(location), scale_(scale) {}
 
   Standard standard_;
   double location_;

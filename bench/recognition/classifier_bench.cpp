@@ -25,7 +25,8 @@ Classifier<Kind, Kind> large_classifier() {
       for (double& value : rows.row(c)) value = static_cast<double>(1 + generator() % 1000);
       condition<AlgebraOf<Kind>>(rows.row(c));
     }
-    relations.push_back({Variable<Kind>{"feature " + std::to_string(i), values}, pattern, std::move(rows), detail::ByLaw{}});
+    relations.push_back(
+        {Variable<Kind>{"feature " + std::to_string(i), values}, pattern, std::move(rows), detail::ByLaw{}});
   }
   return {uninformative(pattern), relations};
 }

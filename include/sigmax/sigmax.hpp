@@ -5,7 +5,6 @@
 #include <sigmax/core/algebra.hpp>
 #include <sigmax/core/banded_rows.hpp>
 #include <sigmax/core/belief.hpp>
-#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/distribution.hpp>
@@ -15,6 +14,7 @@
 #include <sigmax/core/mean_interval.hpp>
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/network.hpp>
+#include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/evidence.hpp>
 #include <sigmax/core/network/explanation.hpp>

@@ -35,8 +35,10 @@ class Chain {
 
   Chain(const Chain&) = default;
   Chain& operator=(const Chain&) = default;
+  // NOLINTBEGIN(performance-move-constructor-init): what is left keeps its variable
   Chain(Chain&& other) noexcept
       : variable_(other.variable_), row_(std::move(other.row_)), room_(std::move(other.room_)) {}
+  // NOLINTEND(performance-move-constructor-init)
 
   /// Keeps the memory of what it was for the next relation.
   Chain& operator=(Chain&& other) noexcept {

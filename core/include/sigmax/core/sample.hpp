@@ -10,8 +10,8 @@
 
 namespace sigmax {
 
-/// Index of an outcome drawn with its probability, from a generator as those of <random>. One number of 53 bits is
-/// drawn.
+/// Index of an outcome drawn with its probability, from a generator as those of the standard library. One number of 53
+/// bits is drawn.
 template <class Generator>
 std::size_t sample(const Distribution<Random>& distribution, Generator& generator) {
   double left = std::generate_canonical<double, std::numeric_limits<double>::digits>(generator);

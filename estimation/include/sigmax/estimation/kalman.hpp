@@ -77,7 +77,7 @@ namespace detail {
 /// as the measurement, is lifted above it.
 template <int M, int MaxM>
 std::optional<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
-  const auto L = cholesky_factor(S);
+  auto L = cholesky_factor(S);
   bool drowned = !L;
   for (Eigen::Index k = 0; !drowned && k < S.rows(); ++k) drowned = !((*L)(k, k) * (*L)(k, k) >= rounding * S(k, k));
   if (!drowned) return L;
