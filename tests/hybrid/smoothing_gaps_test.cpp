@@ -7,13 +7,17 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <sigmax/estimation/any_member.hpp>
 #include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
+#include <sigmax/estimation/sensors.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
@@ -206,6 +210,43 @@ TEST(SmoothingGaps, OfOneModelAreThoseOfTheRtsSmoother) {
   compare(Rows(10.0).seen(1.0, 20), 1e-10);
   compare(Rows(10.0).seen(1.0, 10).seen(100.0).seen(1.0, 9), 1e-6);
   compare(Rows(10.0).seen(1.0, 10).missed(1.0, 10000).seen(1.0, 9), 1e-4);
+}
+
+/// A sensor may measure more quantities than a model has components: two of each alike are one of half the variance.
+TEST(SmoothingGaps, OfMoreQuantitiesThanComponentsAreThoseOfTheirMeans) {
+  RectangularMatrix<4, 2> both_twice;
+  both_twice << 1, 0, 0, 1, 1, 0, 0, 1;
+  const LinearSensor<4, 2> twice{both_twice};
+  const LinearSensor<2, 2> once{SquareMatrix<2>::Identity()};
+  const SquareMatrix<4> R = Vector<4>{4.0, 2.0, 4.0, 2.0}.asDiagonal();
+  const SquareMatrix<2> half = Vector<2>{2.0, 1.0}.asDiagonal();
+
+  const RandomVariable mode{"mode", 2};
+  const std::tuple models{dwna<1>(0.5), dwna<1>(5.0)};
+  const Gaussian<2> start{Vector<2>::Zero(), SquareMatrix<2>{{100.0, 0.0}, {0.0, 100.0}}};
+  InteractingMultipleModel seen_twice{models, Relation{mode, mode, {{0.9, 0.1}, {0.2, 0.8}}}, std::tuple{start, start}};
+  auto seen_once = seen_twice;
+  std::vector record_twice{seen_twice.recorded(0.0)};
+  std::vector record_once{seen_once.recorded(0.0)};
+  for (int k = 0; k < 8; ++k) {
+    const double x = k * k;
+    const double v = 2.0 * k;
+    const Gaussian<4> z{Vector<4>{x + 1.0, v - 0.5, x - 2.0, v + 1.5}, R};
+    const Gaussian<2> mean{Vector<2>{x - 0.5, v + 0.5}, half};
+    seen_twice.step(1.0, z, twice);
+    record_twice.push_back(seen_twice.recorded(1.0, z, twice));
+    seen_once.step(1.0, mean, once);
+    record_once.push_back(seen_once.recorded(1.0, mean, once));
+  }
+  const auto found = smooth(seen_twice, record_twice);
+  const auto expected = smooth(seen_once, record_once);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_NEAR(found[k].belief[0], expected[k].belief[0], 1e-12) << "row " << k;
+    const auto one = seen_twice.estimate(found[k]);
+    const auto other = seen_once.estimate(expected[k]);
+    EXPECT_LT((one.mean - other.mean).norm(), 1e-10) << "row " << k;
+    EXPECT_LT((one.covariance - other.covariance).norm(), 1e-10) << "row " << k;
+  }
 }
 
 }  // namespace

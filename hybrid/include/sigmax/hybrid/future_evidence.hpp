@@ -95,11 +95,12 @@ struct FutureEvidence {
     r.resize(0);
   }
 
-  /// Two pieces of evidence about the same point become one of at most n rows.
-  void add(const Rows& other_R, const State& other_r) {
+  /// Two pieces of evidence about the same point become one of at most n rows; the other may have more.
+  template <int MaxRows>
+  void add(const RectangularMatrix<dynamic, dynamic, MaxRows, MaxN>& other_R, const Vector<dynamic, MaxRows>& other_r) {
     if (other_R.rows() == 0) return;
     const Eigen::Index n = R.cols();
-    Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN + 1> stack(R.rows() + other_R.rows(), n + 1);
+    Eigen::Matrix<double, dynamic, dynamic, 0, MaxN + MaxRows, MaxN + 1> stack(R.rows() + other_R.rows(), n + 1);
     stack << R, r, other_R, other_r;
     const detail::Triangle<decltype(stack), MaxN> triangle(stack, n);
     take(stack, std::min(n, stack.rows()), n);

@@ -181,11 +181,15 @@ class MultipleModelFilter {
     if (!measured_) return result;
     for_each_mode(system_.models(), [&](auto j) {
       const auto seen = linearised_measurement(mode(system_.models(), j), mode(predicted, j), z, sensor);
-      auto& evidence = result.seen.emplace_back();
+      constexpr int max_n = Bank<Models>::max_state_size;
+      constexpr int max_rows = detail::max_measurement_size_of<Sensor>;
       const auto root = detail::noise_root(seen.R);
-      evidence.R = root.matrixL().solve(seen.H);
-      evidence.r =
-          root.matrixL().solve(seen.residual) - evidence.R * (mode(estimates(), j).mean - mode(predicted, j).mean);
+      const RectangularMatrix<Eigen::Dynamic, Eigen::Dynamic, max_rows, max_n> R = root.matrixL().solve(seen.H);
+      const Vector<Eigen::Dynamic, max_rows> r =
+          root.matrixL().solve(seen.residual) - R * (mode(estimates(), j).mean - mode(predicted, j).mean);
+      auto& evidence = result.seen.emplace_back();
+      evidence.clear(R.cols());
+      evidence.add(R, r);
     });
     return result;
   }
