@@ -2,6 +2,7 @@
 // hundred digits, and of one model against the smoother of Rauch, Tung and Striebel.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -246,6 +247,77 @@ TEST(SmoothingGaps, OfMoreQuantitiesThanComponentsAreThoseOfTheirMeans) {
     const auto other = seen_once.estimate(expected[k]);
     EXPECT_LT((one.mean - other.mean).norm(), 1e-10) << "row " << k;
     EXPECT_LT((one.covariance - other.covariance).norm(), 1e-10) << "row " << k;
+  }
+}
+
+/// The weight of the second mode at every row by all 2^(n+1) histories of calm (0) and turning (1), each with a Kalman
+/// filter of its own, written out for one axis: what an IMM and its smoother approximate.
+class AllHistories {
+ public:
+  AllHistories(const Rows& rows, double stay) : rows_(rows), stay_(stay), turning_(rows.rows().size() + 1) {
+    for (const int first : {0, 1})
+      go_on(0, first, {0.0, 100.0, 0.0}, {100.0, 0.0, 0.0, 100.0, 0.0, first == 1 ? 10.0 : 0.0}, 0.5);
+    for (double& weight : turning_) weight /= all_;
+  }
+  const std::vector<double>& weights() const { return turning_; }
+
+ private:
+  using Mean = std::array<double, 3>;
+  using Covariance = std::array<double, 6>;  ///< xx, xv, xa, vv, va, aa
+
+  void go_on(std::size_t k, int mode, const Mean& m, const Covariance& P, double weight) {
+    path_.push_back(mode);
+    if (k == rows_.rows().size()) {
+      all_ += weight;
+      for (std::size_t row = 0; row < path_.size(); ++row) turning_[row] += path_[row] * weight;
+    } else {
+      for (const int next : {0, 1}) step(k, mode, next, m, P, weight * (next == mode ? stay_ : 1.0 - stay_));
+    }
+    path_.pop_back();
+  }
+
+  void step(std::size_t k, int mode, int next, Mean m, Covariance P, double weight) {
+    if (mode == 0 || next == 0) m[2] = P[2] = P[4] = P[5] = 0.0;
+    const double T = rows_.rows()[k].dt;
+    const double h = 0.5 * T * T;
+    m = {m[0] + T * m[1] + h * m[2], m[1] + T * m[2], m[2]};
+    const double xv =
+        P[1] + T * P[3] + h * P[4];  // of the predicted position with the velocity and acceleration before
+    const double xa = P[2] + T * P[4] + h * P[5];
+    P = {P[0] + T * P[1] + h * P[2] + T * xv + h * xa, xv + T * xa,     xa,
+         P[3] + 2.0 * T * P[4] + T * T * P[5],         P[4] + T * P[5], P[5]};
+    const double g[] = {h, T, next == 1 ? 1.0 : 0.0};
+    for (std::size_t a = 0, i = 0; a < 3; ++a)
+      for (std::size_t b = a; b < 3; ++b, ++i) P[i] += 9.0 * g[a] * g[b];
+    const double S = P[0] + rows_.variance();
+    const double residual = *rows_.rows()[k].z - m[0];
+    const double K[] = {P[0] / S, P[1] / S, P[2] / S};
+    for (std::size_t a = 0, i = 0; a < 3; ++a) {
+      m[a] += K[a] * residual;
+      for (std::size_t b = a; b < 3; ++b, ++i) P[i] -= K[a] * K[b] * S;
+    }
+    go_on(k + 1, next, m, P, weight * std::exp(-0.5 * residual * residual / S) / std::sqrt(S));
+  }
+
+  Rows rows_;
+  double stay_;
+  double all_ = 0.0;
+  std::vector<int> path_;
+  std::vector<double> turning_;
+};
+
+/// The weights of an IMM are off at the last row by up to 0.06, before any smoothing; a gap must not add to that.
+TEST(SmoothingGaps, LeaveTheWeightsNearThoseOfAllHistories) {
+  const RandomVariable mode{"mode", 2};
+  for (const double gap : {1.0, 200.0, 1e3, 1e5}) {
+    const Rows rows = Rows(10.0).seen(1.0, 6).seen(gap).seen(1.0, 5);
+    InteractingMultipleModel filter{calm_and_turning, Relation{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}},
+                                    std::vector{narrow, wide}};
+    const auto record = flown(filter, rows);
+    const auto smoothed = smooth(filter, record);
+    const std::vector<double> exact = AllHistories(rows, 0.95).weights();
+    for (std::size_t k = 0; k < exact.size(); ++k)
+      EXPECT_NEAR(smoothed[k].belief[1], exact[k], 0.06) << "gap of " << gap << " s, row " << k;
   }
 }
 
