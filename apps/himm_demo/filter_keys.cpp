@@ -92,18 +92,18 @@ Key<Owner> number(std::string name, std::string meaning, Of of, Range range, dou
 }
 
 /// The same where there may be none.
-template <class Owner>
-FilterKey optional_number(const std::string& name, std::string meaning, std::optional<double> Owner::*member,
-                          Range range) {
+template <class Owner, class Base>
+Key<Owner> optional_number(const std::string& name, std::string meaning, std::optional<double> Base::*member,
+                           Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),
-          [=](const Settings& settings, FilterSettings& filter) {
-            if (const auto value = settings.number(name)) filter.*member = value;
-            if (filter.*member) range.require(settings, name, *(filter.*member));
+          [=](const Settings& settings, Owner& owner) {
+            if (const auto value = settings.number(name)) owner.*member = value;
+            if (owner.*member) range.require(settings, name, *(owner.*member));
           },
-          [=](const FilterSettings& filter) { return filter.*member ? toml_number(*(filter.*member)) : ""; },
-          [=](const FilterSettings& filter) { return (filter.*member).has_value(); }};
+          [=](const Owner& owner) { return owner.*member ? toml_number(*(owner.*member)) : ""; },
+          [=](const Owner& owner) { return (owner.*member).has_value(); }};
 }
 
 /// A list of numbers.
@@ -286,18 +286,19 @@ std::vector<FilterKey> made_filter_keys() {
       only(given,
            numbers<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
                       {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
-      only(given, optional_number("start_time_s",
-                                  "When a given start holds; without it, one step before the first measurement.",
-                                  &F::start_time_s, {"a time, in s", any})),
+      only(given, optional_number<F>("start_time_s",
+                                     "When a given start holds; without it, one step before the first measurement.",
+                                     &F::start_time_s, {"a time, in s", any})),
       only([](const F& f) { return f.gate_probability < 1.0; },
            number<F>("gate_probability",
                      "The probability that a right measurement passes the gate. What does not pass counts as missed. 1 "
                      "is no gate.",
                      &F::gate_probability,
                      {"a probability above 0; 1 is no gate", [](double p) { return p > 0.0 && p <= 1.0; }})),
-      optional_number("restart_after_s",
-                      "After so long without a measurement that passes, the filter starts again from the next three.",
-                      &F::restart_after_s, {"a positive time, in s", positive}),
+      optional_number<F>(
+          "restart_after_s",
+          "After so long without a measurement that passes, the filter starts again from the next three.",
+          &F::restart_after_s, {"a positive time, in s", positive}),
       only([](const F& f) { return f.gate_probability < 1.0; },
            number<F>(
                "restart_after_rejections",
@@ -335,7 +336,14 @@ std::vector<Key<Accuracy>> made_accuracy_keys() {
               "sigma_azimuth_deg", "azimuth", [](Accuracy& a) -> double& { return a.radar.azimuth; }, degree),
           radar(
               "sigma_elevation_deg", "elevation", [](Accuracy& a) -> double& { return a.radar.elevation; }, degree),
-          std::move(position)};
+          std::move(position),
+          optional_number<Accuracy>("sigma_velocity_mps",
+                                    "Accuracy of each component of a measured velocity, or of a speed and course; "
+                                    "without it they are not taken for measurements.",
+                                    &Accuracy::velocity_mps, sigma),
+          optional_number<Accuracy>("sigma_range_rate_mps",
+                                    "Accuracy of a radar's range rate; without it that is not taken for a measurement.",
+                                    &Accuracy::range_rate_mps, sigma)};
 }
 
 }  // namespace

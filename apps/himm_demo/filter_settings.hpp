@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,11 @@ namespace sigmax::apps {
 struct Accuracy {
   Polar radar{};                   ///< m and rad
   std::vector<double> position_m;  ///< of measurements that are no radar's: one, or one an axis
+  /// @{
+  /// Without these a velocity or a range rate is not taken for a measurement.
+  std::optional<double> velocity_mps = {};    ///< of each component
+  std::optional<double> range_rate_mps = {};  ///< of a radar's
+  /// @}
 };
 
 /// Everything that one filter is made of: that of the library's target, and how measurements come to it.
@@ -39,6 +45,12 @@ struct FilterSettings : TargetChoice {
   const Accuracy& accuracy_of(std::string_view sensor) const {
     const auto own = sensors.find(sensor);
     return own == sensors.end() ? accuracy : own->second;
+  }
+  /// Whether an accuracy, of whatever sensor, has this.
+  bool knows(std::optional<double> Accuracy::*sigma) const {
+    return (accuracy.*sigma).has_value() || std::any_of(sensors.begin(), sensors.end(), [=](const auto& own) {
+             return (own.second.*sigma).has_value();
+           });
   }
 };
 

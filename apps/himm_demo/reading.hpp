@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -22,12 +24,19 @@ struct Reading {
     Gaussian<Axes> z;
   };
 
-  Gaussian<Axes> position;   ///< of a radar: converted, if only for the start
+  /// A number and its variance.
+  struct Scalar {
+    double value;
+    double variance;
+  };
+
+  Gaussian<Axes> position{Vector<Axes>::Zero(), SquareMatrix<Axes>::Zero()};  ///< of a radar: converted
   int measured = Axes;       ///< so many leading axes of the position were measured
   std::optional<Seen> seen;  ///< by a radar, if the filter takes that in the radar's own space
-
-  /// What the filter steps with.
-  const Gaussian<Axes>& z() const { return seen ? seen->z : position; }
+  std::array<std::optional<Scalar>, static_cast<std::size_t>(Axes)> velocity{};  ///< along each axis, in m/s
+  std::optional<Scalar> range_rate{};                                            ///< of the radar that has `seen`
+  std::optional<Scalar> bearing{};  ///< all that was measured, counter-clockwise from x in rad
+  Vector<2> bearing_from = Vector<2>::Zero();
 };
 
 /// What a radar at `radar_at` with these standard deviations measured. With two axes there is no elevation.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "himm_demo/recording_headers.hpp"
 #include "support/angle.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
@@ -15,74 +16,8 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr double foot = 0.3048;
-
-/// A header that names a quantity with its unit.
-struct Header {
-  std::string_view name;
-  double unit;
-  std::string_view taken_for;
-  bool from_north = false;
-};
-using Headers = std::initializer_list<Header>;
-
-const Headers x_headers = {{"x_m", 1.0, "m"}, {"x_km", 1e3, "km"}};
-const Headers y_headers = {{"y_m", 1.0, "m"}, {"y_km", 1e3, "km"}};
-const Headers z_headers = {{"z_m", 1.0, "m"}, {"z_km", 1e3, "km"}, {"z_ft", foot, "ft"}};
-const Headers latitude_headers = {{"latitude_deg", 1.0, "° north"}};
-const Headers longitude_headers = {{"longitude_deg", 1.0, "° east"}};
-const Headers altitude_headers = {{"altitude_m", 1.0, "m above the ellipsoid"},
-                                  {"altitude_gnss_ft", foot, "ft above the ellipsoid"},
-                                  {"altitude_ft", foot, "ft above the ellipsoid"}};
-const Headers range_headers = {
-    {"range_m", 1.0, "m"}, {"range_km", 1e3, "km"}, {"range_nmi", 1852.0, "nautical miles"}, {"range_ft", foot, "ft"}};
-const Headers azimuth_headers = {{"azimuth_deg", 1.0, "°"},
-                                 {"azimuth_rad", 1.0 / degree, "rad"},
-                                 {"azimuth_deg_north", 1.0, "°", true},
-                                 {"azimuth_rad_north", 1.0 / degree, "rad", true}};
-const Headers elevation_headers = {{"elevation_deg", 1.0, "° above the horizon"},
-                                   {"elevation_rad", 1.0 / degree, "rad above the horizon"}};
-const Headers other_headers = {{"time_s", 1.0, "s"},
-                               {"sensor", 1.0, ""},
-                               {"true_x_m", 1.0, "m"},
-                               {"true_y_m", 1.0, "m"},
-                               {"true_z_m", 1.0, "m"},
-                               {"roll_deg", 1.0, "°"},
-                               {"sigma_x_m", 1.0, "m"},
-                               {"sigma_y_m", 1.0, "m"},
-                               {"sigma_z_m", 1.0, "m"},
-                               {"sigma_range_m", 1.0, "m"},
-                               {"sigma_azimuth_deg", 1.0, "°"},
-                               {"sigma_elevation_deg", 1.0, "°"}};
-
 /// No measurement of this world, in m or degrees, but what a device writes where it has none.
 constexpr double beyond_sense = 1e30;
-
-std::vector<std::string_view> known_headers() {
-  std::vector<std::string_view> names;
-  for (const Headers& headers : {other_headers, x_headers, y_headers, z_headers, latitude_headers, longitude_headers,
-                                 altitude_headers, range_headers, azimuth_headers, elevation_headers})
-    for (const auto& header : headers) names.push_back(header.name);
-  return names;
-}
-
-using Mapping = std::map<std::string, std::string, std::less<>>;
-
-Mapping mapping_of(const std::vector<std::string>& columns) {
-  Mapping mapping;
-  const auto known = known_headers();
-  for (const auto& column : columns) {
-    const auto equals = column.find('=');
-    const std::string name = column.substr(0, equals);
-    if (equals == std::string::npos || equals + 1 == column.size())
-      throw UsageError(fmt::format("--columns: '{}' is not NAME=HEADER", column));
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw UsageError(fmt::format("--columns: '{}' is not one of {}", name, fmt::join(known, ", ")));
-    if (!mapping.emplace(name, column.substr(equals + 1)).second)
-      throw UsageError(fmt::format("--columns: '{}' is given twice", name));
-  }
-  return mapping;
-}
 
 CsvReader open(const std::string& file) {
   return file == "-" ? CsvReader{std::cin, "standard input"} : CsvReader{std::filesystem::path{file}};
@@ -114,22 +49,22 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
 }
 
 void RecordingReader::find_columns(const RecordingOptions& options) {
-  const Mapping mapping = mapping_of(options.columns);
+  const auto mapping = mapping_of(options.columns);
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
     const auto mapped = mapping.find(name);
     return mapped == mapping.end() ? csv_.find(name) : csv_.column(mapped->second);
   };
-  const auto find_quantity = [&](const Headers& headers) -> std::optional<Column> {
-    for (const auto& header : headers)
+  const auto find_quantity = [&](Headers candidates) -> std::optional<Column> {
+    for (const auto& header : candidates)
       if (const auto index = find(header.name)) return Column{*index, header.unit, header.taken_for};
     return std::nullopt;
   };
   const auto time = find("time_s");
-  const Columns cartesian = {find_quantity(x_headers), find_quantity(y_headers), find_quantity(z_headers)};
-  const Columns geodetic = {find_quantity(latitude_headers), find_quantity(longitude_headers),
-                            find_quantity(altitude_headers)};
-  polar_ = {find_quantity(range_headers), find_quantity(azimuth_headers), find_quantity(elevation_headers)};
-  for (const auto& header : azimuth_headers)
+  const Columns cartesian = {find_quantity(headers::x), find_quantity(headers::y), find_quantity(headers::z)};
+  const Columns geodetic = {find_quantity(headers::latitude), find_quantity(headers::longitude),
+                            find_quantity(headers::altitude)};
+  polar_ = {find_quantity(headers::range), find_quantity(headers::azimuth), find_quantity(headers::elevation)};
+  for (const auto& header : headers::azimuth)
     if (header.from_north && find(header.name) == (polar_[1] ? std::optional(polar_[1]->index) : std::nullopt) &&
         find(header.name)) {
       if (options.azimuth_from_north == false)
@@ -143,6 +78,13 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   truth_ = {find_plain("true_x_m"), find_plain("true_y_m"), find_plain("true_z_m")};
   sigma_position_ = {find_plain("sigma_x_m"), find_plain("sigma_y_m"), find_plain("sigma_z_m")};
   sigma_polar_ = {find_plain("sigma_range_m"), find_plain("sigma_azimuth_deg"), find_plain("sigma_elevation_deg")};
+  if (options.velocity) {
+    velocity_ = {find_quantity(headers::velocity_x), find_quantity(headers::velocity_y),
+                 find_quantity(headers::velocity_z)};
+    course_ = {find_quantity(headers::speed), find_quantity(headers::course)};
+    if (!course_[0] || !course_[1] || velocity_[0] || velocity_[1]) course_ = {};
+  }
+  if (options.range_rate) range_rate_ = find_quantity(headers::range_rate);
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
 
@@ -195,23 +137,18 @@ bool RecordingReader::next(Fix& fix) {
   do {
     if (!csv_.next(row_)) return false;
   } while (!selected() || !take_time(fix));
+  fix.forget();
   fix.roll_deg = roll_ ? row_.optional_number(*roll_) : std::nullopt;
   fix.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && fix.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
-
-  fix.position.reset();
-  fix.place.reset();
-  fix.seen.reset();
-  fix.truth.reset();
   if (const auto truth = numbers(truth_)) fix.truth = Vector<3>(truth->data());
   if (senseless(position_) || senseless(polar_)) {
     if (senseless_++ == 0) first_senseless_line_ = fix.line;
     return true;
   }
-  fix.no_height = false;
-  fix.sigma = {};
   const auto position = numbers(position_, &fix.no_height);
-  const auto seen = numbers(polar_);
+  if (!position) take_bearing(fix);
+  const auto seen = fix.bearing ? std::nullopt : numbers(polar_);
   if (position && seen)
     throw row_.error(polar_[0]->index, "an empty cell, since the row has a position",
                      "give each sensor a row of its own");
@@ -219,8 +156,40 @@ bool RecordingReader::next(Fix& fix) {
   if (position && !geodetic_) fix.position = Vector<3>(position->data());
   if (seen) fix.seen = polar(*seen);
   if (position) take_sigmas(fix, sigma_position_, 1.0);
-  if (seen) take_sigmas(fix, sigma_polar_, degree);
+  if (seen || fix.bearing) take_sigmas(fix, sigma_polar_, degree);
+  if (seen && range_rate_)
+    if (const auto cell = row_.optional_number(range_rate_->index)) fix.range_rate = *cell * range_rate_->unit;
+  if (!seen && !fix.bearing) take_velocity(fix);
   return true;
+}
+
+/// The azimuth alone, where a radar's row has no range and no elevation.
+void RecordingReader::take_bearing(Fix& fix) const {
+  if (!polar() || row_.optional_number(polar_[0]->index) || (polar_[2] && row_.optional_number(polar_[2]->index)))
+    return;
+  if (const auto azimuth = row_.optional_number(polar_[1]->index)) fix.bearing = azimuth_of(*azimuth * polar_[1]->unit);
+}
+
+/// The components of the velocity that the row has, or those that its speed and course make.
+void RecordingReader::take_velocity(Fix& fix) const {
+  for (std::size_t i = 0; i < velocity_.size(); ++i)
+    if (const auto& column = velocity_[i])
+      if (const auto cell = row_.optional_number(column->index); cell && std::abs(*cell) < beyond_sense)
+        fix.velocity[i] = *cell * column->unit;
+  if (!course_[0]) return;
+  const auto speed = row_.optional_number(course_[0]->index);
+  const auto course = row_.optional_number(course_[1]->index);
+  if (!speed || !course || !(std::abs(*speed) < beyond_sense)) return;
+  if (!(std::abs(*course) <= 360.0))
+    throw row_.error(course_[1]->index, "degrees from −360 to 360", "correct the cell");
+  fix.velocity[0] = *speed * course_[0]->unit * std::sin(*course * degree);
+  fix.velocity[1] = *speed * course_[0]->unit * std::cos(*course * degree);
+}
+
+/// In rad counter-clockwise from east.
+double RecordingReader::azimuth_of(double degrees) const {
+  if (!(std::abs(degrees) <= 360.0)) throw row_.error(polar_[1]->index, "degrees from −360 to 360", "correct the cell");
+  return (from_north_ ? 90.0 - degrees : degrees) * degree;
 }
 
 bool RecordingReader::selected() const {
@@ -319,9 +288,8 @@ Polar RecordingReader::polar(const std::array<double, 3>& cells) const {
   const auto [range, azimuth, elevation] = cells;
   if (!(range > 0.0))
     throw row_.error(polar_[0]->index, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
-  if (!(std::abs(azimuth) <= 360.0)) throw row_.error(polar_[1]->index, "degrees from −360 to 360", "correct the cell");
   if (!(std::abs(elevation) <= 90.0)) throw row_.error(polar_[2]->index, "degrees from −90 to 90", "correct the cell");
-  return {range, (from_north_ ? 90.0 - azimuth : azimuth) * degree, elevation * degree};
+  return {range, azimuth_of(azimuth), elevation * degree};
 }
 
 std::string RecordingReader::taken() const {
@@ -334,6 +302,8 @@ std::string RecordingReader::taken() const {
   };
   add(position_, "");
   add(polar_, from_north_ ? " clockwise from north" : " counter-clockwise from east");
+  add(velocity_, "");
+  for (const auto& column : {course_[0], course_[1], range_rate_}) add({column}, "");
   add(truth_, "");
   for (const auto& columns : {position_[0] ? sigma_position_ : Columns{}, polar_[0] ? sigma_polar_ : Columns{}})
     for (const auto& column : columns)

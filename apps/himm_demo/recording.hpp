@@ -26,24 +26,34 @@ struct RecordingOptions {
   std::vector<std::string> select;              ///< COLUMN=VALUE, all of which must hold
   std::string track_id;                         ///< the column that tells tracks apart, or empty: all rows are one
   bool skip_bad_times = false;                  ///< rather than refuse them
+  bool velocity = false;                        ///< whether velocities count, or a speed and a course
+  bool range_rate = false;                      ///< whether a radar's range rates count
 };
 
-/// One row of a recording. A missed measurement has neither `position` nor `place` nor `seen`.
+/// One row of a recording. A missed measurement has nothing of what is `measured`.
 struct Fix {
   std::size_t line = 0;
   double time_s = 0.0;
-  std::string track;                  ///< empty without a column that tells tracks apart
-  std::string sensor;                 ///< empty without a column `sensor`
-  std::optional<Vector<3>> position;  ///< measured: east, north, up in m; z is 0 on two axes
-  std::optional<Geodetic> place;      ///< measured; the altitude is 0 on two axes
-  bool no_height = false;             ///< of three axes only the first two were measured
-  std::optional<Polar> seen;          ///< measured by a radar; the elevation is 0 on two axes
+  std::string track;                              ///< empty without a column that tells tracks apart
+  std::string sensor;                             ///< empty without a column `sensor`
+  std::optional<Vector<3>> position;              ///< measured: east, north, up in m; z is 0 on two axes
+  std::optional<Geodetic> place;                  ///< measured; the altitude is 0 on two axes
+  bool no_height = false;                         ///< of three axes only the first two were measured
+  std::optional<Polar> seen;                      ///< measured by a radar; the elevation is 0 on two axes
+  std::optional<double> range_rate;               ///< measured with that, in m/s
+  std::optional<double> bearing;                  ///< measured alone, in rad counter-clockwise from east
+  std::array<std::optional<double>, 3> velocity;  ///< measured: east, north, up in m/s
   /// What the row itself says of its accuracy: of x, y, z in m, or of range, azimuth, elevation in m and rad.
   std::array<std::optional<double>, 3> sigma;
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
 
-  bool measured() const { return position || place || seen; }
+  bool located() const { return position || place || seen; }
+  bool moving() const { return velocity[0] || velocity[1] || velocity[2]; }
+  bool measured() const { return located() || bearing || moving(); }
+
+  /// Forgets all but where the row stands: line, time and track.
+  void forget() { *this = {.line = line, .time_s = time_s, .track = std::move(track)}; }
 };
 
 /// Reads a headed CSV recording row by row: Cartesian, geodetic or a radar's, or Cartesian and radar's rows mixed, as
@@ -95,6 +105,9 @@ class RecordingReader {
   bool take_time(Fix& fix);
   std::optional<std::array<double, 3>> numbers(const Columns& columns, bool* no_height = nullptr) const;
   void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
+  void take_bearing(Fix& fix) const;
+  void take_velocity(Fix& fix) const;
+  double azimuth_of(double degrees) const;
   Geodetic place(const std::array<double, 3>& cells) const;
   bool refused_time(const Fix& fix);
   Polar polar(const std::array<double, 3>& cells) const;
@@ -104,6 +117,9 @@ class RecordingReader {
   std::size_t time_ = 0;
   Columns position_;  // Cartesian, or geodetic
   Columns polar_;
+  Columns velocity_;
+  std::array<std::optional<Column>, 2> course_;  // speed and course
+  std::optional<Column> range_rate_;
   Columns truth_;
   Columns sigma_position_;
   Columns sigma_polar_;

@@ -51,7 +51,12 @@ void track_and_report(const TrackOptions& options) {
     fmt::print("{}", as_toml(filters));
     return;
   }
-  RecordingReader recording(options.recording);
+  RecordingOptions what = options.recording;
+  for (const auto& filter : filters) {
+    what.velocity |= filter.knows(&Accuracy::velocity_mps);
+    what.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+  }
+  RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
   std::optional<OutputDirectory> directory;
   std::optional<EstimatesFile> estimates;
@@ -132,7 +137,11 @@ void add_track(CLI::App& program, const std::string& command) {
       "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
       "accuracy of the row. Times are seconds, dates and times as\n"
       "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
-      "without a position is a missed measurement; its height alone may be missing.\n"
+      "without a position is a missed measurement; its height alone may be missing, and\n"
+      "a radar's row with nothing but an azimuth is a bearing.\n"
+      "With sigma_velocity_mps, vx_mps,vy_mps[,vz_mps] are measurements too, or\n"
+      "groundspeed_kt,track_deg (speed_mps, course_deg) and vertical_rate_fpm; with\n"
+      "sigma_range_rate_mps a radar's range_rate_mps.\n"
       "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"

@@ -144,7 +144,7 @@ class TrackRun {
     else if (options_.radar)
       fix.position.reset();
     if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
-    if (fix.truth && fix.measured() && !fix.no_height)
+    if (fix.truth && fix.located() && !fix.no_height)
       add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
         add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
       });
@@ -254,32 +254,64 @@ class TrackRun {
   /// What a row measures, with the covariance that a filter believes.
   std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
     const Tracker<Axes>& tracker = target.trackers[f];
-    if (!fix.measured() || (fix.no_height && !tracker.running())) return std::nullopt;
+    if (!quantities(fix, f) || (!tracker.running() && (fix.no_height || !fix.located()))) return std::nullopt;
     const FilterSettings& settings = filters_[f];
     const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
     const auto& own = fix.sigma;
+    const Polar& usual = accuracy.radar;
+    const Polar sigma{own[0].value_or(usual.range), own[1].value_or(usual.azimuth), own[2].value_or(usual.elevation)};
+    if (fix.bearing)
+      return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
+                           .bearing_from = radar_at_.template head<2>()};
     if (fix.seen) {
-      const Polar& usual = accuracy.radar;
-      const Polar sigma{own[0].value_or(usual.range), own[1].value_or(usual.azimuth), own[2].value_or(usual.elevation)};
-      return radar_reading<Axes>(*fix.seen, sigma, radar_at_, settings.radar_measurement);
+      const bool doppler = fix.range_rate && accuracy.range_rate_mps;
+      auto result =
+          radar_reading<Axes>(*fix.seen, sigma, radar_at_, doppler ? RadarForm::polar : settings.radar_measurement);
+      if (doppler) result.range_rate = {*fix.range_rate, std::pow(*accuracy.range_rate_mps, 2)};
+      return result;
     }
-    Vector<Axes> position;
+    Reading<Axes> result{.measured = fix.located() ? fix.no_height ? Axes - 1 : Axes : 0};
+    const LocalFrame<Axes>* frame = target.anchor ? &target.segments[f].back().frame : nullptr;
     if (fix.place) {
-      const LocalFrame<Axes>& frame = target.segments[f].back().frame;
       Geodetic place = *fix.place;  // without a height it is at the target's
       if (fix.no_height)
-        place.altitude_m = frame.to_geodetic(tracker.now().estimate.mean.template head<Axes>()).altitude_m;
-      position = frame.to_local(place);
-    } else {
-      position = fix.position->template head<Axes>();
+        place.altitude_m = frame->to_geodetic(tracker.now().estimate.mean.template head<Axes>()).altitude_m;
+      result.position.mean = frame->to_local(place);
+    } else if (fix.position) {
+      result.position.mean = fix.position->template head<Axes>();
     }
-    Gaussian<Axes> z{position, SquareMatrix<Axes>::Zero()};
     for (Eigen::Index i = 0; i < Axes; ++i) {
       const auto axis = static_cast<std::size_t>(i);
-      const auto& sigma = accuracy.position_m;
-      z.covariance(i, i) = std::pow(own[axis].value_or(sigma.size() == 1 ? sigma[0] : sigma[axis]), 2);
+      const auto& believed = accuracy.position_m;
+      result.position.covariance(i, i) = std::pow(own[axis].value_or(believed[believed.size() == 1 ? 0 : axis]), 2);
     }
-    return Reading<Axes>{z, fix.no_height ? Axes - 1 : Axes, std::nullopt};
+    if (fix.moving() && accuracy.velocity_mps) add_velocity(result, fix, *accuracy.velocity_mps, tracker, frame);
+    return result;
+  }
+
+  /// The measured velocity in the frame of the filter; that of a place is along its own east, north and up.
+  static void add_velocity(Reading<Axes>& reading, const Fix& fix, double sigma, const Tracker<Axes>& tracker,
+                           const LocalFrame<Axes>* frame) {
+    Vector<Axes> v;
+    for (Eigen::Index i = 0; i < Axes; ++i) v(i) = fix.velocity[static_cast<std::size_t>(i)].value_or(0.0);
+    if (frame) {
+      const Vector<Axes> at =
+          fix.place ? reading.position.mean : Vector<Axes>(tracker.now().estimate.mean.template head<Axes>());
+      v = (frame->local_axes(at).transpose() * v).eval();
+    }
+    for (std::size_t axis = 0; axis < reading.velocity.size(); ++axis)
+      if (fix.velocity[axis]) reading.velocity[axis] = {v(static_cast<Eigen::Index>(axis)), sigma * sigma};
+  }
+
+  /// How many quantities of a row a filter takes for measured.
+  int quantities(const Fix& fix, std::size_t f) const {
+    const Accuracy& accuracy = filters_[f].accuracy_of(fix.sensor);
+    if (fix.bearing) return 1;
+    if (fix.seen) return fix.range_rate && accuracy.range_rate_mps ? Axes + 1 : Axes;
+    const auto end = fix.velocity.begin() + Axes;
+    const auto along = std::count_if(fix.velocity.begin(), end, [](const auto& v) { return v.has_value(); });
+    return (fix.located() ? fix.no_height ? Axes - 1 : Axes : 0) +
+           (accuracy.velocity_mps ? static_cast<int>(along) : 0);
   }
 
   template <class Add>
@@ -307,7 +339,7 @@ class TrackRun {
         add_error(sums, error);
       }
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-      if (point.nis) sums.nis.add(*point.nis, usual_nis_);
+      if (point.nis) sums.nis.add(*point.nis, usual_nis_[static_cast<std::size_t>(quantities(fix, f)) - 1]);
     });
   }
 
@@ -339,7 +371,12 @@ class TrackRun {
   std::map<std::string, Target<Axes>, std::less<>> targets_;
   TrackOutcome outcome_;
   std::optional<LocalFrame<Axes>> file_anchor_;
-  double usual_nis_ = chi_square_quantile(0.95, Axes);
+  /// Below which 95 % of the NIS are, of 1 to 6 quantities.
+  std::array<double, 6> usual_nis_ = [] {
+    std::array<double, 6> result;
+    for (std::size_t m = 0; m < 6; ++m) result[m] = chi_square_quantile(0.95, static_cast<double>(m + 1));
+    return result;
+  }();
   bool fixed_ = options_.radar || recording_.has_truth();  // whether all is about one point
   Vector<3> radar_at_ = Vector<3>::Zero();
 };

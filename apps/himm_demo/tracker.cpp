@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace sigmax::apps {
@@ -21,23 +22,40 @@ template <int Axes>
 AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag) {
   AnyPlot plot{.time = time, .tag = tag};
   if (!reading) return plot;
-  if (reading->measured < Axes) {
-    plot.sensor = AnyPlot::Sensor::components;
-    plot.size = reading->measured;
-    for (int i = 0; i < plot.size; ++i) {
-      plot.places[static_cast<std::size_t>(i)] = i;
-      plot.z[static_cast<std::size_t>(i)] = reading->position.mean(i);
-      for (int j = 0; j < plot.size; ++j)
-        plot.covariance[static_cast<std::size_t>(i * plot.size + j)] = reading->position.covariance(i, j);
-    }
-    return plot;
+  Vector<6> z = Vector<6>::Zero();
+  SquareMatrix<6> R = SquareMatrix<6>::Zero();
+  const auto lead = [&](const Gaussian<Axes>& measured, int size) {
+    z.head(size) = measured.mean.head(size);
+    R.topLeftCorner(size, size) = measured.covariance.topLeftCorner(size, size);
+    plot.size = size;
+  };
+  const auto add = [&](const typename Reading<Axes>::Scalar& quantity) {
+    z(plot.size) = quantity.value;
+    R(plot.size, plot.size) = quantity.variance;
+    ++plot.size;
+  };
+  if (reading->bearing) {
+    plot.sensor = AnyPlot::Sensor::bearing;
+    add(*reading->bearing);
+    std::copy_n(reading->bearing_from.begin(), 2, plot.origin.begin());
+  } else if (reading->seen) {
+    plot.sensor = reading->range_rate ? AnyPlot::Sensor::doppler : AnyPlot::Sensor::polar;
+    lead(reading->seen->z, Axes);
+    if (reading->range_rate) add(*reading->range_rate);
+    std::copy_n(reading->seen->radar.origin().begin(), Axes, plot.origin.begin());
+  } else {
+    lead(reading->position, reading->measured);
+    std::iota(plot.places.begin(), plot.places.end(), 0);
+    for (std::size_t axis = 0; axis < reading->velocity.size(); ++axis)
+      if (const auto& along = reading->velocity[axis]) {
+        plot.places[static_cast<std::size_t>(plot.size)] = Axes + static_cast<int>(axis);
+        add(*along);
+      }
+    const bool position = plot.size == Axes && reading->measured == Axes;
+    plot.sensor = position ? AnyPlot::Sensor::position : AnyPlot::Sensor::components;
   }
-  plot.sensor = reading->seen ? AnyPlot::Sensor::polar : AnyPlot::Sensor::position;
-  plot.size = Axes;
-  const auto& z = reading->z();
-  std::copy(z.mean.begin(), z.mean.end(), plot.z.begin());
-  std::copy(z.covariance.data(), z.covariance.data() + z.covariance.size(), plot.covariance.begin());
-  if (reading->seen) std::copy_n(reading->seen->radar.origin().begin(), Axes, plot.origin.begin());
+  std::copy_n(z.begin(), plot.size, plot.z.begin());
+  Eigen::Map<Eigen::MatrixXd>(plot.covariance.data(), plot.size, plot.size) = R.topLeftCorner(plot.size, plot.size);
   return plot;
 }
 

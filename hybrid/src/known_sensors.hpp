@@ -22,7 +22,7 @@ KnownSensor known_sensor(const AnyPlot& plot) {
     case AnyPlot::Sensor::bearing:
       return BearingSensor(Vector<2>(plot.origin.data()));
     case AnyPlot::Sensor::components:
-      return ComponentSensor<6>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)));
+      return ComponentSensor<6>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)), Axes);
     case AnyPlot::Sensor::doppler:
       return DopplerSensor<Axes>(origin);
     case AnyPlot::Sensor::none:

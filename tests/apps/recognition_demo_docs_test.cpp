@@ -13,9 +13,9 @@ struct Shown {
   std::string output;
 };
 
-/// The indented commands of docs/recognition_demo.md, each with the block of text that follows it.
-std::vector<Shown> shown() {
-  std::istringstream lines(contents(std::filesystem::path(SIGMAX_SOURCE) / "docs" / "recognition_demo.md"));
+/// The indented commands of a page, each with the block of text that follows it.
+std::vector<Shown> shown(const std::string& page) {
+  std::istringstream lines(contents(std::filesystem::path(SIGMAX_SOURCE) / "docs" / page));
   std::vector<Shown> all;
   bool in_block = false;
   for (std::string line; std::getline(lines, line);) {
@@ -31,7 +31,7 @@ std::vector<Shown> shown() {
   return all;
 }
 
-TEST(RecognitionDemoDocs, ShowWhatTheProgramPrints) {
+void expect_shown(const std::string& page, std::size_t commands) {
   const std::filesystem::path data = SIGMAX_DATA;
   if (!std::filesystem::exists(data / "recognition")) GTEST_SKIP() << data << " is absent";
   const TemporaryDirectory directory;
@@ -39,8 +39,8 @@ TEST(RecognitionDemoDocs, ShowWhatTheProgramPrints) {
     for (const auto& file : std::filesystem::directory_iterator(data / folder))
       if (file.path().extension() == ".csv")
         std::filesystem::create_symlink(file.path(), directory.path() / file.path().filename());
-  const auto all = shown();
-  EXPECT_GE(all.size(), 15U);
+  const auto all = shown(page);
+  EXPECT_EQ(all.size(), commands);
   for (const auto& [command, output] : all) {
 #ifndef NDEBUG
     if (command.find("--runs") != std::string::npos) continue;  // minutes without optimisation
@@ -53,6 +53,12 @@ TEST(RecognitionDemoDocs, ShowWhatTheProgramPrints) {
     EXPECT_EQ(ending.output, output) << command;
   }
 }
+
+TEST(RecognitionDemoPage, ShowsWhatTheProgramPrints) { expect_shown("recognition_demo.md", 3); }
+TEST(RecognitionDemoPage, OfRegimesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_regimes.md", 1); }
+TEST(RecognitionDemoPage, OfLabelledDataShowsWhatTheProgramPrints) { expect_shown("recognition_demo_data.md", 5); }
+TEST(RecognitionDemoPage, OfSixTablesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_evaluate.md", 6); }
+TEST(RecognitionDemoPage, OfAircraftShowsWhatTheProgramPrints) { expect_shown("recognition_demo_aircraft.md", 5); }
 
 }  // namespace
 }  // namespace sigmax::apps

@@ -56,8 +56,9 @@ class AnySensor {
   std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<measurement_size, max_measurement_size>& z) const {
     return visit([&]<Sensing Sensor>(const Sensor& sensor) -> std::optional<Gaussian<Eigen::Dynamic, 3>> {
       if constexpr (requires(const MeasurementOf<Sensor>& own) { sensor.position(own); }) {
-        const auto position = sensor.position(MeasurementOf<Sensor>{z.mean, z.covariance});
-        return Gaussian<Eigen::Dynamic, 3>{position.mean, position.covariance};
+        const std::optional position = sensor.position(MeasurementOf<Sensor>{z.mean, z.covariance});
+        if (position) return Gaussian<Eigen::Dynamic, 3>{position->mean, position->covariance};
+        return std::nullopt;
       } else {
         return std::nullopt;
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -61,13 +62,24 @@ class ComponentSensor {
   static constexpr int measurement_size = Eigen::Dynamic;
   static constexpr int max_measurement_size = MaxSize;
 
-  /// Their places in the state of every model, in which the position and its derivatives lead. Throws
+  /// Their places in the state of every model, in which the position and its derivatives lead. If the number of axes is
+  /// told, and the first places are those of the position, in order, a target can start from it. Throws
   /// std::invalid_argument for none, or more than `MaxSize`.
-  explicit ComponentSensor(std::span<const int> places) : size_(static_cast<int>(places.size())) {
+  explicit ComponentSensor(std::span<const int> places, int axes = 0) : size_(static_cast<int>(places.size())) {
     if (places.empty() || size_ > MaxSize)
       throw std::invalid_argument("a sensor of " + std::to_string(places.size()) + " components; expected 1 to " +
                                   std::to_string(MaxSize));
     std::copy(places.begin(), places.end(), places_.begin());
+    while (position_size_ < std::min(axes, size_) && places[static_cast<std::size_t>(position_size_)] == position_size_)
+      ++position_size_;
+    if (position_size_ < axes) position_size_ = 0;
+  }
+
+  /// What a measurement tells of the position by itself, if all its axes were measured.
+  std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<Eigen::Dynamic, MaxSize>& z) const {
+    if (position_size_ == 0) return std::nullopt;
+    return Gaussian<Eigen::Dynamic, 3>{z.mean.head(position_size_),
+                                       z.covariance.topLeftCorner(position_size_, position_size_)};
   }
 
   /// Throws std::invalid_argument, naming the model, if it lacks one of the components.
@@ -89,6 +101,7 @@ class ComponentSensor {
  private:
   std::array<int, std::size_t{MaxSize}> places_{};
   int size_;
+  int position_size_ = 0;
 };
 
 /// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the

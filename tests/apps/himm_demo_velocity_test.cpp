@@ -1,0 +1,229 @@
+// What `track` takes beside positions: velocities, speeds with a course, range rates, bearings; against an extended
+// Kalman filter of one model, written out in plain loops with a numerical Jacobian.
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "apps/recordings.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double knot = 1852.0 / 3600.0;
+
+/// One measured quantity of the state x, y, vx, vy; several of one row are taken one after the other, which is the same
+/// while they are linear, or the estimate at which they are linearised stays that of the prediction.
+struct Quantity {
+  double value;
+  double sigma;
+  std::function<double(const std::array<double, 4>&)> of;
+  bool angle = false;
+};
+
+/// A target of nearly constant velocity (σ_w = 2 m/s²) on two axes.
+class PlainFilter {
+ public:
+  PlainFilter(std::array<double, 4> mean, double position_variance, double velocity_variance) : m_(mean) {
+    for (std::size_t i = 0; i < 4; ++i) P_[i][i] = i < 2 ? position_variance : velocity_variance;
+  }
+
+  void step(double T, const std::vector<Quantity>& row) {
+    m_ = {m_[0] + T * m_[2], m_[1] + T * m_[3], m_[2], m_[3]};
+    Matrix F{{{1, 0, T, 0}, {0, 1, 0, T}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    Matrix predicted{};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t a = 0; a < 4; ++a)
+          for (std::size_t b = 0; b < 4; ++b) predicted[i][j] += F[i][a] * P_[a][b] * F[j][b];
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        if (i % 2 == j % 2) predicted[i][j] += 4.0 * (i < 2 ? 0.5 * T * T : T) * (j < 2 ? 0.5 * T * T : T);
+    P_ = predicted;
+    const std::array<double, 4> at = m_;
+    for (const Quantity& quantity : row) take(quantity, at);
+  }
+
+  const std::array<double, 4>& mean() const { return m_; }
+  double sigma(std::size_t i) const { return std::sqrt(P_[i][i]); }
+
+ private:
+  using Matrix = std::array<std::array<double, 4>, 4>;
+
+  void take(const Quantity& quantity, const std::array<double, 4>& at) {
+    std::array<double, 4> h{}, PH{};
+    double residual = quantity.value - quantity.of(at);
+    if (quantity.angle) residual = std::remainder(residual, 2.0 * std::numbers::pi);
+    for (std::size_t i = 0; i < 4; ++i) {
+      auto up = at, down = at;
+      up[i] += 1e-3;
+      down[i] -= 1e-3;
+      h[i] = (quantity.of(up) - quantity.of(down)) / 2e-3;
+      residual -= h[i] * (m_[i] - at[i]);
+    }
+    double S = quantity.sigma * quantity.sigma;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) PH[i] += P_[i][j] * h[j];
+    for (std::size_t i = 0; i < 4; ++i) S += h[i] * PH[i];
+    for (std::size_t i = 0; i < 4; ++i) {
+      m_[i] += PH[i] / S * residual;
+      for (std::size_t j = 0; j < 4; ++j) P_[i][j] -= PH[i] * PH[j] / S;
+    }
+  }
+
+  std::array<double, 4> m_;
+  Matrix P_{};
+};
+
+/// Rows of a target at constant velocity: their text, and what each measures.
+struct Recording {
+  std::string text;
+  std::vector<std::vector<Quantity>> rows;
+};
+
+Quantity component(std::size_t i, double value, double sigma) {
+  return {value, sigma, [i](const auto& x) { return x[i]; }};
+}
+
+void expect_filtered(const Recording& recording, std::vector<std::string> more, double tolerance) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> arguments = {"track", directory.write("input.csv", recording.text),
+                                        "--out", directory.path() / "out",
+                                        "--set", "filters=[imm]",
+                                        "--set", "models=[dwna]",
+                                        "--set", "sigma_w=2",
+                                        "--set", "start=given",
+                                        "--set", "start_mean=[5000,-3000,0,-60,80,0,0,0,0]",
+                                        "--set", "start_covariance_diagonal=[400,400,1,25,25,1,1,1,1]",
+                                        "--set", "start_time_s=0",
+                                        "--set", "sigma_position_m=12"};
+  for (const auto& setting : more) arguments.insert(arguments.end(), {"--set", setting});
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
+  ASSERT_EQ(found.size(), recording.rows.size());
+  PlainFilter filter({5000.0, -3000.0, -60.0, 80.0}, 400.0, 25.0);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    SCOPED_TRACE("row " + std::to_string(k));
+    filter.step(1.0, recording.rows[k]);
+    const std::array<std::string, 4> names = {"x_m", "y_m", "vx_mps", "vy_mps"};
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(number(found[k].at(names[i])), filter.mean()[i], tolerance * filter.sigma(i));
+      EXPECT_NEAR(number(found[k].at("sigma_" + names[i])), filter.sigma(i), tolerance * filter.sigma(i));
+    }
+  }
+}
+
+/// Where the target is after k + 1 seconds.
+std::array<double, 4> truth(int k) { return {5000.0 - 60.0 * (k + 1), -3000.0 + 80.0 * (k + 1), -60.0, 80.0}; }
+
+TEST(HimmDemoVelocity, IsAMeasurementOnceItsAccuracyIsGiven) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> noise;
+  Recording both, positions;
+  both.text = positions.text = "time_s,x_m,y_m,vx_mps,vy_mps\n";
+  for (int k = 0; k < 30; ++k) {
+    auto x = truth(k);
+    for (std::size_t i = 0; i < 4; ++i) x[i] += (i < 2 ? 12.0 : 0.5) * noise(engine);
+    const bool slow = k % 5 == 2, lost = k % 5 == 3;  // without a velocity; with nothing but vy
+    const std::string line = exact(k + 1) + "," + (lost ? "," : exact(x[0]) + "," + exact(x[1])) + "," +
+                             (slow || lost ? "" : exact(x[2])) + "," + (slow ? "" : exact(x[3])) + "\n";
+    both.text += line;
+    positions.text += line;
+    auto& row = both.rows.emplace_back();
+    auto& part = positions.rows.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i)
+      if (i < 2 ? !lost : !slow && (i == 3 || !lost)) {
+        row.push_back(component(i, x[i], i < 2 ? 12.0 : 0.5));
+        if (i < 2) part.push_back(row.back());
+      }
+  }
+  expect_filtered(both, {"sigma_velocity_mps=0.5"}, 1e-8);
+  expect_filtered(positions, {}, 1e-8);
+}
+
+TEST(HimmDemoVelocity, IsMadeOfASpeedInKnotsAndACourse) {
+  std::mt19937_64 engine(4);
+  std::normal_distribution<double> noise;
+  Recording recording{"time_s,x_m,y_m,groundspeed_kt,track_deg\n", {}};
+  for (int k = 0; k < 30; ++k) {
+    auto x = truth(k);
+    for (std::size_t i = 0; i < 4; ++i) x[i] += (i < 2 ? 12.0 : 0.5) * noise(engine);
+    recording.text += exact(k + 1) + "," + exact(x[0]) + "," + exact(x[1]) + "," +
+                      exact(std::hypot(x[2], x[3]) / knot) + "," + exact(90.0 - std::atan2(x[3], x[2]) / degree) + "\n";
+    auto& row = recording.rows.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) row.push_back(component(i, x[i], i < 2 ? 12.0 : 0.5));
+  }
+  expect_filtered(recording, {"sigma_velocity_mps=0.5"}, 1e-8);
+}
+
+TEST(HimmDemoVelocity, AlongTheBeamIsMeasuredByARadarAndABearingByACamera) {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> noise;
+  const auto range = [](const auto& x) { return std::hypot(x[0], x[1]); };
+  const auto azimuth = [](const auto& x) { return std::atan2(x[1], x[0]); };
+  const auto rate = [](const auto& x) { return (x[0] * x[2] + x[1] * x[3]) / std::hypot(x[0], x[1]); };
+  Recording recording{"time_s,sensor,range_m,azimuth_deg,range_rate_mps\n", {}};
+  for (int k = 0; k < 40; ++k) {
+    const auto x = truth(k);
+    const bool camera = k % 3 == 1;
+    const double alpha = azimuth(x) + (camera ? 0.01 : 0.3) * degree * noise(engine);
+    auto& row = recording.rows.emplace_back();
+    row.push_back({alpha, (camera ? 0.01 : 0.3) * degree, azimuth, true});
+    if (camera) {
+      recording.text += exact(k + 1) + ",camera,," + exact(alpha / degree) + ",\n";
+      continue;
+    }
+    const double r = range(x) + 20.0 * noise(engine), v = rate(x) + 0.2 * noise(engine);
+    recording.text += exact(k + 1) + ",radar," + exact(r) + "," + exact(alpha / degree) + "," + exact(v) + "\n";
+    row.push_back({r, 20.0, range});
+    row.push_back({v, 0.2, rate});
+  }
+  expect_filtered(recording,
+                  {"sensor.radar.sigma_range_m=20", "sensor.radar.sigma_azimuth_deg=0.3",
+                   "sensor.radar.sigma_range_rate_mps=0.2", "sensor.camera.sigma_azimuth_deg=0.01"},
+                  1e-5);
+}
+
+/// An aircraft that flies east round the pole, far from where its frame began: its east is that where it is.
+TEST(HimmDemoVelocity, OfAPlaceIsAlongItsOwnEastAndNorth) {
+  const TemporaryDirectory directory;
+  std::string text = "time_s,latitude_deg,longitude_deg,speed_kt,course_deg\n";
+  for (int k = 0; k < 400; ++k)  // 600 kt along the parallel of 60° north, said without an error
+    text += exact(10.0 * k) + ",60," + exact(10.0 * k * 600.0 / 3600.0 / 60.0 / std::cos(60.0 * degree)) + ",600,90\n";
+  const auto ending =
+      program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("input.csv", text), "--out", directory.path() / "out",
+                                      "--set", "sigma_velocity_mps=0.1", "--set", "sigma_position_m=1000"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  for (const auto& row : rows(contents(directory.path() / "out" / "estimates.csv"))) {
+    EXPECT_NEAR(number(row.at("vx_mps")), 600.0 * knot, 1.0);
+    EXPECT_NEAR(number(row.at("vy_mps")), 0.0, 1.0);
+  }
+}
+
+TEST(HimmDemoVelocity, IsRefusedWhereItMakesNoSense) {
+  const TemporaryDirectory directory;
+  const auto run = [&](const std::string& text) {
+    return program::run(SIGMAX_HIMM_DEMO,
+                        {"track", directory.write("input.csv", text), "--set", "sigma_velocity_mps=1"});
+  };
+  const auto course = run("time_s,x_m,y_m,speed_mps,course_deg\n1,0,0,5,400\n");
+  EXPECT_EQ(course.status, 3);
+  EXPECT_NE(course.output.find("input.csv:2"), std::string::npos) << course.output;
+  EXPECT_NE(course.output.find("course_deg"), std::string::npos) << course.output;
+  const auto word = run("time_s,x_m,y_m,vx_mps,vy_mps\n1,0,0,fast,4\n");
+  EXPECT_EQ(word.status, 3);
+  EXPECT_NE(word.output.find("vx_mps"), std::string::npos) << word.output;
+}
+
+}  // namespace
+}  // namespace sigmax::apps
