@@ -175,6 +175,21 @@ TEST(Sensors, SomeComponentsAreMeasuredByThemselves) {
   EXPECT_TRUE(throws<std::invalid_argument>([&] { ComponentSensor<2>{places}; }, {"3", "1 to 2"}));
 }
 
+TEST(Sensors, ComponentsTellAPositionWhereAllAxesLead) {
+  const auto z = Gaussian<Eigen::Dynamic, 4>{Vector<4>{1.0, 2.0, 3.0, 4.0}, SquareMatrix<4>::Identity() * 9.0};
+  const auto told = [&](std::initializer_list<int> places, int axes) {
+    return ComponentSensor<4>(std::span(places.begin(), places.size()), axes).position(z);
+  };
+  ASSERT_TRUE(told({0, 1, 2, 3}, 2));
+  EXPECT_EQ(told({0, 1, 2, 3}, 2)->mean, (Vector<2>{1.0, 2.0}));
+  EXPECT_EQ(told({0, 1, 2, 3}, 2)->covariance, (SquareMatrix<2>{{9.0, 0.0}, {0.0, 9.0}}));
+  EXPECT_EQ(told({0, 1, 2, 5}, 3)->size(), 3);
+  EXPECT_FALSE(told({0, 1, 3, 4}, 3));  // no height
+  EXPECT_FALSE(told({2, 3}, 2));        // a velocity
+  EXPECT_FALSE(told({1, 0, 2, 3}, 2));
+  EXPECT_FALSE(told({0, 1, 2, 3}, 0));  // how many axes there are was not told
+}
+
 TEST(Sensors, ARadarTellsThePositionAsTheConversionDoes) {
   const Vector<3> origin(10.0, -20.0, 5.0);
   const Polar seen{1000.0, 0.4, 0.2}, sigma{10.0, 0.002, 0.003};
