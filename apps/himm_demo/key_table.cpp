@@ -47,7 +47,7 @@ std::string key_table() {
   text += entry("filter.NAME.kind", "The kind of the filter's mode.", "random, fuzzy", "from the name");
   for (const auto& key : filter_keys()) text += entry(key, track, paper, released);
   for (const auto& key : accuracy_keys()) text += entry(key, track.accuracy, paper.accuracy, released.accuracy);
-  text += entry("sensor.NAME.KEY", "One of the last four keys, for the rows whose column sensor says NAME.", "as there",
+  text += entry("sensor.NAME.KEY", "One of the last six keys, for the rows whose column sensor says NAME.", "as there",
                 "that of all sensors");
   text += entry("filter.NAME.KEY", "Any key, for one filter.", "as there", "that of all filters");
   return text;
