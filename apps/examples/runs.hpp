@@ -10,24 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include <sigmax/core/mean_interval.hpp>
+
 #include "examples/plot.hpp"
 
 namespace examples {
-
-/// A mean over independent runs, with the half width of its 95 % confidence interval.
-class MeanOfRuns {
- public:
-  void add(double value) {
-    sum_ += value;
-    squares_ += value * value;
-    ++count_;
-  }
-  double mean() const { return sum_ / count_; }
-  double half_width() const { return 1.96 * std::sqrt((squares_ / count_ - mean() * mean()) / (count_ - 1.0)); }
-
- private:
-  double sum_ = 0.0, squares_ = 0.0, count_ = 0.0;
-};
 
 /// The root mean square errors of four estimates over many runs: what sums and what maxima make of the same
 /// measurements. A track is one number for each step, or as many as the study is told: x, y, x, y, …
@@ -66,9 +53,9 @@ class Study {
   void print() const {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const double root = std::sqrt(in_all_[i].mean());
-      print(names[i], root, in_all_[i].half_width() / (2.0 * root));
+      print(names[i], root, in_all_[i].interval().half_width / (2.0 * root));
     }
-    print("mean square of mean, fuzzy less random", loss_.mean(), loss_.half_width());
+    print("mean square of mean, fuzzy less random", loss_.mean(), loss_.interval().half_width);
   }
 
   /// The means of both kinds: RMSE over the runs, step by step.
@@ -76,7 +63,7 @@ class Study {
     sigmax::apps::Plot plot{std::move(title), std::move(x_label), std::move(y_label)};
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
       std::vector<double> steps, roots;
-      for (const MeanOfRuns& squares : by_step_[i]) {
+      for (const sigmax::RunningMean& squares : by_step_[i]) {
         steps.push_back(static_cast<double>(steps.size() + 1));
         roots.push_back(std::sqrt(squares.mean()));
       }
@@ -94,9 +81,9 @@ class Study {
   }
 
   std::size_t numbers_per_step_;
-  std::array<MeanOfRuns, 4> in_all_;
-  std::array<std::vector<MeanOfRuns>, 4> by_step_;
-  MeanOfRuns loss_;
+  std::array<sigmax::RunningMean, 4> in_all_;
+  std::array<std::vector<sigmax::RunningMean>, 4> by_step_;
+  sigmax::RunningMean loss_;
 };
 
 }  // namespace examples
