@@ -33,6 +33,9 @@ class Reporter {
   }
 
  private:
+  /// A sentence, in lines of the width asked for.
+  void say(std::string_view sentence) { text_ += wrapped(sentence, options_.output.width()); }
+
   void describe_run() {
     summary_ = {{"version", version}, {"command", options_.output.command}, {"file", file_}};
     summary_["seed"] = options_.seed;
@@ -60,16 +63,16 @@ class Reporter {
     const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
       return filter.radar_measurement == RadarForm::polar;
     });
-    text_ = fmt::format("{}: {} rows, {} measurements, {} axes{}{}\n", file_, outcome_.rows, outcome_.measurements,
-                        recording_.axes(), recording_.geodetic() ? ", geodetic to local east-north-up" : "",
-                        !recording_.polar() ? ""
-                        : converted         ? ", a radar's measurements converted"
-                                            : ", a radar's measurements");
-    text_ += wrapped(fmt::format("Taken for: {}", recording_.taken()), options_.output.width());
+    say(fmt::format("{}: {} rows, {} measurements, {} axes{}{}", file_, outcome_.rows, outcome_.measurements,
+                    recording_.axes(), recording_.geodetic() ? ", geodetic to local east-north-up" : "",
+                    !recording_.polar() ? ""
+                    : converted         ? ", a radar's measurements converted"
+                                        : ", a radar's measurements"));
+    say(fmt::format("Taken for: {}", recording_.taken()));
     if (recording_.has_sensors()) {
       std::vector<std::string> counts;
       for (const auto& [sensor, count] : outcome_.sensors) counts.push_back(fmt::format("{} {}", sensor, count));
-      text_ += fmt::format("Rows by sensor: {}\n", fmt::join(counts, ", "));
+      say(fmt::format("Rows by sensor: {}", fmt::join(counts, ", ")));
     }
     if (recording_.has_tracks()) {
       text_ += fmt::format("{} tracks by {}", outcome_.tracks, options_.recording.track_id);
@@ -89,7 +92,7 @@ class Reporter {
           counts.push_back(fmt::format("{} {}", filters_[f].name, total));
           summary_[key][filters_[f].name] = total;
         }
-      if (!counts.empty()) text_ += fmt::format("{}: {}\n", what, fmt::join(counts, ", "));
+      if (!counts.empty()) say(fmt::format("{}: {}", what, fmt::join(counts, ", ")));
     };
     by_filter("rejected", "Measurements that the gate turned away", &FilterOutcome::rejected);
     if (outcome_.refused_by_all > 0)
@@ -99,11 +102,11 @@ class Reporter {
     if (!options_.radar) return;
     const auto& sigma = *options_.radar;
     const auto at = radar_at();
-    text_ += fmt::format(
+    say(fmt::format(
         "The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, {}) m, seed "
-        "{}\n",
+        "{}",
         shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]), shortest(at[2]),
-        options_.seed);
+        options_.seed));
   }
 
   void warn() {
