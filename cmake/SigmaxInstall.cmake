@@ -3,6 +3,10 @@
 include(CMakePackageConfigHelpers)
 
 sigmax_install(sigmax_all)
+set(SIGMAX_WITH_HIGHWAY FALSE)  # whether users of the static library have to link Highway
+if(TARGET hwy::hwy)
+  set(SIGMAX_WITH_HIGHWAY TRUE)
+endif()
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sigmax")
 install(EXPORT sigmax NAMESPACE sigmax:: FILE sigmax-targets.cmake DESTINATION "${package_dir}" COMPONENT dev)
 
@@ -28,8 +32,12 @@ function(sigmax_pc pc_name pc_part pc_requires pc_libraries)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${pc_name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 endfunction()
 set(SIGMAX_PC_IN "${CMAKE_CURRENT_LIST_DIR}/sigmax.pc.in")
-sigmax_pc(sigmax "" "eigen3 >= 3.4" "${link_flags}")
-sigmax_pc(sigmax-core ": the part that does without Eigen" "" " -lsigmax_core")
+set(private_flags "")
+if(SIGMAX_WITH_HIGHWAY)
+  set(private_flags " -lhwy")
+endif()
+sigmax_pc(sigmax "" "eigen3 >= 3.4" "${link_flags}${private_flags}")
+sigmax_pc(sigmax-core ": the part that does without Eigen" "" " -lsigmax_core${private_flags}")
 
 # Debian packages: `cpack -G DEB` in the build directory. What Debian wants in every package is installed in packages only.
 foreach(package libsigmax-dev:dev sigmax-tools:tools)
@@ -56,6 +64,9 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsigmax-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libstdc++-12-dev | libstdc++-dev")
+if(SIGMAX_WITH_HIGHWAY)
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libhwy-dev")
+endif()
 set(CPACK_COMPONENT_DEV_DESCRIPTION "sigma-max inference: probability and possibility, for C++20
 Sums for random variables, maxima for fuzzy ones: relations, networks, a
 sequential classifier, Kalman filters, and one interacting multiple-model

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -7,8 +8,13 @@
 
 #include <sigmax/core/kernels/dense.hpp>
 
+#include "core/peak.hpp"
+
 namespace sigmax {
 namespace {
+
+using bench::BesidePeak;
+using bench::Operation;
 
 /// A square table of numbers between zero and one, the same for the same seed.
 Table numbers(std::size_t n, std::uint64_t seed) {
@@ -24,11 +30,13 @@ std::vector<std::vector<double>> rows(const Table& table) {
   return result;
 }
 
-/// One operation is an ⊗ and the ⊕ that takes its result.
-void count_operations(benchmark::State& state) {
-  const std::int64_t n = state.range(0);
-  state.SetItemsProcessed(state.iterations() * n * n * n);
+/// The operations of a composition of n × n.
+double operations(const benchmark::State& state) {
+  const auto n = static_cast<double>(state.range(0));
+  return n * n * n;
 }
+template <Algebra A>
+constexpr Operation operation_of = std::same_as<A, Sigma> ? Operation::multiply_add : Operation::multiply_max;
 
 /// Composition of dense tables as the library does it.
 template <Algebra A>
@@ -36,12 +44,43 @@ void compose(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Table left = numbers(n, 1), right = numbers(n, 2);
   Table result(n, n);
+  BesidePeak beside{state, operation_of<A>};
   for (auto _ : state) {
     kernels::compose<A>(left, right, result);
     benchmark::DoNotOptimize(result.data());
     benchmark::ClobberMemory();
   }
-  count_operations(state);
+  beside.report(operations(state));
+}
+
+/// The same with the first index that attains each maximum.
+void winners(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const Table left = numbers(n, 1), right = numbers(n, 2);
+  Table result(n, n);
+  kernels::FirstWinners winners;
+  BesidePeak beside{state, Operation::multiply_max};
+  for (auto _ : state) {
+    kernels::compose<Max>(left, right, result, winners);
+    benchmark::DoNotOptimize(result.data());
+    benchmark::ClobberMemory();
+  }
+  beside.report(operations(state));
+}
+
+/// The plain loops over tables that the kernels replace.
+void plain_loops(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const Table left = numbers(n, 1), right = numbers(n, 2);
+  Table result(n, n);
+  kernels::NoWinners none;
+  BesidePeak beside{state, Operation::multiply_max};
+  for (auto _ : state) {
+    kernels::compose_plainly<Max>(left, right, result, none);
+    benchmark::DoNotOptimize(result.data());
+    benchmark::ClobberMemory();
+  }
+  beside.report(operations(state));
 }
 
 struct Add {
@@ -67,15 +106,21 @@ void triple_loop(benchmark::State& state) {
     benchmark::DoNotOptimize(result.data());
     benchmark::ClobberMemory();
   }
-  count_operations(state);
+  state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0) * state.range(0));
 }
 
-constexpr std::int64_t smallest = 2, greatest = 2048;
+constexpr std::int64_t smallest = 2;
 constexpr std::int64_t greatest_of_loops = 512;  // beyond, they take minutes
 
-BENCHMARK(compose<Sigma>)->RangeMultiplier(4)->Range(smallest, greatest);
+void sizes(benchmark::internal::Benchmark* benchmark) {
+  for (const std::int64_t n : {2, 4, 8, 16, 33, 64, 65, 128, 256, 257, 512, 1024, 2048}) benchmark->Arg(n);
+}
+
+BENCHMARK(compose<Sigma>)->Apply(sizes);
+BENCHMARK(compose<Max>)->Apply(sizes);
+BENCHMARK(winners)->Apply(sizes);
+BENCHMARK(plain_loops)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);
 BENCHMARK(triple_loop<Add>)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);
-BENCHMARK(compose<Max>)->RangeMultiplier(4)->Range(smallest, greatest);
 BENCHMARK(triple_loop<Greater>)->RangeMultiplier(4)->Range(smallest, greatest_of_loops);
 
 }  // namespace

@@ -1,19 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 #include <sigmax/core/algebra.hpp>
 #include <sigmax/core/kernels/accumulate.hpp>
+#include <sigmax/core/kernels/tiled.hpp>
 #include <sigmax/core/table.hpp>
 
 namespace sigmax::kernels {
 
-/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), a dense table of parts that may be stored in any way. Allocates nothing
-/// if `result` has room. `result` must not be `right` or `left`.
+/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k) by plain loops: what every kernel for dense tables is tested against.
+/// `result` has its shape already.
 template <Algebra A, class Left, class Right, class Winners>
-void compose(const Left& left, const Right& right, Table& result, Winners& winners) {
-  result.reshape(right.rows(), left.columns());
+void compose_plainly(const Left& left, const Right& right, Table& result, Winners& winners) {
   winners.assign(result.size());
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const auto weights = right.entries(i);
@@ -23,6 +25,31 @@ void compose(const Left& left, const Right& right, Table& result, Winners& winne
       accumulate<A>(weights.value(j), left.entries(weights.index(j)), out, weights.index(j),
                     winners.from(result.offset(i)));
   }
+}
+
+/// The same by the machine's vectors, if that is possible and worth it.
+template <Algebra A, class Winners>
+bool compose_by_tiles(const Table& left, const Table& right, Table& result, Winners& winners) {
+  const DenseParts parts{right.data(), left.data(), result.data(), right.rows(), left.rows(), left.columns()};
+  if constexpr (std::same_as<Winners, NoWinners> && requires { compose_tiled(A{}, parts); }) {
+    return worth_tiling(parts) && compose_tiled(A{}, parts);
+  } else if constexpr (std::same_as<Winners, FirstWinners> && requires { compose_tiled(A{}, parts, nullptr); }) {
+    if (!worth_tiling(parts)) return false;
+    winners.all.resize(result.size());
+    return compose_tiled(A{}, parts, winners.all.data());
+  } else {
+    return false;
+  }
+}
+
+/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), a dense table of parts that may be stored in any way. Allocates nothing
+/// if `result` has room. `result` must not be `right` or `left`.
+template <Algebra A, class Left, class Right, class Winners>
+void compose(const Left& left, const Right& right, Table& result, Winners& winners) {
+  result.reshape(right.rows(), left.columns());
+  if constexpr (std::same_as<Left, Table> && std::same_as<Right, Table>)
+    if (compose_by_tiles<A>(left, right, result, winners)) return;
+  compose_plainly<A>(left, right, result, winners);
 }
 template <Algebra A, class Left, class Right>
 void compose(const Left& left, const Right& right, Table& result) {

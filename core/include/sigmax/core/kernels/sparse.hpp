@@ -76,7 +76,7 @@ class GrowingRow {
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
-/// last bit. `winners` is FirstWinners or NoWinners.
+/// last bit; where ⊕ adds, that of a dense result from a kernel for large tables is to rounding. `winners` is FirstWinners or NoWinners.
 template <Algebra A, class Left, class Right, class Winners>
 SparseRows sparse_composition(const Left& left, const Right& right, Winners& winners) {
   SparseRows result(left.columns());

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+
+#include <sigmax/core/algebra.hpp>
+#include <sigmax/core/kernels/accumulate.hpp>
+
+namespace sigmax::kernels {
+
+/// The parts of result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), each stored row by row: `right` is rows × inner, `left` is
+/// inner × columns, `result` is rows × columns and neither of them.
+struct DenseParts {
+  const double* right;
+  const double* left;
+  double* result;
+  std::size_t rows, inner, columns;
+};
+
+/// Whether the compiled kernels are faster than plain loops.
+inline bool worth_tiling(const DenseParts& parts) {
+  return parts.rows >= 4 && parts.columns >= 8 && parts.inner >= 4 && parts.rows * parts.inner * parts.columns >= 512;
+}
+
+/// Composes dense tables by the widest vectors that the machine has, found out when the program runs. False, and
+/// nothing is done that matters, if the library was built without Highway or the numbers are out of its range.
+///
+/// The numbers are those of the plain loops: to the bit where ⊕ selects, to rounding where it adds. Products below the
+/// least normal number, 2^−1022, cost no more than others and are not lost; a result there is within 2^−1074 of that of
+/// the plain loops, and its winner is decided before it is rounded to so few digits.
+bool compose_tiled(Sigma, const DenseParts& parts);
+bool compose_tiled(Max, const DenseParts& parts);
+bool compose_tiled(MaxMin, const DenseParts& parts);
+
+/// The same, and for each number the first index that attains it; 0 where the number is zero.
+bool compose_tiled(Max, const DenseParts& parts, Winner* first);
+bool compose_tiled(MaxMin, const DenseParts& parts, Winner* first);
+
+}  // namespace sigmax::kernels
