@@ -3,130 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <limits>
-#include <stdexcept>
 
-#include <fmt/format.h>
-
-#include <sigmax/estimation/metrics.hpp>
-
-#include "himm_demo/tracker.hpp"
+#include "himm_demo/trace.hpp"
 #include "support/parallel.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// One filter in one run, sample by sample; NaN where there is no estimate.
-struct Trace {
-  std::vector<std::array<double, 3>> squared_error;
-  std::vector<double> nees_position;
-  std::vector<double> nees_velocity;
-  std::vector<double> nis;
-  std::vector<std::vector<double>> weights;
-
-  explicit Trace(std::size_t samples)
-      : squared_error(samples, {nan, nan, nan}),
-        nees_position(samples, nan),
-        nees_velocity(samples, nan),
-        nis(samples, nan),
-        weights(samples) {}
-};
-
-struct Run {
-  Trace measurement;
-  std::vector<Trace> filters;
-};
-
-std::array<double, 3> squares(const Vector<3>& error) {
-  return {error.x() * error.x(), error.y() * error.y(), error.z() * error.z()};
-}
-
-void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Trace& trace) {
-  const auto& estimate = point.estimate;
-  trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
-  trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
-                                                               estimate.covariance.topLeftCorner<3, 3>());
-  if (estimate.size() >= 6)
-    trace.nees_velocity[sample] =
-        normalized_error_squared<6, 6>(estimate.mean.head<6>() - truth, estimate.covariance.topLeftCorner<6, 6>());
-  trace.nis[sample] = point.nis.value_or(nan);
-  trace.weights[sample] = std::move(point.weights);
-}
-
-/// What the experiment's radar saw, as the filter takes it.
-Reading<3> reading(const Polar& seen, const FilterSettings& filter) {
-  return radar_reading<3>(seen, filter.accuracy.radar, Vector<3>::Zero(), filter.radar_measurement);
-}
-
-Run run_once(const Experiment& experiment, std::uint64_t number) {
-  RandomStream random(experiment.seed, number);
-  const Recording recording = simulate(experiment.scenario, experiment.group.data, random);
-  const std::size_t samples = recording.truth.size();
-  Run result{Trace(samples), std::vector<Trace>(experiment.filters.size(), Trace(samples))};
-  const auto time_of = [&](std::size_t sample) { return experiment.scenario.step_s * static_cast<double>(sample); };
-
-  for (std::size_t k = 0; k < samples; ++k)
-    result.measurement.squared_error[k] = squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
-
-  for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
-    const FilterSettings& filter = experiment.filters[f];
-    Tracker<3> tracker(filter);
-    const auto note = [&](TrackPoint<3> point, std::size_t k) {
-      record(std::move(point), recording.truth[k], k, result.filters[f]);
-    };
-    for (std::size_t k = 0; k < samples; ++k) {
-      try {
-        bool stepped_now = false;
-        tracker.take(time_of(k), reading(recording.measured[k], filter), k, [&](std::size_t tag) {
-          stepped_now = true;
-          if (!filter.smooth) note(tracker.now(), tag);
-        });
-        if (tracker.running() && !stepped_now && !filter.smooth) note(tracker.now(), k);  // the start
-        if (k + 1 == samples)
-          for (const auto& point : tracker.finish())
-            if (!point.is_start || filter.start != StartRule::given) note(point, point.tag);
-      } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("filter '{}', run {}, sample {}: {}", experiment.filters[f].name,
-                                             number + 1, k + 1, error.what()));
-      }
-    }
-  }
-  return result;
-}
-
-/// The first upward crossing of `difference(sample)` after the onset, interpolated; samples are counted from one.
-template <class Difference>
-std::optional<double> first_crossing(int onset, int samples, const Difference& difference) {
-  for (int k = std::max(onset, 2); k <= samples; ++k) {
-    const double before = difference(k - 1);
-    const double now = difference(k);
-    if (before <= 0.0 && now > 0.0) return k - 1 + before / (before - now);
-  }
-  return std::nullopt;
-}
-
-/// The model that stands for the manoeuvre: the last that does, if another does not. Its crossing is a delay; a
-/// smoothed filter has none, since it knows of the manoeuvre before that begins.
-std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
-  if (filter.smooth) return std::nullopt;
-  const auto& motions = filter.motions;
-  std::optional<std::size_t> model;
-  for (std::size_t j = 0; j < motions.size(); ++j)
-    if (motions[j].manoeuvres()) model = j;
-  const bool all =
-      std::all_of(motions.begin(), motions.end(), [](const Motion& motion) { return motion.manoeuvres(); });
-  return all ? std::nullopt : model;
-}
-
-double weight_difference(const std::vector<double>& weights, std::size_t model) {
-  if (weights.empty()) return 0.0;
-  double other = 0.0;
-  for (std::size_t j = 0; j < weights.size(); ++j)
-    if (j != model) other = std::max(other, weights[j]);
-  return weights[model] - other;
-}
 
 /// Adds up runs, in their order.
 class Tally {
@@ -208,13 +90,6 @@ class Tally {
   }
 
  private:
-  template <class Value>
-  static double phase_mean(const Phase& phase, const Value& value) {
-    double sum = 0.0;
-    for (int k = phase.first; k <= phase.last; ++k) sum += value(static_cast<std::size_t>(k - 1));
-    return sum / (phase.last - phase.first + 1);
-  }
-
   const Experiment& experiment_;
   const FilterSettings* filter_;
   std::vector<std::array<double, 3>> squared_;
@@ -237,11 +112,12 @@ Outcome run(const Experiment& experiment, const std::function<void()>& advance) 
   for_each_run(
       static_cast<std::size_t>(experiment.runs), experiment.threads,
       [&](std::size_t number) {
-        Run result = run_once(experiment, number);
+        TracedRun result =
+            trace_run(experiment.scenario, experiment.group.data, experiment.filters, experiment.seed, number);
         advance();
         return result;
       },
-      [&](std::size_t, const Run& result) {
+      [&](std::size_t, const TracedRun& result) {
         measurement.add(result.measurement);
         for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result.filters[f]);
       },

@@ -142,6 +142,13 @@ FilterDefaults FilterDefaults::of(Preset preset) {
   return defaults;
 }
 
+FilterDefaults FilterDefaults::of(Preset preset, const Group& parameters) {
+  FilterDefaults defaults = of(preset);
+  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
+  defaults.filter.accuracy.radar = parameters.model;
+  return defaults;
+}
+
 bool asks_for_all(const Settings& settings) {
   return settings.strings("filters", std::vector<std::string>{}) == std::vector<std::string>{"all"};
 }

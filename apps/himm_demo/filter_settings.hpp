@@ -60,6 +60,9 @@ struct FilterDefaults {
   std::vector<std::string> names = {"imm", "himm"};
 
   static FilterDefaults of(Preset preset);
+
+  /// With the accuracies and σ_w that the filters of a group believe.
+  static FilterDefaults of(Preset preset, const Group& parameters);
 };
 
 /// Whether the settings ask for every filter that has a name of its own, `filters = "all"`.

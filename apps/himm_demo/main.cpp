@@ -1,5 +1,8 @@
 #include "himm_demo/filter_options.hpp"
+#include "himm_demo/merge.hpp"
+#include "himm_demo/reproduce.hpp"
 #include "himm_demo/simulate.hpp"
+#include "himm_demo/sweep.hpp"
 #include "himm_demo/track.hpp"
 
 int main(int argc, char** argv) {
@@ -8,7 +11,7 @@ int main(int argc, char** argv) {
       {"himm_demo",
        "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a fuzzy "
        "mode (HIMM).",
-       {add_simulate, add_track, add_keys},
+       {add_simulate, add_reproduce, add_sweep, add_merge, add_track, add_keys},
        "simulate"},
       argc, argv);
 }

@@ -7,6 +7,7 @@
 
 #include "himm_demo/experiment.hpp"
 #include "himm_demo/filter_settings.hpp"
+#include "himm_demo/sentences.hpp"
 
 namespace sigmax::apps {
 
@@ -23,9 +24,6 @@ std::optional<double> paper_cross_time(int scenario, int group, const FilterSett
 
 /// What the paper's claims are about: HIMM against IMM.
 bool judged(const FilterSettings& filter, const FilterSettings& reference);
-
-/// A difference of less than a tenth of the reference on every axis is called competitive here.
-inline constexpr double competitive_fraction = 0.1;
 
 /// Whether the paper's claim about a phase is what the runs show. `reference` is the RMSE of the reference by axis.
 std::string verdict(Claim claim, const std::array<Interval, 3>& difference, const std::array<double, 3>& reference);

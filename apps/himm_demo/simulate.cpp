@@ -19,10 +19,7 @@ namespace {
 void simulate_and_report(const SimulateOptions& options) {
   const Settings settings = Settings::read(options.config, options.sets);
   const Group parameters = group(options.group, options.scenario);
-  FilterDefaults defaults = FilterDefaults::of(options.preset);
-  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
-  defaults.filter.accuracy.radar = parameters.model;
-  const auto filters = read_filters(settings, defaults);
+  const auto filters = read_filters(settings, FilterDefaults::of(options.preset, parameters));
   settings.refuse_unknown();
   if (options.print_config) {
     fmt::print("{}", as_toml(filters));

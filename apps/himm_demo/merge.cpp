@@ -1,0 +1,99 @@
+#include "himm_demo/merge.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "himm_demo/reproduce.hpp"
+#include "himm_demo/sweep.hpp"
+#include "support/error.hpp"
+#include "support/output.hpp"
+#include "version.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> parts;
+  OutputOptions output;
+};
+
+/// The cells of all parts, which must be of one campaign and agree where they have the same cell.
+ReadJournal joined(const std::vector<std::string>& parts) {
+  ReadJournal all;
+  for (const std::filesystem::path part : parts) {
+    const auto path = part / journal_name;
+    const ReadJournal own = read_journal(path);
+    if (all.campaign.empty()) all.campaign = own.campaign;
+    if (own.campaign != all.campaign)
+      throw InputError(message({.where = path.native() + ":1",
+                                .what = "this is a shard of another campaign",
+                                .found = in_quotes(own.campaign),
+                                .expected = in_quotes(all.campaign)}));
+    for (const auto& [cell, row] : own.rows) {
+      const auto [there, added] = all.rows.emplace(cell, row);
+      if (!added && journal_line(cell, there->second) != journal_line(cell, row))
+        throw InputError(message({.where = path.native(),
+                                  .what = fmt::format("cell {} is another one than in a shard before", cell),
+                                  .remedy = "do all shards by the same build of the program"}));
+    }
+  }
+  return all;
+}
+
+/// The words of the command that the journal is of, without program and version.
+std::vector<std::string> command_of(const std::string& campaign) {
+  std::istringstream words(campaign);
+  std::string program, made_by;
+  words >> program >> made_by;
+  if (program != "himm_demo" || made_by != version)
+    throw InputError(message({.what = "the shards",
+                              .found = in_quotes(program + " " + made_by),
+                              .expected = fmt::format("himm_demo {}", version),
+                              .remedy = "merge them by the version that made them"}));
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+void merge(const MergeOptions& options) {
+  const ReadJournal all = joined(options.parts);
+  std::vector<std::string> arguments = command_of(all.campaign);
+  {
+    Journal journal(OutputDirectory(options.output.out).path() / journal_name, all.campaign);
+    for (const auto& [cell, row] : all.rows)
+      if (!journal.rows().contains(cell)) journal.append(cell, row);
+    journal.store();
+  }
+  arguments.insert(arguments.end(), {"--finished", "--out", options.output.out});
+  if (options.output.wide) arguments.emplace_back("--wide");
+  CLI::App again{"", "himm_demo"};
+  const std::string command =
+      all.campaign.substr(0, all.campaign.find(' ')) + " " + fmt::format("{}", fmt::join(arguments, " "));
+  add_reproduce(again, command);
+  add_sweep(again, command);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  again.parse(arguments);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, const std::string& command) {
+  CLI::App& app = *program.add_subcommand("merge", "The results of reproduce or sweep out of their shards.");
+  const auto options = std::make_shared<MergeOptions>();
+  options->output.command = command;
+  app.add_option("parts", options->parts, "Directories that --shard … --out wrote")->required()->type_name("DIR");
+  app.footer(
+      "Examples:\n"
+      "  himm_demo merge part1 part2 part3 part4 --out whole\n"
+      "  himm_demo merge part* --out whole --wide");
+  add_output(app, options->output);
+  app.get_option("--out")->required();
+  app.callback([options] { merge(*options); });
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/scenario.hpp"
+#include "support/campaign.hpp"
+#include "support/statistic.hpp"
+
+namespace sigmax::apps {
+
+/// What decides every figure of `himm_demo sweep`.
+struct SweepChoice {
+  std::vector<int> scenarios = {1, 2};
+  std::vector<double> mismatch = {0.5, 1.0, 2.0};  ///< of the radar's noise: believed over true
+  std::vector<double> period = {0.5, 1.0, 2.0};    ///< of sampling, times the paper's
+  std::vector<double> strength = {0.25, 0.5, 1.0, 2.0};
+  std::vector<double> length = {0.5, 1.0, 2.0};
+  bool cross = false;  ///< every combination of these rather than each alone, the others being 1
+  std::vector<std::string> filters = {"imm",           "himm_selected", "himm_own", "himm_own_recentred",
+                                      "himm_released", "gpb2",          "viterbi"};
+  std::vector<double> probability = {0.02, 0.05, 0.15};  ///< the off-diagonals of P, each row apart
+  std::vector<double> possibility = {0.05, 0.2, 0.5};    ///< the same of Π
+  std::vector<double> sigma_w = {1.0, 3.0, 9.0};         ///< of each model apart
+  std::vector<std::string> lifts = {"zero", "borrowed_variance", "unbiased"};
+  int tuning_runs = 20;
+  int runs = 100;
+  std::uint64_t seed = 1;
+};
+
+/// One situation in which filters are compared, as multiples of the paper's.
+struct SweepCondition {
+  int scenario;
+  double mismatch = 1.0, period = 1.0, strength = 1.0, length = 1.0;
+
+  bool operator==(const SweepCondition&) const = default;
+};
+
+/// What a tuned filter did on runs that it was not tuned on.
+struct Tuned {
+  std::size_t settings;  ///< the place in SweepWorld::grid of the filter
+  double tuning_score;
+  Statistic score;  ///< the mean over axes and phases of RMSE over that of the measurement
+};
+
+/// All conditions and all settings.
+class SweepWorld {
+ public:
+  /// Throws InputError for a filter that there is not.
+  explicit SweepWorld(const SweepChoice& choice);
+
+  const SweepChoice& choice() const { return choice_; }
+  const std::vector<SweepCondition>& conditions() const { return conditions_; }
+  const std::vector<FilterSettings>& filters() const { return filters_; }
+
+  /// Every setting of a filter that is tried, in a condition.
+  std::vector<FilterSettings> grid(std::size_t filter, const SweepCondition& condition) const;
+
+  /// Whether the settings stand at an end of a list of more than one, so that better ones may be beyond.
+  bool at_the_edge(std::size_t filter, std::size_t settings) const;
+
+  /// Tunes a filter in a condition and judges it on other runs. A cell is condition · filters + filter.
+  Campaign campaign() const;
+
+  Tuned tuned(const CellRows& rows, std::size_t condition, std::size_t filter) const;
+
+ private:
+  std::vector<double> work(std::size_t cell) const;
+
+  SweepChoice choice_;
+  std::vector<SweepCondition> conditions_;
+  std::vector<FilterSettings> filters_;
+};
+
+/// The scenario of the paper with another sampling period, and a manoeuvre of another strength and length.
+Scenario scenario_of(const SweepCondition& condition);
+
+}  // namespace sigmax::apps

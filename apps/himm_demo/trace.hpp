@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/scenario.hpp"
+#include "himm_demo/tracker.hpp"
+
+namespace sigmax::apps {
+
+/// One filter in one run, sample by sample; NaN where there is no estimate.
+struct Trace {
+  std::vector<std::array<double, 3>> squared_error;
+  std::vector<double> nees_position;
+  std::vector<double> nees_velocity;
+  std::vector<double> nis;
+  std::vector<std::vector<double>> weights;
+
+  explicit Trace(std::size_t samples);
+};
+
+/// A run of the experiment: what its radar measured, and what each filter made of it.
+struct TracedRun {
+  Trace measurement;
+  std::vector<Trace> filters;
+};
+
+/// What the experiment's radar saw, as the filter takes it.
+Reading<3> reading(const Polar& seen, const FilterSettings& filter);
+
+/// Leads a filter through a recording and calls visit(point, sample), samples counted from 0, for each estimate. Throws
+/// std::runtime_error, naming filter and sample, where a filter throws.
+void follow(const FilterSettings& filter, double step_s, const Recording& recording,
+            const std::function<void(TrackPoint<3>, std::size_t)>& visit);
+
+/// The run with that number, counted from 0; nothing but the seed and the number decides what is drawn.
+TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const FilterSettings> filters,
+                    std::uint64_t seed, std::uint64_t number);
+
+/// The model that stands for the manoeuvre: the last that does, if another does not. Its crossing is a delay; a
+/// smoothed filter has none, since it knows of the manoeuvre before that begins.
+std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter);
+
+/// The weight of a model minus the greatest of the others; 0 without weights.
+double weight_difference(const std::vector<double>& weights, std::size_t model);
+
+/// The first upward crossing of `difference(sample)` after the onset, interpolated; samples are counted from one.
+template <class Difference>
+std::optional<double> first_crossing(int onset, int samples, const Difference& difference) {
+  for (int k = std::max(onset, 2); k <= samples; ++k) {
+    const double before = difference(k - 1);
+    const double now = difference(k);
+    if (before <= 0.0 && now > 0.0) return k - 1 + before / (before - now);
+  }
+  return std::nullopt;
+}
+
+/// The mean of value(sample) over the samples of a phase; there, they are counted from 0.
+template <class Value>
+double phase_mean(const Phase& phase, const Value& value) {
+  double sum = 0.0;
+  for (int k = phase.first; k <= phase.last; ++k) sum += value(static_cast<std::size_t>(k - 1));
+  return sum / (phase.last - phase.first + 1);
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/campaigns.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// Nine conditions, two filters, four settings each.
+const Arguments small = {
+    "sweep", "--scenario", "2",   "--filters", "imm,himm_own", "--probability", "0.05", "--possibility",
+    "0.5",   "--sigma-w",  "3,9", "--lift",    "zero",         "--tuning-runs", "4",    "--runs",
+    "40",    "--mismatch", "1,2"};
+
+/// The cells of tuned.csv by column, for one scenario and filter.
+std::vector<std::string> row_of(const std::filesystem::path& out, const std::string& beginning) {
+  std::istringstream lines(contents(out / "tuned.csv"));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(beginning)) continue;
+    std::vector<std::string> cells(1);
+    for (const char letter : line)
+      if (letter == ',')
+        cells.emplace_back();
+      else
+        cells.back() += letter;
+    return cells;
+  }
+  throw std::runtime_error("no row begins with " + beginning);
+}
+
+nlohmann::json simulated(const std::filesystem::path& out, const Arguments& sets) {
+  Arguments arguments = {"simulate", "--scenario", "2", "--quiet", "--out", out};
+  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--runs", "10"});
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  return nlohmann::json::parse(contents(out / "summary.json")).at("results");
+}
+
+double score_of(const nlohmann::json& results, const std::string& filter) {
+  double sum = 0.0;
+  for (const std::string phase : {"before", "during", "after"})
+    for (const std::string axis : {"x", "y", "z"}) {
+      const std::string key = "rmse_" + phase + "_" + axis + "_m";
+      sum += results.at(filter).at(key).get<double>() / results.at("measurement").at(key).get<double>();
+    }
+  return sum / 9.0;
+}
+
+TEST(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
+  const TemporaryDirectory directory;
+  campaign(directory.path() / "sweep", {"sweep",
+                                        "--scenario",
+                                        "2",
+                                        "--filters",
+                                        "imm,himm_own",
+                                        "--mismatch",
+                                        "1",
+                                        "--period",
+                                        "1",
+                                        "--strength",
+                                        "1",
+                                        "--length",
+                                        "1",
+                                        "--tuning-runs",
+                                        "10",
+                                        "--runs",
+                                        "4",
+                                        "--probability",
+                                        "0.05",
+                                        "--possibility",
+                                        "0.2,0.5",
+                                        "--sigma-w",
+                                        "1,9",
+                                        "--lift",
+                                        "zero,unbiased"});
+  double least = 1e9;
+  std::vector<std::string> best;
+  for (const std::string leaving : {"0.2", "0.5"})
+    for (const std::string returning : {"0.2", "0.5"})
+      for (const std::string dwna : {"1", "9"})
+        for (const std::string dwpa : {"1", "9"})
+          for (const std::string lift : {"zero", "unbiased"}) {
+            const auto results =
+                simulated(directory.path() / "simulate",
+                          {"filters=himm_own", "transition_possibility=[[1," + leaving + "],[" + returning + ",1]]",
+                           "sigma_w=[" + dwna + "," + dwpa + "]", "lift=" + lift});
+            if (score_of(results, "himm_own") < least) {
+              least = score_of(results, "himm_own");
+              best = {leaving, returning, dwna, dwpa, lift};
+            }
+          }
+  const auto row = row_of(directory.path() / "sweep", "2,1,1,1,1,himm_own,");
+  EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 11), best);
+  EXPECT_NEAR(std::stod(row.at(12)), least, 1e-9);
+}
+
+TEST(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
+  const TemporaryDirectory directory;
+  const Arguments one = {"sweep",    "--scenario", "2",          "--filters", "imm",      "--mismatch", "1",
+                         "--period", "1",          "--strength", "1",         "--length", "1",          "--probability",
+                         "0.05",     "--sigma-w",  "3",          "--lift",    "zero"};
+  campaign(directory.path() / "early", one + Arguments{"--tuning-runs", "4", "--runs", "6"});
+  campaign(directory.path() / "all", one + Arguments{"--tuning-runs", "10", "--runs", "6"});
+  const auto score = [&](const char* run, std::size_t column) {
+    return std::stod(row_of(directory.path() / run, "2,1,1,1,1,imm,").at(column));
+  };
+  // Runs 5 to 10 are judged first, and are among the ten that tune then: mean squares add up.
+  EXPECT_NE(score("early", 13), score("all", 12));
+  EXPECT_NE(score("early", 13), score("all", 13));
+  EXPECT_NEAR(score("all", 12), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
+}
+
+TEST(HimmDemoSweep, TheNumberOfThreadsChangesNoByte) {
+  const TemporaryDirectory directory;
+  for (const std::string threads : {"1", "3"})
+    campaign(directory.path() / threads, small + Arguments{"--threads", threads});
+  EXPECT_EQ(results(directory.path() / "1"), results(directory.path() / "3"));
+}
+
+TEST(HimmDemoSweep, KilledAndStartedAgainItEndsWithTheSameBytes) {
+  const TemporaryDirectory directory;
+  campaign(directory.path() / "whole", small);
+  campaign_with_kills(directory.path() / "killed", small);
+  EXPECT_EQ(results(directory.path() / "killed"), results(directory.path() / "whole"));
+}
+
+TEST(HimmDemoSweep, ShardsMergeIntoTheSameBytes) {
+  const TemporaryDirectory directory;
+  campaign(directory.path() / "whole", small);
+  Arguments merge = {"merge", "--out", directory.path() / "merged"};
+  for (const std::string shard : {"1", "2", "3"}) {
+    campaign(directory.path() / shard, small + Arguments{"--shard", shard + "/3"});
+    merge.push_back(directory.path() / shard);
+  }
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, merge);
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  EXPECT_EQ(results(directory.path() / "merged"), results(directory.path() / "whole"));
+}
+
+TEST(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
+  if (!has_mpirun()) GTEST_SKIP() << "there is no mpirun";
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "ranks";
+  const auto words = mpirun(small + Arguments{"--quiet", "--out", out});
+  campaign(directory.path() / "whole", small);
+  Running running(words);
+  if (!running.has_written(out / "cells.journal", 3)) {
+    const auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
+    ASSERT_NE(ending.output.find("this build has no MPI"), std::string::npos) << ending.output;
+    GTEST_SKIP() << "this build has no MPI, and says so";
+  }
+  const auto ranks = children_of(running.pid());
+  ASSERT_EQ(ranks.size(), 3U);
+  ::kill(ranks.back(), SIGKILL);
+  EXPECT_NE(running.end(), 0);
+  EXPECT_LT(lines_of(out / "cells.journal"), lines_of(directory.path() / "whole" / "cells.journal"));
+  const auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_EQ(results(out), results(directory.path() / "whole"));
+}
+
+TEST(HimmDemoSweep, WhatCannotBeIsSaid) {
+  const TemporaryDirectory directory;
+  const auto run = [&](const Arguments& arguments) {
+    return program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet"});
+  };
+  const auto out = directory.path() / "out";
+  campaign(out, small);
+  const auto other = run(small + Arguments{"--seed", "2", "--out", out});
+  EXPECT_EQ(other.status, 3);
+  EXPECT_NE(other.output.find("the directory holds another campaign"), std::string::npos) << other.output;
+
+  std::ofstream(out / "cells.journal", std::ios::app) << "5,not a number\n";
+  const auto broken = run(small + Arguments{"--out", out});
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_NE(broken.output.find("cells.journal:"), std::string::npos) << broken.output;
+  EXPECT_NE(broken.output.find("'5,not a number'"), std::string::npos) << broken.output;
+
+  EXPECT_EQ(run({"sweep", "--shard", "3/2"}).status, 2);
+  EXPECT_NE(run({"sweep", "--shard", "3/2"}).output.find("expected I/N with I from 1 to N"), std::string::npos);
+  EXPECT_EQ(run({"sweep", "--probability", "0"}).status, 2);
+  EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
+  EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
+}
+
+}  // namespace
+}  // namespace sigmax::apps
