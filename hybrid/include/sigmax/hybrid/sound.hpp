@@ -7,6 +7,7 @@
 
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/lift.hpp>
 
 /// What a filter asks of its starts, and of every new estimate.
 namespace sigmax::check {
@@ -27,6 +28,19 @@ void starts(const Models& models, const typename Bank<Models>::Estimates& starts
     if (!all_finite(start))
       throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
   });
+}
+
+/// Every scale of an entry prior is a positive number, and there is one. Throws std::invalid_argument.
+inline void prior(const EntryPrior& prior) {
+  if (prior.scales.empty()) throw std::invalid_argument("an entry prior has no scale; expected one or more");
+  const auto positive = [](double scale) { return scale > 0.0 && std::isfinite(scale); };
+  for (const double scale : prior.scales)
+    if (!positive(scale))
+      throw std::invalid_argument("an entry prior has the scale " + std::to_string(scale) +
+                                  "; expected a positive one");
+  if (!positive(prior.turn_rate))
+    throw std::invalid_argument("an entry prior has the turn rate " + std::to_string(prior.turn_rate) +
+                                "; expected a positive one");
 }
 
 /// The estimate is finite and no variance is negative beyond rounding: what a lost definiteness shows first, and costs
