@@ -322,7 +322,7 @@ template <class Filter, class Start, Sensing Sensor>
 template <class Visit>
 void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
   FixedIntervalSmoother smoother(filter_);
-  std::vector<State> states;
+  std::vector<HybridEstimate<typename Filter::ModelsType, typename Filter::kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
     states.clear();
     for (end = first; end < record_.size() && (end == first || !record_[end].is_start); ++end)
