@@ -5,8 +5,8 @@
 ///
 /// A filter is a scheme (imm, himm, himm_histories, imm_histories) with settings; several values with / between them
 /// are a filter each, so that a grid is one word. p, q: the transition out of and into constant velocity; s, w: σ_w of
-/// both models; e: entry scales with + between them (of imm and himm: none is the borrowed variance); b: histories;
-/// c: cut; t: tempering.
+/// both models; e: entry scales with + between them (of imm and himm: none is the borrowed variance), v: their share
+/// along z; b: histories; l: minus the least log weight; c: cut; t: tempering.
 
 #include <algorithm>
 #include <array>
@@ -124,6 +124,7 @@ std::unique_ptr<Runner> made(const Spec& spec, bool histories) {
     interaction.entry.scales.clear();
     for (const auto& scale : split(scales->second, '+')) interaction.entry.scales.push_back(std::stod(scale));
   }
+  interaction.entry.vertical = spec.number("v", interaction.entry.vertical);
   const Gaussian<9> nowhere{Vector<9>::Zero(), SquareMatrix<9>::Identity()};
   if (!histories)
     return std::make_unique<RunnerOf<InteractingMultipleModel<Models, Kind>>>(

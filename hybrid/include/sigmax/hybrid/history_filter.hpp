@@ -140,7 +140,7 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
       throw std::invalid_argument("a state with room for " + std::to_string(state.room()) +
                                   " histories; the filter has " + std::to_string(rules_.histories));
     sets_[current_] = state;
-    weigh(sets_[current_]);
+    summarize(sets_[current_]);
     this->next().most_likely_mode = state.most_likely_mode;
     Filter::restore(this->next());
   }
@@ -161,8 +161,7 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
   Estimate estimate() const {
     const State& set = state();
     const auto& receiver = this->output_receiver(Filter::state());
-    double greatest = log_zero;
-    for (std::size_t h = 0; h < set.size(); ++h) greatest = std::max(greatest, set[h].log_weight);
+    const double greatest = set[set.best()].log_weight;
     double total = 0.0;
     const auto in_cut = [&](std::size_t h) {
       const double weight = std::exp(set[h].log_weight - greatest);
@@ -328,7 +327,8 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
     return best;
   }
 
-  /// The best of each mode and then the greatest, as many as there is room for; their weights are normalised.
+  /// The best of each mode and then the greatest, as many as there is room for, of equals the first proposed; their
+  /// weights are normalised.
   void keep() {
     double greatest = log_zero;
     for (const Candidate& each : candidates_) greatest = std::max(greatest, each.history.log_weight);
@@ -336,16 +336,15 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
       return !each.best_of_mode && each.history.log_weight < greatest + rules_.least_log_weight;
     };
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), dropped), candidates_.end());
-    if (candidates_.size() > rules_.histories) {
-      const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(rules_.histories);
-      std::nth_element(candidates_.begin(), last, candidates_.end(), [](const Candidate& a, const Candidate& b) {
-        if (a.best_of_mode != b.best_of_mode) return a.best_of_mode;
-        const History &x = a.history, &y = b.history;
-        if (x.log_weight != y.log_weight) return x.log_weight > y.log_weight;
-        return std::tie(x.mode, x.parent, a.entry) < std::tie(y.mode, y.parent, b.entry);
-      });
-      candidates_.erase(last, candidates_.end());
-    }
+    const std::size_t kept = std::min(candidates_.size(), rules_.histories);
+    const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::partial_sort(candidates_.begin(), last, candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      if (a.best_of_mode != b.best_of_mode) return a.best_of_mode;
+      const History &x = a.history, &y = b.history;
+      if (x.log_weight != y.log_weight) return x.log_weight > y.log_weight;
+      return std::tie(x.mode, x.parent, a.entry) < std::tie(y.mode, y.parent, b.entry);
+    });
+    candidates_.erase(last, candidates_.end());
     State& next = next_set();
     next.resize(candidates_.size());
     for (std::size_t h = 0; h < next.size(); ++h) next[h] = candidates_[h].history;
@@ -359,9 +358,13 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
     for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
   }
 
-  /// The histories by modes: what the other filters have.
   void weigh(State& set) {
     normalize(set);
+    summarize(set);
+  }
+
+  /// The histories by modes: what the other filters have.
+  void summarize(const State& set) {
     for (std::size_t j = 0; j < modes(); ++j)
       log_of_mode_[j] = log_combine<AlgebraOf<Kind>>(
           set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; },
@@ -375,15 +378,15 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
     for_each_history(set, [&](auto j, std::size_t h) { check::sound(mode(system_.models(), j), set.estimates(j)[h]); });
   }
 
-  /// One estimate for the histories of each mode, by sum and moments or by selection.
-  void collapse_modes(const State& set, const State& estimates, Estimates& collapsed) const {
+  /// One estimate for the histories of each mode, which `source` has, by sum and moments or by selection.
+  void collapse_modes(const State& set, const State& source, Estimates& collapsed) const {
     for_each_mode(collapsed, [&](auto j) {
       const auto weight = [&](std::size_t h) { return h < set.size() && set[h].mode == j ? weight_[h] : 0.0; };
       std::size_t best = 0;
       for (std::size_t h = 1; h < set.size(); ++h)
         if (weight(h) > weight(best)) best = h;
       using Each = std::decay_t<decltype(mode(collapsed, j))>;
-      collapse(Collapse<Kind>{}, EstimateMixture<Each>{estimates.estimates(j)}, weight, best, mode(collapsed, j));
+      collapse(Collapse<Kind>{}, EstimateMixture<Each>{source.estimates(j)}, weight, best, mode(collapsed, j));
     });
   }
 

@@ -16,6 +16,15 @@ struct History {
   double log_weight = log_zero;  ///< of all histories the ⊕ is one
 };
 
+/// Where the histories of one step came from: what is kept of them to tell the best one from its beginning.
+struct HistoryLinks {
+  struct Link {
+    std::size_t mode, parent;
+  };
+  std::vector<Link> all;  ///< in the order of the set
+  std::size_t best = 0;
+};
+
 /// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true: all that its next step
 /// depends on.
 template <class Models>
@@ -50,6 +59,20 @@ class HistorySet {
 
   History& operator[](std::size_t h) { return histories_[h]; }
   const History& operator[](std::size_t h) const { return histories_[h]; }
+
+  /// The first of the greatest weight.
+  std::size_t best() const {
+    std::size_t best = 0;
+    for (std::size_t h = 1; h < size(); ++h)
+      if (histories_[h].log_weight > histories_[best].log_weight) best = h;
+    return best;
+  }
+
+  HistoryLinks links() const {
+    HistoryLinks links{{}, best()};
+    for (std::size_t h = 0; h < size(); ++h) links.all.push_back({histories_[h].mode, histories_[h].parent});
+    return links;
+  }
 
   /// Of mode j, the estimates at the places of the histories that end in it; the others are of no account.
   template <class Index>

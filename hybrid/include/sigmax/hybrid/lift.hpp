@@ -22,11 +22,13 @@ enum class Lift {
 struct EntryPrior {
   /// The standard deviations that it may have, in its own unit: of accelerations m/s². A filter that keeps histories
   /// tries each of them; one that merges has their root mean square.
-  std::vector<double> scales = {11.0, 20.0};
+  std::vector<double> scales = {25.0};
+  double vertical = 0.3;    ///< so much of it along z: an aircraft turns harder than it climbs
   double turn_rate = 0.05;  ///< that of a rate of turn, omega, in rad/s
 
   double variance(const std::string& component, double scale) const {
-    return component == "omega" ? turn_rate * turn_rate : scale * scale;
+    const double sigma = component == "omega" ? turn_rate : component.back() == 'z' ? vertical * scale : scale;
+    return sigma * sigma;
   }
   double root_mean_square() const {
     double sum = 0.0;

@@ -30,17 +30,17 @@ void starts(const Models& models, const typename Bank<Models>::Estimates& starts
   });
 }
 
-/// Every scale of an entry prior is a positive number, and there is one. Throws std::invalid_argument.
+/// The numbers of an entry prior are positive, and there is a scale. Throws std::invalid_argument.
 inline void prior(const EntryPrior& prior) {
   if (prior.scales.empty()) throw std::invalid_argument("an entry prior has no scale; expected one or more");
-  const auto positive = [](double scale) { return scale > 0.0 && std::isfinite(scale); };
-  for (const double scale : prior.scales)
-    if (!positive(scale))
-      throw std::invalid_argument("an entry prior has the scale " + std::to_string(scale) +
+  const auto positive = [](const char* what, double number) {
+    if (!(number > 0.0 && std::isfinite(number)))
+      throw std::invalid_argument("an entry prior has the " + std::string(what) + " " + std::to_string(number) +
                                   "; expected a positive one");
-  if (!positive(prior.turn_rate))
-    throw std::invalid_argument("an entry prior has the turn rate " + std::to_string(prior.turn_rate) +
-                                "; expected a positive one");
+  };
+  for (const double scale : prior.scales) positive("scale", scale);
+  positive("vertical share", prior.vertical);
+  positive("turn rate", prior.turn_rate);
 }
 
 /// The estimate is finite and no variance is negative beyond rounding: what a lost definiteness shows first, and costs
