@@ -214,6 +214,38 @@ TEST(HistoryFilter, ScalingTheLikelihoodChangesNothing) {
   }
 }
 
+/// After one step from one estimate a mode there is no history yet that the others have merged: GPB2 and the Viterbi
+/// filter are this filter then, and without a measurement so are the IMM and the HIMM.
+template <Uncertainty Kind>
+void is_the_others_for_one_step() {
+  const auto filter = made<Kind>({}, {17.0});
+  const auto interaction = filter.interaction();
+  Interaction<Kind> selected = interaction;
+  if constexpr (std::is_same_v<Kind, Fuzzy>) selected.collapse.mixed_covariance = MixedCovariance::selected;
+  const auto require_same = [](const auto& found, const auto& expected) {
+    ASSERT_PRED_FORMAT3(near, found.belief().logs(), expected.belief().logs(), 1e-12);
+    for (std::size_t j = 0; j < 3; ++j) {
+      ASSERT_PRED_FORMAT3(near_matrix, found.estimates()[j].mean, expected.estimates()[j].mean, 1e-9);
+      ASSERT_PRED_FORMAT3(near_matrix, found.estimates()[j].covariance, expected.estimates()[j].covariance, 1e-9);
+    }
+  };
+  auto measured = filter, missed = filter;
+  SecondOrderMultipleModel<VectorBank, Kind> pairs{bank, untied<Kind>(), starts(), interaction};
+  InteractingMultipleModel<VectorBank, Kind> mixed{bank, untied<Kind>(), starts(), selected};
+  const Scan scan = manoeuvring_target(1).front();
+  support::step(measured, scan);
+  support::step(pairs, scan);
+  require_same(measured, pairs);
+  missed.step(0.3);
+  mixed.step(0.3);
+  require_same(missed, mixed);
+}
+
+TEST(HistoryFilter, IsTheSecondOrderFilterForOneStepAndWithoutAMeasurementTheInteractingOne) {
+  is_the_others_for_one_step<Fuzzy>();
+  is_the_others_for_one_step<Random>();
+}
+
 /// Models that forget all: the likelihood is of the mode alone, not of its history.
 TEST(HistoryFilter, IsTheForwardPassOfAHiddenMarkovModelIfLikelihoodsForgetTheHistory) {
   using Forgets = FixedStepMotion<1>;
