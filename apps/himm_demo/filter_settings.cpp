@@ -25,7 +25,7 @@ struct KnownFilter {
 void keep_histories(FilterSettings& own) {
   own.scheme = Scheme::histories;
   own.lift = Lift::prior;
-  own.leaving_possibility = own.leaving_probability = 0.008;
+  own.leaving_possibility = own.leaving_probability = 0.004;
   own.leaving_a_manoeuvre = 0.03;
   for (Motion& motion : own.motions)
     if (motion.manoeuvres()) motion[MotionParameter::sigma_w] *= 0.1;
