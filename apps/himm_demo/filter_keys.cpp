@@ -23,7 +23,8 @@ using Names = std::initializer_list<std::pair<std::string_view, Value>>;
 const Names<Scheme> schemes = {{"interacting", Scheme::interacting},
                                {"common_start", Scheme::common_start},
                                {"second_order", Scheme::second_order},
-                               {"independent", Scheme::independent}};
+                               {"independent", Scheme::independent},
+                               {"histories", Scheme::histories}};
 const Names<MemberType> members = {
     {"kf", MemberType::kf}, {"ekf", MemberType::ekf}, {"ukf", MemberType::ukf}, {"ckf", MemberType::ckf}};
 const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
@@ -32,8 +33,10 @@ const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::
                                                   {"released", MixedCovariance::released}};
 const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
                                              {"released", MixingWeights::released}};
-const Names<Lift> lifts = {
-    {"zero", Lift::zero}, {"borrowed_variance", Lift::borrowed_variance}, {"unbiased", Lift::unbiased}};
+const Names<Lift> lifts = {{"zero", Lift::zero},
+                           {"borrowed_variance", Lift::borrowed_variance},
+                           {"unbiased", Lift::unbiased},
+                           {"prior", Lift::prior}};
 const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
 const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
                                            {"possibility", LikelihoodForm::possibility}};
@@ -107,17 +110,18 @@ Key<Owner> optional_number(const std::string& name, std::string meaning, std::op
 }
 
 /// A list of numbers.
-template <class Owner, class Base>
-Key<Owner> numbers(std::string name, std::string meaning, std::vector<double> Base::*member, Range range) {
+template <class Owner, class Of>
+Key<Owner> numbers(std::string name, std::string meaning, Of of, Range range) {
   return {name,
           std::move(meaning),
           std::string(range.expected),
           [=](const Settings& settings, Owner& owner) {
-            owner.*member = settings.numbers(name, owner.*member);
-            for (const double value : owner.*member) range.require(settings, name, value);
+            std::vector<double>& all = std::invoke(of, owner);
+            all = settings.numbers(name, all);
+            for (const double value : all) range.require(settings, name, value);
           },
-          [=](const Owner& owner) { return (owner.*member).empty() ? "" : toml_list(owner.*member); },
-          [=](const Owner& owner) { return !(owner.*member).empty(); }};
+          [=](Owner owner) { return std::invoke(of, owner).empty() ? "" : toml_list(std::invoke(of, owner)); },
+          [=](Owner owner) { return !std::invoke(of, owner).empty(); }};
 }
 
 /// A number for each model: one for all, or one each.
@@ -188,9 +192,13 @@ FilterKey transition(const std::string& name, std::string meaning, std::string v
           [=](const Settings& settings, FilterSettings& filter) {
             const std::size_t modes = filter.models.size();
             const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
-            const double leaves = fuzzy ? filter.leaving_possibility : 0.05 / others;
-            std::vector<std::vector<double>> rows(modes, std::vector<double>(modes, leaves));
-            for (std::size_t i = 0; i < modes; ++i) rows[i][i] = fuzzy || modes == 1 ? 1.0 : 0.95;
+            std::vector<std::vector<double>> rows(modes, std::vector<double>(modes));
+            for (std::size_t i = 0; i < modes; ++i) {
+              double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
+              if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
+              std::fill(rows[i].begin(), rows[i].end(), fuzzy ? leaves : leaves / others);
+              rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
+            }
             rows = settings.matrix(name, rows);
             if (filter.fuzzy == fuzzy) filter.transition = rows;
           },
@@ -205,15 +213,31 @@ FilterKey transition(const std::string& name, std::string meaning, std::string v
           std::move(by_default)};
 }
 
-FilterKey smooth() {
-  return {"smooth",
-          "Whether the output is of the whole recording rather than of what came before.",
-          "true, false",
-          [](const Settings& settings, FilterSettings& filter) {
-            filter.smooth = settings.boolean("smooth", filter.smooth);
+FilterKey histories() {
+  const Range range{"a whole number from 1 to 10000",
+                    [](double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }};
+  return {"histories",
+          "So many histories of the mode are kept at most, and one that ends in each mode.",
+          std::string(range.expected),
+          [=](const Settings& settings, FilterSettings& filter) {
+            const double n = settings.number("histories", static_cast<double>(filter.histories));
+            range.require(settings, "histories", n);
+            filter.histories = static_cast<std::size_t>(n);
           },
-          [](const FilterSettings& filter) { return filter.smooth ? "true" : "false"; },
-          [](const FilterSettings& filter) { return filter.smooth; }};
+          [](const FilterSettings& filter) { return fmt::format("{}", filter.histories); },
+          [](const FilterSettings&) { return true; }};
+}
+
+/// Something to be done or not; told if it is.
+FilterKey flag(std::string name, std::string meaning, bool FilterSettings::*member) {
+  return {name,
+          std::move(meaning),
+          "true, false",
+          [=](const Settings& settings, FilterSettings& filter) {
+            filter.*member = settings.boolean(name, filter.*member);
+          },
+          [=](const FilterSettings& filter) { return filter.*member ? "true" : "false"; },
+          [=](const FilterSettings& filter) { return filter.*member; }};
 }
 
 /// The key where `applies`.
@@ -230,6 +254,8 @@ bool turns(const FilterSettings& filter) {
 bool mixes(const FilterSettings& filter) {
   return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
 }
+bool has_prior(const FilterSettings& filter) { return filter.lift == Lift::prior; }
+bool keeps_histories(const FilterSettings& filter) { return filter.scheme == Scheme::histories; }
 bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
 
 std::vector<FilterKey> made_filter_keys() {
@@ -253,13 +279,14 @@ std::vector<FilterKey> made_filter_keys() {
                       &F::sojourn_s,
                       {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
       transition("transition_probability", "P, from one row to the next. For a random mode.",
-                 "rows of numbers that sum to 1", ".95 on the diagonal", false),
+                 "rows of numbers that sum to 1", ".95 on the diagonal; of histories .996, of a manoeuvre .97", false),
       transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
-                 "rows of numbers whose maximum is 1", "1 on the diagonal, else 1/2; preset released: 1/5", true),
+                 "rows of numbers whose maximum is 1",
+                 "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
       only([](const F& f) { return f.fuzzy && mixes(f); },
            choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
                   mixed_covariances)),
-      only([](const F& f) { return f.fuzzy && f.scheme != Scheme::independent; },
+      only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
            choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
                   ties)),
       only([](const F& f) { return !f.fuzzy && mixes(f); },
@@ -272,6 +299,27 @@ std::vector<FilterKey> made_filter_keys() {
       choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
              &F::likelihood, likelihoods),
       choice("lift", "What stands for a component that a model lacks.", &F::lift, lifts),
+      only(has_prior,
+           numbers<F>("entry_scales",
+                      "Standard deviations of a component that begins, if lift is prior: of accelerations in m/s². "
+                      "Histories try each of them.",
+                      [](F& f) -> std::vector<double>& { return f.entry.scales; },
+                      {"positive standard deviations", positive})),
+      only(has_prior, number<F>("entry_vertical", "So much of them along z.",
+                                [](F& f) -> double& { return f.entry.vertical; }, {"a positive share", positive})),
+      only([](const F& f) { return has_prior(f) && turns(f); },
+           number<F>(
+               "entry_turn_deg_s", "Standard deviation of the rate with which ct begins.",
+               [](F& f) -> double& { return f.entry.turn_rate; }, {"a positive one, in °/s", positive}, degree)),
+      only(keeps_histories, histories()),
+      only(keeps_histories,
+           number<F>("cut",
+                     "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 "
+                     "all.",
+                     &F::cut, {"a number from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; }})),
+      only(keeps_histories,
+           number<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
+                     &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
       choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output, outputs),
       choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties),
       choice("start",
@@ -307,7 +355,11 @@ std::vector<FilterKey> made_filter_keys() {
                &F::restart_after_rejections,
                {"a whole number from 0 to 1000",
                 [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
-      smooth(),
+      flag("smooth", "Whether the output is of the whole recording rather than of what came before.", &F::smooth),
+      only(keeps_histories,
+           flag("explain",
+                "Whether track tells when the mode changed: the most possible history of each track, with its dates.",
+                &F::explain)),
       choice("radar_measurement",
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
              "own space.",

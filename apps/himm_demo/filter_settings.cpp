@@ -18,7 +18,19 @@ struct KnownFilter {
   std::string_view name;
   bool fuzzy;
   void (*adapt)(FilterSettings&);
+  bool tuned = false;  ///< has settings of its own for the whole filter, so that it is no row beside the others
 };
+
+/// The filter over histories: a rare manoeuvre that begins with any acceleration and then hardly changes it.
+void keep_histories(FilterSettings& own) {
+  own.scheme = Scheme::histories;
+  own.lift = Lift::prior;
+  own.leaving_possibility = own.leaving_probability = 0.004;
+  own.leaving_a_manoeuvre = 0.03;
+  for (Motion& motion : own.motions)
+    if (motion.manoeuvres()) motion[MotionParameter::sigma_w] *= 0.1;
+}
+
 const std::initializer_list<KnownFilter> known_filters = {
     {"imm", false, [](FilterSettings&) {}},
     {"imm_correct", false, [](FilterSettings& own) { own.imm_mixing = MixingWeights::correct; }},
@@ -28,6 +40,12 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"gpb1", false, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
     {"gpb2", false, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
     {"static_random", false, [](FilterSettings& own) { own.scheme = Scheme::independent; }},
+    {"imm_histories", false,
+     [](FilterSettings& own) {
+       keep_histories(own);
+       own.cut = 0.0;
+     },
+     true},
     {"himm", true, [](FilterSettings&) {}},
     {"himm_selected", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::selected; }},
     {"himm_own", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own; }},
@@ -35,6 +53,13 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"himm_released", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::released; }},
     {"himm_global", true, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
     {"himm_possibility", true, [](FilterSettings& own) { own.likelihood = LikelihoodForm::possibility; }},
+    {"himm_histories", true, keep_histories, true},
+    {"himm_histories_fast", true,
+     [](FilterSettings& own) {
+       keep_histories(own);
+       own.histories = 8;
+     },
+     true},
     {"viterbi", true, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
     {"static_fuzzy", true, [](FilterSettings& own) { own.scheme = Scheme::independent; }}};
 
@@ -92,6 +117,10 @@ void refuse_bad_combinations(const Settings& settings, const FilterSettings& fil
   }
   refuse_bad_transition(settings, filter.fuzzy ? "transition_possibility" : "transition_probability", filter);
   const std::size_t modes = filter.models.size();
+  if (filter.scheme == Scheme::histories && filter.histories < modes)
+    throw settings.error("histories", fmt::format("{} or more, one for each model", modes));
+  if (filter.lift == Lift::prior && filter.entry.scales.empty())
+    throw settings.error("entry_scales", "one or more, since lift = \"prior\"");
   if (!filter.sojourn_s.empty() && (modes < 2 || filter.sojourn_s.size() != modes))
     throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
   if (filter.start != StartRule::given) return;
@@ -158,7 +187,8 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
   if (names.empty()) throw settings.error("filters", "the name of at least one filter");
   if (asks_for_all(settings)) {
     names.clear();
-    for (const auto& known : known_filters) names.emplace_back(known.name);
+    for (const auto& known : known_filters)
+      if (!known.tuned) names.emplace_back(known.name);
   }
   const Settings tables = settings.sub("filter");
   const auto read = [&](const std::string& name) {

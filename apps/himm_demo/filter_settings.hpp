@@ -33,11 +33,14 @@ struct FilterSettings : TargetChoice {
   FilterSettings() { motions = {{"dwna"}, {"dwpa"}}; }
 
   std::string name;
-  double leaving_possibility = 0.5;       ///< of a mode for each other one, unless `transition` is given
-  double gate_probability = 1.0;          ///< that a right measurement passes the gate; 1 is no gate
-  std::optional<double> restart_after_s;  ///< without a measurement that passes
-  double restart_after_rejections = 5.0;  ///< in a row; 0 is never
-  bool smooth = false;                    ///< whether the output is of the whole recording rather than the past
+  double leaving_possibility = 0.5;           ///< of a mode for each other one, unless `transition` is given
+  double leaving_probability = 0.05;          ///< the same, for all others together
+  std::optional<double> leaving_a_manoeuvre;  ///< either of both, if that is another one
+  double gate_probability = 1.0;              ///< that a right measurement passes the gate; 1 is no gate
+  std::optional<double> restart_after_s;      ///< without a measurement that passes
+  double restart_after_rejections = 5.0;      ///< in a row; 0 is never
+  bool explain = false;                       ///< whether the best history of the mode is told with its dates
+  bool smooth = false;                        ///< whether the output is of the whole recording rather than the past
   RadarForm radar_measurement = RadarForm::standard;
   Accuracy accuracy{{}, {10.0}};
   std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
@@ -65,10 +68,11 @@ struct FilterDefaults {
   static FilterDefaults of(Preset preset, const Group& parameters);
 };
 
-/// Whether the settings ask for every filter that has a name of its own, `filters = "all"`.
+/// Whether the settings ask for every filter that has a name of its own and no settings that were tuned for it,
+/// `filters = "all"`.
 bool asks_for_all(const Settings& settings);
 
-/// The filters that the settings name, in order; "all" stands for those that have names of their own. Throws
+/// The filters that the settings name, in order; "all" stands for those. Throws
 /// InputError, with the key, for what cannot be.
 std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
 

@@ -29,6 +29,7 @@ class Reporter {
     warn();
     const std::size_t part_count = recording_.has_roll() ? parts.size() : 1;
     for (std::size_t p = 0; p < part_count; ++p) tabulate(p);
+    explain();
     return {text_, summary_.dump(2) + "\n", warnings_};
   }
 
@@ -195,6 +196,29 @@ class Reporter {
     cells.emplace_back(weights);
     cells.insert(cells.end(), by_model.begin(), by_model.end());
     table.row(std::move(cells));
+  }
+
+  /// When the modes changed; all of it in the data, the first changes in the text.
+  void explain() {
+    constexpr std::size_t shown = 12;
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      for (const auto& [track, stays] : outcome_.filters[f].histories) {
+        if (stays.empty()) continue;
+        std::vector<std::string> told;
+        Json all = Json::array();
+        for (const ModeStay& stay : stays) {
+          const std::string& mode = filters_[f].models[stay.mode];
+          all.push_back({{"since_s", stay.since}, {"mode", mode}, {"start", stay.is_start}});
+          if (told.size() < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stay.since)));
+        }
+        summary_["histories"][filters_[f].name][track] = all;
+        text_ +=
+            "\n" +
+            wrapped(fmt::format("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
+                                fmt::join(told, ", "),
+                                stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""),
+                    options_.output.width());
+      }
   }
 
   std::size_t axes() const { return static_cast<std::size_t>(recording_.axes()); }

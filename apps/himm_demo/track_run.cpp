@@ -128,6 +128,7 @@ class TrackRun {
       const Tracker<Axes>& tracker = target.trackers[f];
       outcome_.filters[f].rejected += tracker.rejected();
       outcome_.filters[f].restarts += tracker.starts() > 0 ? tracker.starts() - 1 : 0;
+      if (filters_[f].explain) outcome_.filters[f].histories[name] = tracker.explained();
     }
   }
 

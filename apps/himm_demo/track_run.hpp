@@ -43,8 +43,9 @@ using SumsByPart = std::array<Sums, parts.size()>;
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
-  std::size_t rejected = 0;  ///< by the gate
-  std::size_t restarts = 0;  ///< after a gap
+  std::size_t rejected = 0;                                ///< by the gate
+  std::size_t restarts = 0;                                ///< after a gap
+  std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
 };
 
 /// What all filters made of all targets of one recording.

@@ -58,6 +58,9 @@ class Tracker {
   /// steps, with all that came after it up to the next start. Throws std::domain_error if that cannot be.
   std::vector<Point> finish() const;
 
+  /// If the settings ask for it: when the mode changed, by all that came.
+  std::vector<ModeStay> explained() const { return settings_.explain ? target_.explained() : std::vector<ModeStay>{}; }
+
  private:
   FilterSettings settings_;
   AnyTarget target_;

@@ -18,6 +18,8 @@ std::unique_ptr<detail::ChosenTarget> chosen(const TargetChoice& choice) {
   if (choice.start == StartRule::given &&
       (choice.start_mean.size() != 9 || choice.start_covariance_diagonal.size() != 9))
     throw std::invalid_argument("a given start has nine numbers and nine variances: x, y, z, vx, vy, vz, ax, ay, az");
+  if (choice.scheme == Scheme::histories)
+    return choice.fuzzy ? detail::chosen_himm_histories(choice) : detail::chosen_imm_histories(choice);
   if (choice.scheme == Scheme::second_order)
     return choice.fuzzy ? detail::chosen_viterbi(choice) : detail::chosen_gpb2(choice);
   return choice.fuzzy ? detail::chosen_himm(choice) : detail::chosen_imm(choice);
@@ -48,6 +50,7 @@ TargetPoint AnyTarget::output() const {
   return result;
 }
 void AnyTarget::output(TargetPoint& result) const { target_->output(result); }
+std::vector<ModeStay> AnyTarget::explained() const { return target_->explained(); }
 void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) const { target_->smoothed(visit); }
 
 }  // namespace sigmax

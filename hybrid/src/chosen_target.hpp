@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <sigmax/hybrid/any_target.hpp>
 
@@ -21,10 +22,11 @@ class ChosenTarget {
   virtual const std::vector<std::string>& components() const = 0;
   virtual void output(TargetPoint& result) const = 0;
   virtual void smoothed(const std::function<void(const TargetPoint&)>& visit) const = 0;
+  virtual std::vector<ModeStay> explained() const = 0;
 };
 
 /// The target of a choice whose order and kind are those of the function: each is compiled in a file of its own.
 using Choose = std::unique_ptr<ChosenTarget>(const TargetChoice&);
-Choose chosen_imm, chosen_himm, chosen_gpb2, chosen_viterbi;
+Choose chosen_imm, chosen_himm, chosen_gpb2, chosen_viterbi, chosen_imm_histories, chosen_himm_histories;
 
 }  // namespace sigmax::detail

@@ -25,6 +25,7 @@ template <Uncertainty Kind>
 Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   Interaction<Kind> interaction;
   interaction.lift = choice.lift;
+  interaction.entry = choice.entry;
   interaction.output_tie = choice.output_tie;
   interaction.mixed_start = choice.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
   interaction.likelihood = choice.likelihood;
@@ -35,6 +36,25 @@ Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   return interaction;
 }
 
+/// The filter of a choice; what it holds before it starts is of no account.
+template <class Filter>
+Filter chosen_filter(const TargetChoice& choice) {
+  using Kind = typename Filter::kind;
+  auto bank = known_bank(choice);
+  auto transition = chosen_transition<Kind>(choice);
+  auto nowhere = ChosenStart(choice).nowhere();
+  auto interaction = chosen_interaction<Kind>(choice);
+  if constexpr (requires { typename Filter::Rules; }) {
+    typename Filter::Rules rules;
+    rules.histories = choice.histories;
+    rules.cut = choice.cut;
+    rules.tempering = choice.tempering;
+    return {std::move(bank), std::move(transition), std::move(nowhere), rules, std::move(interaction)};
+  } else {
+    return {std::move(bank), std::move(transition), std::move(nowhere), std::move(interaction)};
+  }
+}
+
 /// The plot in the types of the target. Throws std::invalid_argument if its numbers do not fit its sensor.
 Plot<KnownSensor> chosen_plot(const AnyPlot& plot, int axes);
 
@@ -43,13 +63,10 @@ template <class Filter>
 class ChosenTargetOf final : public ChosenTarget {
   using TargetType = Target<Filter, ChosenStart, KnownSensor>;
   using PlotType = typename TargetType::PlotType;
-  using Kind = typename Filter::kind;
 
  public:
   explicit ChosenTargetOf(const TargetChoice& choice)
-      : target_(Filter(known_bank(choice), chosen_transition<Kind>(choice), ChosenStart(choice).nowhere(),
-                       chosen_interaction<Kind>(choice)),
-                ChosenStart(choice), choice.rules),
+      : target_(chosen_filter<Filter>(choice), ChosenStart(choice), choice.rules),
         axes_(choice.axes),
         most_likely_output_(choice.most_likely_output) {}
 
@@ -79,7 +96,8 @@ class ChosenTargetOf final : public ChosenTarget {
     const Filter& filter = target_.filter();
     result.time = target_.time();
     result.nis = filter.measured() ? std::optional(filter.nis()) : std::nullopt;
-    tell(filter.state(), result);
+    tell(most_likely_output_ ? filter.most_likely_estimate() : filter.estimate(), filter.belief(),
+         filter.most_likely_mode(), result);
   }
   void smoothed(const std::function<void(const TargetPoint&)>& visit) const override {
     TargetPoint point;
@@ -88,20 +106,29 @@ class ChosenTargetOf final : public ChosenTarget {
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
-      tell(state, point);
+      const Filter& filter = target_.filter();
+      tell(most_likely_output_ ? filter.most_likely_estimate(state) : filter.estimate(state), state.belief,
+           state.most_likely_mode, point);
       visit(point);
     });
   }
+  std::vector<ModeStay> explained() const override {
+    std::vector<ModeStay> stays;
+    if constexpr (KeepsHistories<Filter>)
+      target_.explained([&](const auto& kept, std::size_t mode) {
+        stays.push_back({kept.time, kept.tag, mode, kept.is_start});
+      });
+    return stays;
+  }
 
  private:
-  void tell(const typename Filter::State& state, TargetPoint& result) const {
-    const Filter& filter = target_.filter();
-    const auto estimate = most_likely_output_ ? filter.most_likely_estimate(state) : filter.estimate(state);
+  static void tell(const typename Filter::Estimate& estimate, const Belief<typename Filter::kind>& belief,
+                   std::size_t most_likely_mode, TargetPoint& result) {
     result.mean.assign(estimate.mean.data(), estimate.mean.data() + estimate.mean.size());
     result.covariance.assign(estimate.covariance.data(), estimate.covariance.data() + estimate.covariance.size());
-    result.weights.resize(filter.modes());
-    for (std::size_t j = 0; j < filter.modes(); ++j) result.weights[j] = state.belief[j];
-    result.most_likely_mode = state.most_likely_mode;
+    result.weights.resize(belief.size());
+    for (std::size_t j = 0; j < belief.size(); ++j) result.weights[j] = belief[j];
+    result.most_likely_mode = most_likely_mode;
   }
 
   TargetType target_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/target.hpp>
 
@@ -158,6 +159,22 @@ TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
   const TimedTransition transition{motion, rates_of_sojourns({20.0, 5.0, 3.0, 1.0})};
   Relation relation = transition(1.0);
   for (const double dt : {0.2, 0.0, 50.0}) ASSERT_EQ(allocations_of([&] { transition(dt, relation); }), 0U);
+}
+
+template <Uncertainty Kind>
+void histories_allocate_nothing() {
+  const support::VectorBank bank{support::calm(1.0), support::calm(5.0), support::turning()};
+  HistoryFilter<support::VectorBank, Kind> filter{bank, transition<Kind>(), support::starts()};
+  auto other = filter;
+  for (const auto& scan : support::manoeuvring_target(40)) {
+    ASSERT_EQ(allocations_of([&] { support::step(filter, scan); }), 0U);
+    ASSERT_EQ(allocations_of([&] { other.restore(filter.state()); }), 0U);
+  }
+}
+
+TEST(Allocation, AStepOverHistoriesAllocatesNothingNorDoesAStepBack) {
+  histories_allocate_nothing<Fuzzy>();
+  histories_allocate_nothing<Random>();
 }
 
 }  // namespace

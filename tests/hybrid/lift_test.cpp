@@ -55,6 +55,20 @@ TEST(Lift, BorrowedVarianceBorrowsTheDiagonalOnly) {
   EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
 }
 
+TEST(Lift, PriorTakesTheVarianceOfWhatStandsForIt) {
+  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::prior);
+  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
+  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
+}
+
+TEST(Lift, AnEntryPriorIsNarrowerAlongTheVerticalAndHasItsOwnTurnRate) {
+  const EntryPrior prior{{3.0, 4.0}, 0.5, 0.1};
+  EXPECT_EQ(prior.variance("ax", 4.0), 16.0);
+  EXPECT_EQ(prior.variance("az", 4.0), 4.0);
+  EXPECT_EQ(prior.variance("omega", 4.0), 0.1 * 0.1);
+  EXPECT_DOUBLE_EQ(prior.root_mean_square(), std::sqrt(12.5));
+}
+
 TEST(Lift, UnbiasedTakesValueAndCovarianceOfTheReceiver) {
   const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::unbiased);
   EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 3, 4}));

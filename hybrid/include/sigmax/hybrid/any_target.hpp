@@ -20,7 +20,8 @@ enum class Scheme {
   interacting,   ///< before the measurement, for each mode: IMM and HIMM
   common_start,  ///< before the measurement, once for all modes: GPB1
   second_order,  ///< after the measurement: GPB2 and Viterbi
-  independent    ///< never: a static (autonomous) bank
+  independent,   ///< never: a static (autonomous) bank
+  histories      ///< never, and the mode changes: its histories are kept, the greatest of them
 };
 
 /// How a target gets its first estimates.
@@ -46,10 +47,14 @@ struct TargetChoice {
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   MixingWeights imm_mixing = MixingWeights::correct;
   Lift lift = Lift::borrowed_variance;
+  EntryPrior entry = {};  ///< of Lift::prior
   Tie mixing_tie = Tie::stay;
   Tie output_tie = Tie::stay;
   LikelihoodForm likelihood = LikelihoodForm::density;
   OutputSpread output_spread = OutputSpread::included;
+  std::size_t histories = 24;       ///< that Scheme::histories keeps at most
+  double cut = 0.05;                ///< its output is of those with so much of the best one's weight
+  double tempering = 1.0;           ///< its likelihoods count to this power
   bool most_likely_output = false;  ///< rather than the mixed output (67), (68) of a random mode
   StartRule start = StartRule::points;
   std::vector<double> start_mean;                 ///< x, y, z, vx, …, az, whatever the axes
@@ -90,6 +95,14 @@ struct TargetPoint {
   std::vector<double> weights;     ///< of the modes
   std::size_t most_likely_mode = 0;
   std::optional<double> nis;  ///< of the step, if it had a measurement that passed the gate
+};
+
+/// One stay of the mode in a history.
+struct ModeStay {
+  double since;  ///< in s: the time of the first step in it
+  std::size_t tag;
+  std::size_t mode;
+  bool is_start;
 };
 
 namespace detail {
@@ -137,6 +150,10 @@ class AnyTarget {
 
   /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed.
   void smoothed(const std::function<void(const TargetPoint&)>& visit) const;
+
+  /// When did the mode change? The best history by all that was recorded, see Target::explained; of a scheme that keeps
+  /// no histories nothing.
+  std::vector<ModeStay> explained() const;
 
  private:
   std::unique_ptr<detail::ChosenTarget> target_;

@@ -74,6 +74,18 @@ class Components {
     return result;
   }
 
+  /// What Lift::prior knows of every component of each model, written into estimates of the models' sizes.
+  static void entries(const Models& models, const EntryPrior& prior, double scale, Estimates& entries) {
+    for_each_mode(models, [&](auto j) {
+      auto& entry = mode(entries, j);
+      entry.mean.setZero();
+      entry.covariance.setZero();
+      const std::vector<std::string> names = mode(models, j).components();
+      for (std::size_t i = 0; i < names.size(); ++i)
+        entry.covariance.diagonal()(static_cast<Eigen::Index>(i)) = prior.variance(names[i], scale);
+    });
+  }
+
   /// What each model takes of one start, given in the order of `names()`, written into estimates of the models' sizes.
   /// Throws std::invalid_argument for another size.
   template <int N, int MaxN>

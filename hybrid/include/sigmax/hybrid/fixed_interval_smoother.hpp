@@ -116,7 +116,8 @@ class FixedIntervalSmoother {
     const auto& model = mode(system_.models(), j);
     auto& start = mode(starts_, j);  // the estimate of i in the components of j
     const auto& from_i = filter_.correspondences(j)[i].in_source;
-    const Lifted read(mode(filtered, j), mode(filtered, i), filter_.correspondences(j)[i], filter_.interaction().lift);
+    const Lifted read(mode(filter_.lenders(filtered), j), mode(filtered, i), filter_.correspondences(j)[i],
+                      filter_.interaction().lift);
     start.mean = read.mean();
     start.covariance.setZero();
     read.add_covariance(1.0, start.covariance);

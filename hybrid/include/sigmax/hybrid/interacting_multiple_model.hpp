@@ -137,8 +137,9 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       }
       const auto move_in = [&](std::size_t l) { return common ? belief()[l] : move_in_.relation(j, l); };
       const auto transposed = [&](std::size_t l) { return common ? belief()[l] : move_in_.relation(l, j); };
-      sigmax::mix(interaction_.collapse, this->mixture(own, this->correspondences(j), estimates()), move_in, transposed,
-                  modes(), common ? this->most_likely_mode() : std::size_t{j}, own, mixed);
+      sigmax::mix(interaction_.collapse,
+                  this->mixture(mode(this->lenders(estimates()), j), this->correspondences(j), estimates()), move_in,
+                  transposed, modes(), common ? this->most_likely_mode() : std::size_t{j}, own, mixed);
     });
   }
 

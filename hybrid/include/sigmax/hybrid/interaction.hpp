@@ -25,6 +25,7 @@ struct Interaction {
   Tie output_tie = Tie::stay;
   MixedStart mixed_start = MixedStart::of_each_mode;
   LikelihoodForm likelihood = LikelihoodForm::density;
+  EntryPrior entry = {};  ///< of Lift::prior
 };
 
 }  // namespace sigmax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,28 @@ namespace sigmax {
 enum class Lift {
   zero,               ///< value 0, variance 0
   borrowed_variance,  ///< value 0, the receiving model's variance, no cross terms (the authors' program)
-  unbiased            ///< value and covariance of the receiving model, uncorrelated with the rest (Yuan, Bar-Shalom,
+  unbiased,           ///< value and covariance of the receiving model, uncorrelated with the rest (Yuan, Bar-Shalom,
                       ///< Willett 2012)
+  prior               ///< value 0, the variance of EntryPrior, no cross terms: what a component can be that begins
+};
+
+/// What is thought of a component before anything was seen of it: its value is 0, give or take a standard deviation.
+struct EntryPrior {
+  /// The standard deviations that it may have, in its own unit: of accelerations m/s². A filter that keeps histories
+  /// tries each of them; one that merges has their root mean square.
+  std::vector<double> scales = {25.0};
+  double vertical = 0.3;    ///< so much of it along z: an aircraft turns harder than it climbs
+  double turn_rate = 0.05;  ///< that of a rate of turn, omega, in rad/s
+
+  double variance(const std::string& component, double scale) const {
+    const double sigma = component == "omega" ? turn_rate : component.back() == 'z' ? vertical * scale : scale;
+    return sigma * sigma;
+  }
+  double root_mean_square() const {
+    double sum = 0.0;
+    for (const double scale : scales) sum += scale * scale;
+    return std::sqrt(sum / static_cast<double>(scales.size()));
+  }
 };
 
 /// Where each component of a receiving model stands in a source model, by name.

@@ -94,6 +94,11 @@ class MultipleModelFilter {
   /// Where the components of mode j's model stand in each model.
   const Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
 
+  /// The estimates that a lift borrows from: those of the receiving models, or what Lift::prior knows before.
+  const Estimates& lenders(const Estimates& estimates) const {
+    return interaction_.lift == Lift::prior ? entries_ : estimates;
+  }
+
   /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
   /// (67), (68) with the spread of the means that the print omits, if nothing else was chosen. In `components()`,
   /// lifted by the rule in force. Of the filter's own state, or another, say a smoothed one.
@@ -132,8 +137,11 @@ class MultipleModelFilter {
         innovations_(modes()),
         prior_(uninformative(system_.mode_variable())),
         components_(system_.models()),
+        entries_(start),
         states_{State{start, prior_}, State{start, prior_}} {
     check::starts(system_.models(), start);
+    check::prior(interaction_.entry);
+    Components<Models>::entries(system_.models(), interaction_.entry, interaction_.entry.root_mean_square(), entries_);
     forget_mode();
   }
 
@@ -197,6 +205,19 @@ class MultipleModelFilter {
     if (measured_) throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
     return {dt, state(), {}};
   }
+
+  /// What a lift of the output borrows: for each component from the most likely model that has it.
+  Estimate output_receiver(const State& state) const {
+    return components_.carried(lenders(state.estimates), [&](const auto& has) {
+      const auto log_weight_if_it_has_it = [&](std::size_t l) {
+        return has(l) ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
+      };
+      return select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
+    });
+  }
+
+  /// Where all components stand in each model.
+  const Correspondence* correspondences_of_output() const { return components_.of_all(); }
 
   /// The next state becomes the state; its most likely mode is (64).
   void conclude(bool measured) {
@@ -266,13 +287,7 @@ class MultipleModelFilter {
 
   template <class Rule>
   Estimate output(const Rule& rule, const State& state) const {
-    // What a lift of the output borrows: for each component from the most likely model that has it.
-    const Estimate receiver = components_.carried(state.estimates, [&](const auto& has) {
-      const auto log_weight_if_it_has_it = [&](std::size_t l) {
-        return has(l) ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
-      };
-      return select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
-    });
+    const Estimate receiver = output_receiver(state);
     Estimate result = receiver;
     collapse(
         rule, mixture(receiver, components_.of_all(), state.estimates), [&](std::size_t j) { return state.belief[j]; },
@@ -288,6 +303,7 @@ class MultipleModelFilter {
 
  private:
   Components<Models> components_;
+  Estimates entries_;  ///< what Lift::prior knows of each model's components
   std::array<State, 2> states_;
   std::size_t current_ = 0;
   std::size_t predicted_mode_ = 0;

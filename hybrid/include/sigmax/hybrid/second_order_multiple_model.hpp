@@ -118,7 +118,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
       for (std::size_t l = 0; l < modes(); ++l) joint_(j, l) = belief().log(l) + std::log(transition(l, j));
       weigh(j);
       const auto& own = mode(estimates(), j);
-      const auto read = this->mixture(own, this->correspondences(j), estimates());
+      const auto read = this->mixture(mode(this->lenders(estimates()), j), this->correspondences(j), estimates());
       for (std::size_t l = 0; l < modes(); ++l) {
         if (!lives(l, j)) continue;
         auto& pair = mode(predicted_, j)[l];

@@ -7,6 +7,7 @@
 
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/lift.hpp>
 
 /// What a filter asks of its starts, and of every new estimate.
 namespace sigmax::check {
@@ -27,6 +28,19 @@ void starts(const Models& models, const typename Bank<Models>::Estimates& starts
     if (!all_finite(start))
       throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
   });
+}
+
+/// The numbers of an entry prior are positive, and there is a scale. Throws std::invalid_argument.
+inline void prior(const EntryPrior& prior) {
+  if (prior.scales.empty()) throw std::invalid_argument("an entry prior has no scale; expected one or more");
+  const auto positive = [](const char* what, double number) {
+    if (!(number > 0.0 && std::isfinite(number)))
+      throw std::invalid_argument("an entry prior has the " + std::string(what) + " " + std::to_string(number) +
+                                  "; expected a positive one");
+  };
+  for (const double scale : prior.scales) positive("scale", scale);
+  positive("vertical share", prior.vertical);
+  positive("turn rate", prior.turn_rate);
 }
 
 /// The estimate is finite and no variance is negative beyond rounding: what a lost definiteness shows first, and costs

@@ -15,10 +15,17 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/history_set.hpp>
 #include <sigmax/hybrid/plot.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
 
 namespace sigmax {
+
+/// A filter whose state is the histories of its mode.
+template <class Filter>
+concept KeepsHistories = requires(const Filter& filter) {
+  { filter.state().links() } -> std::same_as<HistoryLinks>;
+};
 
 /// One target as it is met in practice: any multiple-model filter with a start, a gate, restarts, late measurements,
 /// and a record for smoothing.
@@ -100,11 +107,17 @@ class Target {
     bool is_start;
     std::optional<double> nis;
     RecordedStep<typename Filter::ModelsType, typename Filter::kind> step;
+    HistoryLinks links;  ///< of a filter that keeps histories
   };
   /// Calls visit(kept, state) for all that was recorded, in order, with the smoothed state. What came before a start
   /// knows nothing of what came after it. Throws std::domain_error if it cannot be smoothed, saying back to when.
   template <class Visit>
   void smoothed(const Visit& visit) const;
+
+  /// When did the mode change? Calls visit(kept, mode) for the first step of each mode in the history that is the most
+  /// possible or probable by all that was recorded, in order; of each start its own.
+  template <class Visit>
+  void explained(const Visit& visit) const requires KeepsHistories<Filter>;
 
  private:
   /// All of a target that is not its filter's.
@@ -297,8 +310,13 @@ template <class Filter, class Start, Sensing Sensor>
 void Target<Filter, Start, Sensor>::record(double dt, const PlotType& plot, bool is_start) {
   if (!rules_.record) return;
   const bool measured = filter_.measured();
-  record_.push_back({life_.time, plot.tag, is_start, measured ? std::optional(filter_.nis()) : std::nullopt,
-                     measured ? filter_.recorded(dt, plot.seen->z, plot.seen->sensor) : filter_.recorded(dt)});
+  record_.push_back({life_.time,
+                     plot.tag,
+                     is_start,
+                     measured ? std::optional(filter_.nis()) : std::nullopt,
+                     measured ? filter_.recorded(dt, plot.seen->z, plot.seen->sensor) : filter_.recorded(dt),
+                     {}});
+  if constexpr (KeepsHistories<Filter>) record_.back().links = filter_.state().links();
   life_.recorded = record_.size();
 }
 
@@ -322,7 +340,7 @@ template <class Filter, class Start, Sensing Sensor>
 template <class Visit>
 void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
   FixedIntervalSmoother smoother(filter_);
-  std::vector<State> states;
+  std::vector<HybridEstimate<typename Filter::ModelsType, typename Filter::kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
     states.clear();
     for (end = first; end < record_.size() && (end == first || !record_[end].is_start); ++end)
@@ -339,6 +357,21 @@ void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
     }
     for (std::size_t k = first; k < end; ++k) visit(record_[k], states[k - first]);
   }
+}
+
+template <class Filter, class Start, Sensing Sensor>
+template <class Visit>
+void Target<Filter, Start, Sensor>::explained(const Visit& visit) const requires KeepsHistories<Filter> {
+  std::vector<std::size_t> modes(record_.size());
+  std::size_t h = 0;
+  for (std::size_t k = record_.size(); k-- > 0;) {
+    const HistoryLinks& links = record_[k].links;
+    if (k + 1 == record_.size() || record_[k + 1].is_start) h = links.best;
+    modes[k] = links.all[h].mode;
+    h = links.all[h].parent;
+  }
+  for (std::size_t k = 0; k < record_.size(); ++k)
+    if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);
 }
 
 }  // namespace sigmax
