@@ -48,6 +48,9 @@ TargetPoint AnyTarget::output() const {
   return result;
 }
 void AnyTarget::output(TargetPoint& result) const { target_->output(result); }
-void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) const { target_->smoothed(visit); }
+void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
+                         const std::function<void(const ModePairs&)>& paired) const {
+  target_->smoothed(visit, paired);
+}
 
 }  // namespace sigmax
