@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,6 +27,17 @@ struct Accuracy {
   /// Without these a velocity or a range rate is not taken for a measurement.
   std::optional<double> velocity_mps = {};    ///< of each component
   std::optional<double> range_rate_mps = {};  ///< of a radar's
+  /// @}
+
+  /// @{
+  /// Those of a row, which may tell its own.
+  using OfRow = std::array<std::optional<double>, 3>;
+  Polar radar_of(const OfRow& own) const {
+    return {own[0].value_or(radar.range), own[1].value_or(radar.azimuth), own[2].value_or(radar.elevation)};
+  }
+  double position_of(const OfRow& own, std::size_t axis) const {
+    return own[axis].value_or(position_m.size() == 1 ? position_m[0] : position_m[axis]);
+  }
   /// @}
 };
 

@@ -4,6 +4,7 @@
 #include "himm_demo/simulate.hpp"
 #include "himm_demo/sweep.hpp"
 #include "himm_demo/track.hpp"
+#include "himm_demo/tune.hpp"
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
       {"himm_demo",
        "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a fuzzy "
        "mode (HIMM).",
-       {add_simulate, add_reproduce, add_sweep, add_merge, add_track, add_keys},
+       {add_simulate, add_reproduce, add_sweep, add_merge, add_track, add_tune, add_keys},
        "simulate"},
       argc, argv);
 }

@@ -9,6 +9,7 @@
 
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/filter_options.hpp"
+#include "himm_demo/recording_options.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
 #include "support/angle.hpp"
@@ -78,20 +79,6 @@ void track_and_report(const TrackOptions& options) {
   for (const auto& warning : found.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
 }
 
-/// A list of exactly three comma-separated numbers, as `--radar 50,0.1,0.1`.
-void add_triple(CLI::App& app, const std::string& name, std::optional<std::array<double, 3>>& values,
-                const std::string& help, const std::string& type) {
-  app.add_option_function<std::vector<double>>(
-         name,
-         [&values](const std::vector<double>& given) {
-           values = {given[0], given[1], given[2]};
-         },
-         help)
-      ->delimiter(',')
-      ->expected(3)
-      ->type_name(type);
-}
-
 }  // namespace
 
 void add_track(CLI::App& program, const std::string& command) {
@@ -99,33 +86,8 @@ void add_track(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<TrackOptions>();
   options->output.command = command;
   app.add_option("file", options->recording.file, "A recording as below; - is the standard input")->required();
-  app.add_option("--columns", options->recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAME=HEADER,…");
-  app.add_option("--select", options->recording.select, "Only rows that have this value; may be repeated")
-      ->type_name("COLUMN=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--track-id", options->recording.track_id, "The column that tells tracks apart: a filter each")
-      ->type_name("COLUMN");
-  app.add_option_function<std::string>(
-         "--on-bad-time", [options](const std::string& what) { options->recording.skip_bad_times = what == "skip"; },
-         "What to do where a time repeats or goes back [error]")
-      ->check(CLI::IsMember({"error", "skip"}))
-      ->option_text("error|skip");
-  add_triple(app, "--origin", options->recording.origin, "Where positions are counted from [each track's first row]",
-             "LAT,LON,ALT");
-  app.add_option_function<std::string>(
-         "--azimuth-from",
-         [options](const std::string& from) { options->recording.azimuth_from_north = from == "north"; },
-         "Whether azimuths run counter-clockwise from east or clockwise from north [east]")
-      ->check(CLI::IsMember({"east", "north"}))
-      ->option_text("east|north");
-  add_triple(app, "--radar", options->radar,
-             "Take the recording as the truth and measure it by a simulated radar with these standard deviations",
-             "RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");
-  add_triple(app, "--radar-at", options->radar_at, "Where the radar stands, in m [0,0,0]", "E,N,U");
+  add_recording(app, options->recording);
+  add_simulated_radar(app, options->radar, options->radar_at);
   app.footer(
       "Recordings are told apart by their columns; others are ignored:\n"
       "  time_s,x_m,y_m[,z_m]                               positions in m\n"

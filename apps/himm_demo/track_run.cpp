@@ -12,9 +12,8 @@
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/estimates_file.hpp"
-#include "himm_demo/scenario.hpp"
+#include "himm_demo/simulated_radar.hpp"
 #include "himm_demo/tracker.hpp"
-#include "support/angle.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
@@ -24,14 +23,6 @@ namespace {
 
 void add_error(Sums& sums, const Vector<3>& error) {
   for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));
-}
-
-/// A stream of random numbers for each track, whichever others a file holds: the 64-bit FNV-1a of its name.
-std::uint64_t stream_of(std::string_view track) {
-  if (track.empty()) return 0;
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char byte : track) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
-  return hash;
 }
 
 /// The frame in which a filter follows a target from a start on.
@@ -138,10 +129,10 @@ class TrackRun {
     if (recording_.has_sensors()) ++outcome_.sensors[fix.sensor];
     auto target = targets_.find(fix.track);
     if (target == targets_.end())
-      target = targets_.try_emplace(fix.track, filters_, RandomStream(options_.seed, stream_of(fix.track))).first;
+      target = targets_.try_emplace(fix.track, filters_, stream_of(options_.seed, fix.track)).first;
     if (fix.place) place(target->second, fix);
     if (options_.radar && fix.position && !fix.no_height)
-      see_by_radar(fix, target->second.random);
+      see_by_radar(fix, *options_.radar, radar_at_, target->second.random, file());
     else if (options_.radar)
       fix.position.reset();
     if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
@@ -222,21 +213,6 @@ class TrackRun {
     if (least) outcome_.outliers.add(fix.line, *least);
   }
 
-  /// Takes the position for the truth and sees it by the simulated radar.
-  void see_by_radar(Fix& fix, RandomStream& random) const {
-    const auto& [range, azimuth, elevation] = *options_.radar;
-    const Polar seen =
-        measure(to_polar(*fix.position - radar_at_), {range, azimuth * degree, elevation * degree}, random);
-    if (!(seen.range > 0.0))
-      throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
-                                .what = "the simulated radar",
-                                .found = fmt::format("a range of {} m", shortest(seen.range)),
-                                .expected = "a positive one",
-                                .remedy = "put the radar farther from the track with --radar-at=E,N,U"}));
-    fix.truth = std::exchange(fix.position, std::nullopt);
-    fix.seen = seen;
-  }
-
   /// The steps of a target whose rows have all been read, as smoothing sees them.
   void smooth(Target<Axes>& target) {
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
@@ -259,8 +235,7 @@ class TrackRun {
     const FilterSettings& settings = filters_[f];
     const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
     const auto& own = fix.sigma;
-    const Polar& usual = accuracy.radar;
-    const Polar sigma{own[0].value_or(usual.range), own[1].value_or(usual.azimuth), own[2].value_or(usual.elevation)};
+    const Polar sigma = accuracy.radar_of(own);
     if (fix.bearing)
       return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
                            .bearing_from = radar_at_.template head<2>()};
@@ -281,11 +256,8 @@ class TrackRun {
     } else if (fix.position) {
       result.position.mean = fix.position->template head<Axes>();
     }
-    for (Eigen::Index i = 0; i < Axes; ++i) {
-      const auto axis = static_cast<std::size_t>(i);
-      const auto& believed = accuracy.position_m;
-      result.position.covariance(i, i) = std::pow(own[axis].value_or(believed[believed.size() == 1 ? 0 : axis]), 2);
-    }
+    for (Eigen::Index i = 0; i < Axes; ++i)
+      result.position.covariance(i, i) = std::pow(accuracy.position_of(own, static_cast<std::size_t>(i)), 2);
     if (fix.moving() && accuracy.velocity_mps) add_velocity(result, fix, *accuracy.velocity_mps, tracker, frame);
     return result;
   }

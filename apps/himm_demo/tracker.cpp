@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace sigmax::apps {
-namespace {
 
 TargetChoice choice_of(const FilterSettings& settings, int axes) {
   TargetChoice choice = settings;
@@ -58,6 +57,11 @@ AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::s
   Eigen::Map<Eigen::MatrixXd>(plot.covariance.data(), plot.size, plot.size) = R.topLeftCorner(plot.size, plot.size);
   return plot;
 }
+
+template AnyPlot plot_of<2>(double, const std::optional<Reading<2>>&, std::size_t);
+template AnyPlot plot_of<3>(double, const std::optional<Reading<3>>&, std::size_t);
+
+namespace {
 
 /// A rate of turn is no derivative of the position.
 template <int Axes>

@@ -25,6 +25,13 @@ struct TrackPoint {
   std::optional<double> nis;  ///< of the step, if it had a measurement that passed the gate
 };
 
+/// The library's choice that the settings stand for.
+TargetChoice choice_of(const FilterSettings& settings, int axes);
+
+/// What a row measured, or that it measured nothing, as the library takes it.
+template <int Axes>
+AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::size_t tag);
+
 /// One filter on one stream of timed measurements: the library's target with the settings of the program.
 template <int Axes>
 class Tracker {

@@ -51,6 +51,9 @@ TargetPoint AnyTarget::output() const {
 }
 void AnyTarget::output(TargetPoint& result) const { target_->output(result); }
 std::vector<ModeStay> AnyTarget::explained() const { return target_->explained(); }
-void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit) const { target_->smoothed(visit); }
+void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
+                         const std::function<void(const ModePairs&)>& paired) const {
+  target_->smoothed(visit, paired);
+}
 
 }  // namespace sigmax

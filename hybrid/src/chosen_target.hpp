@@ -21,7 +21,8 @@ class ChosenTarget {
   virtual bool transform(std::span<const double> A, std::span<const double> b) = 0;
   virtual const std::vector<std::string>& components() const = 0;
   virtual void output(TargetPoint& result) const = 0;
-  virtual void smoothed(const std::function<void(const TargetPoint&)>& visit) const = 0;
+  virtual void smoothed(const std::function<void(const TargetPoint&)>& visit,
+                        const std::function<void(const ModePairs&)>& paired) const = 0;
   virtual std::vector<ModeStay> explained() const = 0;
 };
 

@@ -74,6 +74,7 @@ class ChosenTargetOf final : public ChosenTarget {
 
   Verdict take(const AnyPlot& plot, const AnyTarget::Stepped& stepped) override {
     return target_.take(chosen_plot(plot, axes_), [&](const PlotType& taken, bool is_start) {
+      compared_ = !is_start && taken.seen;
       if (stepped) stepped(taken.tag, is_start);
     });
   }
@@ -95,13 +96,23 @@ class ChosenTargetOf final : public ChosenTarget {
   void output(TargetPoint& result) const override {
     const Filter& filter = target_.filter();
     result.time = target_.time();
-    result.nis = filter.measured() ? std::optional(filter.nis()) : std::nullopt;
+    result.nis.reset();
+    result.normalized_innovation.clear();
+    if (filter.measured()) {
+      const auto innovation = filter.normalized_innovation();
+      result.nis = innovation.squaredNorm();
+      result.normalized_innovation.assign(innovation.begin(), innovation.end());
+    }
+    result.log_evidence = compared_ ? std::optional(filter.log_evidence()) : std::nullopt;
+    result.log_score = compared_ ? std::optional(filter.log_score()) : std::nullopt;
     tell(most_likely_output_ ? filter.most_likely_estimate() : filter.estimate(), filter.belief(),
          filter.most_likely_mode(), result);
   }
-  void smoothed(const std::function<void(const TargetPoint&)>& visit) const override {
+  void smoothed(const std::function<void(const TargetPoint&)>& visit,
+                const std::function<void(const ModePairs&)>& paired) const override {
     TargetPoint point;
-    target_.smoothed([&](const auto& kept, const auto& state) {
+    const auto tell_point = [&](const auto& kept, const auto& state) {
+      if (!visit) return;
       point.time = kept.time;
       point.tag = kept.tag;
       point.is_start = kept.is_start;
@@ -110,6 +121,9 @@ class ChosenTargetOf final : public ChosenTarget {
       tell(most_likely_output_ ? filter.most_likely_estimate(state) : filter.estimate(state), state.belief,
            state.most_likely_mode, point);
       visit(point);
+    };
+    target_.smoothed(tell_point, [&](const auto& kept, const Table& log_pairs, bool is_last) {
+      if (paired) paired({kept.tag, kept.step.dt, is_last, {log_pairs.data(), log_pairs.size()}});
     });
   }
   std::vector<ModeStay> explained() const override {
@@ -134,6 +148,7 @@ class ChosenTargetOf final : public ChosenTarget {
   TargetType target_;
   int axes_;
   bool most_likely_output_;
+  bool compared_ = false;  ///< whether the last step had a measurement, taken or not
 };
 
 }  // namespace sigmax::detail

@@ -20,7 +20,7 @@ TEST(OptionPages, AreWhatTheProgramsPrint) {
 }
 
 TEST(OptionPages, EverySubcommandHasTwoExamples) {
-  for (const std::string subcommand : {"simulate", "reproduce", "sweep", "merge", "track"}) {
+  for (const std::string subcommand : {"simulate", "reproduce", "sweep", "merge", "track", "tune"}) {
     const std::string help = program::run(SIGMAX_HIMM_DEMO, {subcommand, "--help"}).output;
     const auto examples = help.find("\nExamples:\n");
     ASSERT_NE(examples, std::string::npos);

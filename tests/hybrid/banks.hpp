@@ -206,7 +206,11 @@ testing::AssertionResult agrees(const Filter& filter, const restatement::Filter&
     result = testing::AssertionFailure() << "whether there was a measurement is in dispute";
   if (result && filter.measured()) {
     compare("the NIS", filter.nis(), *restated.nis());
+    compare("the squared norm of the normalized innovation", filter.normalized_innovation().squaredNorm(),
+            *restated.nis());
     compare("the distance that gates compare", filter.gate_distance(), restated.gate_distance());
+    compare("the evidence", filter.log_evidence(), restated.log_evidence());
+    compare("the score", filter.log_score(), restated.log_score());
   }
   if (!result) return result;
 

@@ -306,6 +306,7 @@ class Filter {
     }
     const double total = log_total(log_weights_, options_.kind);
     for (double& value : log_weights_) value -= total;
+    tell_evidence(before, total);
     gate_distance_ = -2.0 * log_total(fits, options_.kind);
     nis_ = collapsed_nis(before, innovations, innovation_covariances);
     winner_ = largest(log_weights_, options_.output_tie, winner_);
@@ -325,6 +326,9 @@ class Filter {
   std::optional<double> nis() const { return nis_; }
   /// −2 log Σ or max of w exp(−d²/2) over all hypotheses, with the weights before the measurement.
   double gate_distance() const { return gate_distance_; }
+  /// log Σ or max of w Λ over the modes, with the weights before the measurement, and the same where they sum to one.
+  double log_evidence() const { return log_evidence_; }
+  double log_score() const { return log_score_; }
 
   /// The union of all components in the order in which the models bring them; the estimate is stated in it.
   const std::vector<std::string>& components() const { return components_; }
@@ -501,6 +505,13 @@ class Filter {
     return dot(one.mean, inverse(one.covariance).matrix * one.mean);
   }
 
+  void tell_evidence(const Vector& before, double total) {
+    double sum = 0.0;
+    for (const double log_weight : before) sum += std::exp(log_weight);
+    log_evidence_ = total;
+    log_score_ = total - std::log(sum);
+  }
+
   std::vector<Model> models_;
   Matrix transition_;
   std::vector<State> states_;
@@ -509,6 +520,8 @@ class Filter {
   Index winner_ = 0;
   std::optional<double> nis_;
   double gate_distance_ = 0.0;
+  double log_evidence_ = 0.0;
+  double log_score_ = 0.0;
   std::vector<std::string> components_;
 };
 

@@ -58,6 +58,7 @@ class SecondOrderFilter : public Filter {
     log_weights_ = updated;
     const double total = log_total(updated, options_.kind);
     for (double& value : log_weights_) value -= total;
+    tell_evidence(predicted, total);
     winner_ = largest(log_weights_, options_.output_tie, winner_);
   }
 

@@ -94,7 +94,18 @@ struct TargetPoint {
   std::vector<double> covariance;  ///< row by row
   std::vector<double> weights;     ///< of the modes
   std::size_t most_likely_mode = 0;
-  std::optional<double> nis;  ///< of the step, if it had a measurement that passed the gate
+  std::optional<double> nis;                  ///< of the step, if it had a measurement that passed the gate
+  std::vector<double> normalized_innovation;  ///< the same in its own standard deviations; empty where there is no NIS
+  /// How well the step's measurement was predicted, as MultipleModelFilter has them, whether it passed the gate or not.
+  std::optional<double> log_evidence, log_score;
+};
+
+/// What is known at the end of the modes before and after one step.
+struct ModePairs {
+  std::size_t tag = 0;                  ///< of the plot after
+  double dt = 0.0;                      ///< between, in s
+  bool is_last = false;                 ///< whether it is the last step before another start, or of all
+  std::span<const double> log_weights;  ///< of mode i before and j after, at i · modes + j
 };
 
 /// One stay of the mode in a history.
@@ -148,8 +159,10 @@ class AnyTarget {
   TargetPoint output() const;
   void output(TargetPoint& result) const;
 
-  /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed.
-  void smoothed(const std::function<void(const TargetPoint&)>& visit) const;
+  /// Calls visit(point) for all that was recorded, see TargetRules::record and Target::smoothed, which also says when
+  /// it calls paired(pairs).
+  void smoothed(const std::function<void(const TargetPoint&)>& visit,
+                const std::function<void(const ModePairs&)>& paired = {}) const;
 
   /// When did the mode change? The best history by all that was recorded, see Target::explained; of a scheme that keeps
   /// no histories nothing.

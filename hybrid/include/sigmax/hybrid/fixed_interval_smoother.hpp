@@ -89,6 +89,9 @@ class FixedIntervalSmoother {
   /// The smoothed state of the last step that it saw.
   const State& state() const { return state_; }
 
+  /// log w(i, j) of the last step back: mode i at the step it went to, j at the one after.
+  const Table& log_pairs() const { return joint_; }
+
  private:
   // The algebra of a pair is done at run-time size: models of any two sizes then share its code.
   static constexpr int max_size = Bank<Models>::max_state_size;

@@ -178,15 +178,29 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
 
   /// Normalised innovation squared of the predicted measurement, a mixture over the histories collapsed as the mode's
   /// kind asks. Throws std::logic_error if the last step had no measurement.
-  double nis() const {
+  double nis() const { return normalized_innovation().squaredNorm(); }
+
+  /// @{
+  /// As of the other filters, over the histories rather than the modes; tempering does not enter.
+  Vector<Eigen::Dynamic, max_measurement_size> normalized_innovation() const {
     if (!this->measured()) throw std::logic_error("nis() after a step without a measurement");
     const std::size_t size = state().size();
     std::size_t best = 0;
     for (std::size_t h = 1; h < size; ++h)
       if (log_prior_[h] > log_prior_[best]) best = h;
-    return Filter::squared_distance(Filter::collapsed_innovation(
+    return Filter::normalized(Filter::collapsed_innovation(
         innovation_of_, [&](std::size_t h) { return h < size ? std::exp(log_prior_[h]) : 0.0; }, best));
   }
+  double log_evidence() const {
+    return log_combine<AlgebraOf<Kind>>(
+        state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; },
+        Filter::unit);
+  }
+  double log_score() const {
+    return log_evidence() - log_combine<Sigma>(
+                                state().size(), [this](std::size_t h) { return log_prior_[h]; }, Filter::unit);
+  }
+  /// @}
 
   /// As InteractingMultipleModel. A non-linear measurement is linearised about what the mode predicted: that of its
   /// histories, by their weights after the measurement.

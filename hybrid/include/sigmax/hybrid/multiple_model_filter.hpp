@@ -112,17 +112,39 @@ class MultipleModelFilter {
   /// Whether the last step had a measurement, and took it.
   bool measured() const { return measured_; }
 
-  /// The last innovation of each model; of value only if `measured()`.
+  /// The last innovation of each model, its likelihood in the form in force; of value only if `measured()`.
   const std::vector<AnyInnovation>& innovations() const { return innovations_; }
 
   /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
   /// asks, with the weights before the measurement. Throws std::logic_error if the last step had no
   /// measurement.
-  double nis() const {
+  double nis() const { return normalized_innovation().squaredNorm(); }
+
+  /// The innovation of that predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ. If the filter is
+  /// right, its numbers have mean 0 and variance 1 and tell nothing of those of other steps. Throws as `nis`.
+  Vector<Eigen::Dynamic, max_measurement_size> normalized_innovation() const {
     if (!measured_) throw std::logic_error("nis() after a step without a measurement");
-    return squared_distance(collapsed_innovation(
+    return normalized(collapsed_innovation(
         innovations_, [this](std::size_t j) { return prior_[j]; }, predicted_mode_));
   }
+
+  /// What was believed of the mode before the last measurement.
+  const Belief<Kind>& predicted_belief() const { return prior_; }
+
+  /// How well the last measurement was predicted, log ⊕ⱼ w_j ⊗ Λ_j, with the weights before it and the likelihoods of
+  /// `innovations()`. With a random mode it is log p(z_k | z_1:k−1), which summed over the steps is the prequential
+  /// log-likelihood. With a fuzzy mode it is the maximum, which is no density of z: it only grows with the weights, and
+  /// so is never better than where all is possible. Of value after a step with a measurement, taken or not.
+  double log_evidence() const {
+    return log_combine<AlgebraOf<Kind>>(
+        modes(), [this](std::size_t j) { return prior_.log(j) + innovations_[j].log_likelihood; }, unit);
+  }
+
+  /// The same with weights that sum to one, log ⊕ⱼ (w_j / Σᵢ w_i) ⊗ Λ_j: what settings are compared by, with either
+  /// kind of mode. Minus this is the length of a code for z, in nats: with a random mode that of the mixture; with a
+  /// fuzzy mode that of a code which names a mode and then z in it, at most log(modes) longer than the mixture of the
+  /// same weights. Its exponential integrates over z to one, or to less.
+  double log_score() const { return log_evidence() - log_combine<Sigma>(modes(), logs_of(prior_), unit); }
 
   /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
   /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
@@ -162,22 +184,18 @@ class MultipleModelFilter {
     return {receiver, estimates, maps, interaction_.lift};
   }
 
-  /// How well a model explained the measurement in mode j, by the form in force. Throws std::domain_error if that is no
-  /// number.
-  template <int M, int MaxM>
-  double log_likelihood(std::size_t j, const Innovation<M, MaxM>& innovation) const {
-    const bool density = interaction_.likelihood == LikelihoodForm::density;
-    const double log = density ? innovation.log_likelihood : -0.5 * innovation.squared_distance;
-    if (std::isnan(log))
+  /// How well a model explained the measurement in mode j. Throws std::domain_error if that is no number.
+  double log_likelihood(std::size_t j, const AnyInnovation& innovation) const {
+    if (std::isnan(innovation.log_likelihood))
       throw std::domain_error("the likelihood in mode '" + system_.mode_variable().label(j) + "' is not a number");
-    return log;
+    return innovation.log_likelihood;
   }
 
   /// Whether the measurement of the step being taken passes the gate; `log_fit(i)` is the logarithm of the weight of
   /// hypothesis i ⊗ exp(−d_i²/2).
   template <class LogFit>
   bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
-    gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, [](std::size_t) { return 1.0; });
+    gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
     return gate == no_gate || gate_distance_ <= gate;
   }
 
@@ -238,17 +256,22 @@ class MultipleModelFilter {
     collapse(Collapse<Kind>{}, InnovationMixture{innovations}, weight, winner, result);
     return result;
   }
-  static double squared_distance(const Predicted& innovation) {
+  /// Its mean in its own standard deviations; infinite if the covariance is not positive definite.
+  static decltype(Predicted::mean) normalized(const Predicted& innovation) {
     const auto L = cholesky_factor(innovation.covariance);
-    return L ? lower_solve(*L, innovation.mean).squaredNorm() : std::numeric_limits<double>::infinity();
+    if (L) return lower_solve(*L, innovation.mean);
+    return decltype(innovation.mean)::Constant(innovation.mean.size(), std::numeric_limits<double>::infinity());
   }
 
+  /// With the likelihood in the form in force.
   template <int M, int MaxM>
-  static void assign(const Innovation<M, MaxM>& from, AnyInnovation& to) {
+  void assign(const Innovation<M, MaxM>& from, AnyInnovation& to) const {
     static_assert(MaxM <= max_measurement_size, "a sensor measures more quantities at once than a filter keeps");
     to = AnyInnovation(from);
+    if (interaction_.likelihood == LikelihoodForm::possibility) to.log_likelihood = -0.5 * to.squared_distance;
   }
 
+  static double unit(std::size_t) { return 1.0; }
   static auto logs_of(const Belief<Kind>& belief) {
     return [&belief](std::size_t j) { return belief.log(j); };
   }

@@ -180,7 +180,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
     const double log_likelihood = before == log_zero ? pair_innovations_[j].log_likelihood : log_weight_[j] - before;
     innovations_[j].residual = predicted.mean;
     innovations_[j].covariance = predicted.covariance;
-    innovations_[j].squared_distance = Filter::squared_distance(predicted);
+    innovations_[j].squared_distance = Filter::normalized(predicted).squaredNorm();
     innovations_[j].log_likelihood = log_likelihood;
   }
 

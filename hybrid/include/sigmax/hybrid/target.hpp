@@ -112,7 +112,13 @@ class Target {
   /// Calls visit(kept, state) for all that was recorded, in order, with the smoothed state. What came before a start
   /// knows nothing of what came after it. Throws std::domain_error if it cannot be smoothed, saying back to when.
   template <class Visit>
-  void smoothed(const Visit& visit) const;
+  void smoothed(const Visit& visit) const {
+    smoothed(visit, [](const Kept&, const Table&, bool) {});
+  }
+  /// Also calls paired(kept, log_pairs, is_last) for each step from one record to the next, backwards from the last one
+  /// of each start: log_pairs(i, j) is the smoothed weight of mode i before it and j after, and `kept` what came after.
+  template <class Visit, class Paired>
+  void smoothed(const Visit& visit, const Paired& paired) const;
 
   /// When did the mode change? Calls visit(kept, mode) for the first step of each mode in the history that is the most
   /// possible or probable by all that was recorded, in order; of each start its own.
@@ -337,8 +343,8 @@ bool Target<Filter, Start, Sensor>::transform(const SquareMatrix<Eigen::Dynamic,
 }
 
 template <class Filter, class Start, Sensing Sensor>
-template <class Visit>
-void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
+template <class Visit, class Paired>
+void Target<Filter, Start, Sensor>::smoothed(const Visit& visit, const Paired& paired) const {
   FixedIntervalSmoother smoother(filter_);
   std::vector<HybridEstimate<typename Filter::ModelsType, typename Filter::kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -350,6 +356,7 @@ void Target<Filter, Start, Sensor>::smoothed(const Visit& visit) const {
       for (std::size_t k = end - 1; k-- > first;) {
         smoother.step(record_[k].step);
         states[k - first] = smoother.state();
+        paired(record_[k + 1], smoother.log_pairs(), k + 2 == end);
       }
     } catch (const std::domain_error& error) {
       throw std::domain_error("smoothing back to the start at " + std::to_string(record_[first].time) +

@@ -1,0 +1,175 @@
+#include "himm_demo/tune.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "himm_demo/filter_options.hpp"
+#include "himm_demo/recording_options.hpp"
+#include "himm_demo/tune_numbers.hpp"
+#include "himm_demo/tune_report.hpp"
+#include "himm_demo/tune_search.hpp"
+#include "support/angle.hpp"
+#include "support/output.hpp"
+#include "support/parallel.hpp"
+#include "support/progress.hpp"
+
+namespace sigmax::apps {
+
+bool TuneOptions::fits(const std::string& what) const {
+  return std::find(fixed.begin(), fixed.end(), what) == fixed.end();
+}
+
+namespace {
+
+/// What is read must not be written over.
+void refuse_to_overwrite(const TuneOptions& options) {
+  auto inputs = options.files;
+  inputs.push_back(options.config);
+  for (const auto& input : inputs) {
+    std::error_code none;
+    if (std::filesystem::equivalent(options.out, input, none))
+      throw UsageError(message(
+          {.what = fmt::format("--out {} would write over an input", options.out), .remedy = "choose another name"}));
+  }
+}
+
+void refuse_without_search() {
+  if (!can_search())
+    throw InputError(message({.what = "this himm_demo was built without an optimiser",
+                              .remedy = "install libnlopt-cxx-dev, run cmake again and build it"}));
+}
+
+/// The likelihood that has no determinant finds any measurement possible where the noise is great enough.
+void refuse_possibility(const FilterSettings& filter, Objective objective) {
+  if (objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
+    throw InputError(message({.what = fmt::format("filter '{}': likelihood = \"possibility\"", filter.name),
+                              .expected = "\"density\", since a possibility never blames noise that is too great",
+                              .remedy = "tune with --truth, or with likelihood=density"}));
+}
+
+std::string heading(const TuneData& data, const TuneOptions& options) {
+  const std::map<Objective, std::string_view> by = {
+      {Objective::prequential, "how well each measurement was predicted (nats a row; less is better)"},
+      {Objective::rmse, "the RMSE of the position against the truth"},
+      {Objective::density, "the density of the true position (nats a row; less is better)"}};
+  std::string text = fmt::format("{} measurements of {} track{}", data.measurements, data.tracks.size(),
+                                 data.tracks.size() == 1 ? "" : "s");
+  if (data.too_short > 0) text += fmt::format(" ({} too short)", data.too_short);
+  const bool by_track = data.tracks.size() >= 2 * options.folds;
+  return fmt::format("{}, judged by {}. Held out: {} folds {}.", text, by.at(options.objective), options.folds,
+                     by_track ? "of tracks" : "in time");
+}
+
+/// Tunes one filter, prints what was found, and adds what is to be written.
+void tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
+                     std::vector<FilterSettings>& written) {
+  const Diagnosis before = diagnose(data, filter, options.objective);
+  fmt::print("\nfilter {}: before\n\n{}\n", filter.name, text_of(before, options.width()));
+  Progress progress(filter.name, work_of(filter, data, options), options.quiet);
+  const Tuned tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
+  progress.finish();
+  fmt::print("{}\n{}", text_of(tuned, options.objective, options.width()), changes_of(tuned, options.width()));
+
+  const Candidate& best = tuned.candidates[tuned.best];
+  if (tuned.best > 0) {
+    const Diagnosis after = diagnose(data, best.settings, options.objective);
+    fmt::print("\nfilter {}: with the best settings\n\n{}", filter.name, text_of(after, options.width()));
+    if (before.rmse_m && after.rmse_m)
+      fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after.rmse_m);
+  }
+  written.push_back(best.settings);
+  if (tuned.simple == tuned.best) return;
+  written.push_back(tuned.candidates[tuned.simple].settings);
+  written.back().name += "_simple";
+}
+
+Objective objective_of(const std::string& truth) {
+  if (truth.empty() || truth == "false") return Objective::prequential;
+  if (truth == "rmse" || truth == "true") return Objective::rmse;
+  if (truth == "density") return Objective::density;
+  throw UsageError(
+      message({.what = "--truth", .found = in_quotes(truth), .expected = "--truth, --truth=rmse or --truth=density"}));
+}
+
+void tune_and_write(TuneOptions options) {
+  options.objective = objective_of(options.truth);
+  const Settings settings = Settings::read(options.config, options.sets);
+  FilterDefaults defaults;
+  const auto sigma = options.radar.value_or(std::array{10.0, 0.1, 0.1});
+  defaults.filter.accuracy.radar = {sigma[0], sigma[1] * degree, sigma[2] * degree};
+  const auto filters = read_filters(settings, defaults);
+  settings.refuse_unknown();
+  if (options.print_config) {
+    fmt::print("{}", as_toml(filters));
+    return;
+  }
+  refuse_without_search();
+  for (const auto& filter : filters) {
+    refuse_possibility(filter, options.objective);
+    options.velocity |= filter.knows(&Accuracy::velocity_mps);
+    options.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+    for (const auto& models : model_sets(filter, options)) with_models(filter, models);  // refuses what is none
+  }
+  options.threads = threads_or_all(options.threads);
+  std::optional<AtomicFile> file;  // made first, so that a bad name is known before the work
+  if (!options.out.empty()) {
+    refuse_to_overwrite(options);
+    file.emplace(options.out);
+  }
+  const TuneData data = read_tune_data(options);
+  for (const auto& line : lines_of(heading(data, options), terminal_width)) fmt::print("{}\n", line);
+  std::vector<FilterSettings> written;
+  for (const auto& filter : filters) tune_and_report(filter, data, options, written);
+  if (!file) return;
+  file->write(as_toml(written));
+  file->commit();
+  fmt::print("\nWrote {}: himm_demo track FILE.csv --config {}\n", options.out, options.out);
+}
+
+}  // namespace
+
+void add_tune(CLI::App& program, const std::string&) {
+  CLI::App& app = *program.add_subcommand("tune", "Fits the settings of filters to recordings.");
+  const auto options = std::make_shared<TuneOptions>();
+  app.add_option("file", options->files, "Recordings, as track reads them")->required()->type_name("FILE.csv");
+  add_recording(app, options->recording);
+  add_simulated_radar(app, options->radar, options->radar_at);
+  app.add_flag("--truth{rmse}", options->truth,
+               "Judge by the truth that the recording has: by its RMSE, or by its density with --truth=density");
+  app.add_option("--models", options->models,
+                 "Sets of models to choose from, as dwna,dwna+dwpa [the filter's, and each of them alone]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("SET,…");
+  app.add_option("--keep", options->fixed, "What is left as it is: models, sensors, transition, lift")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"models", "sensors", "transition", "lift"}))
+      ->type_name("WHAT,…");
+  app.add_option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once")
+      ->check(CLI::Range(2, 20))
+      ->capture_default_str();
+  app.add_option("--starts", options->starts, "Searches from different places")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  add_threads(app, options->threads);
+  add_seed(app, options->seed, "of the starts, and of a simulated radar");
+  add_filter_options(app, options->config, options->sets, options->print_config);
+  app.add_option("--out", options->out, "Write the settings found, for track --config")->type_name("FILE.toml");
+  add_quiet(app, options->quiet);
+  add_wide(app, options->wide);
+  app.footer(
+      "Examples:\n"
+      "  himm_demo tune flight.csv --out best.toml\n"
+      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --truth\n"
+      "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
+  app.callback([options] { tune_and_write(*options); });
+}
+
+}  // namespace sigmax::apps

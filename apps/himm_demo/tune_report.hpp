@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "himm_demo/tune_diagnosis.hpp"
+#include "himm_demo/tune_fit.hpp"
+
+namespace sigmax::apps {
+
+/// What a filter's innovations say, as tables and sentences.
+std::string text_of(const Diagnosis& diagnosis, std::size_t width);
+
+/// The candidates with both figures, and what was chosen.
+std::string text_of(const Tuned& tuned, Objective objective, std::size_t width);
+
+/// The settings that differ: before, best and simple.
+std::string changes_of(const Tuned& tuned, std::size_t width);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/recordings.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+#include "support/table.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// A target with noise on its acceleration of 1 m/s² that is seen every second to 20 m; the truth beside it.
+std::string recording(std::size_t rows, bool truth, std::uint64_t seed = 3) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  std::ostringstream text;
+  text.precision(10);
+  text << "time_s,x_m,y_m" << (truth ? ",true_x_m,true_y_m" : "") << "\n";
+  std::array<double, 2> x{}, v{80.0, -40.0};
+  for (std::size_t k = 0; k < rows; ++k) {
+    text << k;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double w = normal(generator);
+      x[i] += v[i] + 0.5 * w;
+      v[i] += w;
+    }
+    for (const double each : x) text << "," << each + 20.0 * normal(generator);
+    if (truth) text << "," << x[0] << "," << x[1];
+    text << "\n";
+  }
+  return text.str();
+}
+
+program::Ending tune(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "tune");
+  return program::run(SIGMAX_HIMM_DEMO, arguments);
+}
+
+bool cannot_tune() { return tune({"no.csv"}).output.find("built without an optimiser") != std::string::npos; }
+
+const std::vector<std::string> quick = {"--set", "filters=imm", "--models", "dwna", "--starts", "1", "--folds", "2"};
+std::vector<std::string> quickly(const std::string& file, std::vector<std::string> more = {}) {
+  std::vector<std::string> all = {file};
+  all.insert(all.end(), quick.begin(), quick.end());
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// The number after "key = " or "key = [".
+double value_in(const std::string& toml, const std::string& key) {
+  const auto at = toml.find("\n" + key + " = ");
+  if (at == std::string::npos) return std::nan("");
+  const auto from = toml.find_first_of("0123456789", at + key.size() + 3);
+  return std::stod(toml.substr(from));
+}
+
+TEST(Tune, FindsTheNoisesThatMadeTheRecordingAndTrackTakesThem) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("flight.csv", recording(400, false));
+  const auto best = (directory.path() / "best.toml").string();
+  const auto ending = tune(quickly(file, {"--out", best}));
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.output.find("optimistic sensor"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("as it should be"), std::string::npos) << ending.output;
+  std::istringstream lines(ending.output);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), 80U) << line;
+  const std::string toml = contents(best);
+  EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 2.0) << toml;
+  EXPECT_NEAR(value_in(toml, "sigma_w"), 1.0, 0.3) << toml;
+  const auto tracked = program::run(SIGMAX_HIMM_DEMO, {"track", file, "--config", best});
+  EXPECT_EQ(tracked.status, 0) << tracked.output;
+}
+
+TEST(Tune, GivesTheSameSettingsOnAnyNumberOfThreads) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("flight.csv", recording(120, false));
+  std::vector<std::string> found;
+  for (const std::string threads : {"1", "3"}) {
+    const auto best = (directory.path() / (threads + ".toml")).string();
+    const auto ending = tune({file, "--set", "filters=himm", "--starts", "2", "--folds", "2", "--threads", threads,
+                              "--models", "dwna,dwna+dwpa", "--out", best});
+    ASSERT_EQ(ending.status, 0) << ending.output;
+    found.push_back(contents(best));
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(Tune, JudgesByTheTruthIfAsked) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("flight.csv", recording(300, true));
+  const auto best = (directory.path() / "best.toml").string();
+  const auto by_rmse = tune(quickly(file, {"--truth", "--out", best}));
+  ASSERT_EQ(by_rmse.status, 0) << by_rmse.output;
+  EXPECT_NE(by_rmse.output.find("RMSE against the truth"), std::string::npos) << by_rmse.output;
+  // what the RMSE tells is the ratio of the noises, 1 to 20, and the sensors stay at 10 m
+  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.25) << contents(best);
+  EXPECT_EQ(value_in(contents(best), "sigma_position_m"), 10.0);
+  const auto by_density = tune(quickly(file, {"--truth=density", "--out", best}));
+  ASSERT_EQ(by_density.status, 0) << by_density.output;
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 5.0) << contents(best);
+}
+
+TEST(Tune, KeepsWhatItIsTold) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("flight.csv", recording(120, false));
+  const auto ending = tune(quickly(file, {"--keep", "models,sensors"}));
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.output.find("No setting changes"), std::string::npos) << ending.output;
+}
+
+struct Refusal {
+  std::vector<std::string> arguments;
+  int status;
+  std::string words;
+};
+
+TEST(Tune, RefusesWhatCannotBeAndWritesNothing) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("flight.csv", recording(60, false));
+  const auto three = directory.write("three.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n");
+  const auto tiny = directory.write("tiny.csv", recording(12, false));
+  const auto bad = directory.write("bad.csv", "time_s,x_m,y_m\n0,1,2\n1,x,2\n");
+  const auto out = (directory.path() / "best.toml").string();
+  const std::vector<Refusal> refusals = {{{file, "--truth"}, 3, "no column true_x_m"},
+                                         {{file, "--truth=length"}, 2, "--truth=density"},
+                                         {{tiny}, 3, "there is too little to fit"},
+                                         {{bad}, 3, "bad.csv:3: column 'x_m'"},
+                                         {{file, three}, 3, "tune recordings of two and of three axes apart"},
+                                         {{file, "--models", "dwna+dvpa"}, 2, "did you mean 'dwpa'?"},
+                                         {{file, "--keep", "noise"}, 2, "noise"},
+                                         {{file, "--set", "filters=himm_possibility"}, 3, "himm_possibility"},
+                                         {{file, "--set", "sigma_w=-1"}, 3, "sigma_w"},
+                                         {{file, "--radar", "10,1,1"}, 2, "three axes"},
+                                         {{"-"}, 2, "standard input"}};
+  for (const auto& refusal : refusals) {
+    auto arguments = refusal.arguments;
+    arguments.insert(arguments.end(), {"--out", out});
+    const auto ending = tune(arguments);
+    EXPECT_EQ(ending.status, refusal.status) << ending.output;
+    EXPECT_NE(ending.output.find(refusal.words), std::string::npos) << ending.output;
+    EXPECT_FALSE(std::filesystem::exists(out)) << ending.output;
+  }
+  const auto over = tune({file, "--out", file});
+  EXPECT_EQ(over.status, 2);
+  EXPECT_NE(over.output.find("would write over an input"), std::string::npos) << over.output;
+}
+
+TEST(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {
+  const std::string file = recorded("lidar_radar.csv");
+  if (file.empty()) GTEST_SKIP() << "no recordings in " SIGMAX_DATA;
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  const auto best = (directory.path() / "best.toml").string();
+  const auto ending = tune(quickly(file, {"--set", "sigma_w=1", "--out", best}));
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const std::string toml = contents(best);
+  const std::string lidar = toml.substr(toml.find("sensor.\"lidar\"")),
+                    radar = toml.substr(toml.find("sensor.\"radar\""));
+  EXPECT_NEAR(value_in(lidar, "sigma_position_m"), 0.15, 0.03) << toml;
+  EXPECT_NEAR(value_in(radar, "sigma_range_m"), 0.3, 0.06) << toml;
+  EXPECT_NEAR(value_in(radar, "sigma_azimuth_deg"), 1.72, 0.4) << toml;
+}
+
+}  // namespace
+}  // namespace sigmax::apps

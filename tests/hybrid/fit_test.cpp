@@ -1,0 +1,133 @@
+#include <sigmax/hybrid/fit.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hybrid/banks.hpp"
+#include "hybrid/two_speeds.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::by_compass;
+using support::throws;
+
+TEST(Fit, FindsTheLeastLossInEveryScale) {
+  const std::vector<FitParameter> parameters = {{.name = "any", .start = -2.0, .scale = Scale::linear},
+                                                {.name = "positive", .start = 100.0},
+                                                {.name = "probability", .start = 0.5, .scale = Scale::logistic}};
+  const auto loss = [](const std::vector<double>& x) {
+    EXPECT_GT(x[1], 0.0);
+    EXPECT_TRUE(x[2] > 0.0 && x[2] < 1.0);
+    return std::pow(x[0] - 3.0, 2) + std::pow(std::log(x[1] / 0.7), 2) + std::pow(x[2] - 0.95, 2);
+  };
+  const Fit found = fit(parameters, loss, by_compass);
+  EXPECT_NEAR(found.values[0], 3.0, 0.05);
+  EXPECT_NEAR(found.values[1], 0.7, 0.05);
+  EXPECT_NEAR(found.values[2], 0.95, 0.01);
+  EXPECT_EQ(found.loss, loss(found.values));
+}
+
+TEST(Fit, SeveralStartsFindTheDeeperOfTwoValleysAndASeedFindsItAgain) {
+  const std::vector<FitParameter> parameters = {{.name = "x", .start = 0.0, .scale = Scale::linear, .step = 1.0}};
+  const auto loss = [](const std::vector<double>& x) {
+    return std::min(std::pow(x[0] + 0.5, 2), std::pow(4.0 * (x[0] - 1.8), 2) - 1.0);
+  };
+  EXPECT_NEAR(fit(parameters, loss, by_compass).values[0], -0.5, 0.05);
+  const Fit many = fit(parameters, loss, by_compass, {.starts = 12, .seed = 5});
+  EXPECT_NEAR(many.values[0], 1.8, 0.05);
+  EXPECT_EQ(fit(parameters, loss, by_compass, {.starts = 12, .seed = 5}).values, many.values);
+
+  Fit best;  // the starts one by one, in another order
+  for (const std::size_t s : {7U, 3U, 11U, 0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) {
+    const Fit one = fit_from(parameters, loss, by_compass, fit_search(parameters, 5, s));
+    if (one.loss < best.loss) best = one;
+  }
+  EXPECT_EQ(best.values, many.values);
+  EXPECT_NE(fit_search(parameters, 6, 1).start, fit_search(parameters, 5, 1).start);
+}
+
+TEST(Fit, IsNeverWorseThanItsStartAndPassesOverWhatFails) {
+  const std::vector<FitParameter> parameters = {{.name = "x", .start = 1.0}};
+  const auto loss = [](const std::vector<double>& x) -> double {
+    if (x[0] > 1.2) throw std::domain_error("no filter");
+    return x[0] < 0.9 ? std::nan("") : 2.0;
+  };
+  const Fit found = fit(parameters, loss, by_compass, {.starts = 3});
+  EXPECT_EQ(found.loss, 2.0);
+  EXPECT_TRUE(found.values[0] >= 0.9 && found.values[0] <= 1.2);
+  EXPECT_EQ(fit(
+                {}, [](const auto&) { return 7.0; }, by_compass)
+                .loss,
+            7.0);
+}
+
+TEST(Fit, RefusesAParameterThatCannotStart) {
+  const auto loss = [](const std::vector<double>&) { return 0.0; };
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { fit({{.name = "sigma_w", .start = 0.0}}, loss, by_compass); },
+                                            {"'sigma_w'", "start at 0"}));
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] { fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass); }, {"'p'", "1.5"}));
+}
+
+/// The filter whose score of a position is asked for, after some scans of a manoeuvring target.
+template <Uncertainty Kind>
+InteractingMultipleModel<VectorBank, Kind> amid_a_turn() {
+  InteractingMultipleModel<VectorBank, Kind> filter{
+      VectorBank{support::calm(1.0), support::calm(5.0), support::turning()}, support::transition_of<Kind>(),
+      support::starts()};
+  for (const support::Scan& scan : support::manoeuvring_target(90)) support::step(filter, scan);
+  return filter;
+}
+
+/// The integral over the position of exp(value(filter after a step with that position)), by rectangles.
+template <class Filter, class Value>
+double integral(const Filter& before, const Value& value) {
+  Filter predicted = before;
+  predicted.step(0.2);
+  const Vector<2> centre = predicted.estimate().mean.template head<2>();
+  const SquareMatrix<2> R = 400.0 * SquareMatrix<2>::Identity();
+  constexpr double side = 12.0;
+  double sum = 0.0;
+  for (int i = -15; i <= 15; ++i)
+    for (int j = -15; j <= 15; ++j) {
+      Filter filter = before;
+      filter.step(0.2, Gaussian<2>{centre + side * Vector<2>(i, j), R});
+      sum += side * side * std::exp(value(filter));
+    }
+  return sum;
+}
+
+TEST(LogScore, IsOfADensityOrOfLess) {
+  const auto score = [](const auto& filter) { return filter.log_score(); };
+  const auto evidence = [](const auto& filter) { return filter.log_evidence(); };
+  EXPECT_NEAR(integral(amid_a_turn<Random>(), score), 1.0, 1e-3);
+  EXPECT_NEAR(integral(amid_a_turn<Random>(), evidence), 1.0, 1e-3);
+  const double fuzzy = integral(amid_a_turn<Fuzzy>(), score);
+  EXPECT_LT(fuzzy, 1.0);
+  EXPECT_GT(fuzzy, 1.0 / 3.0);
+  EXPECT_GT(integral(amid_a_turn<Fuzzy>(), evidence), 1.0);  // the maximum of three possible densities is none
+}
+
+TEST(LogEvidence, OfAFuzzyModeNeverBlamesAPossibleChange) {
+  const std::vector<support::Scan> scans = support::manoeuvring_target(60);
+  for (const support::Scan& scan : scans) {
+    if (!scan.z) continue;
+    double before = log_zero;
+    for (const double leaving : {0.05, 0.2, 0.5, 1.0}) {
+      const std::vector<std::vector<double>> rows = {
+          {1.0, leaving, leaving}, {leaving, 1.0, leaving}, {leaving, leaving, 1.0}};
+      InteractingMultipleModel<VectorBank, Fuzzy> filter{
+          VectorBank{support::calm(1.0), support::calm(1.0), support::calm(1.0)}, support::transition_by<Fuzzy>(rows),
+          std::vector<support::State>(3, support::starts()[0])};
+      filter.step(scan.dt, *scan.z);
+      ASSERT_GE(filter.log_evidence(), before);
+      before = filter.log_evidence();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sigmax
