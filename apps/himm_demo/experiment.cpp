@@ -18,34 +18,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// One filter in one run, sample by sample; NaN where there is no estimate.
-struct Trace {
-  std::vector<std::array<double, 3>> squared_error;
-  std::vector<double> nees_position;
-  std::vector<double> nees_velocity;
-  std::vector<double> nis;
-  std::vector<std::vector<double>> weights;
-
-  explicit Trace(std::size_t samples)
-      : squared_error(samples, {nan, nan, nan}),
-        nees_position(samples, nan),
-        nees_velocity(samples, nan),
-        nis(samples, nan),
-        weights(samples) {}
-};
-
-struct Run {
-  Trace measurement;
-  std::vector<Trace> filters;
-};
-
-std::array<double, 3> squares(const Vector<3>& error) {
-  return {error.x() * error.x(), error.y() * error.y(), error.z() * error.z()};
-}
+std::array<double, 3> by_axis(const Vector<3>& error) { return {error.x(), error.y(), error.z()}; }
 
 void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Trace& trace) {
   const auto& estimate = point.estimate;
-  trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
+  trace.error[sample] = by_axis(estimate.mean.head<3>() - truth.head<3>());
+  trace.covariance[sample] = estimate.covariance.topLeftCorner<3, 3>();
   trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
                                                                estimate.covariance.topLeftCorner<3, 3>());
   if (estimate.size() >= 6)
@@ -64,11 +42,11 @@ Run run_once(const Experiment& experiment, std::uint64_t number) {
   RandomStream random(experiment.seed, number);
   const Recording recording = simulate(experiment.scenario, experiment.group.data, random);
   const std::size_t samples = recording.truth.size();
-  Run result{Trace(samples), std::vector<Trace>(experiment.filters.size(), Trace(samples))};
+  Run result{recording.truth, Trace(samples), std::vector<Trace>(experiment.filters.size(), Trace(samples))};
   const auto time_of = [&](std::size_t sample) { return experiment.scenario.step_s * static_cast<double>(sample); };
 
   for (std::size_t k = 0; k < samples; ++k)
-    result.measurement.squared_error[k] = squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
+    result.measurement.error[k] = by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
 
   for (std::size_t f = 0; f < experiment.filters.size(); ++f) {
     const FilterSettings& filter = experiment.filters[f];
@@ -134,6 +112,7 @@ class Tally {
   Tally(const Experiment& experiment, const FilterSettings* filter) : experiment_(experiment), filter_(filter) {
     const auto samples = static_cast<std::size_t>(experiment.scenario.samples);
     squared_.assign(samples, {0.0, 0.0, 0.0});
+    spread_.resize(samples);
     nees_position_.assign(samples, 0.0);
     nees_velocity_.assign(samples, 0.0);
     nis_.assign(samples, 0.0);
@@ -143,7 +122,11 @@ class Tally {
 
   void add(const Trace& trace) {
     for (std::size_t k = 0; k < squared_.size(); ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) squared_[k][axis] += trace.squared_error[k][axis];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double square = trace.error[k][axis] * trace.error[k][axis];
+        squared_[k][axis] += square;
+        spread_[k][axis].add(square);
+      }
       nees_position_[k] += trace.nees_position[k];
       nees_velocity_[k] += trace.nees_velocity[k];
       if (!std::isnan(trace.nis[k])) {  // else the gate turned the measurement away
@@ -157,7 +140,7 @@ class Tally {
     for (std::size_t p = 0; p < phases.size(); ++p)
       for (std::size_t axis = 0; axis < 3; ++axis)
         run_mean_squares_[p][axis].push_back(
-            phase_mean(phases[p], [&](std::size_t k) { return trace.squared_error[k][axis]; }));
+            phase_mean(phases[p], [&](std::size_t k) { return trace.error[k][axis] * trace.error[k][axis]; }));
     if (filter_) {
       if (const auto model = manoeuvre_model(*filter_)) {
         const auto crossing = first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
@@ -173,9 +156,15 @@ class Tally {
     const auto& phases = experiment_.scenario.phases;
     Performance result;
     result.run_mean_squares = run_mean_squares_;
-    for (const auto& sums : squared_) {
+    for (std::size_t k = 0; k < squared_.size(); ++k) {
       auto& rmse = result.rmse.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) rmse[axis] = std::sqrt(sums[axis] / runs);
+      auto& half_width = result.rmse_half_width.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rmse[axis] = std::sqrt(squared_[k][axis] / runs);
+        half_width[axis] = spread_[k][axis].interval().half_width / (2.0 * rmse[axis]);  // delta method
+      }
+      result.nees_by_sample.push_back(nees_position_[k] / runs);
+      result.nis_by_sample.push_back(nis_count_[k] > 0.0 ? nis_[k] / nis_count_[k] : nan);
     }
     for (std::size_t p = 0; p < phases.size(); ++p) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -218,6 +207,7 @@ class Tally {
   const Experiment& experiment_;
   const FilterSettings* filter_;
   std::vector<std::array<double, 3>> squared_;
+  std::vector<std::array<RunningMean, 3>> spread_;  // of the same squares
   std::vector<double> nees_position_;
   std::vector<double> nees_velocity_;
   std::vector<double> nis_;
@@ -229,10 +219,19 @@ class Tally {
 
 }  // namespace
 
+Trace::Trace(std::size_t samples)
+    : error(samples, {nan, nan, nan}),
+      covariance(samples, SquareMatrix<3>::Constant(nan)),
+      nees_position(samples, nan),
+      nees_velocity(samples, nan),
+      nis(samples, nan),
+      weights(samples) {}
+
 Outcome run(const Experiment& experiment, const std::function<void()>& advance) {
   Tally measurement(experiment, nullptr);
   std::vector<Tally> filters;
   for (const auto& filter : experiment.filters) filters.emplace_back(experiment, &filter);
+  std::vector<Run> kept;
   constexpr std::size_t block = 64;  // of runs that are kept at a time
   for_each_run(
       static_cast<std::size_t>(experiment.runs), experiment.threads,
@@ -241,12 +240,13 @@ Outcome run(const Experiment& experiment, const std::function<void()>& advance) 
         advance();
         return result;
       },
-      [&](std::size_t, const Run& result) {
+      [&](std::size_t number, Run result) {
         measurement.add(result.measurement);
         for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result.filters[f]);
+        if (number < static_cast<std::size_t>(experiment.kept_runs)) kept.push_back(std::move(result));
       },
       block);
-  Outcome outcome{measurement.performance(), {}};
+  Outcome outcome{measurement.performance(), {}, std::move(kept)};
   for (const auto& filter : filters) outcome.filters.push_back(filter.performance());
   return outcome;
 }
