@@ -7,9 +7,26 @@
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
-EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
+
+template <int Axes>
+Geodetic tell_from(const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame, TrackPoint<Axes>& point) {
+  auto& [mean, covariance] = point.estimate;
+  const Vector<Axes> position = mean.template head<Axes>();
+  const SquareMatrix<Axes> turn = frame.local_axes(position);
+  for (Eigen::Index i = 0; i < mean.size(); i += Axes) {
+    mean.template segment<Axes>(i) = turn * mean.template segment<Axes>(i);
+    for (Eigen::Index j = 0; j < mean.size(); j += Axes)
+      covariance.template block<Axes, Axes>(i, j) =
+          (turn * covariance.template block<Axes, Axes>(i, j) * turn.transpose()).eval();
+  }
+  const Geodetic place = frame.to_geodetic(position);
+  mean.template head<Axes>() = anchor.to_local(place);
+  return place;
+}
+
+EstimatesFile::EstimatesFile(AtomicFile& file, const std::vector<FilterSettings>& filters,
                              const RecordingReader& recording, bool iso_times)
-    : file_(directory.file("estimates.csv")), recording_(recording), iso_times_(iso_times) {
+    : file_(file), recording_(recording), iso_times_(iso_times) {
   for (const auto& filter : filters)
     for (const auto& motion : filter.motions) turns_ = turns_ || !motion.linear();
   models_ = model_names(filters);
@@ -24,30 +41,8 @@ EstimatesFile::EstimatesFile(const OutputDirectory& directory, const std::vector
 }
 
 template <int Axes>
-void EstimatesFile::add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point) {
-  write(track, settings, point, std::nullopt);
-}
-
-template <int Axes>
-void EstimatesFile::add(const std::string& track, const FilterSettings& settings, TrackPoint<Axes> point,
-                        const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame) {
-  auto& [mean, covariance] = point.estimate;
-  const Vector<Axes> position = mean.template head<Axes>();
-  const SquareMatrix<Axes> turn = frame.local_axes(position);
-  for (Eigen::Index i = 0; i < mean.size(); i += Axes) {
-    mean.template segment<Axes>(i) = turn * mean.template segment<Axes>(i);
-    for (Eigen::Index j = 0; j < mean.size(); j += Axes)
-      covariance.template block<Axes, Axes>(i, j) =
-          (turn * covariance.template block<Axes, Axes>(i, j) * turn.transpose()).eval();
-  }
-  const Geodetic place = frame.to_geodetic(position);
-  mean.template head<Axes>() = anchor.to_local(place);
-  write(track, settings, point, place);
-}
-
-template <int Axes>
-void EstimatesFile::write(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
-                          const std::optional<Geodetic>& place) {
+void EstimatesFile::add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
+                        const std::optional<Geodetic>& place) {
   const auto& estimate = point.estimate;
   const auto has = [&](int order, int axis) { return axis < Axes && order * Axes + axis < estimate.size(); };
   file_.write(shortest(point.time));
@@ -81,11 +76,11 @@ void EstimatesFile::write(const std::string& track, const FilterSettings& settin
 
 void EstimatesFile::cell(std::optional<double> value) { file_.print(",{}", value ? shortest(*value) : ""); }
 
-template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<2>&);
-template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<3>&);
-template void EstimatesFile::add(const std::string&, const FilterSettings&, TrackPoint<2>, const LocalFrame<2>&,
-                                 const LocalFrame<2>&);
-template void EstimatesFile::add(const std::string&, const FilterSettings&, TrackPoint<3>, const LocalFrame<3>&,
-                                 const LocalFrame<3>&);
+template Geodetic tell_from(const LocalFrame<2>&, const LocalFrame<2>&, TrackPoint<2>&);
+template Geodetic tell_from(const LocalFrame<3>&, const LocalFrame<3>&, TrackPoint<3>&);
+template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<2>&,
+                                 const std::optional<Geodetic>&);
+template void EstimatesFile::add(const std::string&, const FilterSettings&, const TrackPoint<3>&,
+                                 const std::optional<Geodetic>&);
 
 }  // namespace sigmax::apps

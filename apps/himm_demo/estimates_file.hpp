@@ -11,30 +11,26 @@
 
 namespace sigmax::apps {
 
+/// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the point.
+/// Returns where it is.
+template <int Axes>
+Geodetic tell_from(const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame, TrackPoint<Axes>& point);
+
 /// Writes estimates.csv: a row for each filter and step.
 class EstimatesFile {
  public:
-  EstimatesFile(const OutputDirectory& directory, const std::vector<FilterSettings>& filters,
-                const RecordingReader& recording, bool iso_times);
+  EstimatesFile(AtomicFile& file, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
+                bool iso_times);
 
+  /// `place` is where a geodetic target is.
   template <int Axes>
-  void add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point);
-
-  /// The same of a point in a frame: positions are written about `anchor`, and all else along east, north and up at the
-  /// point.
-  template <int Axes>
-  void add(const std::string& track, const FilterSettings& settings, TrackPoint<Axes> point,
-           const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame);
-
-  AtomicFile& file() { return file_; }
+  void add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
+           const std::optional<Geodetic>& place);
 
  private:
-  template <int Axes>
-  void write(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
-             const std::optional<Geodetic>& place);
   void cell(std::optional<double> value);
 
-  AtomicFile file_;
+  AtomicFile& file_;
   const RecordingReader& recording_;
   bool iso_times_;
   std::vector<std::string> models_;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
+#include <utility>
 
-#include "himm_demo/trace.hpp"
 #include "support/parallel.hpp"
 
 namespace sigmax::apps {
@@ -16,6 +17,7 @@ class Tally {
   Tally(const Experiment& experiment, const FilterSettings* filter) : experiment_(experiment), filter_(filter) {
     const auto samples = static_cast<std::size_t>(experiment.scenario.samples);
     squared_.assign(samples, {0.0, 0.0, 0.0});
+    spread_.resize(samples);
     nees_position_.assign(samples, 0.0);
     nees_velocity_.assign(samples, 0.0);
     nis_.assign(samples, 0.0);
@@ -25,7 +27,11 @@ class Tally {
 
   void add(const Trace& trace) {
     for (std::size_t k = 0; k < squared_.size(); ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) squared_[k][axis] += trace.squared_error[k][axis];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double square = trace.squared_error(k, axis);
+        squared_[k][axis] += square;
+        spread_[k][axis].add(square);
+      }
       nees_position_[k] += trace.nees_position[k];
       nees_velocity_[k] += trace.nees_velocity[k];
       if (!std::isnan(trace.nis[k])) {  // else the gate turned the measurement away
@@ -39,7 +45,7 @@ class Tally {
     for (std::size_t p = 0; p < phases.size(); ++p)
       for (std::size_t axis = 0; axis < 3; ++axis)
         run_mean_squares_[p][axis].push_back(
-            phase_mean(phases[p], [&](std::size_t k) { return trace.squared_error[k][axis]; }));
+            phase_mean(phases[p], [&](std::size_t k) { return trace.squared_error(k, axis); }));
     if (filter_) {
       if (const auto model = manoeuvre_model(*filter_)) {
         const auto crossing = first_crossing(phases[1].first, experiment_.scenario.samples, [&](int k) {
@@ -55,9 +61,16 @@ class Tally {
     const auto& phases = experiment_.scenario.phases;
     Performance result;
     result.run_mean_squares = run_mean_squares_;
-    for (const auto& sums : squared_) {
+    for (std::size_t k = 0; k < squared_.size(); ++k) {
       auto& rmse = result.rmse.emplace_back();
-      for (std::size_t axis = 0; axis < 3; ++axis) rmse[axis] = std::sqrt(sums[axis] / runs);
+      auto& half_width = result.rmse_half_width.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rmse[axis] = std::sqrt(squared_[k][axis] / runs);
+        half_width[axis] = spread_[k][axis].interval().half_width / (2.0 * rmse[axis]);  // delta method
+      }
+      result.nees_by_sample.push_back(nees_position_[k] / runs);
+      result.nis_by_sample.push_back(nis_count_[k] > 0.0 ? nis_[k] / nis_count_[k]
+                                                         : std::numeric_limits<double>::quiet_NaN());
     }
     for (std::size_t p = 0; p < phases.size(); ++p) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -93,6 +106,7 @@ class Tally {
   const Experiment& experiment_;
   const FilterSettings* filter_;
   std::vector<std::array<double, 3>> squared_;
+  std::vector<std::array<RunningMean, 3>> spread_;  // of the same squares
   std::vector<double> nees_position_;
   std::vector<double> nees_velocity_;
   std::vector<double> nis_;
@@ -108,6 +122,7 @@ Outcome run(const Experiment& experiment, const std::function<void()>& advance) 
   Tally measurement(experiment, nullptr);
   std::vector<Tally> filters;
   for (const auto& filter : experiment.filters) filters.emplace_back(experiment, &filter);
+  std::vector<TracedRun> kept;
   constexpr std::size_t block = 64;  // of runs that are kept at a time
   for_each_run(
       static_cast<std::size_t>(experiment.runs), experiment.threads,
@@ -117,12 +132,13 @@ Outcome run(const Experiment& experiment, const std::function<void()>& advance) 
         advance();
         return result;
       },
-      [&](std::size_t, const TracedRun& result) {
+      [&](std::size_t number, TracedRun result) {
         measurement.add(result.measurement);
         for (std::size_t f = 0; f < filters.size(); ++f) filters[f].add(result.filters[f]);
+        if (number < static_cast<std::size_t>(experiment.kept_runs)) kept.push_back(std::move(result));
       },
       block);
-  Outcome outcome{measurement.performance(), {}};
+  Outcome outcome{measurement.performance(), {}, std::move(kept)};
   for (const auto& filter : filters) outcome.filters.push_back(filter.performance());
   return outcome;
 }

@@ -10,6 +10,7 @@
 
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/scenario.hpp"
+#include "himm_demo/trace.hpp"
 
 namespace sigmax::apps {
 
@@ -32,6 +33,9 @@ struct Performance {
   std::array<double, 3> nees_velocity{};     ///< of position and velocity; 6 if consistent
   std::array<double, 3> nis{};               ///< mean by phase; 3 if consistent
   std::vector<std::vector<double>> weights;  ///< mean per sample and model; empty before the first estimate
+  std::vector<std::array<double, 3>> rmse_half_width;  ///< of `rmse`, at 95 % confidence
+  std::vector<double> nees_by_sample;                  ///< mean of the runs, of the position
+  std::vector<double> nis_by_sample;                   ///< mean of the runs that took the measurement
   CrossTime cross_time;
   /// By phase, axis and run: mean square error.
   std::array<std::array<std::vector<double>, 3>, 3> run_mean_squares{};
@@ -46,12 +50,14 @@ struct Experiment {
   std::uint64_t seed;
   int threads;
   int mode_sample_shift;  ///< added to the sample of mode curves: −1 in the released program, else 0
+  int kept_runs = 0;      ///< so many of the first runs are kept sample by sample
 };
 
 /// Performance of the measurement, and of each filter.
 struct Outcome {
   Performance measurement;
   std::vector<Performance> filters;
+  std::vector<TracedRun> runs;  ///< the first ones, as many as are kept
 };
 
 /// Runs the experiment; `advance` is called after each run, by any thread. The outcome does not depend on the number of

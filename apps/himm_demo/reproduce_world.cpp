@@ -47,14 +47,14 @@ Experiment experiment_of(Preset preset, int scenario_number, int group_number, c
 void add_squares(const Scenario& scenario, const Trace& trace, double* sums) {
   for (std::size_t p = 0; p < 3; ++p)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      sums[3 * p + axis] += phase_mean(scenario.phases[p], [&](std::size_t k) { return trace.squared_error[k][axis]; });
+      sums[3 * p + axis] += phase_mean(scenario.phases[p], [&](std::size_t k) { return trace.squared_error(k, axis); });
 }
 
 /// What one run of a filter adds to its columns.
 void add_figures(const Scenario& scenario, int sample_shift, const Trace& trace, std::size_t model, double* sums) {
   add_squares(scenario, trace, sums + Columns::square);
   const Onset onset = onset_of(scenario);
-  const auto squared_z = [&](std::size_t k) { return trace.squared_error[k][2]; };
+  const auto squared_z = [&](std::size_t k) { return trace.squared_error(k, 2); };
   sums[Columns::onset_z] += phase_mean(onset.before, squared_z);
   sums[Columns::onset_z + 1] += phase_mean(onset.after, squared_z);
 

@@ -8,8 +8,9 @@
 
 #include "himm_demo/experiment.hpp"
 #include "himm_demo/filter_options.hpp"
+#include "himm_demo/simulate_page.hpp"
 #include "himm_demo/simulate_report.hpp"
-#include "support/output.hpp"
+#include "support/braille.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 
@@ -25,17 +26,17 @@ void simulate_and_report(const SimulateOptions& options) {
     fmt::print("{}", as_toml(filters));
     return;
   }
-  std::optional<OutputDirectory> directory;  // made first, so that a bad one is known before the work
-  if (!options.output.out.empty()) directory.emplace(options.output.out);
+  ResultFiles files(options.output);
 
   const bool released = options.preset == Preset::released;
-  const Experiment experiment{scenario(options.scenario, options.preset),
-                              parameters,
-                              filters,
-                              options.runs.value_or(released ? 50 : 100),
-                              options.seed,
-                              threads_or_all(options.threads),
-                              released ? -1 : 0};
+  Experiment experiment{scenario(options.scenario, options.preset),
+                        parameters,
+                        filters,
+                        options.runs.value_or(released ? 50 : 100),
+                        options.seed,
+                        threads_or_all(options.threads),
+                        released ? -1 : 0};
+  if (files.report_wanted()) experiment.kept_runs = runs_in_page(experiment);
   Progress progress("runs", static_cast<std::uint64_t>(experiment.runs), options.output.quiet);
   const Outcome outcome = run(experiment, [&] { progress.advance(); });
   progress.finish();
@@ -43,10 +44,9 @@ void simulate_and_report(const SimulateOptions& options) {
   SimulateReport report{options, experiment, outcome, compare(experiment, outcome), {}};
   if (asks_for_all(settings)) report.ns_per_step = nanoseconds_per_step(experiment);
   print(report);
-  if (directory) {
-    write_files(report, *directory);
-    fmt::print("\nWrote filters.csv, rmse.csv, weights.csv and summary.json to {}\n", options.output.out);
-  }
+  print_charts(options.output, charts_of(report));
+  write_files(report, files);
+  files.commit();
 }
 
 }  // namespace
@@ -78,6 +78,8 @@ void add_simulate(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);
+  add_report(app, options->output);
+  add_no_chart(app, options->output.no_chart);
   app.callback([options] { simulate_and_report(*options); });
 }
 

@@ -4,10 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "himm_demo/simulate_page.hpp"
 #include "himm_demo/simulate_report.hpp"
 #include "himm_demo/simulate_tables.hpp"
 #include "support/csv.hpp"
 #include "support/output.hpp"
+#include "support/result_files.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -15,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-AtomicFile summary_file(const SimulateReport& report, const OutputDirectory& directory) {
+Json summary_of(const SimulateReport& report) {
   const auto& experiment = report.experiment;
   Json summary = {{"version", version},
                   {"command", report.options.output.command},
@@ -32,13 +34,10 @@ AtomicFile summary_file(const SimulateReport& report, const OutputDirectory& dir
                                       {"rmse_difference_m", differences(report, comparison).json()}});
   for (std::size_t f = 0; f < report.ns_per_step.size(); ++f)
     summary["not_reproducible"]["ns_per_step"][report.filter(f).name] = report.ns_per_step[f];
-  AtomicFile file = directory.file("summary.json");
-  file.write(summary.dump(2) + "\n");
-  return file;
+  return summary;
 }
 
-AtomicFile rmse_file(const SimulateReport& report, const OutputDirectory& directory) {
-  AtomicFile file = directory.file("rmse.csv");
+void write_rmse(const SimulateReport& report, AtomicFile& file) {
   file.write("sample,filter,axis,rmse_m\n");
   const auto rows = [&](std::string_view name, const Performance& performance) {
     for (std::size_t k = 0; k < performance.rmse.size(); ++k)
@@ -50,13 +49,11 @@ AtomicFile rmse_file(const SimulateReport& report, const OutputDirectory& direct
   rows("measurement", report.outcome.measurement);
   for (std::size_t f = 0; f < report.experiment.filters.size(); ++f)
     rows(report.filter(f).name, report.outcome.filters[f]);
-  return file;
 }
 
-AtomicFile weights_file(const SimulateReport& report, const OutputDirectory& directory) {
+void write_weights(const SimulateReport& report, AtomicFile& file) {
   const auto& filters = report.experiment.filters;
   const std::vector<std::string> models = model_names(filters);
-  AtomicFile file = directory.file("weights.csv");
   file.write("sample,filter");
   for (const auto& model : models) file.print(",weight_{}", model);
   file.write("\n");
@@ -76,18 +73,18 @@ AtomicFile weights_file(const SimulateReport& report, const OutputDirectory& dir
       file.write("\n");
     }
   }
-  return file;
 }
 
 }  // namespace
 
-void write_files(const SimulateReport& report, const OutputDirectory& directory) {
-  AtomicFile table = directory.file("filters.csv");
-  table.write(figures(report, Figures::all).csv());
-  AtomicFile rmse = rmse_file(report, directory);
-  AtomicFile weights = weights_file(report, directory);
-  AtomicFile summary = summary_file(report, directory);
-  commit_all(table, rmse, weights, summary);
+void write_files(const SimulateReport& report, ResultFiles& files) {
+  if (files.wanted()) {
+    files.write("filters.csv", figures(report, Figures::all).csv());
+    write_rmse(report, *files.open("rmse.csv"));
+    write_weights(report, *files.open("weights.csv"));
+    files.write_json("summary.json", summary_of(report));
+  }
+  if (files.report_wanted()) files.write_report(page_of(report));
 }
 
 }  // namespace sigmax::apps

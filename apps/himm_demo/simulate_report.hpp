@@ -6,7 +6,7 @@
 
 #include "himm_demo/experiment.hpp"
 #include "himm_demo/simulate.hpp"
-#include "support/output.hpp"
+#include "support/result_files.hpp"
 
 namespace sigmax::apps {
 
@@ -34,7 +34,7 @@ std::vector<Comparison> compare(const Experiment& experiment, const Outcome& out
 /// Prints the tables.
 void print(const SimulateReport& report);
 
-/// Writes filters.csv, rmse.csv, weights.csv and summary.json.
-void write_files(const SimulateReport& report, const OutputDirectory& directory);
+/// Writes filters.csv, rmse.csv, weights.csv, summary.json and the page of charts, as far as they are wanted.
+void write_files(const SimulateReport& report, ResultFiles& files);
 
 }  // namespace sigmax::apps

@@ -14,13 +14,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::array<double, 3> squares(const Vector<3>& error) {
-  return {error.x() * error.x(), error.y() * error.y(), error.z() * error.z()};
-}
+std::array<double, 3> by_axis(const Vector<3>& error) { return {error.x(), error.y(), error.z()}; }
 
 void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Trace& trace) {
   const auto& estimate = point.estimate;
-  trace.squared_error[sample] = squares(estimate.mean.head<3>() - truth.head<3>());
+  trace.error[sample] = by_axis(estimate.mean.head<3>() - truth.head<3>());
+  trace.covariance[sample] = estimate.covariance.topLeftCorner<3, 3>();
   trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
                                                                estimate.covariance.topLeftCorner<3, 3>());
   if (estimate.size() >= 6)
@@ -33,7 +32,8 @@ void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Tra
 }  // namespace
 
 Trace::Trace(std::size_t samples)
-    : squared_error(samples, {nan, nan, nan}),
+    : error(samples, {nan, nan, nan}),
+      covariance(samples, SquareMatrix<3>::Constant(nan)),
       nees_position(samples, nan),
       nees_velocity(samples, nan),
       nis(samples, nan),
@@ -69,9 +69,9 @@ TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const
   RandomStream random(seed, number);
   const Recording recording = simulate(scenario, data, random);
   const std::size_t samples = recording.truth.size();
-  TracedRun run{Trace(samples), std::vector<Trace>(filters.size(), Trace(samples))};
+  TracedRun run{recording.truth, Trace(samples), std::vector<Trace>(filters.size(), Trace(samples))};
   for (std::size_t k = 0; k < samples; ++k)
-    run.measurement.squared_error[k] = squares(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
+    run.measurement.error[k] = by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
   try {
     for (std::size_t f = 0; f < filters.size(); ++f)
       follow(filters[f], scenario.step_s, recording, [&](TrackPoint<3> point, std::size_t k) {

@@ -15,17 +15,21 @@ namespace sigmax::apps {
 
 /// One filter in one run, sample by sample; NaN where there is no estimate.
 struct Trace {
-  std::vector<std::array<double, 3>> squared_error;
+  std::vector<std::array<double, 3>> error;
+  std::vector<SquareMatrix<3>> covariance;  ///< of the position, as the filter states it
   std::vector<double> nees_position;
   std::vector<double> nees_velocity;
   std::vector<double> nis;
   std::vector<std::vector<double>> weights;
 
   explicit Trace(std::size_t samples);
+
+  double squared_error(std::size_t sample, std::size_t axis) const { return error[sample][axis] * error[sample][axis]; }
 };
 
-/// A run of the experiment: what its radar measured, and what each filter made of it.
+/// A run of the experiment: the target, what its radar measured, and what each filter made of it.
 struct TracedRun {
+  std::vector<Vector<6>> truth;
   Trace measurement;
   std::vector<Trace> filters;
 };

@@ -4,16 +4,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/filter_options.hpp"
 #include "himm_demo/recording_options.hpp"
+#include "himm_demo/track_page.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
 #include "support/angle.hpp"
-#include "support/output.hpp"
+#include "support/braille.hpp"
+#include "support/result_files.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
@@ -31,14 +34,30 @@ void refuse_what_means_nothing(const TrackOptions& options, const RecordingReade
 
 /// What is read must not be written over.
 void refuse_to_overwrite(const TrackOptions& options) {
-  for (const char* name : {"estimates.csv", "summary.json"})
+  const auto refuse = [&](const std::string& option, const std::string& given, const std::filesystem::path& file) {
     for (const auto& input : {options.recording.file, options.config}) {
       std::error_code none;
-      if (std::filesystem::equivalent(std::filesystem::path(options.output.out) / name, input, none))
-        throw UsageError(
-            message({.what = fmt::format("--out {} would write over the input {}", options.output.out, input),
-                     .remedy = "choose another directory"}));
+      if (std::filesystem::equivalent(file, input, none))
+        throw UsageError(message({.what = fmt::format("{} {} would write over the input {}", option, given, input),
+                                  .remedy = "choose another place"}));
     }
+  };
+  const auto& [out, report] = std::tie(options.output.out, options.output.report);
+  if (!out.empty())
+    for (const char* name : {"estimates.csv", "summary.json", report_name})
+      refuse("--out", out, std::filesystem::path(out) / name);
+  if (!report.empty()) refuse("--report", report, report);
+}
+
+Report page_of(const TrackOptions& options, const std::vector<FilterSettings>& filters, const TrackReport& found,
+               const TrackPage& tracks) {
+  Report page{.title = "Tracks of " + options.recording.file, .command = options.output.command};
+  for (const std::string& warning : found.warnings) page.verdict.push_back("Warning: " + warning);
+  tracks.add_to(page);
+  page.panels.emplace_back(Words{"The recording", found.description});
+  for (const ReportTable& table : found.tables) page.last.emplace_back(table);
+  page.last.emplace_back(Words{"Settings in force", as_toml(filters), true});
+  return page;
 }
 
 void track_and_report(const TrackOptions& options) {
@@ -59,22 +78,22 @@ void track_and_report(const TrackOptions& options) {
   }
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
-  std::optional<OutputDirectory> directory;
+  refuse_to_overwrite(options);
+  ResultFiles files(options.output);
   std::optional<EstimatesFile> estimates;
-  if (!options.output.out.empty()) {
-    refuse_to_overwrite(options);
-    directory.emplace(options.output.out);
-    estimates.emplace(*directory, filters, recording, options.iso_times);
-  }
-  const TrackOutcome outcome = run_track(options, recording, filters, estimates ? &*estimates : nullptr);
-  TrackReport found = report(options, recording, filters, outcome);
-  if (directory) {
-    AtomicFile summary = directory->file("summary.json");
-    summary.write(found.summary);
-    commit_all(estimates->file(), summary);
-    found.text += fmt::format("\nWrote estimates.csv and summary.json to {}\n", options.output.out);
-  }
+  std::optional<TrackPage> tracks;
+  if (AtomicFile* const file = files.open("estimates.csv"))
+    estimates.emplace(*file, filters, recording, options.iso_times);
+  const bool charts = charts_on_terminal(options.output);
+  if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar || recording.has_truth());
+  const TrackOutcome outcome =
+      run_track(options, recording, filters, {estimates ? &*estimates : nullptr, tracks ? &*tracks : nullptr});
+  const TrackReport found = report(options, recording, filters, outcome);
+  files.write_json("summary.json", found.summary);
+  if (files.report_wanted()) files.write_report(page_of(options, filters, found, *tracks));
   fmt::print("{}", found.text);
+  if (charts) print_charts(options.output, tracks->charts_of_the_first());
+  files.commit();
   if (!found.warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
   for (const auto& warning : found.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
 }
@@ -125,6 +144,8 @@ void add_track(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);
+  add_report(app, options->output);
+  add_no_chart(app, options->output.no_chart);
   app.callback([options] { track_and_report(*options); });
 }
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "support/output.hpp"
 #include "support/result_table.hpp"
@@ -27,10 +26,11 @@ class Reporter {
     describe_recording();
     describe_starts();
     warn();
+    const std::string description = text_;
     const std::size_t part_count = recording_.has_roll() ? parts.size() : 1;
     for (std::size_t p = 0; p < part_count; ++p) tabulate(p);
     explain();
-    return {text_, summary_.dump(2) + "\n", warnings_};
+    return {text_, description, std::move(tables_), std::move(summary_), warnings_};
   }
 
  private:
@@ -169,6 +169,7 @@ class Reporter {
       row(table, models, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f], truth_known);
     text_ += "\n" + table.text(options_.output.width());
     summary_["results"][std::string(parts[p].name)] = table.json();
+    tables_.push_back({fmt::format("Rows: {}", parts[p].name), std::move(table)});
   }
 
   void row(ResultTable& table, const std::vector<std::string>& models, const std::string& name, const Sums& sums,
@@ -230,6 +231,7 @@ class Reporter {
   const TrackOutcome& outcome_;
   const std::string& file_ = recording_.csv().file();
   std::string text_;
+  std::vector<ReportTable> tables_;
   Json summary_;
   std::vector<std::string> warnings_;
 };

@@ -3,14 +3,19 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "himm_demo/track_run.hpp"
+#include "support/report.hpp"
 
 namespace sigmax::apps {
 
 /// What a run found, as text for people and as data, and what may be wrong.
 struct TrackReport {
   std::string text;
-  std::string summary;  ///< JSON
+  std::string description;          ///< the beginning of the text, up to the tables
+  std::vector<ReportTable> tables;  ///< those of the text
+  nlohmann::ordered_json summary;
   std::vector<std::string> warnings;
 };
 

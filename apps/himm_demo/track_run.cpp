@@ -13,6 +13,7 @@
 
 #include "himm_demo/estimates_file.hpp"
 #include "himm_demo/simulated_radar.hpp"
+#include "himm_demo/track_page.hpp"
 #include "himm_demo/tracker.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
@@ -71,8 +72,8 @@ template <int Axes>
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
-           EstimatesFile* estimates)
-      : options_(options), recording_(recording), filters_(filters), estimates_(estimates) {
+           TrackSinks sinks)
+      : options_(options), recording_(recording), filters_(filters), sinks_(sinks) {
     outcome_.filters.resize(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f)
       for (auto& part : outcome_.filters[f].sums) part.weights.assign(filters[f].models.size(), 0.0);
@@ -140,6 +141,7 @@ class TrackRun {
       add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
         add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
       });
+    if (sinks_.page) show(target->second, fix);
     step(target->second, fix);
   }
 
@@ -193,7 +195,7 @@ class TrackRun {
     for (std::size_t f = 0; f < target.trackers.size(); ++f) {
       auto& tracker = target.trackers[f];
       if (again && !tracker.running()) continue;
-      const std::size_t rejected = tracker.rejected();
+      const std::size_t rejected = tracker.rejected(), starts = tracker.starts();
       try {
         tracker.take(fix.time_s, reading(fix, target, f), target.taken - 1, [&](std::size_t tag) {
           if (tracker.settings().smooth) return;
@@ -208,6 +210,8 @@ class TrackRun {
         refuse_failure(f, fix, error);
       }
       if (tracker.rejected() > rejected) ++refusing;
+      if (sinks_.page && tracker.rejected() > rejected) sinks_.page->rejected(fix, f);
+      if (sinks_.page && starts > 0 && tracker.starts() > starts) sinks_.page->restarted(fix, f);
     }
     if (refusing == filters_.size() && outcome_.refused_by_all++ == 0) outcome_.first_refused_line = fix.line;
     if (least) outcome_.outliers.add(fix.line, *least);
@@ -296,10 +300,7 @@ class TrackRun {
   /// Takes down what filter f says of a row.
   void record(const Target<Axes>& target, std::size_t tag, std::size_t f, const TrackPoint<Axes>& point) {
     const Fix& fix = target.row(tag);
-    if (estimates_ && target.anchor)
-      estimates_->add(fix.track, filters_[f], point, *target.anchor, target.frame(f, tag));
-    else if (estimates_)
-      estimates_->add(fix.track, filters_[f], point);
+    if (sinks_.estimates || sinks_.page) tell(target, tag, f, point);
     if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
     const auto& estimate = point.estimate;
     add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
@@ -314,6 +315,27 @@ class TrackRun {
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
       if (point.nis) sums.nis.add(*point.nis, usual_nis_[static_cast<std::size_t>(quantities(fix, f)) - 1]);
     });
+  }
+
+  void tell(const Target<Axes>& target, std::size_t tag, std::size_t f, TrackPoint<Axes> point) {
+    const Fix& fix = target.row(tag);
+    std::optional<Geodetic> place;
+    if (target.anchor) place = tell_from(*target.anchor, target.frame(f, tag), point);
+    if (sinks_.estimates) sinks_.estimates->add(fix.track, filters_[f], point, place);
+    if (sinks_.page) sinks_.page->estimated(fix, f, point);
+  }
+
+  /// Shows a row on the page.
+  void show(const Target<Axes>& target, const Fix& fix) {
+    std::optional<Vector<3>> position = fix.position;
+    if (fix.seen) position = radar_at_ + to_cartesian(*fix.seen);
+    if (fix.place) {
+      position = Vector<3>::Zero();
+      position->template head<Axes>() = target.anchor->to_local(*fix.place);
+    }
+    std::optional<Geodetic> anchor;
+    if (target.anchor) anchor = target.anchor->origin();
+    sinks_.page->measured(fix, position, anchor);
   }
 
   [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const std::exception& error) const {
@@ -340,7 +362,7 @@ class TrackRun {
   const TrackOptions& options_;
   RecordingReader& recording_;
   const std::vector<FilterSettings>& filters_;
-  EstimatesFile* estimates_;
+  TrackSinks sinks_;
   std::map<std::string, Target<Axes>, std::less<>> targets_;
   TrackOutcome outcome_;
   std::optional<LocalFrame<Axes>> file_anchor_;
@@ -357,9 +379,9 @@ class TrackRun {
 }  // namespace
 
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
-                       const std::vector<FilterSettings>& filters, EstimatesFile* estimates) {
-  if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, estimates).run();
-  return TrackRun<2>(options, recording, filters, estimates).run();
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks) {
+  if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, sinks).run();
+  return TrackRun<2>(options, recording, filters, sinks).run();
 }
 
 }  // namespace sigmax::apps

@@ -18,6 +18,7 @@
 namespace sigmax::apps {
 
 class EstimatesFile;
+class TrackPage;
 
 /// Rows that are judged together: all, or by the aircraft's bank where the recording tells it.
 struct Part {
@@ -64,8 +65,14 @@ struct TrackOutcome {
   Outliers outliers;
 };
 
-/// Runs all filters over a recording. `estimates` may be null. Throws InputError with file and line.
+/// Where a run puts what it finds row by row; null where nobody wants it.
+struct TrackSinks {
+  EstimatesFile* estimates = nullptr;
+  TrackPage* page = nullptr;
+};
+
+/// Runs all filters over a recording. Throws InputError with file and line.
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
-                       const std::vector<FilterSettings>& filters, EstimatesFile* estimates);
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks);
 
 }  // namespace sigmax::apps

@@ -12,6 +12,7 @@
 #include <sigmax/recognition/explanation.hpp>
 
 #include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
@@ -146,15 +147,15 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
 }
 
+/// Why the best class rather than the next one; none if the readings exclude every class.
 template <class Kind>
-void print_explanation(const OutputOptions& options, const std::string& name, Classifier<Kind, Kind> classifier,
-                       const Readings& readings) {
+std::optional<ResultTable> explanation(const std::string& name, Classifier<Kind, Kind> classifier,
+                                       const Readings& readings) {
   classifier.reset();
   try {
     classifier.observe(readings);
   } catch (const std::domain_error&) {
-    fmt::print("\n{}: the readings exclude every class\n", name);
-    return;
+    return std::nullopt;
   }
   const auto best = best_patterns(classifier.log_belief(), 2);
   const auto& pattern = classifier.prior().variable();
@@ -173,8 +174,20 @@ void print_explanation(const OutputOptions& options, const std::string& name, Cl
   table.rule();
   table.row({fmt::format("{} = {:.4g}", pattern.label(best[0]), classifier.belief()[best[0]]),
              number(classifier.belief()[best[1]]), number(why.log_ratio())});
+  return table;
+}
+
+std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
+  return std::visit([&](const auto& classifier) { return explanation(contestant.name, classifier, readings); },
+                    contestant.classifier);
+}
+
+void print_explanation(const OutputOptions& options, const Contestant& contestant, const Readings& readings) {
   fmt::print("\n");
-  table.print(options.width());
+  if (const auto table = explanation(contestant, readings))
+    table->print(options.width());
+  else
+    fmt::print("{}: the readings exclude every class\n", contestant.name);
 }
 
 /// The rows of a file, classified one after the other.
@@ -316,6 +329,48 @@ Json summary_of_rows(const ClassifyOptions& options, const RandomVariable& patte
   return summary;
 }
 
+/// The support that a row gives to each class, and why.
+View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vector<Contestant>& all) {
+  View view{fmt::format("line {}", row.line), {}};
+  HeatMap support{
+      .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
+      .row_label = "classifier",
+      .column_label = pattern.name(),
+      .rows = {},
+      .columns = {},
+      .values = {},
+      .value_label = "probability or possibility"};
+  for (std::size_t c = 0; c < pattern.size(); ++c) support.columns.push_back(pattern.label(c));
+  std::vector<Panel> reasons;
+  for (const Contestant& contestant : all) {
+    const Trace trace = follow(contestant, 0, std::vector<Readings>{row.readings});
+    support.rows.push_back(contestant.name);
+    support.values.push_back(trace.belief);
+    if (auto why = explanation(contestant, row.readings))
+      reasons.emplace_back(ReportTable{contestant.name, std::move(*why)});
+    else
+      reasons.emplace_back(Words{contestant.name, "The readings exclude every class."});
+  }
+  view.panels.emplace_back(std::move(support));
+  view.panels.insert(view.panels.end(), reasons.begin(), reasons.end());
+  return view;
+}
+
+Report page_of(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
+               const Classified& result, bool has_truth) {
+  constexpr std::size_t most_views = 200;
+  const auto& pattern = model.counts.pattern();
+  Report page{.title = "Classes of " + options.file, .command = options.output.command, .chooser = "Row"};
+  page.verdict = {fmt::format("{} rows, classified by {}; {}.", result.rows, options.model, described(model.options))};
+  page.panels.emplace_back(ReportTable{"All rows", totals_table(pattern, has_truth, all, result)});
+  for (std::size_t i = 0; i < std::min(most_views, result.shown.size()); ++i)
+    page.views.push_back(view_of(result.shown[i], pattern, all));
+  if (page.views.size() < result.rows)
+    page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
+  page.last = relation_maps(model, 6);
+  return page;
+}
+
 void run_classify(const ClassifyOptions& options) {
   ResultFiles files(options.output);
   const ModelFile model_file = read_model(options.model);
@@ -345,14 +400,10 @@ void run_classify(const ClassifyOptions& options) {
   if (options.explain)
     for (const ShownRow& row : result.shown) {
       fmt::print("\nline {}\n", row.line);
-      for (const Contestant& contestant : all)
-        std::visit(
-            [&](const auto& classifier) {
-              print_explanation(options.output, contestant.name, classifier, row.readings);
-            },
-            contestant.classifier);
+      for (const Contestant& contestant : all) print_explanation(options.output, contestant, row.readings);
     }
   files.write_json("summary.json", summary_of_rows(options, pattern, all, result, rows));
+  if (files.report_wanted()) files.write_report(page_of(options, model, all, result, rows.has_truth()));
   files.commit();
 }
 
@@ -378,6 +429,7 @@ void add_classify(CLI::App& program, const std::string& command) {
       ->check(CLI::IsMember({"refuse", "missing"}))
       ->capture_default_str();
   add_output(app, options->output);
+  add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"

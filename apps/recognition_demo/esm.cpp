@@ -8,6 +8,7 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/error.hpp"
 
@@ -78,6 +79,15 @@ std::vector<Cell> row_of_run(const EsmWorld& world, std::size_t run, const EsmTr
   return cells;
 }
 
+/// A run that the page shows: the support of each platform over its reports.
+View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, const EsmTraces& traces) {
+  std::vector<std::string> platforms;
+  for (std::size_t c = 0; c < world.platform.size(); ++c) platforms.push_back(world.platform.label(c));
+  const std::size_t most = std::min<std::size_t>(traces.reports.size(), 100);
+  return support_view(fmt::format("run {}", run + 1), platforms, all, traces.truth,
+                      {traces.reports.begin(), traces.reports.begin() + static_cast<std::ptrdiff_t>(most)});
+}
+
 void run_esm(const EsmOptions& options) {
   const DrawOptions& draws = options.draws;
   ResultFiles files(draws.output);
@@ -88,6 +98,9 @@ void run_esm(const EsmOptions& options) {
   AtomicFile* const runs_file = files.open("runs.csv");
   if (runs_file) runs_file->write(runs.csv_header());
 
+  constexpr std::size_t runs_in_page = 6;
+  Report page = page_of_contest("Which platform is it?", draws.output, all);
+  page.chooser = "Show";
   Scoreboard board(all);
   Progress progress("runs", draws.runs, draws.output.quiet);
   for_each_draw(
@@ -98,6 +111,7 @@ void run_esm(const EsmOptions& options) {
       },
       [&](std::size_t run, const EsmTraces& traces) {
         board.add(traces);
+        if (files.report_wanted() && run < runs_in_page) page.views.push_back(view_of(world, all, run, traces));
         if (runs_file) runs_file->write(runs.csv_line(row_of_run(world, run, traces)));
       });
   progress.finish();
@@ -121,6 +135,13 @@ void run_esm(const EsmOptions& options) {
   summary["classifiers"] = scores_table(scores).json();
   files.write("curves.csv", curves_csv(scores));
   files.write_json("summary.json", summary);
+  if (files.report_wanted()) {
+    page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
+                                described_usage(options))};
+    page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
+    page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
+    files.write_report(page);
+  }
   files.commit();
 }
 
@@ -143,6 +164,7 @@ void add_esm(CLI::App& program, const std::string& command) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_draws(app, options->draws);
+  add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo esm --usage dirichlet --alpha 0.5\n"

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <variant>
@@ -15,6 +16,7 @@
 #include <sigmax/recognition/folds.hpp>
 
 #include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
@@ -320,19 +322,7 @@ void print_evaluation(const DataTable& data, const Results& results, const Evalu
   }
 }
 
-void run_evaluate(const EvaluateOptions& options) {
-  ResultFiles files(options.output);
-  const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data);
-  if (options.folds > data.labels.size())
-    throw InputError(message({.where = data.file,
-                              .found = fmt::format("{} rows", data.labels.size()),
-                              .expected = fmt::format("at least as many as the {} folds", options.folds)}));
-  refuse_rare_classes(data);
-  const Results results = evaluated(data, options);
-  print_evaluation(data, results, options);
-  if (!files.wanted()) return;
-
+void write_results(const DataTable& data, const Results& results, const EvaluateOptions& options, ResultFiles& files) {
   Json summary = summary_of(options.output);
   summary["file"] = data.file;
   summary["rows"] = data.labels.size();
@@ -347,6 +337,38 @@ void run_evaluate(const EvaluateOptions& options) {
   write_predictions(data, options, *files.open("predictions.csv"));
   files.write("confusion.csv", confusion_csv(data, results, options.foldings));
   files.write_json("summary.json", summary);
+}
+
+/// Confusion matrices side by side, and what was learned of all rows.
+Report page_of(const DataTable& data, const Results& results, const EvaluateOptions& options) {
+  Report page{.title = "Cross-validation of " + data.file, .command = options.output.command};
+  page.verdict = {fmt::format("{}. {} folds, {} foldings, seed {}; {}.", described(data), options.folds,
+                              options.foldings, options.seed, described(options.learning))};
+  page.panels.emplace_back(
+      ReportTable{"Classifiers", outcomes_table(results, options.foldings), "Differences ± 95 % by paired rows."});
+  constexpr std::size_t most_classes = 30;
+  if (data.classes.size() <= most_classes)
+    for (const Outcome& outcome : results.outcomes())
+      page.panels.emplace_back(confusion_map(outcome.name, data.classes, outcome.confusion(), options.foldings));
+  std::vector<std::size_t> all(data.labels.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  page.last = relation_maps(learn(data, all, options.learning), 6);
+  return page;
+}
+
+void run_evaluate(const EvaluateOptions& options) {
+  ResultFiles files(options.output);
+  const DataTable data = read_data(options.file, options.data, options.output.quiet);
+  print_warnings(data);
+  if (options.folds > data.labels.size())
+    throw InputError(message({.where = data.file,
+                              .found = fmt::format("{} rows", data.labels.size()),
+                              .expected = fmt::format("at least as many as the {} folds", options.folds)}));
+  refuse_rare_classes(data);
+  const Results results = evaluated(data, options);
+  print_evaluation(data, results, options);
+  if (files.wanted()) write_results(data, results, options, files);
+  if (files.report_wanted()) files.write_report(page_of(data, results, options));
   files.commit();
 }
 
@@ -366,6 +388,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   add_seed(app, options->seed, "of the folds");
   add_threads(app, options->threads);
   add_output(app, options->output);
+  add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"

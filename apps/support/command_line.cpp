@@ -111,6 +111,15 @@ void add_output(CLI::App& app, OutputOptions& options) {
   add_wide(app, options.wide);
 }
 
+void add_report(CLI::App& app, OutputOptions& options) {
+  app.add_option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
+      ->type_name("FILE");
+}
+
+void add_no_chart(CLI::App& app, bool& no_chart) {
+  app.add_flag("--no-chart", no_chart, "No charts at the end, where the output is a terminal of 80 columns or more");
+}
+
 void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
   const auto check = [](const std::string& text) -> std::string {
     std::uint64_t number = 0;

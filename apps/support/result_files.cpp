@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "support/error.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 
 ResultFiles::ResultFiles(const OutputOptions& options) {
+  if (!options.report.empty() && !has_reports())
+    throw UsageError(message({.what = "--report: this program was built without charts",
+                              .remedy = "install libjs-dygraphs and node-d3, and build again"}));
   if (!options.out.empty()) directory_.emplace(options.out);
+  if (!options.report.empty()) report_.emplace(options.report);
 }
 
 AtomicFile* ResultFiles::open(const std::string& name) {
@@ -25,13 +30,27 @@ void ResultFiles::write_json(const std::string& name, const nlohmann::ordered_js
   if (wanted()) write(name, json.dump(2) + "\n");
 }
 
+bool ResultFiles::report_wanted() const { return report_ || (wanted() && has_reports()); }
+
+void ResultFiles::write_report(const Report& report) {
+  if (report_)
+    report_->write(html(report));
+  else
+    write(report_name, html(report));
+}
+
 void ResultFiles::commit() {
-  if (files_.empty()) return;
+  if (files_.empty() && !report_) return;
   for (AtomicFile& file : files_) file.store();
+  if (report_) report_->store();
   for (AtomicFile& file : files_) file.commit();
-  std::string list = names_.front();
-  for (std::size_t i = 1; i < names_.size(); ++i) list += (i + 1 == names_.size() ? " and " : ", ") + names_[i];
-  fmt::print("\nWrote {} to {}\n", list, directory_->path().native());
+  if (report_) report_->commit();
+  std::vector<std::string> written;
+  if (!names_.empty())
+    written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
+                                  names_.size() > 1 ? " and " : "", names_.back(), directory_->path().native()));
+  if (report_) written.push_back(report_->path().native());
+  fmt::print("\nWrote {}\n", fmt::join(written, ", and "));
 }
 
 nlohmann::ordered_json summary_of(const OutputOptions& options) {

@@ -10,19 +10,22 @@
 
 #include "support/command_line.hpp"
 #include "support/output.hpp"
+#include "support/report.hpp"
 
 namespace sigmax::apps {
 
-/// The result files of a run. Without --out nothing is written. The directory is made first, so that a bad one is known
-/// before the work; the files appear together at the end.
+/// The result files of a run. Without --out nothing is written but the report, if --report asks for it. Directory and
+/// report are begun first, so that a bad place is known before the work; the files appear together at the end.
 ///
 ///     ResultFiles files(options);
 ///     …
 ///     files.write("curves.csv", curves.csv());
 ///     files.write_json("summary.json", summary);
+///     if (files.report_wanted()) files.write_report({.title = "…"});
 ///     files.commit();
 class ResultFiles {
  public:
+  /// Throws UsageError if --report asks for what this program was built without.
   explicit ResultFiles(const OutputOptions& options);
 
   /// Whether there is a directory to write to.
@@ -34,6 +37,11 @@ class ResultFiles {
   void write(const std::string& name, std::string_view text);
   void write_json(const std::string& name, const nlohmann::ordered_json& json);
 
+  /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
+  /// says.
+  bool report_wanted() const;
+  void write_report(const Report& report);
+
   /// Puts all files into their place and prints "Wrote a.csv and summary.json to DIR".
   void commit();
 
@@ -41,6 +49,7 @@ class ResultFiles {
   std::optional<OutputDirectory> directory_;
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
+  std::optional<AtomicFile> report_;  // where it is not in the directory
 };
 
 /// What every summary begins with: the version and the command.

@@ -167,6 +167,24 @@ nlohmann::ordered_json ResultTable::json() const {
   return all;
 }
 
+nlohmann::ordered_json ResultTable::page() const {
+  Json columns = Json::array(), rows = Json::array();
+  for (const ResultColumn& column : columns_)
+    if (!column.header.empty())
+      columns.push_back({{"header", column.unit.empty() ? column.header : column.header + ", " + column.unit},
+                         {"group", column.group},
+                         {"left", column.align == Align::left},
+                         {"key", column.key}});
+  for (const auto& row : rows_) {
+    Json cells = Json::array();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (!columns_[i].header.empty())
+        cells.push_back({{"text", text_of(row[i], columns_[i])}, {"value", json_of(row[i])}});
+    rows.push_back(std::move(cells));
+  }
+  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
 nlohmann::ordered_json as_json(const Interval& interval) {
   if (without_bounds(interval)) return {{"mean", interval.mean}, {"lower", nullptr}, {"upper", nullptr}};
   return {{"mean", interval.mean}, {"lower", interval.lower()}, {"upper", interval.upper()}};

@@ -96,6 +96,10 @@ class ResultTable {
   /// An object of each row by its first cell: those of its other columns that have a key, but for empty cells.
   nlohmann::ordered_json json() const;
 
+  /// The columns with a header as a page shows them: {"columns": [{"header", "group", "left", "key"}], "rows":
+  /// [[{"text", "value"}]]}, where a text is what the terminal shows, and a rule is a row without cells.
+  nlohmann::ordered_json page() const;
+
   /// CSV for rows that are too many to keep: the first line, and a line of one row. Both end with a line break.
   std::string csv_header() const;
   std::string csv_line(const std::vector<Cell>& cells) const;

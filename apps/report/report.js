@@ -1,0 +1,480 @@
+// Draws a report from the JSON in the page. It places, scales and colours; every number it shows was computed before.
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const page = document.getElementById('page');
+  const hidden = new Set(data.groups.filter((group) => !group.shown).map((group) => group.name));  // switched off
+  let charts = [];           // of this view: {graph, resize}
+  let plans = [];            // functions that draw again
+
+  // Okabe and Ito's colours, which the colour-blind tell apart; lighter on dark paper. Dashes tell more than colours on paper.
+  const palettes = {
+    light: ['#0072b2', '#d55e00', '#009e73', '#b0508a', '#a87400', '#3d8fc4', '#5d3fa0', '#6b6b00'],
+    dark: ['#56b4e9', '#ff8c42', '#2fc49a', '#e39ac6', '#f0c03a', '#a5d8ff', '#b79cff', '#d4d45a'],
+  };
+  const dashes = [[], [8, 3], [2, 3], [9, 3, 2, 3], [14, 4], [5, 5], [3, 3, 9, 3], [1, 5]];
+  const printing = () => document.documentElement.classList.contains('printing');
+  const dark = () => !printing() && matchMedia('(prefers-color-scheme: dark)').matches;
+  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const numberOf = (name) => data.groups.filter((group) => !group.neutral).findIndex((group) => group.name === name);
+  const colour = (name, fallback = 0) => {
+    const group = data.groups.find((one) => one.name === name);
+    const palette = palettes[dark() ? 'dark' : 'light'];
+    if (group && group.neutral) return data.groups.indexOf(group) ? css('--ink') : (dark() ? '#9aa0a6' : '#7a7a7a');
+    return palette[(group ? numberOf(name) : fallback) % palette.length];
+  };
+  const dashOf = (curve, fallback) => {
+    const number = curve.dash ?? (curve.group ? Math.max(0, numberOf(curve.group)) : fallback);
+    return dashes[number % dashes.length];
+  };
+  const shown = (value) => value === null || value === undefined ? '–' : String(Number(value.toPrecision(5)));
+
+  function element(name, properties = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(properties))
+      if (key in made) made[key] = value; else made.setAttribute(key, value);
+    made.append(...children.filter((child) => child));
+    return made;
+  }
+
+  const crossed = 'M-4,-4L4,4M-4,4L4,-4';
+
+  function swatch(colourOf, dash, shape = 'line') {
+    const svg = d3.create('svg').attr('width', shape === 'line' ? 26 : 12).attr('height', 10).attr('aria-hidden', 'true');
+    if (shape === 'crosses') svg.append('path').attr('d', crossed).attr('transform', 'translate(6,5)').attr('stroke', colourOf).attr('stroke-width', 1.6);
+    else if (shape === 'dots') svg.append('circle').attr('cx', 6).attr('cy', 5).attr('r', 3).attr('fill', colourOf);
+    else svg.append('line').attr('x1', 0).attr('x2', 26).attr('y1', 5).attr('y2', 5).attr('stroke', colourOf)
+      .attr('stroke-width', 2.5).attr('stroke-dasharray', dash.join(' '));
+    return svg.node();
+  }
+
+  // A table that is made when it is opened: charts have many numbers.
+  function folded(title, make) {
+    const details = element('details', {}, element('summary', {textContent: title}));
+    details.addEventListener('toggle', () => { if (details.open && details.children.length === 1) details.append(make()); });
+    return details;
+  }
+
+  function grid(headers, rows) {
+    const head = element('tr', {}, ...headers.map((text) => element('th', {textContent: text, scope: 'col'})));
+    const body = element('tbody');
+    for (const row of rows) body.append(element('tr', {}, ...row.map((cell) => element('td', {textContent: cell}))));
+    return element('div', {className: 'rows', tabIndex: 0}, element('table', {}, element('thead', {}, head), body));
+  }
+
+  const figure = (panel, ...children) =>
+    element('figure', {className: panel.kind}, element('h2', {textContent: panel.title}), ...children,
+      panel.note && element('p', {className: 'note', textContent: panel.note}));
+
+  // ---- Charts, by dygraphs
+
+  function drawMarked(panel, canvas, area, graph) {
+    canvas.save();
+    canvas.beginPath();
+    canvas.rect(area.x, area.y, area.w, area.h);
+    canvas.clip();
+    canvas.fillStyle = css('--shade');
+    for (const {from, to, label} of panel.shaded) {
+      const left = graph.toDomXCoord(from), right = graph.toDomXCoord(to);
+      canvas.fillRect(left, area.y, Math.max(1, right - left), area.h);
+      canvas.fillStyle = css('--faint');
+      canvas.font = '11px system-ui, sans-serif';
+      canvas.fillText(label, Math.max(left, area.x) + 4, area.y + 12);
+      canvas.fillStyle = css('--shade');
+    }
+    for (const {from, to} of panel.expected) {
+      const top = graph.toDomYCoord(to), bottom = graph.toDomYCoord(from);
+      canvas.fillStyle = css('--expected');
+      canvas.fillRect(area.x, top, area.w, Math.max(1, bottom - top));
+    }
+    canvas.restore();
+  }
+
+  function readout(panel, holder, options) {
+    const show = (row) => {
+      holder.replaceChildren();
+      if (row !== null) holder.append(element('span', {textContent: `${panel.x_label}: ${shown(panel.x[row])}`}));
+      panel.curves.forEach((curve, i) => {
+        if (hidden.has(curve.group)) return;
+        const value = row === null ? '' : ` ${shown(curve.values[row])}`;
+        holder.append(element('span', {}, swatch(options.colors[i], options.dash[i], curve.dots ? 'dots' : 'line'), ` ${curve.name}${value}`));
+      });
+      for (const {label} of panel.expected)
+        holder.append(element('span', {}, element('i', {className: 'expected'}), ` ${label}`));
+    };
+    show(null);
+    return {show, plugin: {activate: () => ({select: (event) => show(event.dygraph.lastRow_), deselect: () => show(null)})}};
+  }
+
+  function style(panel) {
+    return {
+      colors: panel.curves.map((curve, i) => colour(curve.group, i)),
+      dash: panel.curves.map((curve, i) => dashOf(curve, i)),
+    };
+  }
+
+  function drawLines(panel, place) {
+    const banded = panel.curves.some((curve) => curve.lower);
+    const cell = (curve, k) => {
+      const value = curve.values[k];
+      if (!banded) return value;
+      return value === null ? [null, null, null] : [curve.lower?.[k] ?? value, value, curve.upper?.[k] ?? value];
+    };
+    const looks = style(panel);
+    const box = element('div', {className: 'chart', role: 'img', ariaLabel: `${panel.title}, ${panel.y_label}; the table below has the numbers`});
+    const values = element('div', {className: 'readout'});
+    const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name)],
+      panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k]))])));
+    place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), box,
+      element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
+
+    const reading = readout(panel, values, looks);
+    const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
+      labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
+      connectSeparatedPoints: panel.joined === true, customBars: banded, fillAlpha: 0.18, legend: 'never', plugins: [reading.plugin],
+      colors: looks.colors, strokeWidth: 1.8, highlightCircleSize: 4, animatedZooms: false,
+      series: Object.fromEntries(panel.curves.map((curve, i) => [`c${i}`, {
+        strokePattern: looks.dash[i].length ? looks.dash[i] : null,
+        ...(curve.dots ? {strokeWidth: 0, drawPoints: true, pointSize: 2} : {}),
+      }])),
+      visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
+      includeZero: true, valueRange: rangeOf(panel),
+      xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
+      axes: {y: {axisLabelWidth: 52}}, rightGap: 10,
+      underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
+      zoomCallback: () => showReset(),
+      interactionModel: {...Dygraph.defaultInteractionModel, dblclick: () => showAll()},
+    });
+    charts.push({graph, panel, reading, looks});
+  }
+
+  function restyle({graph, panel, reading, looks}) {
+    Object.assign(looks, style(panel));
+    graph.updateOptions({colors: looks.colors, gridLineColor: css('--line'), axisLineColor: css('--line'),
+      visibility: panel.curves.map((curve) => !hidden.has(curve.group))});
+    reading.show(null);
+  }
+
+  // ---- The map, by D3
+
+  const finite = (value) => value !== null && value !== undefined;
+
+  function drawPlan(panel, place) {
+    const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', panel.title);
+    const groups = [...new Map(panel.traces.map((trace) => [trace.name, trace])).values()];
+    const key = element('div', {className: 'readout'});
+    const points = (trace) => trace.x.map((x, k) => [shown(x), shown(trace.y[k]), ...(trace.z ? [shown(trace.z[k])] : [])]);
+    const table = folded('Table', () => grid(['', panel.x_label, panel.y_label, 'up, m'].slice(0, panel.traces.some((t) => t.z) ? 4 : 3),
+      panel.traces.flatMap((trace) => points(trace).map((row) => [trace.name, ...row]))));
+    const whole = element('button', {type: 'button', className: 'whole', textContent: 'Whole track', hidden: !panel.focus});
+    place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), svg.node(),
+      element('div', {className: 'x-label', textContent: panel.x_label}), whole, key, table));
+
+    let transform = d3.zoomIdentity, focused = !panel.focus;
+    const zoom = d3.zoom().scaleExtent([1, 500]).filter(() => d3.event.type !== 'wheel' || d3.event.ctrlKey || d3.event.shiftKey)
+      .on('zoom', () => { transform = d3.event.transform; whole.hidden = transform.k === 1; draw(); });
+    svg.call(zoom);
+    whole.addEventListener('click', () => svg.call(zoom.transform, d3.zoomIdentity));
+
+    function draw() {
+      const {width, height} = svg.node().getBoundingClientRect();
+      if (!width) return;
+      const edge = {left: 56, right: 12, top: 10, bottom: 24};
+      const all = panel.traces.filter((trace) => !hidden.has(trace.group));
+      const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
+      const [west, east] = extent('x'), [south, north] = extent('y');
+      if (west === undefined) return;
+      const inner = {width: width - edge.left - edge.right, height: height - edge.top - edge.bottom};
+      const metres = 1.06 * Math.max((east - west) / inner.width, (north - south) / inner.height, 1e-9);
+      const wholeX = d3.scaleLinear().range([edge.left, width - edge.right])
+        .domain([(west + east - metres * inner.width) / 2, (west + east + metres * inner.width) / 2]);
+      const wholeY = d3.scaleLinear().range([height - edge.bottom, edge.top])
+        .domain([(south + north - metres * inner.height) / 2, (south + north + metres * inner.height) / 2]);
+      if (!focused) {
+        focused = true;
+        const [left, right, bottom, top] = [wholeX(panel.focus[0]), wholeX(panel.focus[1]), wholeY(panel.focus[2]), wholeY(panel.focus[3])];
+        const k = Math.max(1, Math.min(inner.width / (right - left), inner.height / (bottom - top)));
+        svg.call(zoom.transform, d3.zoomIdentity.translate(edge.left + inner.width / 2, edge.top + inner.height / 2)
+          .scale(k).translate(-(left + right) / 2, -(bottom + top) / 2));
+        return;
+      }
+      const x = transform.rescaleX(wholeX), y = transform.rescaleY(wholeY);
+      svg.selectAll('*').remove();
+      const clip = `clip${plans.length}${Math.round(width)}`;
+      svg.append('clipPath').attr('id', clip).append('rect').attr('x', edge.left).attr('y', edge.top)
+        .attr('width', inner.width).attr('height', inner.height);
+      svg.append('g').attr('transform', `translate(0,${height - edge.bottom})`).call(d3.axisBottom(x).ticks(width / 90).tickSizeOuter(0));
+      svg.append('g').attr('transform', `translate(${edge.left},0)`).call(d3.axisLeft(y).ticks(height / 60).tickSizeOuter(0));
+      const body = svg.append('g').attr('clip-path', `url(#${clip})`);
+      const line = (xs, ys) => d3.line().defined((k) => finite(xs[k]) && finite(ys[k])).x((k) => x(xs[k])).y((k) => y(ys[k]))(d3.range(xs.length));
+      const labels = [];  // where one stands there is room for no other
+      for (const one of panel.graticule) {
+        body.append('path').attr('class', 'graticule').attr('d', line(one.x, one.y));
+        const k = Math.floor(one.x.length / 6);
+        const [at, high] = [x(one.x[k]) + 3, y(one.y[k]) - 3];
+        if (labels.some(([other, otherHigh]) => Math.abs(other - at) < 64 && Math.abs(otherHigh - high) < 14)) continue;
+        labels.push([at, high]);
+        body.append('text').attr('class', 'graticule-label').attr('x', at).attr('y', high).text(one.label);
+      }
+      for (const ellipse of panel.ellipses.filter((one) => !hidden.has(one.group))) {
+        const scale = Math.abs(x(1) - x(0));
+        body.append('ellipse').attr('rx', ellipse.semi_major * scale).attr('ry', ellipse.semi_minor * scale)
+          .attr('transform', `translate(${x(ellipse.x)},${y(ellipse.y)}) rotate(${-ellipse.angle_deg})`)
+          .attr('fill', colour(ellipse.group)).attr('fill-opacity', 0.15).attr('stroke', colour(ellipse.group));
+      }
+      panel.traces.forEach((trace, i) => {
+        if (hidden.has(trace.group)) return;
+        const stroke = colour(trace.group, i);
+        if (trace.shape === 'line') {
+          body.append('path').attr('fill', 'none').attr('stroke', stroke).attr('stroke-width', 1.8)
+            .attr('stroke-dasharray', dashOf(trace, i).join(' ')).attr('d', line(trace.x, trace.y));
+          return;
+        }
+        const mark = trace.shape === 'dots' ? 'M-1.7,0a1.7,1.7 0 1,0 3.4,0a1.7,1.7 0 1,0 -3.4,0' : crossed;
+        const marks = trace.x.map((east_m, k) => finite(east_m) ? `translate(${x(east_m).toFixed(1)},${y(trace.y[k]).toFixed(1)})` : null);
+        body.append('g').selectAll('path').data(marks.filter((one) => one)).enter().append('path').attr('d', mark)
+          .attr('transform', (one) => one).attr('fill', trace.shape === 'dots' ? stroke : 'none').attr('fill-opacity', 0.75)
+          .attr('stroke', trace.shape === 'dots' ? 'none' : stroke).attr('stroke-width', 1.6);
+      });
+      drawScaleBar(body, x, width, height, edge);
+      key.replaceChildren(...groups.filter((trace) => !hidden.has(trace.group)).map((trace) => element('span', {},
+        swatch(colour(trace.group, panel.traces.indexOf(trace)), dashOf(trace, panel.traces.indexOf(trace)), trace.shape), ` ${trace.name}`)));
+    }
+    plans.push(draw);
+    draw();
+    if (panel.traces.some((trace) => trace.z)) drawSpace(panel, place);
+  }
+
+  // The same in space, turned by dragging; heights are stretched. By hand: neither library draws in space.
+  function drawSpace(panel, place) {
+    const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', `${panel.title} in space`);
+    place.append(figure({kind: 'plan', title: `${panel.title}, in space`, note: 'Drag to turn. Heights are stretched.'},
+      element('div', {className: 'y-label', textContent: `${panel.x_label}; ${panel.y_label}; up, m`}), svg.node()));
+    let yaw = -0.6, pitch = 0.5;
+    const extents = ['x', 'y', 'z'].map((axis) => d3.extent(panel.traces.flatMap((trace) => trace[axis]).filter(finite)));
+    const [xs, ys, zs] = extents, centre = extents.map(([from, to]) => (from + to) / 2);
+    const across = Math.max(xs[1] - xs[0], ys[1] - ys[0]) || 1, up = zs[1] - zs[0] || 1;
+
+    function draw() {
+      const {width, height} = svg.node().getBoundingClientRect();
+      if (!width) return;
+      const size = 0.62 * Math.min(width, 1.5 * height);
+      const at = (x, y, z) => {
+        const [u, v, w] = [(x - centre[0]) / across, (y - centre[1]) / across, 0.45 * (z - centre[2]) / up];
+        const right = u * Math.cos(yaw) - v * Math.sin(yaw), away = u * Math.sin(yaw) + v * Math.cos(yaw);
+        return [width / 2 + size * right, height / 2 - size * (w * Math.cos(pitch) + away * Math.sin(pitch))];
+      };
+      svg.selectAll('*').remove();
+      const path = (corners) => `M${corners.map(([x, y, z]) => at(x, y, z).join(',')).join('L')}`;
+      const floor = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]);
+      svg.append('path').attr('class', 'graticule').attr('d', path(floor));
+      svg.append('path').attr('class', 'graticule').attr('d', path([[xs[0], ys[0], zs[0]], [xs[0], ys[0], zs[1]]]));
+      const label = (text, x, y, z) => svg.append('text').attr('class', 'graticule-label').attr('x', at(x, y, z)[0] + 4).attr('y', at(x, y, z)[1]).text(text);
+      zs.forEach((z) => label(`up ${shown(z)}`, xs[0], ys[0], z));
+      label(`x ${shown(xs[1])}, y ${shown(ys[0])}`, xs[1], ys[0], zs[0]);
+      label(`x ${shown(xs[0])}, y ${shown(ys[1])}`, xs[0], ys[1], zs[0]);
+      panel.traces.forEach((trace, i) => {
+        if (hidden.has(trace.group)) return;
+        const all = d3.range(trace.x.length).filter((k) => finite(trace.x[k]) && finite(trace.z[k]));
+        if (trace.shape === 'line')
+          svg.append('path').attr('d', path(all.map((k) => [trace.x[k], trace.y[k], trace.z[k]]))).attr('fill', 'none')
+            .attr('stroke', colour(trace.group, i)).attr('stroke-width', 1.8).attr('stroke-dasharray', dashOf(trace, i).join(' '));
+        else
+          svg.append('path').attr('d', all.map((k) => `M${at(trace.x[k], trace.y[k], trace.z[k]).map((c) => c.toFixed(1)).join(',')}h.01`).join(''))
+            .attr('stroke', colour(trace.group, i)).attr('stroke-width', 3.5).attr('stroke-linecap', 'round').attr('opacity', 0.7);
+      });
+    }
+    svg.call(d3.drag().on('drag', () => {
+      yaw += d3.event.dx / 150;
+      pitch = Math.min(1.55, Math.max(0.02, pitch + d3.event.dy / 200));
+      draw();
+    }));
+    plans.push(draw);
+    draw();
+  }
+
+  function drawScaleBar(body, x, width, height, edge) {
+    const [from, to] = x.domain();
+    const length = d3.tickStep(0, (to - from) / 3, 1) || 1;
+    const pixels = x(from + length) - x(from);
+    const bar = body.append('g').attr('transform', `translate(${width - edge.right - pixels - 12},${height - edge.bottom - 12})`);
+    bar.append('path').attr('d', `M0,-4V0H${pixels}V-4`).attr('fill', 'none').attr('stroke', css('--ink')).attr('stroke-width', 1.5);
+    bar.append('text').attr('x', pixels / 2).attr('y', -5).attr('text-anchor', 'middle')
+      .text(length >= 1000 ? `${length / 1000} km` : `${length} m`);
+  }
+
+  // ---- Heat maps, by D3
+
+  function drawHeat(panel, place) {
+    const values = element('div', {className: 'readout'});
+    const box = element('div', {className: 'scroll'});
+    const table = folded('Table', () => grid([`${panel.row_label} \\ ${panel.column_label}`, ...panel.columns],
+      panel.rows.map((name, r) => [name, ...panel.shown[r]])));
+    place.append(figure(panel, element('div', {className: 'y-label', textContent: `${panel.value_label}; rows: ${panel.row_label}`}), box,
+      element('div', {className: 'x-label', textContent: panel.column_label}), values, table));
+    const draw = () => {
+      const [least, greatest] = d3.extent(panel.values.flat().filter(finite));
+      const end = Math.max(Math.abs(least), Math.abs(greatest)) || 1;
+      const scale = panel.diverging ? d3.scaleSequential(d3.interpolatePuOr).domain([end, -end])
+        : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
+      const widest = d3.max(panel.rows, (name) => name.length) || 1;
+      const left = Math.min(150, 12 + 7 * widest);
+      const room = (place.getBoundingClientRect().width || 500) / (place.children.length > 1 && innerWidth > 1060 ? 2 : 1) - left - 30;
+      const cell = {width: Math.max(34, Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
+      const slant = d3.max(panel.columns, (name) => name.length) * 7 > cell.width;
+      const top = slant ? 70 : 22;
+      const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
+        .attr('width', left + cell.width * panel.columns.length + (slant ? 40 : 4)).attr('height', top + cell.height * panel.rows.length + 4);
+      const cut = (name, most) => name.length > most ? `${name.slice(0, most - 1)}…` : name;
+      panel.columns.forEach((name, c) => svg.append('text').text(cut(name, slant ? 14 : 99)).attr('text-anchor', slant ? 'start' : 'middle')
+        .attr('transform', `translate(${left + (c + 0.5) * cell.width},${top - 7})${slant ? ' rotate(-40)' : ''}`));
+      panel.rows.forEach((name, r) => {
+        svg.append('text').text(cut(name, 20)).attr('text-anchor', 'end').attr('x', left - 6).attr('y', top + (r + 0.5) * cell.height + 4);
+        panel.columns.forEach((column, c) => {
+          const value = panel.values[r][c];
+          const fill = finite(value) ? d3.color(scale(value)) : null;
+          const words = [`${name}, ${column}: ${panel.shown[r][c]}`, panel.texts?.[r]?.[c]].filter((text) => text).join('; ');
+          const box = svg.append('g').attr('class', 'cell').on('mouseenter', () => { values.textContent = words; })
+            .on('mouseleave', () => { values.textContent = ''; });
+          box.append('title').text(words);
+          box.append('rect').attr('x', left + c * cell.width).attr('y', top + r * cell.height).attr('width', cell.width - 1)
+            .attr('height', cell.height - 1).attr('fill', fill || 'none');
+          const light = fill && d3.lab(fill).l > 60;
+          if (cell.height > 20) box.append('text').text(panel.shown[r][c]).attr('text-anchor', 'middle').attr('x', left + (c + 0.5) * cell.width)
+            .attr('y', top + (r + 0.5) * cell.height + 4).style('fill', fill ? (light ? '#111' : '#fff') : null);
+        });
+      });
+      box.replaceChildren(svg.node());
+    };
+    plans.push(draw);
+    draw();
+  }
+
+  // ---- Tables and words
+
+  function drawTable(panel, place) {
+    const head = [];
+    if (panel.columns.some((column) => column.group)) {
+      const groups = element('tr');
+      for (let i = 0; i < panel.columns.length;) {
+        let end = i + 1;
+        while (end < panel.columns.length && panel.columns[i].group && panel.columns[end].group === panel.columns[i].group) ++end;
+        groups.append(element('th', {textContent: panel.columns[i].group, colSpan: end - i, scope: 'colgroup'}));
+        i = end;
+      }
+      head.push(groups);
+    }
+    head.push(element('tr', {}, ...panel.columns.map((column) =>
+      element('th', {textContent: column.header, className: column.left ? 'left' : '', scope: 'col'}))));
+    const body = element('tbody');
+    let ruled = false;
+    for (const row of panel.rows) {
+      if (!row.length) { ruled = true; continue; }
+      body.append(element('tr', {className: ruled ? 'ruled' : ''}, ...row.map((cell, i) => {
+        const made = element('td', {textContent: cell.text, className: panel.columns[i].left ? 'left' : ''});
+        if (panel.columns[i].key) made.dataset.key = panel.columns[i].key;
+        if (typeof cell.value === 'number') made.dataset.value = cell.value;
+        return made;
+      })));
+      ruled = false;
+    }
+    const made = figure(panel, element('div', {className: 'scroll', tabIndex: 0}, element('table', {}, element('thead', {}, ...head), body)));
+    place.append(made);
+  }
+
+  function drawWords(panel, place) {
+    const text = element('pre', {textContent: panel.text});
+    place.append(panel.folded ? element('details', {className: 'words wide'}, element('summary', {textContent: panel.title}), text)
+      : figure(panel, text));
+  }
+
+  const draw = {lines: drawLines, plan: drawPlan, heat: drawHeat, table: drawTable, words: drawWords};
+  const drawAll = (panels, place) => { for (const panel of panels) draw[panel.kind](panel, place); };
+
+  // ---- The page
+
+  const place = element('section', {className: 'panels', id: 'view'});
+  const reset = element('button', {type: 'button', id: 'reset', textContent: 'Whole time', hidden: true});
+  let synchronized = null;
+
+  const showReset = () => { reset.hidden = !charts.some(({graph}) => graph.isZoomed('x')); };
+
+  const rangeOf = (panel) => panel.greatest_y === undefined ? null : [0, panel.greatest_y];
+
+  function showAll() {
+    charts.forEach(({graph, panel}) => graph.updateOptions({dateWindow: null, valueRange: rangeOf(panel)}));
+    showReset();
+  }
+
+  function showView(index) {
+    const window = charts.find(({graph}) => graph.isZoomed('x'))?.graph.xAxisRange();
+    synchronized?.detach();
+    charts.forEach(({graph}) => graph.destroy());
+    charts = []; plans = fixedPlans.slice();
+    place.replaceChildren();
+    drawAll(data.views[index].panels, place);
+    synchronize();
+    if (window) charts.forEach(({graph}) => graph.updateOptions({dateWindow: window}));
+    showReset();
+  }
+
+  function synchronize() {
+    const graphs = charts.map(({graph}) => graph);
+    synchronized = graphs.length > 1 ? Dygraph.synchronize(graphs, {selection: true, zoom: true, range: false}) : null;
+  }
+
+  function bar() {
+    const made = element('div', {className: 'bar', role: 'toolbar', ariaLabel: 'What is shown'});
+    if (data.views.length > 1) {
+      const select = element('select', {id: 'view-selector'},
+        ...data.views.map((view, i) => element('option', {value: i, textContent: view.name})));
+      select.addEventListener('change', () => showView(Number(select.value)));
+      made.append(element('label', {}, `${data.chooser} `, select));
+    }
+    for (const {name} of data.groups) {
+      const box = element('input', {type: 'checkbox', checked: !hidden.has(name)});
+      box.dataset.group = name;
+      box.addEventListener('change', () => {
+        if (box.checked) hidden.delete(name); else hidden.add(name);
+        redraw();
+      });
+      made.append(element('label', {}, box, swatch(colour(name), dashOf({group: name}, 0)), name));
+    }
+    made.append(reset);
+    return made;
+  }
+
+  function redraw() {
+    charts.forEach(restyle);
+    plans.forEach((again) => again());
+  }
+
+  reset.addEventListener('click', showAll);
+  page.replaceChildren(element('h1', {textContent: data.title}));
+  if (data.verdict.length) page.append(element('div', {className: 'verdict'}, ...data.verdict.map((text) => element('p', {textContent: text}))));
+  const first = element('section', {className: 'panels', id: 'first'});
+  const last = element('section', {className: 'panels', id: 'last'});
+  page.append(first);
+  let controls = null;
+  if (data.groups.length || data.views.length > 1) page.append(controls = bar());
+  page.append(place, last, element('footer', {}, element('p', {}, 'Made by ', element('code', {textContent: data.command}),
+    `, sigmax ${data.version}. Drawn with dygraphs (MIT licence) and D3 (BSD licence). Drag along a chart to zoom, double-click to see all; `
+    + 'a map is dragged, and zoomed by double-click or Shift and the wheel.')));
+  drawAll(data.panels, first);
+  drawAll(data.last, last);
+  const fixedPlans = plans.slice();
+  if (data.views.length) showView(0); else synchronize();
+
+  const relook = () => {
+    if (controls) { const again = bar(); const chosen = controls.querySelector('select')?.value;
+      if (chosen) again.querySelector('select').value = chosen;
+      controls.replaceWith(again); controls = again; }
+    redraw();
+  };
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', relook);
+  addEventListener('beforeprint', () => { document.documentElement.classList.add('printing'); relook(); });
+  addEventListener('afterprint', () => { document.documentElement.classList.remove('printing'); relook(); });
+  let waiting = 0;
+  addEventListener('resize', () => { clearTimeout(waiting); waiting = setTimeout(() => plans.forEach((again) => again()), 100); });
+  page.dataset.drawn = 'yes';
+})();

@@ -1,0 +1,86 @@
+#include "support/braille.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+LineChart chart(std::vector<double> values) {
+  LineChart made{.title = "error", .x_label = "s", .y_label = "m", .x = {}, .curves = {}};
+  for (std::size_t k = 0; k < values.size(); ++k) made.x.push_back(static_cast<double>(k));
+  made.curves.push_back({"imm", "imm", std::move(values)});
+  return made;
+}
+
+std::vector<std::string> lines_in(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Braille, DrawsARiseFromBelowToAbove) {
+  // 20 characters are 40 dots across, 2 lines 8 down; the value of dot x is x.
+  std::vector<double> values(40);
+  for (std::size_t k = 0; k < 40; ++k) values[k] = static_cast<double>(k);
+  const auto lines = lines_in(braille(chart(values), 25, 2, false));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0], "error: m");
+  EXPECT_EQ(lines[1].substr(0, 5), "39.0 ");
+  EXPECT_EQ(lines[2].substr(0, 5), " 0.0 ");
+  EXPECT_EQ(lines[1].substr(5, 10), "          ");
+  EXPECT_EQ(lines[1].substr(lines[1].size() - 3), "⠉");  // both dots on top
+  EXPECT_EQ(lines[2].substr(5, 3), "⣀");                 // both dots at the bottom
+  EXPECT_EQ(lines[3].substr(lines[3].size() - 4), "39 s");
+  EXPECT_EQ(lines[4], "     imm");
+}
+
+TEST(Braille, LeavesAGapWhereNothingIsKnown) {
+  std::vector<double> values(40, 1.0);
+  for (std::size_t k = 10; k < 30; ++k) values[k] = std::nan("");
+  const auto lines = lines_in(braille(chart(values), 25, 1, false));
+  EXPECT_EQ(lines[1], "1.00 ⠉⠉⠉⠉⠉          ⠉⠉⠉⠉⠉");
+  auto joined = chart(values);
+  joined.joined = true;
+  EXPECT_EQ(lines_in(braille(joined, 25, 1, false))[1], "1.00 ⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉⠉");
+}
+
+TEST(Braille, IsNothingWithoutNumbers) {
+  EXPECT_EQ(braille(chart({}), 79, 7, false), "");
+  EXPECT_EQ(braille(chart({std::nan("")}), 79, 7, false), "");
+}
+
+TEST(Braille, NamesTheCurvesInTheirColours) {
+  const std::string text = braille(chart({1.0, 2.0}), 40, 2, true);
+  EXPECT_NE(text.find("\x1B[36mimm\x1B[0m"), std::string::npos) << text;
+}
+
+/// Runs in a terminal of so many columns, by `script`, which gives the program one.
+program::Ending in_terminal(int columns, const std::string& command) {
+  return program::run("/usr/bin/script",
+                      {"-qec", "stty cols " + std::to_string(columns) + "; TERM=xterm " + command, "/dev/null"});
+}
+
+TEST(Braille, EndsTheOutputOfAWideTerminalOnly) {
+  if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "no script";
+  const std::string command = program::quoted(SIGMAX_HIMM_DEMO) + " simulate --quiet --runs 2";
+  EXPECT_NE(in_terminal(80, command).output.find("⠉"), std::string::npos);
+  EXPECT_EQ(in_terminal(79, command).output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(in_terminal(80, command + " --no-chart").output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(in_terminal(80, "env TERM=dumb " + command).output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "2"}).output.find("Mode weights"),
+            std::string::npos);
+  const std::string track =
+      program::quoted(SIGMAX_HIMM_DEMO) + " track --quiet " SIGMAX_SOURCE "/apps/examples/data/drone.csv";
+  EXPECT_NE(in_terminal(120, track).output.find("Mode weights"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sigmax::apps

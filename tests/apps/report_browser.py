@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""Opens a report in headless Chromium and uses it as a reader does: zooms, hovers, switches filters and views.
+
+Usage: report_browser.py PAGE [SUMMARY] [--shots PREFIX]
+
+Prints what is wrong and ends with 1; with 77 where Chromium or python3-websocket is missing. SUMMARY is the summary.json
+whose numbers the page's tables must hold. --shots writes PREFIX_{400,1280}_{light,dark}.png.
+"""
+import argparse
+import base64
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+
+SKIPPED = 77
+BROWSER = next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+try:
+    import websocket
+except ImportError:
+    websocket = None
+
+
+class Browser:
+    """One page, spoken to by the DevTools protocol."""
+
+    def __init__(self, page):
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.process = subprocess.Popen(
+            [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
+             "--remote-debugging-port=0", "--remote-allow-origins=*", f"--user-data-dir={self.profile.name}", "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        port = pathlib.Path(self.profile.name) / "DevToolsActivePort"
+        wait(lambda: port.exists() and port.read_text().strip(), "the browser does not start")
+        address = f"http://127.0.0.1:{port.read_text().split()[0]}/json"
+        targets = json.load(urllib.request.urlopen(address, timeout=30))
+        target = next(one for one in targets if one["type"] == "page")
+        self.socket = websocket.create_connection(target["webSocketDebuggerUrl"], timeout=60)
+        self.number = 0
+        self.complaints = []
+        for domain in ("Runtime", "Log", "Network", "Page"):
+            self.call(domain + ".enable")
+        self.size(1280, 900)
+        self.call("Page.navigate", url=pathlib.Path(page).resolve().as_uri())
+        wait(lambda: self.js("document.getElementById('page')?.dataset.drawn === 'yes'"), "the page does not finish")
+
+    def call(self, method, **parameters):
+        self.number += 1
+        self.socket.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
+        while True:
+            message = json.loads(self.socket.recv())
+            if message.get("id") == self.number:
+                if "error" in message:
+                    raise RuntimeError(f"{method}: {message['error']}")
+                return message["result"]
+            self.note(message)
+
+    def note(self, message):
+        method, told = message.get("method"), message.get("params", {})
+        if method == "Runtime.exceptionThrown":
+            self.complaints.append("exception: " + json.dumps(told["exceptionDetails"])[:400])
+        if method == "Runtime.consoleAPICalled" and told["type"] in ("error", "warning", "assert"):
+            self.complaints.append("console: " + json.dumps(told["args"])[:400])
+        if method == "Log.entryAdded" and told["entry"]["level"] == "error":
+            self.complaints.append("log: " + told["entry"]["text"])
+        if method == "Network.requestWillBeSent" and not told["request"]["url"].startswith(("file:", "data:", "about:")):
+            self.complaints.append("asks the network for " + told["request"]["url"])
+
+    def js(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in result:
+            raise RuntimeError(f"{expression}: {json.dumps(result['exceptionDetails'])[:400]}")
+        return result["result"].get("value")
+
+    def size(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+
+    def mouse(self, kind, x, y, held=False):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left" if held or kind != "mouseMoved" else "none",
+                  buttons=1 if held else 0, clickCount=1)
+
+    def box(self, selector, number=0):
+        """The place of an element, scrolled to the middle of the window."""
+        return self.js(f"""(() => {{ const one = document.querySelectorAll({json.dumps(selector)})[{number}];
+            one.scrollIntoView({{block: 'center'}}); const {{x, y, width, height}} = one.getBoundingClientRect();
+            return {{x, y, width, height}}; }})()""")
+
+    def close(self):
+        self.socket.close()
+        self.process.terminate()
+        self.process.wait()
+        self.profile.cleanup()
+
+
+def wait(condition, complaint, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise RuntimeError(complaint)
+        time.sleep(0.05)
+
+
+class Failures:
+    def __init__(self):
+        self.all = []
+
+    def expect(self, holds, what):
+        if not holds:
+            self.all.append(what)
+
+
+AXES = "[...document.querySelectorAll('.lines')].map((one) => [...one.querySelectorAll('.dygraph-axis-label-x')].map((l) => l.textContent).join())"
+PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
+
+
+def check_drawing(browser, failures, data):
+    views = data["views"][:1]
+    panels = data["panels"] + [panel for view in views for panel in view["panels"]] + data["last"]
+    for kind, selector in (("lines", ".lines .chart canvas"), ("plan", ".plan .map path"), ("heat", ".heat rect")):
+        wanted = sum(panel["kind"] == kind for panel in panels)
+        found = browser.js(f"new Set([...document.querySelectorAll({json.dumps(selector)})].map((one) => one.closest('figure'))).size")
+        failures.expect(found >= wanted, f"{found} of {wanted} panels of kind {kind} are drawn")
+    drawn = browser.js("""[...document.querySelectorAll('.lines .chart')].every((chart) => [...chart.querySelectorAll('canvas')].some((canvas) => {
+        const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        return new Set(new Uint32Array(pixels.buffer)).size > 3; }))""")
+    failures.expect(drawn, "a chart has an empty canvas")
+    titles = browser.js("[...document.querySelectorAll('h2')].map((one) => one.textContent)")
+    for panel in panels:
+        if panel["kind"] != "words":
+            failures.expect(panel["title"] in titles, f"no title {panel['title']!r}")
+    failures.expect(browser.js("document.querySelectorAll('b').length") == 0, "text of the data became an element")
+    failures.expect(data["command"] in browser.js("document.querySelector('footer').textContent"), "no command at the foot")
+    failures.expect(data["version"] in browser.js("document.querySelector('footer').textContent"), "no version at the foot")
+
+
+def check_zoom(browser, failures):
+    before = browser.js(AXES)
+    box = browser.box("#view .lines .chart")
+    middle = box["y"] + box["height"] / 2
+    left, right = box["x"] + 0.4 * box["width"], box["x"] + 0.7 * box["width"]
+    browser.mouse("mouseMoved", left, middle)
+    browser.mouse("mousePressed", left, middle, held=True)
+    for step in range(1, 6):
+        browser.mouse("mouseMoved", left + (right - left) * step / 5, middle, held=True)
+    browser.mouse("mouseReleased", right, middle)
+    zoomed = browser.js(AXES)
+    same_axis = [i for i, labels in enumerate(before) if labels == before[0]]
+    failures.expect(all(zoomed[i] != before[i] for i in same_axis), "dragging does not zoom every chart")
+    failures.expect(len({zoomed[i] for i in same_axis}) == 1, "the charts are not zoomed together")
+    failures.expect(not browser.js("document.getElementById('reset').hidden"), "no way back from a zoom")
+    browser.js("document.getElementById('reset').click()")
+    failures.expect(browser.js(AXES) == before, "the way back from a zoom leads elsewhere")
+
+
+def check_hover(browser, failures, data):
+    box = browser.box("#view .lines .chart")
+    browser.mouse("mouseMoved", box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    text = browser.js("document.querySelector('#view .lines .readout').textContent")
+    panel = next(one for one in data["views"][0]["panels"] if one["kind"] == "lines")
+    number = lambda value: "–" if value is None else json.loads(browser.js(f"JSON.stringify(String(Number(({value!r}).toPrecision(5))))"))
+    at = text.split(":", 1)[-1].strip()
+    rows = [k for k, x in enumerate(panel["x"]) if at.startswith(number(x))]
+    right = any(all(f"{curve['name']} {number(curve['values'][k])}" in text for curve in panel["curves"]) for k in rows)
+    failures.expect(right, f"hovering shows no row of the data: {text!r}")
+
+
+def check_legend(browser, failures, data):
+    browser.mouse("mouseMoved", 1, 1)
+    names = [group["name"] for group in data["groups"]]
+    panel = next(one for one in data["views"][0]["panels"] if one["kind"] == "lines")
+    for name in names:
+        if name not in [curve["group"] for curve in panel["curves"]]:
+            continue
+        before = browser.js(PICTURES)
+        select = f"[...document.querySelectorAll('.bar input')].find((one) => one.dataset.group === {json.dumps(name)}).click()"
+        browser.js(select)
+        text = browser.js("[...document.querySelectorAll('#view .lines .readout span')].map((one) => one.textContent.trim())")
+        failures.expect(name not in text, f"{name} is switched off and still named")
+        failures.expect(browser.js(PICTURES) != before, f"switching {name} off changes no picture")
+        browser.js(select)
+        failures.expect(browser.js(PICTURES) == before, f"switching {name} on again does not bring it back")
+        break
+
+
+def check_selector(browser, failures, data):
+    if len(data["views"]) < 2:
+        return
+    for number in (1, 0):
+        browser.js(f"(() => {{ const s = document.getElementById('view-selector'); s.value = '{number}'; s.dispatchEvent(new Event('change')); }})()")
+        titles = browser.js("[...document.querySelectorAll('#view h2')].map((one) => one.textContent)")
+        wanted = [panel["title"] for panel in data["views"][number]["panels"] if panel["kind"] != "words"]
+        failures.expect(all(title in titles for title in wanted), f"view {number} shows {titles}")
+        picture = browser.js("document.querySelectorAll('#view canvas, #view svg').length")
+        failures.expect(picture > 0, f"view {number} draws nothing")
+
+
+def numbers_in(json_value):
+    if isinstance(json_value, dict):
+        for value in json_value.values():
+            yield from numbers_in(value)
+    elif isinstance(json_value, list):
+        for value in json_value:
+            yield from numbers_in(value)
+    elif isinstance(json_value, (int, float)) and not isinstance(json_value, bool):
+        yield json_value
+
+
+def check_numbers(browser, failures, summary):
+    """Every number of a keyed cell stands in summary.json, in the record of its row under its key."""
+    cells = browser.js("""[...document.querySelectorAll('td[data-value]')].map((one) =>
+        [one.parentNode.firstChild.textContent, one.dataset.key ?? '', Number(one.dataset.value)])""")
+
+    def holds(record, row, key, value):
+        if isinstance(record, dict):
+            own = record.get(row)
+            if isinstance(own, dict) and key in own and own[key] == value:
+                return True
+            return any(holds(other, row, key, value) for other in record.values())
+        return isinstance(record, list) and any(holds(other, row, key, value) for other in record)
+
+    keyed = [cell for cell in cells if cell[1]]
+    failures.expect(len(keyed) > 0, "no cell of a table holds a number of the summary")
+    for row, key, value in keyed:
+        failures.expect(holds(summary, row, key, value), f"{row}, {key}: {value} is not in summary.json")
+
+
+def check_tables(browser, failures, data):
+    """Behind each chart there is a table with its numbers."""
+    count = browser.js("""[...document.querySelectorAll('#view .lines details')].map((one) => { one.open = true; return one; }).length""")
+    wanted = sum(panel["kind"] == "lines" for panel in data["views"][0]["panels"])
+    failures.expect(count == wanted, f"{count} tables behind {wanted} charts")
+    time.sleep(0.2)
+    rows = browser.js("[...document.querySelectorAll('#view .lines details')].map((one) => one.querySelectorAll('tbody tr').length)")
+    lengths = [len(panel["x"]) for panel in data["views"][0]["panels"] if panel["kind"] == "lines"]
+    failures.expect(rows == lengths, f"the tables have {rows} rows, not {lengths}")
+    browser.js("document.querySelectorAll('details').forEach((one) => { one.open = false; })")
+
+
+def check_width(browser, failures):
+    browser.size(400, 800)
+    end = time.monotonic() + 10
+    while browser.js("document.documentElement.scrollWidth") > 400 and time.monotonic() < end:
+        time.sleep(0.1)
+    failures.expect(browser.js("document.documentElement.scrollWidth") <= 400, "the page is wider than 400 pixels")
+    browser.size(1280, 900)
+    time.sleep(0.3)
+
+
+def shoot(browser, prefix):
+    for width in (400, 1280):
+        for theme in ("light", "dark"):
+            browser.size(width, 900)
+            browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": theme}])
+            time.sleep(0.5)
+            browser.js("scrollTo(0, 0)")
+            height = browser.js("document.documentElement.scrollHeight")
+            clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
+            picture = browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)
+            pathlib.Path(f"{prefix}_{width}_{theme}.png").write_bytes(base64.b64decode(picture["data"]))
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("page")
+    arguments.add_argument("summary", nargs="?")
+    arguments.add_argument("--shots")
+    options = arguments.parse_args()
+    if BROWSER is None or websocket is None:
+        print("needs chromium and python3-websocket")
+        return SKIPPED
+    text = pathlib.Path(options.page).read_text(encoding="utf-8")
+    data = json.loads(text.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+    browser = Browser(options.page)
+    failures = Failures()
+    try:
+        check_drawing(browser, failures, data)
+        if data["views"] and any(panel["kind"] == "lines" for panel in data["views"][0]["panels"]):
+            check_zoom(browser, failures)
+            check_hover(browser, failures, data)
+            check_legend(browser, failures, data)
+            check_tables(browser, failures, data)
+        check_selector(browser, failures, data)
+        if options.summary:
+            check_numbers(browser, failures, json.loads(pathlib.Path(options.summary).read_text(encoding="utf-8")))
+        check_width(browser, failures)
+        if options.shots:
+            shoot(browser, options.shots)
+    finally:
+        browser.close()
+    for failure in failures.all + browser.complaints:
+        print(failure)
+    return 1 if failures.all or browser.complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
