@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ struct EntryPrior {
   /// The standard deviations that it may have, in its own unit: of accelerations m/s². A filter that keeps histories
   /// tries each of them; one that merges has their root mean square.
   std::vector<double> scales = {25.0};
-  double vertical = 0.3;    ///< so much of it along z: an aircraft turns harder than it climbs
-  double turn_rate = 0.05;  ///< that of a rate of turn, omega, in rad/s
+  double vertical = 0.3;                       ///< so much of it along z: an aircraft turns harder than it climbs
+  double turn_rate = std::numbers::pi / 60.0;  ///< that of a rate of turn, omega, in rad/s: 3°/s
 
   double variance(const std::string& component, double scale) const {
     const double sigma = component == "omega" ? turn_rate : component.back() == 'z' ? vertical * scale : scale;
