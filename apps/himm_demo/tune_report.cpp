@@ -1,8 +1,8 @@
 #include "himm_demo/tune_report.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ void add_part(TextTable& table, const Diagnosis::Part& part, const std::string& 
   table.row(std::move(cells));
 }
 
-/// A key's value without the digits that rounding to four left over.
+/// A key's value, or that there is none.
 std::string shown(const std::string& value) { return value.empty() ? "–" : value; }
 
 }  // namespace
