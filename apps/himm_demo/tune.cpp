@@ -72,7 +72,7 @@ void tune_and_report(const FilterSettings& filter, const TuneData& data, const T
   const Diagnosis before = diagnose(data, filter, options.objective);
   fmt::print("\nfilter {}: before\n\n{}\n", filter.name, text_of(before, options.width()));
   Progress progress(filter.name, work_of(filter, data, options), options.quiet);
-  const Tuned tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
+  const TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
   progress.finish();
   fmt::print("{}\n{}", text_of(tuned, options.objective, options.width()), changes_of(tuned, options.width()));
 

@@ -77,10 +77,10 @@ BlockMean block_mean_difference(const Losses& a, const Losses& b) {
   return result;
 }
 
-Tuned tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
-           const std::function<void(std::size_t work)>& advance) {
+TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
+                 const std::function<void(std::size_t work)>& advance) {
   const auto folds = data.folds(options.folds);
-  Tuned tuned;
+  TunedFilter tuned;
   tuned.candidates.push_back({"as before", settings});
   for (const auto& models : model_sets(settings, options)) {
     const FilterSettings base = with_models(settings, models);

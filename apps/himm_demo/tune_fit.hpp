@@ -21,7 +21,7 @@ struct Candidate {
 };
 
 /// What tuning found for one filter.
-struct Tuned {
+struct TunedFilter {
   std::vector<Candidate> candidates;  ///< the settings before come first, with nothing fitted
   std::size_t best = 0;               ///< the least held-out loss
   std::size_t simple = 0;             ///< with the fewest numbers of those within one standard error of the best
@@ -42,7 +42,7 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
 
 /// Fits every candidate to all rows and, for its held-out loss, to all but each fold. The result is that of the seed,
 /// on any number of threads.
-Tuned tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
-           const std::function<void(std::size_t work)>& advance);
+TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
+                 const std::function<void(std::size_t work)>& advance);
 
 }  // namespace sigmax::apps

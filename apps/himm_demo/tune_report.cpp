@@ -50,7 +50,7 @@ std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
   return text;
 }
 
-std::string text_of(const Tuned& tuned, Objective objective, std::size_t width) {
+std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t width) {
   const auto of = objective == Objective::rmse ? "RMSE, m" : "nats a row";
   TextTable table({{"models", Align::left},
                    {"fitted numbers"},
@@ -71,7 +71,7 @@ std::string text_of(const Tuned& tuned, Objective objective, std::size_t width) 
   return table.text(width);
 }
 
-std::string changes_of(const Tuned& tuned, std::size_t width) {
+std::string changes_of(const TunedFilter& tuned, std::size_t width) {
   const FilterSettings& before = tuned.candidates[0].settings;
   const FilterSettings& best = tuned.candidates[tuned.best].settings;
   const FilterSettings& simple = tuned.candidates[tuned.simple].settings;

@@ -11,9 +11,9 @@ namespace sigmax::apps {
 std::string text_of(const Diagnosis& diagnosis, std::size_t width);
 
 /// The candidates with both figures, and what was chosen.
-std::string text_of(const Tuned& tuned, Objective objective, std::size_t width);
+std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t width);
 
 /// The settings that differ: before, best and simple.
-std::string changes_of(const Tuned& tuned, std::size_t width);
+std::string changes_of(const TunedFilter& tuned, std::size_t width);
 
 }  // namespace sigmax::apps
