@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace sigmax::apps {
 namespace {
-
-/// By scenario, group and phase.
-constexpr Claim B = Claim::better, W = Claim::worse, C = Claim::competitive;
-constexpr Claim claims[2][4][3] = {{{B, B, B}, {B, C, B}, {B, W, B}, {C, C, C}},
-                                   {{B, W, B}, {B, W, C}, {B, W, C}, {W, B, C}}};
 
 /// IMM and HIMM, by scenario, in group 1.
 constexpr std::array<std::array<double, 2>, 2> paper_cross_times = {{{85.92, 83.77}, {32.28, 31.88}}};
@@ -28,7 +24,19 @@ std::string_view word(Claim claim) {
   return claim == Claim::better ? "better" : claim == Claim::worse ? "worse" : "competitive";
 }
 
-Claim claim_of(int scenario, int group, std::size_t phase) { return claims[scenario - 1][group - 1][phase]; }
+Claim claim_of(int scenario, int group, std::size_t phase) {
+  for (const auto& sentence : sentences())
+    for (const auto& statement : sentence.statements) {
+      const auto& phases = statement.phases;
+      if (statement.figure != FigureOf::rmse || statement.of != Actor::himm || statement.against != Actor::imm ||
+          statement.scenario != scenario || statement.group != group ||
+          std::find(phases.begin(), phases.end(), phase) == phases.end())
+        continue;
+      if (std::isfinite(statement.region.above) && std::isfinite(statement.region.below)) return Claim::competitive;
+      return std::isfinite(statement.region.below) ? Claim::better : Claim::worse;
+    }
+  throw std::logic_error("the paper says nothing of this phase");
+}
 
 std::optional<double> paper_cross_time(int scenario, int group, const FilterSettings& filter) {
   if (group != 1 || !in_the_paper(filter)) return std::nullopt;

@@ -70,6 +70,9 @@ void do_open(const Campaign& campaign, const std::vector<std::size_t>& open, Ran
 
 std::optional<CellRows> run_first(const Campaign& campaign, Shard shard, Ranks* ranks, int threads,
                                   const OutputOptions& options) {
+  if (shard.of > 1 && options.out.empty())
+    throw UsageError(
+        message({.what = "--shard without --out would leave nothing to merge", .remedy = "give --out DIR"}));
   std::unique_ptr<Journal> journal;
   if (!options.out.empty())
     journal = std::make_unique<Journal>(OutputDirectory(options.out).path() / journal_name, campaign.description);

@@ -12,10 +12,10 @@ namespace sigmax::apps {
 namespace {
 
 /// Nine conditions, two filters, four settings each.
-const Arguments small = {
-    "sweep", "--scenario", "2",   "--filters", "imm,himm_own", "--probability", "0.05", "--possibility",
-    "0.5",   "--sigma-w",  "3,9", "--lift",    "zero",         "--tuning-runs", "4",    "--runs",
-    "40",    "--mismatch", "1,2"};
+const Arguments small = {"sweep", "--scenario",    "2",   "--filters", "imm,himm_own", "--probability",
+                         "0.05",  "--possibility", "0.5", "--sigma-w", "3,9",          "--lift",
+                         "zero",  "--tuning-runs", "4",   "--runs",    "40",           "--mismatch",
+                         "1,2"};
 
 /// The cells of tuned.csv by column, for one scenario and filter.
 std::vector<std::string> row_of(const std::filesystem::path& out, const std::string& beginning) {
@@ -183,6 +183,7 @@ TEST(HimmDemoSweep, WhatCannotBeIsSaid) {
 
   EXPECT_EQ(run({"sweep", "--shard", "3/2"}).status, 2);
   EXPECT_NE(run({"sweep", "--shard", "3/2"}).output.find("expected I/N with I from 1 to N"), std::string::npos);
+  EXPECT_EQ(run(small + Arguments{"--shard", "1/2"}).status, 2) << "there is no --out";
   EXPECT_EQ(run({"sweep", "--probability", "0"}).status, 2);
   EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
   EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
