@@ -74,6 +74,8 @@
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/fixed_lag_smoother.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
+#include <sigmax/hybrid/history_set.hpp>
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/interaction.hpp>
