@@ -129,7 +129,7 @@ void tune_and_write(TuneOptions options) {
   if (!file) return;
   file->write(as_toml(written));
   file->commit();
-  fmt::print("\nWrote {}: himm_demo track FILE.csv --config {}\n", options.out, options.out);
+  fmt::print("\nWrote {}, which track --config takes\n", options.out);
 }
 
 }  // namespace
