@@ -89,7 +89,7 @@ class Shortcut {
 
   Shortcut(const Models& models, const Interaction<Kind>& interaction) {
     if constexpr (possible) {
-      if (mode_count(models) > static_cast<std::size_t>(max_modes)) return;
+      if (mode_count(models) > static_cast<std::size_t>(max_modes) || interaction.lift == Lift::prior) return;
       plan_.axes = Bank<Models>::axes;
       plan_.modes = static_cast<int>(mode_count(models));
       plan_.lift = interaction.lift;

@@ -167,11 +167,8 @@ class MultipleModelFilter {
         innovations_(modes()),
         prior_(uninformative(system_.mode_variable())),
         components_(system_.models()),
-<<<<<<< HEAD
         entries_(start),
-=======
         shortcut_(system_.models(), interaction_),
->>>>>>> 39881ab (Take a short step for motions along independent axes, and bank their tracks)
         states_{State{start, prior_}, State{start, prior_}} {
     check::starts(system_.models(), start);
     check::prior(interaction_.entry);
@@ -207,10 +204,6 @@ class MultipleModelFilter {
   /// hypothesis i ⊗ exp(−d_i²/2).
   template <class LogFit>
   bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
-<<<<<<< HEAD
-    gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
-    return gate == no_gate || gate_distance_ <= gate;
-=======
     gate_distance_ = distance_of(hypotheses, log_fit);
     return gate == no_gate || *gate_distance_ <= gate;
   }
@@ -251,7 +244,6 @@ class MultipleModelFilter {
     if (z && !taken && !take(nullptr, nullptr)) return false;
     conclude(taken);
     return true;
->>>>>>> 39881ab (Take a short step for motions along independent axes, and bank their tracks)
   }
 
   /// The state with what a measurement tells each mode, linearised where the mode predicted it.
@@ -326,19 +318,18 @@ class MultipleModelFilter {
     if (interaction_.likelihood == LikelihoodForm::possibility) to.log_likelihood = -0.5 * to.squared_distance;
   }
 
-<<<<<<< HEAD
   static double unit(std::size_t) { return 1.0; }
-=======
+
   template <int A>
-  static void assign(const detail::kinematic::Told& told, std::size_t j, AnyInnovation& to) {
+  void assign(const detail::kinematic::Told& told, std::size_t j, AnyInnovation& to) const {
     to.residual = Eigen::Map<const Vector<A>>(told.residual[j].data());
     to.covariance = Eigen::Map<const SquareMatrix<A>>(told.S[j].data());
     to.squared_distance = told.squared_distance[j];
-    to.log_likelihood =
-        -0.5 * (told.squared_distance[j] + told.log_determinant[j] + A * std::log(2.0 * std::numbers::pi));
+    to.log_likelihood = -0.5 * told.squared_distance[j];
+    if (interaction_.likelihood == LikelihoodForm::density)
+      to.log_likelihood -= 0.5 * (told.log_determinant[j] + A * std::log(2.0 * std::numbers::pi));
   }
 
->>>>>>> 39881ab (Take a short step for motions along independent axes, and bank their tracks)
   static auto logs_of(const Belief<Kind>& belief) {
     return [&belief](std::size_t j) { return belief.log(j); };
   }
@@ -380,26 +371,16 @@ class MultipleModelFilter {
   /// −2 log ⊕ of the hypotheses' weights and how well they fit.
   template <class LogFit>
   static double distance_of(std::size_t hypotheses, const LogFit& log_fit) {
-    return -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, [](std::size_t) { return 1.0; });
+    return -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
   }
 
   template <class Rule>
   Estimate output(const Rule& rule, const State& state) const {
-<<<<<<< HEAD
-    const Estimate receiver = output_receiver(state);
-=======
     if constexpr (shortens) {
       Estimate result;
       if (shortcut_.output(rule, state, result)) return result;
     }
-    // What a lift of the output borrows: for each component from the most likely model that has it.
-    const Estimate receiver = components_.carried(state.estimates, [&](const auto& has) {
-      const auto log_weight_if_it_has_it = [&](std::size_t l) {
-        return has(l) ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
-      };
-      return select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
-    });
->>>>>>> 39881ab (Take a short step for motions along independent axes, and bank their tracks)
+    const Estimate receiver = output_receiver(state);
     Estimate result = receiver;
     collapse(
         rule, mixture(receiver, components_.of_all(), state.estimates), [&](std::size_t j) { return state.belief[j]; },
@@ -415,11 +396,8 @@ class MultipleModelFilter {
 
  private:
   Components<Models> components_;
-<<<<<<< HEAD
   Estimates entries_;  ///< what Lift::prior knows of each model's components
-=======
   detail::kinematic::Shortcut<Models, Kind> shortcut_;
->>>>>>> 39881ab (Take a short step for motions along independent axes, and bank their tracks)
   std::array<State, 2> states_;
   std::size_t current_ = 0;
   std::size_t predicted_mode_ = 0;
