@@ -72,6 +72,7 @@
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/fixed_lag_smoother.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
@@ -80,6 +81,8 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
+#include <sigmax/hybrid/kinematic_plan.hpp>
+#include <sigmax/hybrid/kinematic_step.hpp>
 #include <sigmax/hybrid/lift.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>

@@ -209,8 +209,8 @@ TEST(InteractingMultipleModel, AnAllOnesTransitionRestartsAllFromTheWinner) {
     if (alone) {  // With a tie, each of the tied ones stays with itself.
       winners |= std::size_t{1} << winner;
       for (std::size_t j = 0; j < 3; ++j) {
-        ASSERT_EQ(probe.estimates()[j].mean, expected[j].mean);
-        ASSERT_EQ(probe.estimates()[j].covariance, expected[j].covariance);
+        ASSERT_PRED_FORMAT3(near_matrix, probe.estimates()[j].mean, expected[j].mean, 1e-12);
+        ASSERT_PRED_FORMAT3(near_matrix, probe.estimates()[j].covariance, expected[j].covariance, 1e-12);
         ASSERT_EQ(probe.belief().log(j), 0.0);
       }
     }

@@ -111,8 +111,8 @@ void never_mixes(const Interaction<Kind>& interaction) {
     step(filter, scan);
     for (std::size_t j = 0; j < 2; ++j) {
       alone[j].step(scan);
-      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates()[j].mean, alone[j].state.mean, 1e-12);
-      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates()[j].covariance, alone[j].state.covariance, 1e-12);
+      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates()[j].mean, alone[j].state.mean, 1e-9);
+      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates()[j].covariance, alone[j].state.covariance, 1e-9);
     }
     ASSERT_PRED_FORMAT3(near, filter.belief().log(0) - filter.belief().log(1),
                         alone[0].log_likelihood - alone[1].log_likelihood, 1e-9);

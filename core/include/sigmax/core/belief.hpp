@@ -36,6 +36,9 @@ class Belief {
   std::vector<double> logs() const&& { return Table(logs_).values(); }
   double log(std::size_t index) const { return logs_(0, index); }
 
+  /// The same, for a verb that writes them here; it alone knows that they are normalised.
+  std::span<double> logs(detail::ByLaw) & { return logs_.values(); }
+
   /// The probability or possibility of one outcome.
   double operator[](std::size_t index) const { return std::exp(log(index)); }
   double operator[](std::string_view label) const { return (*this)[variable_.index_of(label)]; }

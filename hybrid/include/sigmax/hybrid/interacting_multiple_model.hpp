@@ -58,7 +58,9 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
-    bool taken = false;
+    if constexpr (Filter::shortens)
+      if (position_by(sensor) && z.size() == Filter::axes && this->shortened(dt, &z, gate, predicted_)) return;
+    bool taken = false, concluded = false;
     this->located(dt, [&] {
       mix(dt);                                       // step 1, (51)–(59)
       for_each_mode(system_.models(), [&](auto j) {  // step 2, (60), (61)
@@ -69,14 +71,18 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       });
       taken = this->passes(gate, modes(),
                            [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; });
-      if (!taken) return coast();
+      if (!taken) {
+        concluded = shortened_miss(dt);
+        if (!concluded) coast();
+        return;
+      }
       for_each_mode(system_.models(), [&](auto j) {
         check::sound(mode(system_.models(), j), mode(this->next().estimates, j));
         likelihood_.set_log(j, this->log_likelihood(j, innovations_[j]));
       });
       update(prior_, likelihood_, this->next().belief);  // step 3, (62), (63)
     });
-    this->conclude(taken);  // (64); step 4 is `estimate`
+    if (!concluded) this->conclude(taken);  // (64); step 4 is `estimate`
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
@@ -87,6 +93,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   /// One cycle without a measurement: the models predict and the mode moves on.
   void step(double dt) {
     this->require(dt);
+    if (shortened_miss(dt)) return;
     this->located(dt, [&] {
       mix(dt);
       for_each_mode(system_.models(), [&](auto j) {
@@ -113,6 +120,23 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   using Filter::interaction_;
   using Filter::prior_;
   using Filter::system_;
+
+  /// A step without a measurement by the short form, the same whether there was none or the gate rejected it.
+  bool shortened_miss([[maybe_unused]] double dt) {
+    if constexpr (Filter::shortens)
+      return this->template shortened<Measurement>(dt, nullptr, no_gate, predicted_);
+    else
+      return false;
+  }
+
+  /// Whether a sensor is that of the position, by its type or as it was chosen.
+  template <class Sensor>
+  static bool position_by(const Sensor& sensor) {
+    if constexpr (detail::ChosenSensor<Sensor>)
+      return sensor.visit([](const auto& chosen) { return position_by(chosen); });
+    else
+      return std::same_as<Sensor, PositionSensor<Filter::axes>>;
+  }
 
   /// What is predicted is what is known.
   void coast() {

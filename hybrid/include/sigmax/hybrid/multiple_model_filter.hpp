@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@
 #include <sigmax/hybrid/hybrid_estimate.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/jump_markov_system.hpp>
+#include <sigmax/hybrid/kinematic_step.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -150,9 +153,14 @@ class MultipleModelFilter {
   /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
   /// NIS; with several it is never more than d_j² − 2 log w_j, so that a measurement that any possible mode expects
   /// passes. Of value after a step with a measurement, taken or not.
-  double gate_distance() const { return gate_distance_; }
+  double gate_distance() const {
+    return gate_distance_ ? *gate_distance_ : distance_of(modes(), [this](std::size_t j) { return log_fit(j); });
+  }
 
  protected:
+  /// Whether there may be a short form of the step and the output; see `shortened`.
+  static constexpr bool shortens = detail::kinematic::Shortcut<Models, Kind>::possible;
+
   MultipleModelFilter(Models models, ModeTransition<Kind> transition, Estimates start, Interaction<Kind> interaction)
       : system_(std::move(models), std::move(transition)),
         interaction_(interaction),
@@ -160,6 +168,7 @@ class MultipleModelFilter {
         prior_(uninformative(system_.mode_variable())),
         components_(system_.models()),
         entries_(start),
+        shortcut_(system_.models(), interaction_),
         states_{State{start, prior_}, State{start, prior_}} {
     check::starts(system_.models(), start);
     check::prior(interaction_.entry);
@@ -195,8 +204,46 @@ class MultipleModelFilter {
   /// hypothesis i ⊗ exp(−d_i²/2).
   template <class LogFit>
   bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
-    gate_distance_ = -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
-    return gate == no_gate || gate_distance_ <= gate;
+    gate_distance_ = distance_of(hypotheses, log_fit);
+    return gate == no_gate || *gate_distance_ <= gate;
+  }
+
+  /// The same of one hypothesis for each mode; the distance is computed only if it is asked for.
+  bool passes(double gate) {
+    gate_distance_.reset();
+    return gate == no_gate || gate_distance() <= gate;
+  }
+
+  /// A step by the short form for motions along independent axes, with a measurement of the position or none. False if
+  /// it must be the general one; nothing has changed then.
+  template <class Measurement>
+  bool shortened(double dt, const Measurement* z, double gate, Estimates& predicted) {
+    if (!shortcut_.prepare(system_.models(), dt, system_.transition(dt))) return false;
+    detail::kinematic::Told told;
+    const auto take = [&](const double* mean, const double* covariance) {
+      if (!shortcut_.step(state(), mean, covariance, next(), told)) return false;
+      const auto prior = prior_.logs(detail::ByLaw{});
+      const auto posterior = next().belief.logs(detail::ByLaw{});
+      for_each_mode(predicted, [&](auto j) {
+        const std::size_t at = j;
+        prior[at] = told.log_prior[at];
+        posterior[at] = told.log_posterior[at];
+        auto& mean_of_j = mode(predicted, j).mean;
+        for (Eigen::Index i = 0; i < mean_of_j.size(); ++i)
+          mean_of_j(i) = told.predicted[at][static_cast<std::size_t>(i)];
+      });
+      return true;
+    };
+    if (!take(z ? z->mean.data() : nullptr, z ? z->covariance.data() : nullptr)) return false;
+    predicted_mode_ = select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+    bool taken = z != nullptr;
+    if (z) {
+      for (std::size_t j = 0; j < modes(); ++j) assign<axes>(told, j, innovations_[j]);
+      taken = passes(gate);
+    }
+    if (z && !taken && !take(nullptr, nullptr)) return false;
+    conclude(taken);
+    return true;
   }
 
   /// The state with what a measurement tells each mode, linearised where the mode predicted it.
@@ -272,6 +319,17 @@ class MultipleModelFilter {
   }
 
   static double unit(std::size_t) { return 1.0; }
+
+  template <int A>
+  void assign(const detail::kinematic::Told& told, std::size_t j, AnyInnovation& to) const {
+    to.residual = Eigen::Map<const Vector<A>>(told.residual[j].data());
+    to.covariance = Eigen::Map<const SquareMatrix<A>>(told.S[j].data());
+    to.squared_distance = told.squared_distance[j];
+    to.log_likelihood = -0.5 * told.squared_distance[j];
+    if (interaction_.likelihood == LikelihoodForm::density)
+      to.log_likelihood -= 0.5 * (told.log_determinant[j] + A * std::log(2.0 * std::numbers::pi));
+  }
+
   static auto logs_of(const Belief<Kind>& belief) {
     return [&belief](std::size_t j) { return belief.log(j); };
   }
@@ -308,8 +366,20 @@ class MultipleModelFilter {
     return "step " + std::to_string(steps_ + 1) + " of " + std::to_string(dt) + " s";
   }
 
+  double log_fit(std::size_t j) const { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; }
+
+  /// −2 log ⊕ of the hypotheses' weights and how well they fit.
+  template <class LogFit>
+  static double distance_of(std::size_t hypotheses, const LogFit& log_fit) {
+    return -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
+  }
+
   template <class Rule>
   Estimate output(const Rule& rule, const State& state) const {
+    if constexpr (shortens) {
+      Estimate result;
+      if (shortcut_.output(rule, state, result)) return result;
+    }
     const Estimate receiver = output_receiver(state);
     Estimate result = receiver;
     collapse(
@@ -327,11 +397,12 @@ class MultipleModelFilter {
  private:
   Components<Models> components_;
   Estimates entries_;  ///< what Lift::prior knows of each model's components
+  detail::kinematic::Shortcut<Models, Kind> shortcut_;
   std::array<State, 2> states_;
   std::size_t current_ = 0;
   std::size_t predicted_mode_ = 0;
   std::size_t steps_ = 0;
-  double gate_distance_ = 0.0;
+  std::optional<double> gate_distance_ = 0.0;  ///< empty if not computed yet
   bool measured_ = false;
 };
 

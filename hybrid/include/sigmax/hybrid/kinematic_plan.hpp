@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <sigmax/hybrid/interaction.hpp>
+
+/// The step of an interacting filter over motions along independent axes with measured positions, compiled once for
+/// each instruction set in `hybrid/src/kinematic`. What passes between is plain numbers.
+namespace sigmax::detail::kinematic {
+
+inline constexpr int max_axes = 3;
+inline constexpr int max_order = 3;
+inline constexpr int max_modes = 4;
+inline constexpr int max_state_size = max_axes * max_order;
+
+/// The numbers of a lower triangle, row by row: (0, 0), (1, 0), (1, 1), … States are ordered by derivative, so the
+/// triangle of a model of lower order leads that of one of higher order.
+constexpr int triangle(int n) { return n * (n + 1) / 2; }
+
+/// A motion law over one time step. F_s is made of shears: p += shears[0] v, v += shears[1] a, p += shears[2] v; the
+/// highest derivative is scaled last. Triangles are of Q_s and of the squares of F_sᵀ.
+struct Law {
+  std::array<double, 3> shears{};
+  double scale = 1.0;
+  std::array<double, triangle(max_order)> squared{};
+  std::array<double, triangle(max_order)> Q{};
+  std::array<double, max_state_size> u{};  ///< what a known input adds to the state
+};
+
+/// What a step does: the models, how the mode moves on, and the rules in force.
+struct Plan {
+  int axes = 0;
+  int modes = 0;
+  std::array<int, max_modes> order{};                      ///< of each model
+  std::array<Law, max_modes> law{};                        ///< for the time step in hand
+  std::array<double, max_modes * max_modes> transition{};  ///< to j from i, at i · modes + j
+  Lift lift{};
+  MixedCovariance mixed_covariance{};
+  Tie mixing_tie{};
+  Tie output_tie{};
+  LikelihoodForm likelihood{};
+
+  int state_size(int j) const { return axes * order[static_cast<std::size_t>(j)]; }
+};
+
+/// A track: for each model its mean and covariance, a whole matrix of state_size() columns; the weights of the modes,
+/// and the most likely one.
+struct Track {
+  std::array<double*, max_modes> mean{};
+  std::array<double*, max_modes> covariance{};
+  std::array<double, max_modes> weight{};  ///< linear; read, but not written: see Told
+  std::size_t most_likely = 0;
+};
+
+/// What a step says of one measurement beside its result.
+struct Told {
+  std::array<double, max_modes> log_prior{};  ///< weights of the modes before the measurement
+  std::array<double, max_modes> log_posterior{};
+  std::array<std::array<double, max_state_size>, max_modes> predicted{};  ///< means before it
+  std::array<std::array<double, max_axes>, max_modes> residual{};
+  std::array<std::array<double, max_axes * max_axes>, max_modes> S{};
+  std::array<double, max_modes> squared_distance{};
+  std::array<double, max_modes> log_determinant{};  ///< of S
+};
+
+/// One step of one track with the measurement z and R, a whole matrix, if there is one (else null). False, and `next`
+/// of no value, if the short forms would not be as good as the general step, which is then to be taken.
+bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Track& next, Told& told);
+
+/// The output, (64)–(68), in the components of the largest model; the covariance a whole matrix.
+void output(const Plan& plan, bool selects, const Track& track, double* mean, double* covariance);
+
+/// How many tracks a block has: the numbers of a vector of this processor.
+int lanes();
+
+/// One step of a block of tracks, in place; each of its numbers is lanes() of them, in this order: for each model the
+/// mean, and the columns of the covariance's blocks on and below the diagonal, of diagonal blocks from the diagonal
+/// down; the linear weights of the modes; and the most likely one. Measurements are z, the columns of R, and whether
+/// there is one (one or zero). Returns a bit for each track that must take the general step, and is as it was.
+unsigned step_block(const Plan& plan, bool selects, double* block, const double* measurements);
+
+}  // namespace sigmax::detail::kinematic
