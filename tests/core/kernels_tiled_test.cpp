@@ -16,6 +16,7 @@
 #endif
 
 #include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/exponential.hpp>
 
 namespace sigmax {
 namespace {
@@ -152,6 +153,37 @@ TEST_P(Tiled, SumsMayBeInfinite) {
   kernels::compose<Sigma>(left, right, result);
   for (std::size_t i = 0; i < 8; ++i)
     for (std::size_t k = 0; k < 9; ++k) EXPECT_EQ(result(i, k), k == 2 ? infinity : 4.0);
+}
+
+TEST_P(Tiled, ExponentialsAreWithinTwoPlaces) {
+  std::mt19937_64 bits(1);
+  for (const std::size_t n : {32U, 33U, 47U, 1000U}) {
+    std::vector<double> logs(n);
+    for (double& log : logs)
+      log = bits() % 9 == 0 ? -infinity : -std::ldexp(uniform(bits), static_cast<int>(bits() % 11));
+    logs[n / 2] = 0.0;
+    long double sum = 0.0L;
+    for (const double log : logs) sum += std::exp(static_cast<long double>(log));
+    const auto expected = static_cast<double>(sum);
+    EXPECT_NEAR(kernels::sum_of_exponentials(logs), expected, expected * (2.0 + std::log2(n)) * 0x1p-52) << n;
+    EXPECT_EQ(kernels::greatest(logs), 0.0);
+  }
+}
+
+/// Tables of few columns have a kernel of their own, which is the plain loop.
+TEST(Narrow, TablesAreComposedAsDefinedToTheBit) {
+  for (std::size_t columns = 1; columns <= kernels::narrow_columns; ++columns)
+    for (const Draw draw : {uniform, tied, wide, subnormal}) {
+      const Table right = drawn(3, 5, draw, 1), left = drawn(5, columns, draw, 2);
+      std::vector<kernels::Winner> last;
+      Table result(0, 0);
+      kernels::compose<Sigma>(left, right, result);
+      EXPECT_TRUE(std::ranges::equal(result.values(), defined(left, right, summed, last).values())) << columns;
+      kernels::compose<Max>(left, right, result);
+      EXPECT_TRUE(std::ranges::equal(result.values(), defined(left, right, max_of, last).values())) << columns;
+      kernels::compose<MaxMin>(left, right, result);
+      EXPECT_TRUE(std::ranges::equal(result.values(), defined(left, right, max_min, last).values())) << columns;
+    }
 }
 
 TEST_P(Tiled, TheArithmeticOfTheCallerStaysAsItWas) {

@@ -116,11 +116,11 @@ HWY_INLINE void add_columns(std::size_t columns, std::size_t inner, Rows weights
 }
 
 /// action(r, constant) for every group of rows that makes a tile: as many as fit, then fewer.
-template <class Action>
+template <std::size_t Most, class Action>
 HWY_INLINE void for_each_group(std::size_t rows, const Action& action) {
   std::size_t r = 0;
-  for (; r + tile_rows <= rows; r += tile_rows) action(r, std::integral_constant<std::size_t, tile_rows>{});
-  if (rows - r >= 4) action(r, std::integral_constant<std::size_t, 4>{}), r += 4;
+  for (; r + Most <= rows; r += Most) action(r, std::integral_constant<std::size_t, Most>{});
+  if (Most > 4 && rows - r >= 4) action(r, std::integral_constant<std::size_t, 4>{}), r += 4;
   if (rows - r >= 2) action(r, std::integral_constant<std::size_t, 2>{}), r += 2;
   if (rows - r >= 1) action(r, std::integral_constant<std::size_t, 1>{});
 }
@@ -156,7 +156,7 @@ void compose_copied(const DenseParts& parts) {
       const std::size_t inner = std::min(inner_block, parts.inner - j0);
       for (std::size_t k = 0; k < columns; k += tile_columns)
         copy_strip(parts, j0, inner, k0 + k, tile_columns, strips + k * inner);
-      for_each_group(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
+      for_each_group<tile_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
         for (std::size_t k = 0; k < columns; k += tile_columns)
           add_columns<A, group>(std::min(tile_columns, columns - k), inner,
                                 {parts.right + i * parts.inner + j0, parts.inner}, {strips + k * inner, tile_columns},
@@ -170,7 +170,7 @@ void compose_copied(const DenseParts& parts) {
 template <class A>
 void compose_in_place(const DenseParts& parts) {
   const auto compose_strip = [&](std::size_t k, std::size_t columns, Rows strip) HWY_ATTR {
-    for_each_group(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
+    for_each_group<tile_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
       add_columns<A, group>(columns, parts.inner, {parts.right + i * parts.inner, parts.inner}, strip,
                             parts.result + i * parts.columns + k, parts.columns, true);
     });
@@ -192,89 +192,58 @@ void compose_all(const DenseParts& parts) {
     compose_copied<A>(parts);
 }
 
-// Who wins: while a tile is composed, only the block of `winner_block` indices is noted in which each number was first
-// attained; the index is then looked for in that block.
-constexpr std::size_t winner_block = 16;
+// With winners a tile is smaller, for their indices lie in registers, too.
+constexpr std::size_t winner_rows = many_registers ? 4 : 2;
 
-/// A strip as composed with winners: its rows, and its columns one after the other.
-struct BothWays {
-  const double *rows, *columns;
-  std::size_t inner;
-};
-
-/// The first index in a block of both that attains `number`; it is there.
-template <class A>
-HWY_INLINE std::size_t first_that_attains(Vector number, const double* weights, const double* values) {
-  std::uint32_t attain = 0;  // a bit for each index: no branch, for it would be guessed wrong half the time
-  for (std::size_t j = 0; j < winner_block; j += lanes) {
-    const Vector terms = product(A{}, hn::LoadU(all, weights + j), hn::LoadU(all, values + j));
-    std::uint8_t bits = 0;
-    hn::StoreMaskBits(all, hn::Eq(terms, number), &bits);
-    attain |= std::uint32_t{bits} << j;
-  }
-  return hwy::Num0BitsBelowLS1Bit_Nonzero32(attain);
-}
-
-/// R rows of a composition and its winners, `columns` of them, from weights whose rows are filled up to whole blocks.
+/// Up to a tile's columns of R rows, and the first index that attains each number; strips as they are copied.
 template <class A, std::size_t R>
-void compose_with_winners(std::size_t inner, std::size_t columns, Rows weights, const BothWays& strip, double* out,
+void compose_with_winners(std::size_t columns, std::size_t inner, Rows weights, const double* strip, double* out,
                           Winner* first, std::size_t step) {
-  HWY_ALIGN double best[R * tile_columns] = {}, block[R * tile_columns] = {};
-  for (std::size_t j = 0; j < inner; j += winner_block) {
-    Vector sums[R][tile_vectors];
-    for (auto& row : sums)
-      for (Vector& sum : row) sum = hn::Zero(all);
-    add<A>(std::min(winner_block, inner - j), {weights.first + j, weights.step},
-           {strip.rows + j * tile_columns, tile_columns}, sums);
-    const Vector number = hn::Set(all, static_cast<double>(j));
-    for (std::size_t r = 0; r < R; ++r)
-      for (std::size_t v = 0; v < tile_vectors; ++v) {
-        double* const at = best + r * tile_columns + v * lanes;
-        const Vector before = hn::Load(all, at);
-        hn::BlendedStore(number, hn::Lt(before, sums[r][v]), all, block + r * tile_columns + v * lanes);
-        hn::Store(greater(sums[r][v], before), all, at);
-      }
-  }
+  constexpr hn::Rebind<std::int32_t, Doubles> integers;
+  Vector sums[R][tile_vectors], firsts[R][tile_vectors];
   for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t k = 0; k < columns; ++k) {
-      const double number = best[r * tile_columns + k];
-      const auto j = static_cast<std::size_t>(block[r * tile_columns + k]);
-      const std::size_t index = number > 0.0 ? j + first_that_attains<A>(hn::Set(all, number), weights.row(r) + j,
-                                                                         strip.columns + k * strip.inner + j)
-                                             : 0;
-      out[r * step + k] = number;
-      first[r * step + k] = static_cast<Winner>(index);
+    for (std::size_t v = 0; v < tile_vectors; ++v) sums[r][v] = firsts[r][v] = hn::Zero(all);
+  Vector index = hn::Zero(all);
+  const Vector one = hn::Set(all, 1.0);
+  for (std::size_t j = 0; j < inner; ++j, strip += tile_columns, index = hn::Add(index, one)) {
+    Vector values[tile_vectors];
+    for (std::size_t v = 0; v < tile_vectors; ++v) values[v] = hn::LoadU(all, strip + v * lanes);
+    for (std::size_t r = 0; r < R; ++r) {
+      const Vector weight = hn::Set(all, weights.row(r)[j]);
+      for (std::size_t v = 0; v < tile_vectors; ++v) {
+        const Vector term = product(A{}, weight, values[v]);
+        firsts[r][v] = hn::IfThenElse(hn::Lt(sums[r][v], term), index, firsts[r][v]);
+        sums[r][v] = greater(term, sums[r][v]);
+      }
     }
+  }
+  double numbers[tile_columns];
+  std::int32_t indices[tile_columns];
+  for (std::size_t r = 0; r < R; ++r) {
+    for (std::size_t v = 0; v < tile_vectors; ++v) {
+      hn::StoreU(sums[r][v], all, numbers + v * lanes);
+      hn::StoreU(hn::DemoteTo(integers, firsts[r][v]), integers, indices + v * lanes);
+    }
+    std::copy_n(numbers, columns, out + r * step);
+    std::copy_n(indices, columns, first + r * step);
+  }
 }
 
 template <class A>
 void compose_all_with_winners(const DenseParts& parts, Winner* first) {
-  thread_local std::vector<double> kept_strip, kept_columns, kept_weights;
-  const std::size_t inner = hwy::RoundUpTo(parts.inner, winner_block);
-  double* const strip = room(kept_strip, inner * tile_columns);
-  double* const columns = room(kept_columns, inner * tile_columns);
-  Rows weights{parts.right, parts.inner};
-  if (inner != parts.inner) {
-    double* const filled = room(kept_weights, parts.rows * inner);
-    for (std::size_t i = 0; i < parts.rows; ++i)
-      std::fill(std::copy_n(parts.right + i * parts.inner, parts.inner, filled + i * inner), filled + (i + 1) * inner,
-                0.0);
-    weights = {filled, inner};
-  }
-  std::fill(strip + parts.inner * tile_columns, strip + inner * tile_columns, 0.0);
+  thread_local std::vector<double> kept;
+  double* const strip = room(kept, parts.inner * tile_columns);
   for (std::size_t k = 0; k < parts.columns; k += tile_columns) {
     copy_strip(parts, 0, parts.inner, k, tile_columns, strip);
-    for (std::size_t j = 0; j < inner; ++j)
-      for (std::size_t v = 0; v < tile_columns; ++v) columns[v * inner + j] = strip[j * tile_columns + v];
-    for_each_group(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
+    for_each_group<winner_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
       compose_with_winners<A, group>(
-          parts.inner, std::min(tile_columns, parts.columns - k), {weights.row(i), weights.step},
-          {strip, columns, inner}, parts.result + i * parts.columns + k, first + i * parts.columns + k, parts.columns);
+          std::min(tile_columns, parts.columns - k), parts.inner, {parts.right + i * parts.inner, parts.inner}, strip,
+          parts.result + i * parts.columns + k, first + i * parts.columns + k, parts.columns);
     });
   }
 }
 
-/// The least of all numbers; and of those that are not zero, infinity if there is none.
+/// The least of all numbers.
 double least_of_all(const double* numbers, std::size_t size) {
   double least = std::numeric_limits<double>::infinity();
   std::size_t i = 0;

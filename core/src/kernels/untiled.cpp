@@ -1,5 +1,7 @@
-// What tiled.cpp defines, in a library that is built without Highway: the plain loops are left to do the work.
+// What tiled.cpp and exponential.cpp define, in a library that is built without Highway: the plain loops are left to do
+// the work.
 
+#include <sigmax/core/kernels/exponential.hpp>
 #include <sigmax/core/kernels/tiled.hpp>
 
 namespace sigmax::kernels {
@@ -9,5 +11,6 @@ bool compose_tiled(Max, const DenseParts&) { return false; }
 bool compose_tiled(MaxMin, const DenseParts&) { return false; }
 bool compose_tiled(Max, const DenseParts&, Winner*) { return false; }
 bool compose_tiled(MaxMin, const DenseParts&, Winner*) { return false; }
+double tiled_sum_of_exponentials(const double*, std::size_t) { return -1.0; }
 
 }  // namespace sigmax::kernels

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include <sigmax/core/distribution.hpp>
+#include <sigmax/core/kernels/exponential.hpp>
 #include <sigmax/core/logarithm.hpp>
 
 namespace sigmax {
@@ -57,17 +60,26 @@ class Belief {
     std::size_t left = 0;
     while (left < size() && log_weight(left) == log_zero) ++left;
     if (left == size()) check::excluded(variable_);
-    for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = log_weight(i);
+    const std::span<double> logs = logs_.values();
+    for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log_weight(i);
     // Shifted by the greatest first: far from zero, the logarithm of the ⊕ is too coarse a number to normalise by.
-    const double greatest = log(index_of_greatest(logs()));
-    for (double& log : logs_.values()) log -= greatest;
-    const double log_total = log_combine<AlgebraOf<Kind>>(
-        size(), [this](std::size_t i) { return log(i); }, [](std::size_t) { return 1.0; });
-    for (double& log : logs_.values()) log -= log_total;
+    const double greatest = kernels::greatest(logs);
+    for (double& log : logs) log -= greatest;
+    const double log_total = log_of_total(logs);
+    for (double& log : logs) log -= log_total;
     return greatest + log_total;
   }
 
  private:
+  /// log ⊕ exp(log) of logarithms whose greatest is zero.
+  static double log_of_total(std::span<const double> logs) {
+    using A = AlgebraOf<Kind>;
+    if constexpr (SelectiveAlgebra<A>) return 0.0;
+    if constexpr (std::same_as<A, Sigma>) return std::log(kernels::sum_of_exponentials(logs));
+    return log_combine<A>(
+        logs.size(), [logs](std::size_t i) { return logs[i]; }, [](std::size_t) { return 1.0; });
+  }
+
   Variable<Kind> variable_;
   Table logs_;
 };

@@ -91,6 +91,9 @@ class Likelihood {
       if (numbers_.size() == 0) return ScaledNumber::exp(logs_(0, index));
     return numbers_[index];
   }
+  /// All of them, as they are kept; none if only logarithms are known.
+  std::span<const typename Row::Number> numbers() const& { return numbers_.numbers(); }
+
   bool excludes(std::size_t index) const {
     if constexpr (has_logs)
       return logs_(0, index) == log_zero;

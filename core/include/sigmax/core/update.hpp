@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <variant>
@@ -22,7 +24,8 @@ template <Uncertainty Kind>
 double update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihood, Belief<Kind>& result) {
   check::same(prior.variable(), likelihood.variable(), "update");
   check::same(prior.variable(), result.variable(), "update");
-  return result.assign([&](std::size_t i) { return prior.log(i) + likelihood.log(i); });
+  const double *const prior_logs = prior.logs().data(), *const likelihood_logs = likelihood.logs().data();
+  return result.assign([=](std::size_t i) { return prior_logs[i] + likelihood_logs[i]; });
 }
 template <Uncertainty Kind>
 Belief<Kind> update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihood) {
@@ -32,6 +35,29 @@ Belief<Kind> update(const Belief<Kind>& prior, const Likelihood<Kind>& likelihoo
 }
 
 namespace detail {
+
+/// values(k) = prior(k) · likelihood(k) up to a common power of two, by plain arithmetic: if all of them lie so close
+/// together that no product underflows. Else false, and the values are unspecified.
+template <Uncertainty Kind>
+bool assign_plain_products(const Distribution<Kind>& prior, const Likelihood<Kind>& likelihood,
+                           std::span<double> values) {
+  constexpr std::int64_t depth = 450;  // of each of the two
+  const std::span<const ScaledNumber> numbers = likelihood.numbers();
+  if (numbers.empty()) return false;
+  std::int64_t greatest = std::numeric_limits<std::int64_t>::min() / 4,
+               least = std::numeric_limits<std::int64_t>::max() / 4;
+  for (const ScaledNumber number : numbers) {
+    greatest = std::max(greatest, number.exponent());
+    least = std::min(least, number.is_zero() ? least : number.exponent());
+  }
+  double least_prior = 1.0;
+  const double* const priors = prior.begin();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    least_prior = priors[i] < least_prior && priors[i] > 0.0 ? priors[i] : least_prior;
+  if (greatest - least > depth || least_prior < 0x1p-450) return false;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = priors[i] * numbers[i].normal_value_in_units_of(greatest);
+  return true;
+}
 
 /// values(k) = product(k) of a scaling algebra, up to a common power of two, so that none underflows for being small.
 template <class Product>
@@ -51,11 +77,13 @@ Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind
   using A = AlgebraOf<Kind>;
   check::same(prior.variable(), likelihood.variable(), "update");
   Table joint(1, prior.size());
-  if constexpr (ScalingAlgebra<A>)
-    detail::assign_in_proportion(joint.values(),
-                                 [&](std::size_t i) { return ScaledNumber{prior[i]} * likelihood.number(i); });
-  else
+  if constexpr (ScalingAlgebra<A>) {
+    if (!detail::assign_plain_products(prior, likelihood, joint.values()))
+      detail::assign_in_proportion(joint.values(),
+                                   [&](std::size_t i) { return ScaledNumber{prior[i]} * likelihood.number(i); });
+  } else {
     for (std::size_t i = 0; i < joint.size(); ++i) joint(0, i) = A::times(prior[i], likelihood.number(i));
+  }
   if (total<Kind>(joint.values()) == A::zero()) check::excluded(prior.variable());
   condition<A>(joint.values());
   return {prior.variable(), std::move(joint), detail::ByLaw{}};

@@ -27,12 +27,15 @@ void compose_plainly(const Left& left, const Right& right, Table& result, Winner
   }
 }
 
-/// The same by the machine's vectors, if that is possible and worth it.
+/// The same by a compiled kernel, if there is one for such tables.
 template <Algebra A, class Winners>
 bool compose_by_tiles(const Table& left, const Table& right, Table& result, Winners& winners) {
   const DenseParts parts{right.data(), left.data(), result.data(), right.rows(), left.rows(), left.columns()};
   if constexpr (std::same_as<Winners, NoWinners> && requires { compose_tiled(A{}, parts); }) {
-    return worth_tiling(parts) && compose_tiled(A{}, parts);
+    if (worth_tiling(parts)) return compose_tiled(A{}, parts);
+    if (parts.columns > narrow_columns) return false;
+    compose_narrow(A{}, parts);
+    return true;
   } else if constexpr (std::same_as<Winners, FirstWinners> && requires { compose_tiled(A{}, parts, nullptr); }) {
     if (!worth_tiling(parts)) return false;
     winners.all.resize(result.size());

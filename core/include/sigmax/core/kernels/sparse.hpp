@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -11,6 +13,32 @@
 #include <sigmax/core/rows.hpp>
 
 namespace sigmax::kernels {
+
+/// A set of numbers below a bound that gives them back in ascending order, without sorting: a bit for each, and a bit
+/// for every word of those that is not zero.
+class AscendingSet {
+ public:
+  explicit AscendingSet(std::size_t bound) : words_(bound / 64 + 1, 0), filled_(words_.size() / 64 + 1, 0) {}
+
+  void insert(std::size_t number) {
+    words_[number / 64] |= std::uint64_t{1} << number % 64;
+    filled_[number / 4096] |= std::uint64_t{1} << number / 64 % 64;
+  }
+
+  /// action(number) for each, ascending; then the set is empty.
+  template <class Action>
+  void drain(const Action& action) {
+    for (std::size_t block = 0; block < filled_.size(); ++block)
+      for (; filled_[block] != 0; filled_[block] &= filled_[block] - 1) {
+        const std::size_t word = 64 * block + static_cast<std::size_t>(std::countr_zero(filled_[block]));
+        for (; words_[word] != 0; words_[word] &= words_[word] - 1)
+          action(64 * word + static_cast<std::size_t>(std::countr_zero(words_[word])));
+      }
+  }
+
+ private:
+  std::vector<std::uint64_t> words_, filled_;
+};
 
 /// One row of a sparse result while it grows, indexed by column. Touching a column adds it to the row with the value
 /// zero().
@@ -22,18 +50,15 @@ class GrowingRow {
   };
 
  public:
-  explicit GrowingRow(std::size_t columns) : slots_(columns, Slot{0.0, 0, none}) {}
+  explicit GrowingRow(std::size_t columns) : slots_(columns, Slot{0.0, 0, none}), touched_(columns) {}
 
-  void begin(Winner row) {
-    row_ = row;
-    touched_.clear();
-  }
+  void begin(Winner row) { row_ = row; }
 
   double& operator[](std::size_t column) {
     Slot& slot = slots_[column];
     if (slot.row != row_) {
       slot = {A::zero(), 0, row_};
-      touched_.push_back(column);
+      touched_.insert(column);
     }
     return slot.number;
   }
@@ -53,30 +78,24 @@ class GrowingRow {
     else
       return winners;
   }
-  Winner winner(std::size_t column) const { return slots_[column].winner; }
 
-  /// The columns in ascending order.
-  const std::vector<std::size_t>& columns() {
-    if (touched_.size() < slots_.size() / 16) {
-      std::sort(touched_.begin(), touched_.end());
-    } else {
-      touched_.clear();
-      for (std::size_t column = 0; column < slots_.size(); ++column)
-        if (slots_[column].row == row_) touched_.push_back(column);
-    }
-    return touched_;
+  /// action(column, number, winner) for every column that was touched, ascending; ends the row.
+  template <class Action>
+  void drain(const Action& action) {
+    touched_.drain([&](std::size_t column) { action(column, slots_[column].number, slots_[column].winner); });
   }
 
  private:
   static constexpr Winner none = std::numeric_limits<Winner>::max();
   std::vector<Slot> slots_;
-  std::vector<std::size_t> touched_;
+  AscendingSet touched_;
   Winner row_ = none;
 };
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
-/// last bit; where ⊕ adds, that of a dense result from a kernel for large tables is to rounding. `winners` is FirstWinners or NoWinners.
+/// last bit; where ⊕ adds, that of a dense result from a kernel for large tables is to rounding. `winners` is
+/// FirstWinners or NoWinners.
 template <Algebra A, class Left, class Right, class Winners>
 SparseRows sparse_composition(const Left& left, const Right& right, Winners& winners) {
   SparseRows result(left.columns());
@@ -90,10 +109,10 @@ SparseRows sparse_composition(const Left& left, const Right& right, Winners& win
       if (weights.value(j) == A::zero()) continue;
       accumulate<A>(weights.value(j), left.entries(weights.index(j)), row, weights.index(j), notes);
     }
-    for (const std::size_t column : row.columns()) {
-      result.append_entry(column, row[column]);
-      winners.append(row.winner(column));
-    }
+    row.drain([&](std::size_t column, double number, Winner winner) {
+      result.append_entry(column, number);
+      winners.append(winner);
+    });
     result.end_row();
   }
   return result;

@@ -16,6 +16,13 @@ struct DenseParts {
   std::size_t rows, inner, columns;
 };
 
+/// Composes tables of up to `narrow_columns` columns with a row of the result in registers; as the plain loops, to the
+/// bit.
+constexpr std::size_t narrow_columns = 8;
+void compose_narrow(Sigma, const DenseParts& parts);
+void compose_narrow(Max, const DenseParts& parts);
+void compose_narrow(MaxMin, const DenseParts& parts);
+
 /// Whether the compiled kernels are faster than plain loops.
 inline bool worth_tiling(const DenseParts& parts) {
   return parts.rows >= 4 && parts.columns >= 8 && parts.inner >= 4 && parts.rows * parts.inner * parts.columns >= 512;

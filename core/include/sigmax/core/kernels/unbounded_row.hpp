@@ -53,6 +53,7 @@ class UnboundedRow {
   std::size_t size() const { return numbers_.size(); }
   std::size_t capacity() const { return numbers_.capacity(); }
   void clear() { numbers_.clear(); }
+  std::span<const ScaledNumber> numbers() const& { return numbers_; }
   ScaledNumber operator[](std::size_t i) const { return numbers_[i]; }
   ScaledNumber& operator[](std::size_t i) { return numbers_[i]; }
   double log(std::size_t i) const { return numbers_[i].log(); }
@@ -167,6 +168,7 @@ class PlainRow {
 
   std::size_t size() const { return numbers_.size(); }
   std::size_t capacity() const { return numbers_.capacity(); }
+  std::span<const double> numbers() const& { return numbers_; }
   double operator[](std::size_t i) const { return numbers_[i]; }
   double& operator[](std::size_t i) { return numbers_[i]; }
   double log(std::size_t i) const { return std::log(numbers_[i]); }
