@@ -138,7 +138,7 @@ FilterKey per_model(MotionParameter parameter) {
           std::string(known.meaning),
           std::string(range.expected) + "; one, or one a model",
           [=](const Settings& settings, FilterSettings& filter) {
-            auto given = settings.numbers(name, {filter.motions.front()[parameter]});
+            auto given = settings.numbers(name, values(filter));
             if (given.size() == 1) given.resize(filter.motions.size(), given.front());
             if (given.size() != filter.motions.size()) throw settings.error(name, "one number, or one for each model");
             for (std::size_t i = 0; i < given.size(); ++i) {
@@ -160,17 +160,18 @@ std::string motion_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The models themselves; each new one is as the first of those that were there.
+/// The models themselves; each new one is as that of its name, or else as the first of those that were there.
 FilterKey models() {
   return {"models", "The motions that the target may follow.", motion_names(),
           [](const Settings& settings, FilterSettings& filter) {
             std::vector<std::string> names;
             for (const auto& motion : filter.motions) names.push_back(motion.name);
-            const Motion usual = filter.motions.front();
-            filter.motions.clear();
+            const std::vector<Motion> before = std::exchange(filter.motions, {});
             for (const auto& name : settings.strings("models", names)) {
               if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
-              filter.motions.push_back(usual);
+              const auto same =
+                  std::find_if(before.begin(), before.end(), [&](const Motion& m) { return m.name == name; });
+              filter.motions.push_back(same == before.end() ? before.front() : *same);
               filter.motions.back().name = name;
             }
             if (filter.motions.empty()) throw settings.error("models", "at least one of " + motion_names());
