@@ -106,6 +106,7 @@ auto Tracker<Axes>::now() const -> Point {
 template <int Axes>
 auto Tracker<Axes>::finish() const -> std::vector<Point> {
   std::vector<Point> points;
+  if (!settings_.smooth) return points;
   target_.smoothed([&](const TargetPoint& known) { points.push_back(point_of<Axes>(known, target_.components())); });
   return points;
 }
