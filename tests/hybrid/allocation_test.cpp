@@ -163,8 +163,8 @@ TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
 
 template <Uncertainty Kind>
 void histories_allocate_nothing() {
-  const support::VectorBank bank{support::calm(1.0), support::calm(5.0), support::turning()};
-  HistoryFilter<support::VectorBank, Kind> filter{bank, transition<Kind>(), support::starts()};
+  const VectorBank bank{support::calm(1.0), support::calm(5.0), support::turning()};
+  HistoryFilter<VectorBank, Kind> filter{bank, transition<Kind>(), support::starts()};
   auto other = filter;
   for (const auto& scan : support::manoeuvring_target(40)) {
     ASSERT_EQ(allocations_of([&] { support::step(filter, scan); }), 0U);
