@@ -35,6 +35,7 @@ template <class Reports>
 Trace follow_reports(const Contestant& contestant, std::size_t truth, const Reports& reports) {
   return std::visit(
       [&](auto classifier) {
+        classifier.reset();
         Trace trace;
         for (const auto& report : reports) {
           try {

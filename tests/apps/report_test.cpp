@@ -1,6 +1,7 @@
 #include "support/report.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -171,7 +172,17 @@ TEST(Report, OfClassifyExplainsAChosenRow) {
       program::run(SIGMAX_RECOGNITION_DEMO, {"classify", model, SIGMAX_SOURCE "/apps/examples/data/fruit_new.csv",
                                              "--rows", "3", "--quiet", "--report", page});
   ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(contents(page).find("because"), std::string::npos);
+  const std::string text = contents(page), begin = "id=\"data\">";
+  const auto from = text.find(begin) + begin.size();
+  const auto data = nlohmann::ordered_json::parse(text.substr(from, text.find("</script>", from) - from));
+  ASSERT_EQ(data.at("views").size(), 3U);
+  for (const auto& view : data.at("views")) {  // the class that is explained is the one with the greatest support
+    const auto& support = view.at("panels").at(0);
+    const auto values = support.at("values").at(0).get<std::vector<double>>();
+    const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    const std::string why = view.at("panels").at(1).at("columns").at(0).at("header");
+    EXPECT_TRUE(why.starts_with("sigma: " + support.at("columns").at(best).get<std::string>() + " rather than")) << why;
+  }
   expect_drawn(page);
 }
 

@@ -99,7 +99,7 @@ template <int A, bool selects>
 void output_one(const Plan& plan, const Track& track, double* mean, double* covariance) {
   const auto index = [](int j) { return static_cast<std::size_t>(j); };
   Estimate<Quad, A> parts[max_modes], result;
-  double weight[max_modes];
+  double weight[max_modes]{};
   int greatest = 1;
   for (int j = 0; j < plan.modes; ++j) {
     load<A>(plan.order[index(j)], track.mean[index(j)], track.covariance[index(j)], parts[j]);
