@@ -47,8 +47,8 @@ void expect_shown(const std::string& page, std::size_t commands) {
 #endif
     const std::string arguments = command.substr(command.find(' ') + 1);
     const auto ending = program::run("/bin/sh", {"-c", "cd " + program::quoted(directory.path()) + " && exec " +
-                                                           program::quoted(SIGMAX_RECOGNITION_DEMO) + " " +
-                                                           (arguments == command ? "" : arguments)});
+                                                           program::quoted(program::chosen(SIGMAX_RECOGNITION_DEMO)) +
+                                                           " " + (arguments == command ? "" : arguments)});
     EXPECT_EQ(ending.status, 0) << command;
     EXPECT_EQ(ending.output, output) << command;
   }

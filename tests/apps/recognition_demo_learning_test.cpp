@@ -314,7 +314,7 @@ TEST(RecognitionDemoLearning, ReadsTheStandardInput) {
   const TemporaryDirectory directory;
   const auto data = directory.write("trees.csv", with_gaps(""));
   const auto from = [&](const std::string& arguments) {
-    return program::run("/bin/sh", {"-c", program::quoted(SIGMAX_RECOGNITION_DEMO) + " " + arguments});
+    return program::run("/bin/sh", {"-c", program::quoted(program::chosen(SIGMAX_RECOGNITION_DEMO)) + " " + arguments});
   };
   const std::string file = program::quoted(data.string()), model = program::quoted((directory.path() / "m").string());
   const std::string options = " --label kind --foldings 2 ";

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -24,9 +25,16 @@ inline std::string quoted(const std::string& word) {
   return result + "'";
 }
 
+/// The same program of another build, if the environment names the folder of one: SIGMAX_PROGRAMS.
+inline std::string chosen(const std::string& path) {
+  const char* folder = std::getenv("SIGMAX_PROGRAMS");
+  const auto other = std::filesystem::path(folder ? folder : "") / std::filesystem::path(path).filename();
+  return folder && std::filesystem::exists(other) ? other.string() : path;
+}
+
 /// Runs a program and waits for it.
 inline Ending run(const std::string& path, const std::vector<std::string>& arguments) {
-  std::string command = quoted(path);
+  std::string command = quoted(chosen(path));
   for (const auto& argument : arguments) command += " " + quoted(argument);
   std::FILE* const pipe = popen((command + " 2>&1 </dev/null").c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
