@@ -42,7 +42,7 @@ std::string key_table() {
   const FilterSettings released = FilterDefaults::of(Preset::released).filter;
   std::string text = entry("filters", "The filters to run.",
                            "names with a meaning of their own, others that begin with imm or himm, others that have a "
-                           "table [filter.NAME] with a kind; \"all\" for every name with a meaning",
+                           "table [filter.NAME] with a kind; \"all\" for those without histories",
                            R"(["imm", "himm"]; preset released: also "imm_correct")");
   text += entry("filter.NAME.kind", "The kind of the filter's mode.", "random, fuzzy", "from the name");
   for (const auto& key : filter_keys()) text += entry(key, track, paper, released);

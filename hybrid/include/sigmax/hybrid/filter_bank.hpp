@@ -17,8 +17,9 @@
 
 namespace sigmax {
 
-/// Many tracks of one set of models, each as by its own InteractingMultipleModel, to 1e-9: their numbers stand side by
-/// side, and a step takes several of them at once. For models that move along independent axes, and measured positions.
+/// Many tracks of one set of models, each as by its own InteractingMultipleModel, to rounding: their numbers stand side
+/// by side, and a step takes several of them at once. For models that move along independent axes, and measured
+/// positions.
 ///
 ///     FilterBank bank{std::tuple{dwna<3>(3.0), dwpa<3>(3.0)}, transition};
 ///     const std::size_t track = bank.add(start);

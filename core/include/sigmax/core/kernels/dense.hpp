@@ -45,8 +45,8 @@ bool compose_by_tiles(const Table& left, const Table& right, Table& result, Winn
   }
 }
 
-/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), a dense table of parts that may be stored in any way. Allocates nothing
-/// if `result` has room. `result` must not be `right` or `left`.
+/// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k) of parts stored in any way, neither of them `result`. If that has room,
+/// only large tables allocate: once a thread for tiles, and for scaled copies where products underflow.
 template <Algebra A, class Left, class Right, class Winners>
 void compose(const Left& left, const Right& right, Table& result, Winners& winners) {
   result.reshape(right.rows(), left.columns());
