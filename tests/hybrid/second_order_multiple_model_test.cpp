@@ -128,8 +128,8 @@ TEST(SecondOrderMultipleModel, WithoutMeasurementsTheViterbiFilterIsHimmWithTheS
     viterbi.step(0.2);
     for (std::size_t j = 0; j < 3; ++j) {
       ASSERT_EQ(himm.belief().log(j), viterbi.belief().log(j));
-      ASSERT_EQ(himm.estimates()[j].mean, viterbi.estimates()[j].mean);
-      ASSERT_EQ(himm.estimates()[j].covariance, viterbi.estimates()[j].covariance);
+      require_near_matrix(himm.estimates()[j].mean, viterbi.estimates()[j].mean, 1e-12);
+      require_near_matrix(himm.estimates()[j].covariance, viterbi.estimates()[j].covariance, 1e-12);
     }
   }
 }
