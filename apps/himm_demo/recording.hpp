@@ -53,7 +53,13 @@ struct Fix {
   bool measured() const { return located() || bearing || moving(); }
 
   /// Forgets all but where the row stands: line, time and track.
-  void forget() { *this = {.line = line, .time_s = time_s, .track = std::move(track)}; }
+  void forget() {
+    Fix next;
+    next.line = line;
+    next.time_s = time_s;
+    next.track = std::move(track);
+    *this = std::move(next);
+  }
 };
 
 /// Reads a headed CSV recording row by row: Cartesian, geodetic or a radar's, or Cartesian and radar's rows mixed, as
