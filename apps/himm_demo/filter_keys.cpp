@@ -230,7 +230,7 @@ FilterKey histories() {
 }
 
 /// Something to be done or not; told if it is.
-FilterKey flag(std::string name, std::string meaning, bool FilterSettings::*member) {
+FilterKey flag(const std::string& name, std::string meaning, bool FilterSettings::*member) {
   return {name,
           std::move(meaning),
           "true, false",

@@ -25,7 +25,7 @@ std::vector<double> around_onset(const Experiment& experiment, const TracedRun& 
 
 Plan plan_of(const Experiment& experiment, const TracedRun& run, std::size_t number) {
   Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m", .traces = {}};
-  const auto add = [&](std::string of, PlanTrace::Shape shape, const auto& position) {
+  const auto add = [&](const std::string& of, PlanTrace::Shape shape, const auto& position) {
     PlanTrace trace{.name = of, .group = of, .shape = shape, .x = {}, .y = {}};
     for (std::size_t k = 0; k < run.truth.size(); ++k) {
       const Vector<3> at = position(k);

@@ -80,10 +80,10 @@ std::optional<CellRows> run_first(const Campaign& campaign, Shard shard, Ranks* 
   const auto [open, share] = open_cells(campaign, shard, rows);
   Progress progress(campaign.name, share, options.quiet);
   progress.advance(share - open.size());
-  do_open(campaign, open, ranks, threads, [&](Ranks::Finished finished) {
-    for (auto& [cell, row] : finished) {
+  do_open(campaign, open, ranks, threads, [&](const Ranks::Finished& finished) {
+    for (const auto& [cell, row] : finished) {
       if (journal) journal->append(cell, row);
-      rows.insert_or_assign(cell, std::move(row));
+      rows.insert_or_assign(cell, row);
       progress.advance();
     }
     if (journal) journal->store();
