@@ -68,7 +68,7 @@ Quad full(const Quad* block, int k) {
 }
 inline Quad below(int, Quad, Quad changed) { return changed; }
 inline Quad only(int k, Quad column) {
-  const decltype(column < column) mask{k == 0 ? -1 : 0, k == 1 ? -1 : 0, k == 2 ? -1 : 0, 0};
+  const decltype(column < Quad{}) mask{k == 0 ? -1 : 0, k == 1 ? -1 : 0, k == 2 ? -1 : 0, 0};
   return mask ? column : Quad{};
 }
 template <int A>
