@@ -48,6 +48,8 @@ struct Fix {
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
 
+  /// So many leading axes of the position were measured, by whatever sensor.
+  int measured_axes(int axes) const { return !located() ? 0 : no_height ? axes - 1 : axes; }
   bool located() const { return position || place || seen; }
   bool moving() const { return velocity[0] || velocity[1] || velocity[2]; }
   bool measured() const { return located() || bearing || moving(); }

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "support/angle.hpp"
+
 namespace sigmax::apps {
 namespace {
 
@@ -52,6 +54,23 @@ void add_simulated_radar(CLI::App& app, std::optional<std::array<double, 3>>& ra
              "Take the recording as the truth and measure it by a simulated radar with these standard deviations",
              "RANGE_M,AZIMUTH_DEG,ELEVATION_DEG");
   add_triple(app, "--radar-at", radar_at, "Where the radar stands, in m [0,0,0]", "E,N,U");
+}
+
+std::vector<FilterSettings> filters_for_recording(const Settings& settings,
+                                                  const std::optional<std::array<double, 3>>& radar) {
+  FilterDefaults defaults;
+  const auto [range, azimuth, elevation] = radar.value_or(std::array{10.0, 0.1, 0.1});
+  defaults.filter.accuracy.radar = {range, azimuth * degree, elevation * degree};
+  auto filters = read_filters(settings, defaults);
+  settings.refuse_unknown();
+  return filters;
+}
+
+void take_what_filters_know(const std::vector<FilterSettings>& filters, RecordingOptions& recording) {
+  for (const auto& filter : filters) {
+    recording.velocity |= filter.knows(&Accuracy::velocity_mps);
+    recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+  }
 }
 
 }  // namespace sigmax::apps

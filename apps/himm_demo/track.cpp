@@ -14,7 +14,6 @@
 #include "himm_demo/track_page.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
-#include "support/angle.hpp"
 #include "support/braille.hpp"
 #include "support/result_files.hpp"
 #include "support/timestamp.hpp"
@@ -61,21 +60,13 @@ Report page_of(const TrackOptions& options, const std::vector<FilterSettings>& f
 }
 
 void track_and_report(const TrackOptions& options) {
-  const Settings settings = Settings::read(options.config, options.sets);
-  FilterDefaults defaults;
-  const auto sigma = options.radar.value_or(std::array{10.0, 0.1, 0.1});
-  defaults.filter.accuracy.radar = {sigma[0], sigma[1] * degree, sigma[2] * degree};
-  const auto filters = read_filters(settings, defaults);
-  settings.refuse_unknown();
+  const auto filters = filters_for_recording(Settings::read(options.config, options.sets), options.radar);
   if (options.print_config) {
     fmt::print("{}", as_toml(filters));
     return;
   }
   RecordingOptions what = options.recording;
-  for (const auto& filter : filters) {
-    what.velocity |= filter.knows(&Accuracy::velocity_mps);
-    what.range_rate |= filter.knows(&Accuracy::range_rate_mps);
-  }
+  take_what_filters_know(filters, what);
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
   refuse_to_overwrite(options);

@@ -12,6 +12,7 @@
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/estimates_file.hpp"
+#include "himm_demo/fix_reading.hpp"
 #include "himm_demo/simulated_radar.hpp"
 #include "himm_demo/track_page.hpp"
 #include "himm_demo/tracker.hpp"
@@ -232,63 +233,32 @@ class TrackRun {
     target.rows.clear();
   }
 
-  /// What a row measures, with the covariance that a filter believes.
+  /// What a row measures, in the frame of the filter and with the covariances that it believes.
   std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
     const Tracker<Axes>& tracker = target.trackers[f];
-    if (!quantities(fix, f) || (!tracker.running() && (fix.no_height || !fix.located()))) return std::nullopt;
-    const FilterSettings& settings = filters_[f];
-    const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-    const auto& own = fix.sigma;
-    const Polar sigma = accuracy.radar_of(own);
-    if (fix.bearing)
-      return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
-                           .bearing_from = radar_at_.template head<2>()};
-    if (fix.seen) {
-      const bool doppler = fix.range_rate && accuracy.range_rate_mps;
-      auto result =
-          radar_reading<Axes>(*fix.seen, sigma, radar_at_, doppler ? RadarForm::polar : settings.radar_measurement);
-      if (doppler) result.range_rate = {*fix.range_rate, std::pow(*accuracy.range_rate_mps, 2)};
-      return result;
-    }
-    Reading<Axes> result{.measured = fix.located() ? fix.no_height ? Axes - 1 : Axes : 0};
-    const LocalFrame<Axes>* frame = target.anchor ? &target.segments[f].back().frame : nullptr;
-    if (fix.place) {
-      Geodetic place = *fix.place;  // without a height it is at the target's
-      if (fix.no_height)
-        place.altitude_m = frame->to_geodetic(tracker.now().estimate.mean.template head<Axes>()).altitude_m;
-      result.position.mean = frame->to_local(place);
-    } else if (fix.position) {
-      result.position.mean = fix.position->template head<Axes>();
-    }
-    for (Eigen::Index i = 0; i < Axes; ++i)
-      result.position.covariance(i, i) = std::pow(accuracy.position_of(own, static_cast<std::size_t>(i)), 2);
-    if (fix.moving() && accuracy.velocity_mps) add_velocity(result, fix, *accuracy.velocity_mps, tracker, frame);
-    return result;
+    if (!tracker.running() && (fix.no_height || !fix.located())) return std::nullopt;
+    if (!target.anchor) return reading_of<Axes>(fix, filters_[f], radar_at_);
+    return reading_of<Axes>(localized(fix, target.segments[f].back().frame, tracker), filters_[f], radar_at_);
   }
 
-  /// The measured velocity in the frame of the filter; that of a place is along its own east, north and up.
-  static void add_velocity(Reading<Axes>& reading, const Fix& fix, double sigma, const Tracker<Axes>& tracker,
-                           const LocalFrame<Axes>* frame) {
+  /// The row with its place as a position in a frame, and its velocity, which is along the place's own east, north and
+  /// up, along the axes of the frame.
+  static Fix localized(Fix fix, const LocalFrame<Axes>& frame, const Tracker<Axes>& tracker) {
+    const auto known = [&] { return Vector<Axes>(tracker.now().estimate.mean.template head<Axes>()); };
+    if (fix.place) {
+      if (fix.no_height) fix.place->altitude_m = frame.to_geodetic(known()).altitude_m;  // it is at the target's
+      fix.position = Vector<3>::Zero();
+      fix.position->template head<Axes>() = frame.to_local(*fix.place);
+      fix.place.reset();
+    }
+    if (!fix.moving()) return fix;
     Vector<Axes> v;
     for (Eigen::Index i = 0; i < Axes; ++i) v(i) = fix.velocity[static_cast<std::size_t>(i)].value_or(0.0);
-    if (frame) {
-      const Vector<Axes> at =
-          fix.place ? reading.position.mean : Vector<Axes>(tracker.now().estimate.mean.template head<Axes>());
-      v = (frame->local_axes(at).transpose() * v).eval();
-    }
-    for (std::size_t axis = 0; axis < reading.velocity.size(); ++axis)
-      if (fix.velocity[axis]) reading.velocity[axis] = {v(static_cast<Eigen::Index>(axis)), sigma * sigma};
-  }
-
-  /// How many quantities of a row a filter takes for measured.
-  int quantities(const Fix& fix, std::size_t f) const {
-    const Accuracy& accuracy = filters_[f].accuracy_of(fix.sensor);
-    if (fix.bearing) return 1;
-    if (fix.seen) return fix.range_rate && accuracy.range_rate_mps ? Axes + 1 : Axes;
-    const auto end = fix.velocity.begin() + Axes;
-    const auto along = std::count_if(fix.velocity.begin(), end, [](const auto& v) { return v.has_value(); });
-    return (fix.located() ? fix.no_height ? Axes - 1 : Axes : 0) +
-           (accuracy.velocity_mps ? static_cast<int>(along) : 0);
+    const Vector<Axes> at = fix.position ? Vector<Axes>(fix.position->template head<Axes>()) : known();
+    v = (frame.local_axes(at).transpose() * v).eval();
+    for (Eigen::Index i = 0; i < Axes; ++i)
+      if (auto& component = fix.velocity[static_cast<std::size_t>(i)]) component = v(i);
+    return fix;
   }
 
   template <class Add>
@@ -303,6 +273,7 @@ class TrackRun {
     if (sinks_.estimates || sinks_.page) tell(target, tag, f, point);
     if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
     const auto& estimate = point.estimate;
+    const int quantities = measured_quantities(fix, filters_[f].accuracy_of(fix.sensor), Axes);
     add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
       ++sums.count;
       for (Eigen::Index axis = 0; axis < Axes; ++axis)
@@ -313,7 +284,7 @@ class TrackRun {
         add_error(sums, error);
       }
       for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-      if (point.nis) sums.nis.add(*point.nis, usual_nis_[static_cast<std::size_t>(quantities(fix, f)) - 1]);
+      if (point.nis) sums.nis.add(*point.nis, usual_nis_[static_cast<std::size_t>(quantities) - 1]);
     });
   }
 

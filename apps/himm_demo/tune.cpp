@@ -14,7 +14,6 @@
 #include "himm_demo/tune_numbers.hpp"
 #include "himm_demo/tune_report.hpp"
 #include "himm_demo/tune_search.hpp"
-#include "support/angle.hpp"
 #include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
@@ -99,21 +98,15 @@ Objective objective_of(const std::string& truth) {
 
 void tune_and_write(TuneOptions options) {
   options.objective = objective_of(options.truth);
-  const Settings settings = Settings::read(options.config, options.sets);
-  FilterDefaults defaults;
-  const auto sigma = options.radar.value_or(std::array{10.0, 0.1, 0.1});
-  defaults.filter.accuracy.radar = {sigma[0], sigma[1] * degree, sigma[2] * degree};
-  const auto filters = read_filters(settings, defaults);
-  settings.refuse_unknown();
+  const auto filters = filters_for_recording(Settings::read(options.config, options.sets), options.radar);
   if (options.print_config) {
     fmt::print("{}", as_toml(filters));
     return;
   }
   refuse_without_search();
+  take_what_filters_know(filters, options.recording);
   for (const auto& filter : filters) {
     refuse_possibility(filter, options.objective);
-    options.velocity |= filter.knows(&Accuracy::velocity_mps);
-    options.range_rate |= filter.knows(&Accuracy::range_rate_mps);
     for (const auto& models : model_sets(filter, options)) with_models(filter, models);  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);

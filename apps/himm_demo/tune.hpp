@@ -29,7 +29,6 @@ struct TuneOptions {
   Objective objective = Objective::prequential;   ///< what that says
   std::vector<std::string> models;  ///< sets to choose from, as dwna+dwpa; empty: those of the filter, and each alone
   std::vector<std::string> fixed;   ///< what is not fitted
-  bool velocity = false, range_rate = false;  ///< whether a filter takes those that a recording has
   std::size_t folds = 4;
   std::size_t starts = 2;
   std::uint64_t seed = 1;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "himm_demo/fix_reading.hpp"
 #include "himm_demo/simulated_radar.hpp"
 #include "himm_demo/tracker.hpp"
 
@@ -32,8 +33,6 @@ class TuneReader {
   void read(const std::string& file) {
     RecordingOptions of_file = options_.recording;
     of_file.file = file;
-    of_file.velocity = options_.velocity;
-    of_file.range_rate = options_.range_rate;
     RecordingReader recording(of_file);
     refuse_other_kind(recording);
     std::map<std::string, Open, std::less<>> open;
@@ -197,34 +196,6 @@ std::vector<std::vector<std::size_t>> TuneData::folds(std::size_t count) const {
 }
 
 namespace {
-
-/// What a row measured, as `track` takes it.
-template <int Axes>
-std::optional<Reading<Axes>> reading_of(const Fix& fix, const FilterSettings& settings, const Vector<3>& radar_at) {
-  const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-  const Polar sigma = accuracy.radar_of(fix.sigma);
-  if (fix.bearing)
-    return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
-                         .bearing_from = radar_at.head<2>()};
-  if (fix.seen) {
-    const bool doppler = fix.range_rate && accuracy.range_rate_mps;
-    auto reading =
-        radar_reading<Axes>(*fix.seen, sigma, radar_at, doppler ? RadarForm::polar : settings.radar_measurement);
-    if (doppler) reading.range_rate = {*fix.range_rate, std::pow(*accuracy.range_rate_mps, 2)};
-    return reading;
-  }
-  const bool moving = fix.moving() && accuracy.velocity_mps;
-  if (!fix.position && !moving) return std::nullopt;
-  Reading<Axes> reading{.measured = fix.position ? fix.no_height ? Axes - 1 : Axes : 0};
-  if (fix.position) reading.position.mean = fix.position->head<Axes>();
-  for (int i = 0; i < Axes; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    reading.position.covariance(i, i) = std::pow(accuracy.position_of(fix.sigma, axis), 2);
-    if (moving && fix.velocity[axis])
-      reading.velocity[axis] = {*fix.velocity[axis], std::pow(*accuracy.velocity_mps, 2)};
-  }
-  return reading;
-}
 
 template <int Axes>
 std::vector<AnyPlot> plots_of(const TuneData& data, const TuneTrack& track, const FilterSettings& settings) {

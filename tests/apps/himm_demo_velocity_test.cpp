@@ -210,6 +210,21 @@ TEST(HimmDemoVelocity, OfAPlaceIsAlongItsOwnEastAndNorth) {
   }
 }
 
+/// Where a truth is told, all positions are about one point; the first rows come before there is an estimate.
+TEST(HimmDemoVelocity, OfAPlaceIsTakenBeforeTheStartToo) {
+  const TemporaryDirectory directory;
+  std::string text = "time_s,latitude_deg,longitude_deg,true_x_m,true_y_m,vx_mps,vy_mps\n";
+  for (int k = 0; k < 20; ++k)
+    text += exact(k) + "," + exact(50.0 + k * 1e-4) + ",1,0," + exact(k * 11.1229) + ",0,11.1229\n";
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("input.csv", text), "--out",
+                                                      directory.path() / "out", "--set", "sigma_velocity_mps=0.1"});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
+  ASSERT_EQ(found.size(), 2U * 17U);
+  EXPECT_NEAR(number(found.back().at("vy_mps")), 11.1229, 0.01);
+  EXPECT_NEAR(number(found.back().at("y_m")), 19 * 11.1229, 0.5);
+}
+
 TEST(HimmDemoVelocity, IsRefusedWhereItMakesNoSense) {
   const TemporaryDirectory directory;
   const auto run = [&](const std::string& text) {

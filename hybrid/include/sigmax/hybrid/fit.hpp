@@ -40,6 +40,7 @@ struct FitSearch {
   std::vector<double> start, lower, upper, step;
 };
 
+/// How often a fit starts, and from where.
 struct FitOptions {
   std::size_t starts = 1;  ///< the first where the parameters say, others about it
   std::uint64_t seed = 1;  ///< of the others
