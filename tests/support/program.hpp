@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,13 @@ namespace program {
 struct Ending {
   std::string output;
   int status = -1;
+
+  /// What it printed with a blank for each end of a line: where lines end is a matter of the names of files.
+  std::string on_one_line() const {
+    std::string result = output;
+    std::replace(result.begin(), result.end(), '\n', ' ');
+    return result;
+  }
 };
 
 /// One word as a shell reads it back.
