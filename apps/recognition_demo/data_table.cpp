@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,8 +40,8 @@ class Words {
   }
   const std::string& first_in_order() const { return codes_.begin()->first; }
 
-  /// The words in order, numbers by their value, and renumbers the codes accordingly.
-  std::vector<std::string> sorted(std::vector<Code>& codes) const {
+  /// The words in order, numbers by their value, and for each code the place of its word.
+  std::pair<std::vector<std::string>, std::vector<Code>> sorted() const {
     std::vector<std::string> words(codes_.size());
     for (const auto& [word, code] : codes_) words[code] = word;
     const bool numbers = std::all_of(words.begin(), words.end(), [](const auto& word) { return parse_number(word); });
@@ -51,15 +52,13 @@ class Words {
         return *parse_number(words[a]) < *parse_number(words[b]);
       return words[a] < words[b];
     });
-    std::vector<std::string> result;
-    std::vector<Code> rank(words.size());
+    std::vector<std::string> in_order;
+    std::vector<Code> place(words.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-      result.push_back(words[order[i]]);
-      rank[order[i]] = static_cast<Code>(i);
+      in_order.push_back(words[order[i]]);
+      place[order[i]] = static_cast<Code>(i);
     }
-    for (Code& code : codes)
-      if (code != missing_code) code = rank[code];
-    return result;
+    return {std::move(in_order), std::move(place)};
   }
 
  private:
@@ -72,31 +71,34 @@ struct Slip {
   std::string word;
 };
 
-/// A column while it is read: numeric until a cell is not, and then the words so far are what counts.
+/// A cell as a number, NaN if it is none, and as a word, `missing_code` if it is none or there are too many.
+struct DataCell {
+  double number = nan;
+  Code code = missing_code;
+};
+
+/// A column while it is read: numeric until a cell is not, and then the words are what counts.
 class ColumnReader {
  public:
   ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
 
-  void take(const CsvRow& row, const MissingWords& missing) {
+  DataCell take(const CsvRow& row, const MissingWords& missing) {
     const std::string_view cell = trimmed(row[index_]);
     const bool empty = missing(cell);
     const auto number = empty ? std::nullopt : parse_number(cell);
     const bool is_word = !empty && !number && !missing.among_numbers(cell);
     if (number || is_word) ++cells_;
     if (number) ++numeric_cells_;
-    if (is_word && !slip_) {
-      slip_ = Slip{row.line(), std::string(cell)};
-      numbers_ = {};
-    }
-    if (could_be_numeric()) numbers_.push_back(number.value_or(nan));
-    if (too_many_words_) return;
-    codes_.push_back(empty ? missing_code : words_.code(cell));
-    if (words_.size() <= most_values) return;
+    if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
+    DataCell result{number.value_or(nan)};
+    if (too_many_words_) return result;
+    if (!empty) result.code = words_.code(cell);
+    if (words_.size() <= most_values) return result;
     too_many_words_ = true;
-    codes_ = {};
     if (!could_be_numeric() && !nearly_all_numbers())
       throw row.error(index_, fmt::format("one of at most {} different values", most_values),
                       "leave the column out by --ignore");
+    return result;
   }
 
   /// Throws if the column is neither numbers nor words.
@@ -123,22 +125,12 @@ class ColumnReader {
     return words_.size() == 0 ? "no value" : in_quotes(words_.first_in_order());
   }
 
-  DataColumn column(const std::string& name) && {
-    DataColumn result{name, is_numeric(), {}, {}, {}};
-    if (result.numeric) {
-      result.numbers = std::move(numbers_);
-    } else {
-      result.codes = std::move(codes_);
-      result.values = words_.sorted(result.codes);
-    }
-    return result;
-  }
-
+  bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
+  const Words& words() const { return words_; }
   std::size_t index() const { return index_; }
 
  private:
   bool could_be_numeric() const { return !categorical_ && !slip_; }
-  bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   /// Nine of ten cells, or half of them where there are more numbers than words would have.
   bool nearly_all_numbers() const {
     constexpr std::size_t most_words = 20;
@@ -153,8 +145,6 @@ class ColumnReader {
   std::size_t numeric_cells_ = 0;
   bool too_many_words_ = false;
   Words words_;
-  std::vector<Code> codes_;
-  std::vector<double> numbers_;
 };
 
 std::string lower_case(std::string_view text) {
@@ -248,32 +238,55 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   table.file = reader.file();
   table.label = options.label;
   Words classes;
+  std::vector<std::size_t> rows_of, last_line_of;  // by class, as they come
+  std::size_t first_line = 0;
+  for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
+  std::vector<std::byte> bytes(table.row_bytes());
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
     if (missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
-    table.labels.push_back(classes.code(trimmed(row[label])));
+    const Code code = classes.code(trimmed(row[label]));
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
-    table.lines.push_back(static_cast<std::uint32_t>(row.line()));
-    for (auto& column : columns) column.take(row, missing);
+    rows_of.resize(classes.size());
+    last_line_of.resize(classes.size());
+    ++rows_of[code];
+    last_line_of[code] = row.line();
+    if (first_line == 0) first_line = row.line();
+    table.put(row.line(), table.line_place(), bytes);
+    table.put(code, table.label_place(), bytes);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const DataCell cell = columns[i].take(row, missing);
+      table.put(cell.number, table.number_place(i), bytes);
+      table.put(cell.code, table.code_place(i), bytes);
+    }
+    table.rows_.append(bytes);
   }
   progress.finish();
-  if (table.labels.empty())
+  if (table.size() == 0)
     throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
-  table.classes = classes.sorted(table.labels);
+  std::tie(table.classes, table.class_order_) = classes.sorted();
   if (table.classes.size() == 1)
     throw InputError(
-        message({.where = fmt::format("{}:{}", reader.file(), table.lines.front()),
+        message({.where = fmt::format("{}:{}", reader.file(), first_line),
                  .what = fmt::format("column {}", in_quotes(options.label)),
-                 .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.labels.size()),
+                 .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.size()),
                  .expected = "at least two classes"}));
+  table.rows_of_class.resize(rows_of.size());
+  table.last_line_of_class.resize(rows_of.size());
+  for (std::size_t code = 0; code < rows_of.size(); ++code) {
+    table.rows_of_class[table.class_order_[code]] = rows_of[code];
+    table.last_line_of_class[table.class_order_[code]] = last_line_of[code];
+  }
   for (const auto& column : columns) column.refuse_slip(reader);
-  refuse_useless(reader, columns, table.labels.size());
+  refuse_useless(reader, columns, table.size());
   table.warnings = warnings_of(reader, columns);
-  for (auto& column : columns) {
-    const std::string& name = reader.names()[column.index()];
-    table.columns.push_back(std::move(column).column(name));
+  table.value_order_.resize(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    table.columns[i].numeric = columns[i].is_numeric();
+    if (!columns[i].is_numeric())
+      std::tie(table.columns[i].values, table.value_order_[i]) = columns[i].words().sorted();
   }
   return table;
 }

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "support/csv.hpp"
+#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 
@@ -18,21 +23,7 @@ inline constexpr Code missing_code = 0xFFFF;
 struct DataColumn {
   std::string name;
   bool numeric = false;
-  std::vector<std::string> values;  ///< of a categorical column, sorted
-  std::vector<Code> codes;          ///< of a categorical column: for each row an index into `values`, or `missing_code`
-  std::vector<double> numbers;      ///< of a numeric column: for each row the number, NaN where it is missing
-};
-
-/// Labelled data in memory, two bytes a word and eight a number: the classes sorted, and of each row its class and its
-/// features.
-struct DataTable {
-  std::string file;
-  std::string label;
-  std::vector<std::string> classes;
-  std::vector<Code> labels;
-  std::vector<std::uint32_t> lines;  ///< of the file
-  std::vector<DataColumn> columns;
-  std::vector<std::string> warnings;  ///< what the reader of the results should know
+  std::vector<std::string> values{};  ///< of a categorical column, sorted
 };
 
 struct DataOptions {
@@ -41,6 +32,108 @@ struct DataOptions {
   std::vector<std::string> ignore;       ///< columns to leave out
   std::vector<std::string> missing;      ///< words that stand for nothing, beside the usual ones
 };
+
+class DataTable;
+
+/// One row of the data, while it is seen.
+class DataRow {
+ public:
+  std::size_t index() const { return index_; }
+
+  /// An index into the classes.
+  std::size_t label() const;
+
+  /// The line of the file on which the row starts.
+  std::size_t line() const;
+
+  /// The number in a numeric column, NaN where it is missing.
+  double number(std::size_t column) const;
+
+  /// An index into the values of a categorical column, or `missing_code`.
+  Code code(std::size_t column) const;
+
+ private:
+  friend class DataTable;
+
+  const DataTable* table_ = nullptr;
+  const std::byte* bytes_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+/// Labelled data: the classes, sorted, and of each row its class and its features. The rows are in a Scratch: memory
+/// does not grow with their number.
+class DataTable {
+ public:
+  std::string file;
+  std::string label;
+  std::vector<std::string> classes;
+  std::vector<std::size_t> rows_of_class;
+  std::vector<std::size_t> last_line_of_class;
+  std::vector<DataColumn> columns;
+  std::vector<std::string> warnings;  ///< what the reader of the results should know
+
+  /// The number of rows.
+  std::size_t size() const { return static_cast<std::size_t>(rows_.size()) / row_bytes(); }
+
+  /// Calls see(row) for all rows in the order of the file. Several threads may do so at a time.
+  template <class See>
+  void for_each(const See& see) const {
+    const std::size_t most = std::max<std::size_t>(1, block_bytes / row_bytes());
+    std::vector<std::byte> block;
+    DataRow row;
+    row.table_ = this;
+    while (row.index_ < size()) {
+      const std::size_t count = std::min(most, size() - row.index_);
+      block.resize(count * row_bytes());
+      rows_.read(row.index_ * row_bytes(), block);
+      for (std::size_t i = 0; i < count; ++i, ++row.index_) {
+        row.bytes_ = block.data() + i * row_bytes();
+        see(std::as_const(row));
+      }
+    }
+  }
+
+ private:
+  friend class DataRow;
+  friend DataTable read_data(const std::string& file, const DataOptions& options, bool quiet);
+
+  static constexpr std::size_t block_bytes = std::size_t{1} << 16;
+
+  // A row is the numbers of all columns, their words, the class and the line: which columns are numeric is known at the
+  // end of the file only.
+  std::size_t number_place(std::size_t column) const { return column * sizeof(double); }
+  std::size_t code_place(std::size_t column) const { return number_place(columns.size()) + column * sizeof(Code); }
+  std::size_t label_place() const { return code_place(columns.size()); }
+  std::size_t line_place() const { return label_place() + sizeof(Code); }
+  std::size_t row_bytes() const { return line_place() + sizeof(std::size_t); }
+
+  template <class T>
+  static void put(const T& value, std::size_t place, std::span<std::byte> row) {
+    std::memcpy(row.data() + place, &value, sizeof value);
+  }
+  template <class T>
+  static T get(const std::byte* row, std::size_t place) {
+    T value;
+    std::memcpy(&value, row + place, sizeof value);
+    return value;
+  }
+
+  Scratch rows_;
+  std::vector<Code> class_order_;               // the place, when sorted, of each class as they came
+  std::vector<std::vector<Code>> value_order_;  // the same of the values of each categorical column
+};
+
+inline std::size_t DataRow::label() const {
+  return table_->class_order_[DataTable::get<Code>(bytes_, table_->label_place())];
+}
+inline std::size_t DataRow::line() const { return DataTable::get<std::size_t>(bytes_, table_->line_place()); }
+inline double DataRow::number(std::size_t column) const {
+  return DataTable::get<double>(bytes_, table_->number_place(column));
+}
+inline Code DataRow::code(std::size_t column) const {
+  const Code code = DataTable::get<Code>(bytes_, table_->code_place(column));
+  return code == missing_code ? code : table_->value_order_[column][code];
+}
 
 /// Which cells hold nothing.
 class MissingWords {

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <random>
 #include <variant>
@@ -22,6 +22,7 @@
 #include "support/progress.hpp"
 #include "support/result_files.hpp"
 #include "support/result_table.hpp"
+#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -54,13 +55,6 @@ struct Outcome {
   }
 };
 
-/// The rows of one fold, classified by what the others teach.
-struct FoldResult {
-  std::vector<std::size_t> rows;
-  std::vector<Outcome> outcomes;         ///< by classifier
-  std::vector<std::vector<bool>> right;  ///< by classifier, then by row
-};
-
 Outcome no_outcome(const Contestant& contestant) {
   return {contestant.name, std::visit(
                                [](const auto& classifier) -> decltype(Outcome::evaluation) {
@@ -69,91 +63,122 @@ Outcome no_outcome(const Contestant& contestant) {
                                contestant.classifier)};
 }
 
-std::vector<std::size_t> folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
-  const std::vector<std::size_t> labels(data.labels.begin(), data.labels.end());
-  return stratified_folds(labels, folds, generator);
+using Folds = ScratchArray<std::uint32_t>;
+
+/// The fold of every row, by `stratified_folds`; of longer tables part by part.
+Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
+  constexpr std::size_t part = std::size_t{1} << 17;
+  FoldDealer dealer(data.rows_of_class, folds);
+  Folds result;
+  std::vector<std::size_t> labels;
+  const auto deal = [&] {
+    for (const std::size_t fold : dealer.deal(labels, generator)) result.push_back(static_cast<std::uint32_t>(fold));
+    labels.clear();
+  };
+  data.for_each([&](const DataRow& row) {
+    labels.push_back(row.label());
+    if (labels.size() == part) deal();
+  });
+  deal();
+  return result;
 }
 
-/// Calls see(row, belief, whether every class was excluded) for the rows of one fold.
-template <class See>
-void classify_rows(const LearnedModel& model, const DataTable& data, const std::vector<std::size_t>& rows,
-                   const Contestant& contestant, const See& see) {
-  std::visit(
-      [&](auto classifier) {
-        Readings readings;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-          classifier.reset();
-          read(model, data, rows[k], readings);
-          bool excluded = false;
-          try {
-            classifier.observe(readings);
-          } catch (const std::domain_error&) {
-            excluded = true;  // the prior is what is left to say
-          }
-          see(k, classifier.log_belief(), excluded);
-        }
-      },
-      contestant.classifier);
-}
-
-/// The rows of a fold, and the classifiers that the others teach.
-struct Fold {
-  std::vector<std::size_t> rows;
+/// One fold, and the classifiers that the others teach.
+struct TaughtFold {
+  std::size_t fold;
   LearnedModel model;
   std::vector<Contestant> contestants;
 };
 
-Fold learned(const DataTable& data, std::span<const std::size_t> fold_of_row, std::size_t fold,
-             const LearningOptions& options) {
-  std::vector<std::size_t> inside, outside;
-  for (std::size_t row = 0; row < fold_of_row.size(); ++row)
-    (fold_of_row[row] == fold ? inside : outside).push_back(row);
-  LearnedModel model = learn(data, outside, options);
+TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options) {
+  ScratchCursor<std::uint32_t> fold_of(folds);
+  LearnedModel model = learn(
+      data, [&](const DataRow& row) { return fold_of[row.index()] != fold; }, options);
   const std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
   auto contestants = classifiers(model, kinds);
-  return {std::move(inside), std::move(model), std::move(contestants)};
+  return {fold, std::move(model), std::move(contestants)};
 }
 
-FoldResult classify_fold(const DataTable& data, std::span<const std::size_t> fold_of_row, std::size_t fold,
-                         const LearningOptions& options) {
-  Fold learned_fold = learned(data, fold_of_row, fold, options);
-  FoldResult result{std::move(learned_fold.rows), {}, {}};
-  for (const Contestant& contestant : learned_fold.contestants) {
-    Outcome& outcome = result.outcomes.emplace_back(no_outcome(contestant));
-    auto& right = result.right.emplace_back(result.rows.size());
-    classify_rows(learned_fold.model, data, result.rows, contestant,
-                  [&](std::size_t k, const auto& belief, bool excluded) {
-                    using Kind = typename std::decay_t<decltype(belief)>::kind;
-                    auto& evaluation = std::get<Evaluation<Kind>>(outcome.evaluation);
-                    right[k] = evaluation.add(data.labels[result.rows[k]], belief) > 0.0;
-                    if (excluded) ++outcome.excluded;
-                  });
-  }
-  return result;
+/// Calls see(row, contestant's index, belief, whether every class was excluded) for the rows of a fold, and for each of
+/// them for the contestants from `first` on up to `end`.
+template <class See>
+void classify_rows(const DataTable& data, const Folds& folds, TaughtFold& taught, std::size_t first, std::size_t end,
+                   const See& see) {
+  ScratchCursor<std::uint32_t> fold_of(folds);
+  Readings readings;
+  data.for_each([&](const DataRow& row) {
+    if (fold_of[row.index()] != taught.fold) return;
+    read(taught.model, row, readings);
+    for (std::size_t i = first; i < end; ++i)
+      std::visit(
+          [&](auto& classifier) {
+            classifier.reset();
+            bool excluded = false;
+            try {
+              classifier.observe(readings);
+            } catch (const std::domain_error&) {
+              excluded = true;  // the prior is what is left to say
+            }
+            see(row, i, classifier.log_belief(), excluded);
+          },
+          taught.contestants[i].classifier);
+  });
 }
 
-/// Adds up folds in their order. Of a row it keeps how often each classifier was right.
+/// Of every row the classifiers that were right, a bit for each.
+using Right = ScratchArray<std::uint8_t>;
+
+/// The scores in one fold, by classifier; who was right is noted.
+std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
+                                   const LearningOptions& options, Right& right) {
+  TaughtFold taught_fold = taught(data, folds, fold, options);
+  std::vector<Outcome> outcomes;
+  for (const Contestant& contestant : taught_fold.contestants) outcomes.push_back(no_outcome(contestant));
+  unsigned bits = 0;
+  classify_rows(data, folds, taught_fold, 0, outcomes.size(),
+                [&](const DataRow& row, std::size_t i, const auto& belief, bool excluded) {
+                  using Kind = typename std::decay_t<decltype(belief)>::kind;
+                  auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
+                  if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
+                  if (excluded) ++outcomes[i].excluded;
+                  if (i + 1 < outcomes.size()) return;
+                  right.set(row.index(), static_cast<std::uint8_t>(bits));
+                  bits = 0;
+                });
+  return outcomes;
+}
+
+/// Adds up folds in their order, and foldings. How often each classifier was right about a row is in a Scratch.
 class Results {
  public:
-  explicit Results(std::size_t rows) : rows_(rows) {}
+  explicit Results(std::size_t rows) {
+    for (std::size_t row = 0; row < rows; ++row) times_right_.push_back({});
+  }
 
-  void add(const FoldResult& fold) {
+  void add(std::vector<Outcome> fold) {
     if (outcomes_.empty()) {
-      outcomes_ = fold.outcomes;
-      right_.assign(outcomes_.size(), std::vector<std::uint32_t>(rows_, 0));
-    } else {
-      for (std::size_t i = 0; i < outcomes_.size(); ++i) {
-        outcomes_[i].excluded += fold.outcomes[i].excluded;
-        std::visit(
-            [&](auto& evaluation) {
-              evaluation.add(std::get<std::decay_t<decltype(evaluation)>>(fold.outcomes[i].evaluation));
-            },
-            outcomes_[i].evaluation);
-      }
+      outcomes_ = std::move(fold);
+      return;
     }
-    for (std::size_t i = 0; i < right_.size(); ++i)
-      for (std::size_t k = 0; k < fold.rows.size(); ++k)
-        if (fold.right[i][k]) ++right_[i][fold.rows[k]];
+    for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+      outcomes_[i].excluded += fold[i].excluded;
+      std::visit(
+          [&](auto& evaluation) { evaluation.add(std::get<std::decay_t<decltype(evaluation)>>(fold[i].evaluation)); },
+          outcomes_[i].evaluation);
+    }
+  }
+
+  /// Who was right in a whole folding.
+  void add(const Right& right) {
+    ScratchCursor<std::uint8_t> bits(right);
+    ScratchArray<TimesRight> sums;
+    ScratchCursor<TimesRight> before(times_right_);
+    for (std::size_t row = 0; row < right.size(); ++row) {
+      TimesRight times = before[row];
+      for (std::size_t i = 0; i < times.size(); ++i) times[i] += bits[row] >> i & 1U;
+      sums.push_back(times);
+    }
+    times_right_ = std::move(sums);
   }
 
   const std::vector<Outcome>& outcomes() const { return outcomes_; }
@@ -161,16 +186,19 @@ class Results {
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
   Interval minus_first(std::size_t i, std::size_t foldings) const {
     RunningMean difference;
-    for (std::size_t row = 0; row < rows_; ++row)
-      difference.add((static_cast<double>(right_[i][row]) - static_cast<double>(right_[0][row])) /
-                     static_cast<double>(foldings));
+    ScratchCursor<TimesRight> times_right(times_right_);
+    for (std::size_t row = 0; row < times_right_.size(); ++row) {
+      const TimesRight& times = times_right[row];
+      difference.add((static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings));
+    }
     return difference.interval();
   }
 
  private:
-  std::size_t rows_;
+  using TimesRight = std::array<std::uint32_t, 5>;  // by classifier
+
   std::vector<Outcome> outcomes_;
-  std::vector<std::vector<std::uint32_t>> right_;  // by classifier, then by row
+  ScratchArray<TimesRight> times_right_;  // by row
 };
 
 ResultTable outcomes_table(const Results& results, std::size_t foldings) {
@@ -242,13 +270,12 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
   const ResultTable table(std::move(columns));
   file.write(table.csv_header());
   std::mt19937_64 generator(options.seed);
-  const auto fold_of_row = folds_of(data, options.folds, generator);
+  const Folds folds = folds_of(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
-    const Fold taught = learned(data, fold_of_row, fold, options.learning);
-    for (const Contestant& contestant : taught.contestants)
-      classify_rows(taught.model, data, taught.rows, contestant, [&](std::size_t k, const auto& belief, bool) {
-        const std::size_t row = taught.rows[k];
-        std::vector<Cell> cells = {data.lines[row], fold + 1, data.classes[data.labels[row]], contestant.name,
+    TaughtFold taught_fold = taught(data, folds, fold, options.learning);
+    for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
+      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const auto& belief, bool) {
+        std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()], taught_fold.contestants[i].name,
                                    data.classes[decide(belief).pattern]};
         for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
         file.write(table.csv_line(cells));
@@ -258,14 +285,10 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
 
 /// Throws unless every class can be learned whichever fold is left out.
 void refuse_rare_classes(const DataTable& data) {
-  std::vector<std::size_t> rows(data.classes.size(), 0), line(data.classes.size(), 0);
-  for (std::size_t row = 0; row < data.labels.size(); ++row) {
-    ++rows[data.labels[row]];
-    line[data.labels[row]] = data.lines[row];
-  }
   std::vector<std::string> rare;
-  for (std::size_t c = 0; c < rows.size(); ++c)
-    if (rows[c] < 2) rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), line[c]));
+  for (std::size_t c = 0; c < data.classes.size(); ++c)
+    if (data.rows_of_class[c] < 2)
+      rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), data.last_line_of_class[c]));
   if (rare.empty()) return;
   throw InputError(message({.where = data.file,
                             .what = fmt::format("column {}", in_quotes(data.label)),
@@ -275,20 +298,23 @@ void refuse_rare_classes(const DataTable& data) {
 }
 
 Results evaluated(const DataTable& data, const EvaluateOptions& options) {
-  Results results(data.labels.size());
+  Results results(data.size());
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);
+  Right right;
+  for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const auto fold_of_row = folds_of(data, options.folds, generator);
+    const Folds folds = folds_of(data, options.folds, generator);
     for_each_run(
         options.folds, threads,
-        [&](std::size_t fold) { return classify_fold(data, fold_of_row, fold, options.learning); },
-        [&](std::size_t, const FoldResult& fold) {
+        [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
+        [&](std::size_t, std::vector<Outcome> fold) {
           progress.advance();
-          results.add(fold);
+          results.add(std::move(fold));
         },
         2 * static_cast<std::size_t>(threads));
+    results.add(right);
   }
   progress.finish();
   return results;
@@ -325,7 +351,7 @@ void print_evaluation(const DataTable& data, const Results& results, const Evalu
 void write_results(const DataTable& data, const Results& results, const EvaluateOptions& options, ResultFiles& files) {
   Json summary = summary_of(options.output);
   summary["file"] = data.file;
-  summary["rows"] = data.labels.size();
+  summary["rows"] = data.size();
   summary["classes"] = data.classes;
   summary["folds"] = options.folds;
   summary["foldings"] = options.foldings;
@@ -350,9 +376,7 @@ Report page_of(const DataTable& data, const Results& results, const EvaluateOpti
   if (data.classes.size() <= most_classes)
     for (const Outcome& outcome : results.outcomes())
       page.panels.emplace_back(confusion_map(outcome.name, data.classes, outcome.confusion(), options.foldings));
-  std::vector<std::size_t> all(data.labels.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  page.last = relation_maps(learn(data, all, options.learning), 6);
+  page.last = relation_maps(learn(data, options.learning), 6);
   return page;
 }
 
@@ -360,9 +384,9 @@ void run_evaluate(const EvaluateOptions& options) {
   ResultFiles files(options.output);
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);
-  if (options.folds > data.labels.size())
+  if (options.folds > data.size())
     throw InputError(message({.where = data.file,
-                              .found = fmt::format("{} rows", data.labels.size()),
+                              .found = fmt::format("{} rows", data.size()),
                               .expected = fmt::format("at least as many as the {} folds", options.folds)}));
   refuse_rare_classes(data);
   const Results results = evaluated(data, options);

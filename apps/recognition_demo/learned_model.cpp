@@ -2,23 +2,43 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
 
 #include <sigmax/recognition/dominance.hpp>
+#include <sigmax/recognition/equal_frequency_fit.hpp>
 
 namespace sigmax::apps {
 namespace {
 
-Discretization fitted(const DataColumn& column, std::span<const std::size_t> rows, const LearningOptions& options) {
-  std::vector<double> numbers;
-  for (const std::size_t row : rows)
-    if (!std::isnan(column.numbers[row])) numbers.push_back(column.numbers[row]);
-  const auto [least, greatest] = std::minmax_element(numbers.begin(), numbers.end());
-  if (numbers.empty() || *least == *greatest) return Discretization{{}};  // these rows cannot tell anything apart
-  return options.equal_width ? equal_width(numbers, options.bins) : equal_frequency(numbers, options.bins);
+/// The bins of every numeric column of some rows; several passes over long tables.
+std::vector<std::optional<Discretization>> fitted(const DataTable& data, const RowChoice& chosen,
+                                                  const LearningOptions& options) {
+  std::vector<std::size_t> numeric;
+  std::vector<EqualFrequencyFit> fits;
+  for (std::size_t i = 0; i < data.columns.size(); ++i)
+    if (data.columns[i].numeric) {
+      numeric.push_back(i);
+      fits.emplace_back(options.equal_width ? 1 : options.bins);  // for the ends alone, one bin will do
+    }
+  for (bool another_pass = !fits.empty(); another_pass;) {
+    data.for_each([&](const DataRow& row) {
+      if (!chosen(row)) return;
+      for (std::size_t k = 0; k < fits.size(); ++k) fits[k].see(row.number(numeric[k]));
+    });
+    another_pass = false;
+    for (auto& fit : fits) another_pass |= fit.wants_another_pass();
+  }
+  std::vector<std::optional<Discretization>> bins(data.columns.size());
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const bool wide = options.equal_width && fits[k].least() < fits[k].greatest();
+    bins[numeric[k]] =
+        wide ? equal_width(std::array{fits[k].least(), fits[k].greatest()}, options.bins) : fits[k].discretization();
+  }
+  return bins;
 }
 
 /// p(reading|feature): right with probability 1 − misread, else any other value.
@@ -65,33 +85,39 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
 
 }  // namespace
 
-LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, const LearningOptions& options) {
+LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
+  auto bins = fitted(data, chosen, options);
   std::vector<FeatureCode> codes;
   std::vector<RandomVariable> variables;
-  for (const auto& column : data.columns) {
-    FeatureCode code{column.name, column.values, std::nullopt};
-    if (column.numeric) code.bins = fitted(column, rows, options);
-    variables.emplace_back(column.name, code.labels());
-    codes.push_back(std::move(code));
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    codes.push_back({data.columns[i].name, data.columns[i].values, std::move(bins[i])});
+    variables.emplace_back(codes.back().name, codes.back().labels());
   }
   Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
   LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
   Readings readings;
-  for (const std::size_t row : rows) {
-    read(model, data, row, readings);
-    model.counts.observe(data.labels[row], readings);
-  }
+  data.for_each([&](const DataRow& row) {
+    if (!chosen(row)) return;
+    read(model, row, readings);
+    model.counts.observe(row.label(), readings);
+  });
   return model;
 }
 
-void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings) {
+LearnedModel learn(const DataTable& data, const LearningOptions& options) {
+  return learn(
+      data, [](const DataRow&) { return true; }, options);
+}
+
+void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   readings.clear();
-  for (std::size_t i = 0; i < data.columns.size(); ++i) {
-    const DataColumn& column = data.columns[i];
-    if (column.numeric)
-      readings.push_back(model.features[i].bins->bin(column.numbers[row]));
-    else
-      readings.push_back(column.codes[row] == missing_code ? missing : column.codes[row]);
+  for (std::size_t i = 0; i < model.features.size(); ++i) {
+    if (const auto& bins = model.features[i].bins) {
+      readings.push_back(bins->bin(row.number(i)));
+    } else {
+      const Code code = row.code(i);
+      readings.push_back(code == missing_code ? missing : code);
+    }
   }
 }
 
@@ -134,9 +160,8 @@ void print_warnings(const DataTable& data) {
 
 std::string described(const DataTable& data) {
   const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
-  return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.labels.size(),
-                     data.classes.size(), data.columns.size(), static_cast<long>(data.columns.size()) - numeric,
-                     numeric);
+  return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.size(), data.classes.size(),
+                     data.columns.size(), static_cast<long>(data.columns.size()) - numeric, numeric);
 }
 
 std::string described(const LearningOptions& options) {

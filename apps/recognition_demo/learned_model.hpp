@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,11 +45,15 @@ struct LearnedModel {
   LearningOptions options;
 };
 
-/// Fits bins and counts on some rows of the data.
-LearnedModel learn(const DataTable& data, std::span<const std::size_t> rows, const LearningOptions& options);
+/// Says whether a row is to be learned from; the same at every call.
+using RowChoice = std::function<bool(const DataRow&)>;
+
+/// Fits bins and counts on some rows of the data, or on all.
+LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options);
+LearnedModel learn(const DataTable& data, const LearningOptions& options);
 
 /// One row of the data as readings, into room that is used again.
-void read(const LearnedModel& model, const DataTable& data, std::size_t row, Readings& readings);
+void read(const LearnedModel& model, const DataRow& row, Readings& readings);
 
 /// The options of learning, and those of the data that are learned from.
 void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning);

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,9 +41,7 @@ ResultTable features_table(const LearnedModel& model) {
 void run_train(const TrainOptions& options) {
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);
-  std::vector<std::size_t> rows(data.labels.size());
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
-  LearnedModel model = learn(data, rows, options.learning);
+  LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
   const auto all = classifiers(model, options.kinds);
   write_model(model, options.kinds, options.model);

@@ -1,9 +1,5 @@
 // What `track` reads: radars, several sensors, geodetic tracks on two axes, dates, tracks side by side.
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/peak_memory.hpp"
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/geodesy.hpp"
@@ -483,23 +479,6 @@ TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
   EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), estimates(text, {"--track-id", "ship"}));
 }
 
-/// The most memory that a run of `track` had, in KiB.
-long peak_memory(const std::string& input) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::setenv("ASAN_OPTIONS", "quarantine_size_mb=1", 1);  // else a sanitizer keeps what is freed
-    ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
-    ::execl(SIGMAX_HIMM_DEMO, SIGMAX_HIMM_DEMO, "track", input.c_str(), "--set", "filters=[\"imm\"]", "--set",
-            "models=[\"dwna\"]", static_cast<char*>(nullptr));
-    ::_exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  ::wait4(child, &status, 0, &usage);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  return usage.ru_maxrss;
-}
-
 TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
   const TemporaryDirectory directory;
   const auto file_of = [&](const std::string& name, int count) {
@@ -508,10 +487,13 @@ TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
     for (int k = 0; k < count; ++k) file << k << ',' << 10 * k << ',' << k % 100 << ".123456\n";
     return (directory.path() / name).string();
   };
-  const long small = peak_memory(file_of("small.csv", 10'000));
+  const auto peak = [&](const std::string& file) {
+    return peak_memory(SIGMAX_HIMM_DEMO, {"track", file, "--set", "filters=[\"imm\"]", "--set", "models=[\"dwna\"]"});
+  };
+  const long small = peak(file_of("small.csv", 10'000));
   const std::string large = file_of("large.csv", 200'000);
   ASSERT_GT(std::filesystem::file_size(large), 4U << 20U);
-  EXPECT_LT(peak_memory(large) - small, 4096);  // KiB, less than the file; of them a sanitizer's allocator takes 3000
+  EXPECT_LT(peak(large) - small, 4096);  // KiB, less than the file; of them a sanitizer's allocator takes 3000
 }
 
 TEST(HimmDemoRecording, RecordedShipsAreTrackedOneByOneAndAllAtOnce) {

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <set>
 
+#include "apps/peak_memory.hpp"
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
@@ -422,6 +424,66 @@ TEST(RecognitionDemoLearning, AnExplanationShowsTheWinningValuesAndTheirProduct)
   EXPECT_NE(ending.output.find("fair = 0.6667"), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("0.693"), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("1.1"), std::string::npos) << ending.output;
+}
+
+/// A table of numbers with many digits, some with few, and words.
+std::filesystem::path long_table(const TemporaryDirectory& directory, std::size_t rows) {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal;
+  const auto path = directory.path() / std::to_string(rows);
+  std::ofstream file(path);
+  file << "kind,size,weight,colour\n" << std::setprecision(17);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t kind = engine() % 3;
+    file << classes[kind] << ',' << normal(engine) + static_cast<double>(kind) << ',' << engine() % 50 << ','
+         << "rgb"[engine() % (kind + 1)] << '\n';
+  }
+  return path;
+}
+
+TEST(RecognitionDemo, MemoryDoesNotGrowWithTheTable) {
+  const TemporaryDirectory directory;
+  const auto small = long_table(directory, 20'000), large = long_table(directory, 300'000);
+  const std::string model = (directory.path() / "model.json").native();
+  const auto growth = [&](std::vector<std::string> arguments) {
+    const auto peak = [&](const std::filesystem::path& table) {
+      arguments[1] = table.native();
+      return peak_memory(SIGMAX_RECOGNITION_DEMO, arguments);
+    };
+    const long before = peak(small);
+    return peak(large) - before;
+  };
+  // In KiB; the numbers of the large table alone are 4700 of them.
+  EXPECT_LT(growth({"train", "", "--label", "kind", "--quiet", "--model", model}), 2048);
+  EXPECT_LT(growth({"evaluate", "", "--label", "kind", "--quiet", "--foldings", "1", "--folds", "2", "--threads", "1"}),
+            6144);  // of them 3000 for the part of the rows that is shuffled
+}
+
+/// Of a table that is not held in memory: the cuts that a plain sort gives, and what lies between them.
+TEST(RecognitionDemo, LearnsFromALongTableWhatASortOfAllRowsGives) {
+  const TemporaryDirectory directory;
+  const auto table = long_table(directory, 60'000);
+  const auto path = directory.path() / "model.json";
+  const auto ending = recognition_demo({"train", table, "--label", "kind", "--model", path});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto model = nlohmann::json::parse(contents(path));
+  const auto rows = rows_of(table);
+  for (const std::size_t feature : {0U, 1U}) {
+    const std::string name = model["features"][feature]["name"];
+    std::vector<double> numbers;
+    for (const auto& row : rows) numbers.push_back(std::stod(row.at(name)));
+    std::sort(numbers.begin(), numbers.end());
+    Numbers cuts;
+    for (std::size_t j = 1; j < 8; ++j) cuts.push_back(numbers[j * numbers.size() / 8]);
+    ASSERT_EQ(model["features"][feature]["cuts"], nlohmann::json(cuts)) << name;
+    Matrix counts(classes.size(), Numbers(8, 0.0));
+    for (const auto& row : rows) {
+      const auto kind = std::find(classes.begin(), classes.end(), row.at("kind")) - classes.begin();
+      const auto bin = std::upper_bound(cuts.begin(), cuts.end(), std::stod(row.at(name))) - cuts.begin();
+      ++counts[static_cast<std::size_t>(kind)][static_cast<std::size_t>(bin)];
+    }
+    EXPECT_EQ(model["features"][feature]["counts"], nlohmann::json(counts)) << name;
+  }
 }
 
 }  // namespace

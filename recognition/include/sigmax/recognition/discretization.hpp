@@ -51,7 +51,8 @@ Discretization equal_width(std::span<const double> values, std::size_t bins);
 
 /// `bins` bins with equal numbers of values, as far as ties allow: of n values in ascending order each cut is number
 /// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. Equal cuts, and cuts at the
-/// least value, are dropped, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does.
+/// least value, are dropped, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does. For more values
+/// than memory should hold see equal_frequency_fit.hpp.
 Discretization equal_frequency(std::span<const double> values, std::size_t bins);
 
 }  // namespace sigmax

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace sigmax::apps {
+
+/// Bytes that are written once and read often, in memory that does not grow with them: the last MiB is held, what came
+/// before is in a temporary file without a name. Different threads may read, and overwrite different bytes, at a time.
+///
+/// The file is in $TMPDIR, else in /tmp; if it cannot be written, InputError says why.
+class Scratch {
+ public:
+  Scratch() = default;
+  Scratch(Scratch&& other) noexcept;
+  Scratch& operator=(Scratch&& other) noexcept;
+  ~Scratch();
+
+  std::uint64_t size() const { return in_file_ + held_.size(); }
+
+  void append(std::span<const std::byte> bytes);
+
+  /// Reads, or overwrites, what begins at some byte; all of it must be there.
+  void read(std::uint64_t first, std::span<std::byte> bytes) const;
+  void overwrite(std::uint64_t first, std::span<const std::byte> bytes);
+
+ private:
+  void open();
+  std::size_t in_file(std::uint64_t first, std::size_t count) const;
+
+  std::vector<std::byte> held_;
+  std::uint64_t in_file_ = 0;
+  int descriptor_ = -1;
+};
+
+/// Plain values in a Scratch.
+template <class T>
+  requires std::is_trivially_copyable_v<T>
+class ScratchArray {
+ public:
+  std::size_t size() const { return bytes_.size() / sizeof(T); }
+  void push_back(const T& value) { bytes_.append(std::as_bytes(std::span(&value, 1))); }
+  void read(std::size_t first, std::span<T> values) const {
+    bytes_.read(first * sizeof(T), std::as_writable_bytes(values));
+  }
+  void set(std::size_t index, const T& value) {
+    bytes_.overwrite(index * sizeof(T), std::as_bytes(std::span(&value, 1)));
+  }
+
+ private:
+  Scratch bytes_;
+};
+
+/// Reads an array, which must outlive it and stay as it is, block by block: cheap if the indices ascend.
+template <class T>
+class ScratchCursor {
+ public:
+  explicit ScratchCursor(const ScratchArray<T>& array) : array_(&array) {}
+
+  const T& operator[](std::size_t index) {
+    if (index < first_ || index >= first_ + block_.size()) {
+      constexpr std::size_t most = 4096;
+      block_.resize(std::min(most, array_->size() - index));
+      array_->read(index, block_);
+      first_ = index;
+    }
+    return block_[index - first_];
+  }
+
+ private:
+  const ScratchArray<T>* array_;
+  std::size_t first_ = 0;
+  std::vector<T> block_;
+};
+
+}  // namespace sigmax::apps
