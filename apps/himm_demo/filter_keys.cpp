@@ -30,7 +30,8 @@ const Names<MemberType> members = {
 const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
                                                   {"own", MixedCovariance::own},
                                                   {"own_recentred", MixedCovariance::own_recentred},
-                                                  {"released", MixedCovariance::released}};
+                                                  {"released", MixedCovariance::released},
+                                                  {"envelope", MixedCovariance::envelope}};
 const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
                                              {"released", MixingWeights::released}};
 const Names<Lift> lifts = {{"zero", Lift::zero},

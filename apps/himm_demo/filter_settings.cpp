@@ -51,6 +51,7 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"himm_own", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own; }},
     {"himm_own_recentred", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own_recentred; }},
     {"himm_released", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::released; }},
+    {"himm_envelope", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::envelope; }},
     {"himm_global", true, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
     {"himm_possibility", true, [](FilterSettings& own) { own.likelihood = LikelihoodForm::possibility; }},
     {"himm_histories", true, keep_histories, true},

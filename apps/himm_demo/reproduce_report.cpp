@@ -38,7 +38,9 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   for (const Preset preset : both_presets) note(counts(all, preset));
   fmt::print("\nEach reading of (57), as printed and then as released\n");
   by_reading(all).print(width);
-  note("((yes): only against the released IMM. ?: undecided.)");
+  note(
+      "((yes): only against the released IMM. ?: undecided. sel., rec., rel., env.: selected, own_recentred, released, "
+      "and envelope, which is (A-1) without (A-4).)");
   for (const Preset preset : both_presets) {
     fmt::print("\n{}: the figures that decide\n", preset_words(preset));
     deciding_figures(all, preset).print(width);

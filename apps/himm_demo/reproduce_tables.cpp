@@ -82,6 +82,13 @@ std::string subject_of(const Measured& measured) {
   return text;
 }
 
+/// What fits above a verdict in a table of 80 columns.
+std::string short_name(std::string_view reading) {
+  const auto last = reading.rfind('_');
+  const auto word = reading.substr(last == std::string_view::npos ? 0 : last + 1);
+  return word.size() <= 3 ? std::string(word) : std::string(word.substr(0, 3)) + ".";
+}
+
 }  // namespace
 
 Judgements judge(const std::vector<Condition>& conditions) {
@@ -117,9 +124,8 @@ ResultTable by_reading(const Judgements& all) {
   std::vector<ResultColumn> columns = {{.key = "sentence", .header = "no."}};
   for (const Preset preset : both_presets)
     for (const char* reading : himm_readings)
-      columns.push_back({.key = fmt::format("{}_{}", name_of(preset), reading),
-                         .header = std::string_view(reading) == "own_recentred" ? "recentred" : reading,
-                         .align = Align::left});
+      columns.push_back(
+          {.key = fmt::format("{}_{}", name_of(preset), reading), .header = short_name(reading), .align = Align::left});
   ResultTable table(columns);
   for (std::size_t s = 0; s < sentences().size(); ++s) {
     std::vector<Cell> cells = {Cell(std::to_string(s + 1))};

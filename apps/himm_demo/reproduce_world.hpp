@@ -18,8 +18,9 @@ struct ReproduceChoice {
   std::uint64_t seed = 1;
 };
 
-/// The readings of (57) by which there is a filter himm_….
-inline constexpr std::array<const char*, 4> himm_readings = {"selected", "own", "own_recentred", "released"};
+/// The readings of (57) by which there is a filter himm_…; `envelope` is without.
+inline constexpr std::array<const char*, 5> himm_readings = {"selected", "own", "own_recentred", "released",
+                                                             "envelope"};
 
 /// The reading that a preset takes for the paper's.
 std::string_view reading_of(Preset preset);

@@ -89,23 +89,10 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& wo
   return result;
 }
 
-const std::vector<std::string> all_filters = {"imm",
-                                              "imm_correct",
-                                              "imm_released",
-                                              "imm_most_likely",
-                                              "imm_as_printed",
-                                              "gpb1",
-                                              "gpb2",
-                                              "himm",
-                                              "himm_selected",
-                                              "himm_own",
-                                              "himm_own_recentred",
-                                              "himm_released",
-                                              "himm_global",
-                                              "himm_possibility",
-                                              "viterbi",
-                                              "static_random",
-                                              "static_fuzzy"};
+const std::vector<std::string> all_filters = {
+    "imm",           "imm_correct", "imm_released",     "imm_most_likely", "imm_as_printed",     "gpb1",
+    "gpb2",          "himm",        "himm_selected",    "himm_own",        "himm_own_recentred", "himm_released",
+    "himm_envelope", "himm_global", "himm_possibility", "viterbi",         "static_random",      "static_fuzzy"};
 
 TEST(HimmDemoSimulate, AllPrintsEveryFilterAsARowOfOneTable) {
   const TemporaryDirectory directory;

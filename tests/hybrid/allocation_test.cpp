@@ -95,6 +95,13 @@ TEST(Allocation, AHimmAllocatesNothing) {
   }
 }
 
+TEST(Allocation, AHimmByTheEnvelopeAllocatesNothingAfterTheFirstStepOfItsThread) {
+  using Himm = InteractingMultipleModel<VectorBank, Fuzzy>;
+  const Interaction<Fuzzy> interaction{Lift::borrowed_variance, {MixedCovariance::envelope}};
+  Himm{vector_bank, transition<Fuzzy>(), starts_of(vector_bank), interaction}.step(0.1);
+  nothing_is_allocated<Fuzzy>(vector_bank, interaction);
+}
+
 TEST(Allocation, ASecondOrderFilterAllocatesNothing) {
   for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
     nothing_is_allocated<Random>(vector_bank, {lift, {}, Tie::stay}, support::SecondOrder{});

@@ -149,6 +149,22 @@ inline restatement::Model restate(const Planar& model) {
   return model.size() == 4 ? restatement::dwna(2, sigma_w) : restatement::dwpa(2, sigma_w);
 }
 
+/// The envelope of some states; envelope_test.cpp holds it against plain sums.
+inline restatement::State enveloped(const std::vector<restatement::State>& states, const std::vector<double>& weights) {
+  const auto n = states.front().mean.size();
+  Envelope envelope;
+  envelope.clear(static_cast<Eigen::Index>(n));
+  const auto rows = [n](const auto& values, Eigen::Index columns) {
+    return Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(n), columns);
+  };
+  for (std::size_t l = 0; l < states.size(); ++l)
+    envelope.add(weights[l], rows(states[l].mean, 1), rows(states[l].covariance.values, static_cast<Eigen::Index>(n)));
+  Eigen::VectorXd mean(n);
+  Eigen::MatrixXd covariance(n, n);
+  envelope.match(mean, covariance);
+  return {entries(mean), dense(covariance)};
+}
+
 /// The enumerations are spelled alike and in one order.
 template <Uncertainty Kind>
 restatement::Options restate(const Interaction<Kind>& interaction) {
@@ -161,6 +177,7 @@ restatement::Options restate(const Interaction<Kind>& interaction) {
     options.kind = restatement::Kind::himm;
     options.mixed_covariance = static_cast<restatement::MixedCovariance>(interaction.collapse.mixed_covariance);
     options.mixing_tie = static_cast<restatement::Tie>(interaction.collapse.mixing_tie);
+    options.envelope = enveloped;
   } else {
     options.kind = restatement::Kind::imm;
     options.mixing_weights = static_cast<restatement::Weights>(interaction.collapse.mixing_weights);

@@ -48,6 +48,11 @@ TEST(InteractingMultipleModel, HimmWithTheReleasedCovarianceEqualsTheRestatement
     equals_the_restatement<Interacting, Fuzzy>({lift, {MixedCovariance::released}, Tie::stay});
 }
 
+TEST(InteractingMultipleModel, HimmByTheEnvelopeEqualsTheRestatementUnderEachLift) {
+  for (const Lift lift : lifts)
+    equals_the_restatement<Interacting, Fuzzy>({lift, {MixedCovariance::envelope}, Tie::stay}, 60);
+}
+
 TEST(InteractingMultipleModel, HimmEqualsTheRestatementUnderEachTieRule) {
   for (const Tie mixing : ties)
     for (const Tie output : ties)

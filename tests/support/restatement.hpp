@@ -216,9 +216,9 @@ inline See seen_by_matrix(const Vector& z) {
 }
 
 enum class Kind { imm, himm };
-enum class Weights { correct, released };                               // Which weights mix the covariance in (59).
-enum class MixedCovariance { selected, own, own_recentred, released };  // The readings of (57).
-enum class Lift { zero, borrowed_variance, unbiased };                  // What a model lacks when it is received.
+enum class Weights { correct, released };  // Which weights mix the covariance in (59).
+enum class MixedCovariance { selected, own, own_recentred, released, envelope };  // The readings of (57).
+enum class Lift { zero, borrowed_variance, unbiased };  // What a model lacks when it is received.
 enum class Tie { stay, first, last };
 
 struct Options {
@@ -231,6 +231,7 @@ struct Options {
   bool common_start = false;           // One mixture for all models, by the weights before the step: GPB1.
   bool possibilistic = false;          // exp(−d²/2) instead of the density.
   bool output_spread_omitted = false;  // (68) as printed.
+  std::function<State(const std::vector<State>&, const Vector&)> envelope = {};  // from states and weights.
 };
 
 /// The largest of some log weights; within the tolerance the rule decides, `current` first for `stay`.
@@ -335,13 +336,15 @@ class Filter {
 
   /// (64)–(66), or (67)–(68) with the spread of the means.
   State estimate() const {
-    if (options_.kind == Kind::himm) return in_union(winner_);
+    const bool envelope = options_.mixed_covariance == MixedCovariance::envelope;
+    if (options_.kind == Kind::himm && !envelope) return in_union(winner_);
     std::vector<State> lifted;
     std::vector<double> weights;
     for (Index l = 0; l < models_.size(); ++l) {
       lifted.push_back(in_union(l));
       weights.push_back(std::exp(log_weights_[l]));
     }
+    if (envelope) return options_.envelope(lifted, weights);
     State result = moments(lifted, weights, weights);
     if (options_.output_spread_omitted)
       for (Index l = 0; l < lifted.size(); ++l)
@@ -405,6 +408,15 @@ class Filter {
 
   /// (55)–(57).
   State selected(Index j, const Vector& move_in) const {
+    if (options_.mixed_covariance == MixedCovariance::envelope) {
+      std::vector<State> lifted;
+      Vector weights;
+      for (Index l = 0; l < models_.size(); ++l) {
+        lifted.push_back(received(l, j));
+        weights.push_back(std::exp(move_in[l]));
+      }
+      return options_.envelope(lifted, weights);
+    }
     const Index l = largest(move_in, options_.mixing_tie, options_.common_start ? winner_ : j);
     const State winner = received(l, j);
     const Matrix& own = states_[j].covariance;
@@ -417,6 +429,8 @@ class Filter {
         return {winner.mean, own + outer(difference(winner.mean, states_[j].mean))};
       case MixedCovariance::released:
         return {winner.mean, own + outer(difference(winner.mean, received(0, j).mean))};
+      case MixedCovariance::envelope:
+        break;
     }
     throw std::logic_error{"no such reading"};
   }

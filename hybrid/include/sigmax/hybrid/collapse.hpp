@@ -7,6 +7,7 @@
 
 #include <sigmax/core/tie.hpp>
 #include <sigmax/core/uncertainty.hpp>
+#include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/lift.hpp>
 
 namespace sigmax {
@@ -39,7 +40,8 @@ enum class MixedCovariance {
   selected,       ///< Σˡ, as derived in (A-5)
   own,            ///< Σʲ, as printed: after (56) the printed spread is zero
   own_recentred,  ///< Σʲ + (xˡ − xʲ)(xˡ − xʲ)ᵀ
-  released        ///< Σʲ + (xˡ − x¹)(xˡ − x¹)ᵀ: the authors' program, with the first model for every j
+  released,       ///< Σʲ + (xˡ − x¹)(xˡ − x¹)ᵀ: the authors' program, with the first model for every j
+  envelope  ///< none of them: mean and covariance of max_l π_l N(xˡ, Σˡ), (A-1), which (A-4) makes one part of
 };
 
 /// Weights of the covariance (59) of a mixed start.
@@ -48,7 +50,9 @@ enum class MixingWeights {
   released  ///< transposed, p(r_{k−1} = j | r_k = l), as in the authors' program: they do not sum to one
 };
 
-/// One Gaussian for a max-mixture is the one selected, (55)–(57), (64)–(66): max is selective.
+/// One Gaussian for a max-mixture is the one selected, (55)–(57), (64)–(66): max is selective. With
+/// `MixedCovariance::envelope` it has the moments of the maximum itself, in the mixed starts, (A-1), and in the output,
+/// its memory is the thread's, allocated once.
 struct Selection {
   MixedCovariance mixed_covariance = MixedCovariance::own_recentred;
   Tie mixing_tie = Tie::stay;
@@ -98,7 +102,12 @@ void match_moments(const Mixture& mixture, const Weight& weight, const Covarianc
 /// `mixture.visit(l, visit)` for one; a part has mean() and add_covariance(weight, covariance). `weight(l)` is the
 /// part's weight, `winner` the one selected by it. `result` has its size already.
 template <class Mixture, class Weight, int N, int MaxN>
-void collapse(const Selection&, const Mixture& mixture, const Weight&, std::size_t winner, Gaussian<N, MaxN>& result) {
+void collapse(const Selection& rule, const Mixture& mixture, const Weight& weight, std::size_t winner,
+              Gaussian<N, MaxN>& result) {
+  if (rule.mixed_covariance == MixedCovariance::envelope) {
+    match_envelope(mixture, weight, result);
+    return;
+  }
   result.covariance.setZero();
   mixture.visit(winner, [&](const auto& part) {
     result.mean = part.mean();
@@ -120,6 +129,10 @@ void collapse(const MomentMatching& rule, const Mixture& mixture, const Weight& 
 template <class Mixture, class Weight, class Transposed, int N, int MaxN>
 void mix(const Selection& rule, const Mixture& mixture, const Weight& weight, const Transposed&, std::size_t modes,
          std::size_t favoured, const Gaussian<N, MaxN>& own, Gaussian<N, MaxN>& result) {
+  if (rule.mixed_covariance == MixedCovariance::envelope) {
+    match_envelope(mixture, weight, result);
+    return;
+  }
   const std::size_t l = select(
       modes, [&](std::size_t i) { return std::log(weight(i)); }, favoured, rule.mixing_tie);
   collapse(rule, mixture, weight, l, result);

@@ -99,6 +99,7 @@ class Shortcut {
       if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
         plan_.mixing_tie = interaction.collapse.mixing_tie;
         plan_.mixed_covariance = interaction.collapse.mixed_covariance;
+        if (plan_.mixed_covariance == MixedCovariance::envelope) return;
         steps_ = steps_ && plan_.mixed_covariance != MixedCovariance::released;
       } else {
         steps_ = steps_ && interaction.collapse.mixing_weights == MixingWeights::correct;

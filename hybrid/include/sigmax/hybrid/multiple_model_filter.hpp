@@ -112,6 +112,15 @@ class MultipleModelFilter {
   Estimate most_likely_estimate() const { return most_likely_estimate(state()); }
   Estimate most_likely_estimate(const State& state) const { return output(Selection{}, state); }
 
+  /// β of, ∫ max_j π_j N(x; xʲ, Σʲ) dx, in [1, Σ π]: near 1 the modes' estimates agree or all but one are hardly
+  /// possible, near Σ π they exclude each other.
+  double beta() const requires SelectiveAlgebra<AlgebraOf<Kind>> {
+    Estimate result = output_receiver(state());
+    const Estimate receiver = result;
+    return match_envelope(
+        mixture(receiver, components_.of_all(), estimates()), [this](std::size_t j) { return belief()[j]; }, result);
+  }
+
   /// Whether the last step had a measurement, and took it.
   bool measured() const { return measured_; }
 

@@ -1,0 +1,184 @@
+#include <sigmax/hybrid/envelope.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+
+#include "hybrid/banks.hpp"
+#include "support/matrices.hpp"
+
+namespace sigmax {
+namespace {
+
+using namespace support;
+
+struct Moments {
+  double beta;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+struct Weighted {
+  double weight;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+Moments matched(const std::vector<Weighted>& parts) {
+  const auto n = parts.front().mean.size();
+  Envelope envelope;
+  envelope.clear(n);
+  for (const auto& part : parts) envelope.add(part.weight, part.mean, part.covariance);
+  Moments result{0.0, Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
+  result.beta = envelope.match(result.mean, result.covariance);
+  return result;
+}
+
+Weighted scalar(double weight, double mean, double variance) {
+  return {weight, Eigen::VectorXd::Constant(1, mean), Eigen::MatrixXd::Constant(1, 1, variance)};
+}
+Weighted planar(double weight, double x, double y, double xx, double xy, double yy) {
+  return {weight, Eigen::Vector2d{x, y}, Eigen::Matrix2d{{xx, xy}, {xy, yy}}};
+}
+
+/// The density times the weight, by its formula.
+double height(const Weighted& part, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd d = x - part.mean;
+  const double n = static_cast<double>(x.size());
+  return part.weight * std::exp(-0.5 * d.dot(part.covariance.inverse() * d)) /
+         std::sqrt(std::pow(2.0 * std::numbers::pi, n) * part.covariance.determinant());
+}
+
+/// The same moments by adding up the greatest height over a fine grid.
+Moments added_up(const std::vector<Weighted>& parts, double half_width, int cells) {
+  const auto n = parts.front().mean.size();
+  Moments result{0.0, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+  const double width = 2.0 * half_width / cells;
+  Eigen::VectorXd x(n);
+  for (int i = 0; i < cells; ++i)
+    for (int k = 0; k < (n == 1 ? 1 : cells); ++k) {
+      x(0) = -half_width + width * (i + 0.5);
+      if (n == 2) x(1) = -half_width + width * (k + 0.5);
+      double greatest = 0.0;
+      for (const auto& part : parts) greatest = std::max(greatest, height(part, x));
+      const double mass = greatest * std::pow(width, static_cast<double>(n));
+      result.beta += mass;
+      result.mean += mass * x;
+      result.covariance += mass * x * x.transpose();
+    }
+  result.mean /= result.beta;
+  result.covariance /= result.beta;
+  result.covariance -= result.mean * result.mean.transpose();
+  return result;
+}
+
+void expect_near(const Moments& found, const Moments& expected, double tolerance) {
+  EXPECT_NEAR(found.beta, expected.beta, tolerance * expected.beta);
+  const Eigen::VectorXd sigma = expected.covariance.diagonal().cwiseSqrt();
+  EXPECT_LT(((found.mean - expected.mean).cwiseQuotient(sigma)).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT(((found.covariance - expected.covariance).cwiseQuotient(sigma * sigma.transpose())).cwiseAbs().maxCoeff(),
+            2.0 * tolerance);
+}
+
+TEST(Envelope, IsTheMaximumAddedUpOverAGridOnALine) {
+  for (const auto& parts : {std::vector{scalar(1.0, -0.3, 0.6), scalar(0.5, 0.4, 2.0)},
+                            std::vector{scalar(0.2, -1.0, 1.0), scalar(1.0, 1.0, 1.0), scalar(0.7, 4.0, 0.2)},
+                            std::vector{scalar(1.0, 0.0, 1.0), scalar(0.9, 0.0, 9.0)}})
+    expect_near(matched(parts), added_up(parts, 20.0, 40000), 0.01);
+}
+
+TEST(Envelope, IsTheMaximumAddedUpOverAGridInThePlane) {
+  for (const auto& parts : {std::vector{planar(1.0, 0.0, 0.5, 1.0, 0.3, 2.0), planar(0.5, 1.0, -0.5, 2.0, -0.7, 1.0)},
+                            std::vector{planar(0.3, -1.0, 0.0, 0.5, 0.0, 0.5), planar(1.0, 1.5, 1.0, 1.0, 0.9, 1.0)}})
+    expect_near(matched(parts), added_up(parts, 12.0, 800), 0.01);
+}
+
+TEST(Envelope, OfOnePartIsThePart) {
+  const auto part = planar(0.4, 3.0, -1.0, 2.0, 0.5, 1.0);
+  expect_near(matched({part}), {0.4, part.mean, part.covariance}, 1e-12);
+}
+
+TEST(Envelope, OfEqualPartsIsTheGreatest) {
+  auto part = planar(1.0, 3.0, -1.0, 2.0, 0.5, 1.0), less = part, none = part;
+  less.weight = 0.3;
+  none.weight = 0.0;
+  expect_near(matched({less, part, none}), {1.0, part.mean, part.covariance}, 1e-12);
+}
+
+TEST(Envelope, OfPartsThatExcludeEachOtherIsTheirSum) {
+  const auto found = matched({scalar(1.0, 0.0, 1.0), scalar(0.5, 300.0, 4.0)});
+  EXPECT_NEAR(found.beta, 1.5, 1e-12);
+  EXPECT_NEAR(found.mean(0), 100.0, 1e-10);
+  EXPECT_NEAR(found.covariance(0, 0), (1.0 + 0.5 * 4.0) / 1.5 + (1e4 + 0.5 * 4e4) / 1.5, 1e-8);
+}
+
+TEST(Envelope, APartWithoutAVarianceCountsBesideOthersInFull) {
+  const auto flat = planar(1.0, 1.0, 0.0, 2.0, 0.0, 0.0);
+  const auto wide = planar(0.5, 1.0, 3.0, 2.0, 0.1, 1.0);
+  const auto found = matched({flat, wide});
+  EXPECT_NEAR(found.beta, 1.5, 1e-12);
+  EXPECT_NEAR(found.mean(1), 1.0, 1e-12);
+  EXPECT_NEAR(found.covariance(1, 1), 0.5 / 1.5 + (1.0 + 0.5 * 4.0) / 1.5, 1e-12);
+  auto again = flat;  // on the same line the parts compare
+  again.weight = 0.5;
+  EXPECT_NEAR(matched({flat, again}).beta, 1.0, 1e-12);
+  again.mean(1) = 2.0;  // on another they do not
+  EXPECT_NEAR(matched({flat, again}).beta, 1.5, 1e-12);
+}
+
+TEST(Envelope, DoesNotDependOnUnits) {
+  const std::vector parts = {planar(1.0, 0.0, 0.5, 1.0, 0.3, 2.0), planar(0.5, 1.0, -0.5, 2.0, -0.7, 1.0)};
+  const Eigen::Vector2d unit{1e-9, 1e6};
+  auto scaled = parts;
+  for (auto& part : scaled) {
+    part.mean = part.mean.cwiseProduct(unit);
+    part.covariance = unit.asDiagonal() * part.covariance * unit.asDiagonal();
+  }
+  const auto plain = matched(parts);
+  expect_near(matched(scaled),
+              {plain.beta, plain.mean.cwiseProduct(unit), unit.asDiagonal() * plain.covariance * unit.asDiagonal()},
+              1e-9);
+}
+
+TEST(Envelope, RefusesWhatItCannotMeasure) {
+  Envelope envelope;
+  EXPECT_THROW(envelope.clear(0), std::invalid_argument);
+  EXPECT_THROW(envelope.clear(33), std::invalid_argument);
+  envelope.clear(2);
+  Eigen::VectorXd mean(2);
+  Eigen::MatrixXd covariance(2, 2);
+  EXPECT_THROW(envelope.match(mean, covariance), std::logic_error);
+  const auto bad = planar(1.0, 0.0, 0.0, 1.0, 2.0, 1.0);
+  EXPECT_THROW(envelope.add(bad.weight, bad.mean, bad.covariance), std::domain_error);
+}
+
+TEST(Envelope, OfTheModesIsTheOutputOfAFilterAndGivesItsBeta) {
+  const auto all = starts();
+  InteractingMultipleModel filter{VectorBank{calm(), calm(4.0), turning()},
+                                  fuzzy_transition,
+                                  all,
+                                  {Lift::borrowed_variance, {MixedCovariance::envelope}}};
+  for (const auto& scan : manoeuvring_target(100)) step(filter, scan);
+  const auto output = filter.estimate();
+  std::vector<Weighted> parts;
+  for (std::size_t j = 0; j < 3; ++j) {
+    Weighted part{filter.belief()[j], Eigen::VectorXd::Zero(6), Eigen::MatrixXd::Zero(6, 6)};
+    const auto& own = filter.estimates()[j];
+    part.mean.head(own.mean.size()) = own.mean;
+    part.covariance.topLeftCorner(own.mean.size(), own.mean.size()) = own.covariance;
+    if (j < 2)
+      for (Eigen::Index i = 4; i < 6; ++i) part.covariance(i, i) = filter.estimates()[2].covariance(i, i);
+    parts.push_back(part);
+  }
+  const auto expected = matched(parts);
+  expect_near({filter.beta(), output.mean, output.covariance}, expected, 1e-9);
+  EXPECT_GT(expected.beta, 1.0);
+}
+
+}  // namespace
+}  // namespace sigmax
