@@ -20,7 +20,7 @@
 
 #include "support/near.hpp"
 
-/// Every line of code in docs/recognition.md, in its order, and the values that it claims.
+/// Every line of code in docs/recognition.md and docs/learning.md, in its order, and the values that it claims.
 namespace sigmax {
 namespace {
 
