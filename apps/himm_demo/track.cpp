@@ -16,6 +16,7 @@
 #include "himm_demo/track_run.hpp"
 #include "support/braille.hpp"
 #include "support/result_files.hpp"
+#include "support/run.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
@@ -86,7 +87,7 @@ void track_and_report(const TrackOptions& options) {
   if (charts) print_charts(options.output, tracks->charts_of_the_first());
   files.commit();
   if (!found.warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
-  for (const auto& warning : found.warnings) fmt::print(stderr, "himm_demo: warning: {}\n", warning);
+  for (const auto& warning : found.warnings) complain("himm_demo: warning: " + warning);
 }
 
 }  // namespace

@@ -385,9 +385,11 @@ void run_classify(const ClassifyOptions& options) {
 
   print_text(options.output, fmt::format("{}: {} rows, by {}\n\n", reader.file(), result.rows, options.model));
   if (rows.unseen_cells() > 0)
-    print_text(options.output, fmt::format("{} cells count as missing, since the model does not know them; the first: "
-                                           "{}\n\n",
-                                           rows.unseen_cells(), rows.first_unseen()));
+    print_text(
+        options.output,
+        fmt::format("{} as missing, since the model does not know {}: {}\n\n",
+                    rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
+                    rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen()));
   if (!result.shown.empty()) {
     shown_table(model.label, rows.has_truth(), all, result.shown).print(options.output.width());
     fmt::print("\n");

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 
 #include <sigmax/recognition/dominance.hpp>
 #include <sigmax/recognition/equal_frequency_fit.hpp>
+
+#include "support/run.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -154,14 +155,14 @@ void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningO
 }
 
 void print_warnings(const DataTable& data) {
-  for (const auto& warning : data.warnings)
-    std::fputs(fmt::format("recognition_demo: warning: {}\n", warning).c_str(), stderr);
+  for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
 }
 
 std::string described(const DataTable& data) {
+  const auto features = data.columns.size();
   const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
-  return fmt::format("{} rows, {} classes, {} features ({} categorical, {} numeric)", data.size(), data.classes.size(),
-                     data.columns.size(), static_cast<long>(data.columns.size()) - numeric, numeric);
+  return fmt::format("{} rows, {} classes, {} {} ({} categorical, {} numeric)", data.size(), data.classes.size(),
+                     features, features == 1 ? "feature" : "features", static_cast<long>(features) - numeric, numeric);
 }
 
 std::string described(const LearningOptions& options) {

@@ -171,7 +171,7 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
       std::ostringstream out, complaint;
       code = app.exit(error, out, complaint) == 0 ? 0 : exit_usage;
       std::fputs(out.str().c_str(), stdout);
-      std::fputs(complaint.str().c_str(), stderr);
+      if (!complaint.str().empty()) complain(complaint.str());
     }
   });
   return ended != 0 ? ended : code;

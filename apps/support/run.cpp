@@ -14,6 +14,7 @@
 
 #include "support/error.hpp"
 #include "support/output.hpp"
+#include "support/table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -62,12 +63,12 @@ void flush_output() {
                             .remedy = "make room there, or choose another place"}));
 }
 
-int complain(const char* name, const char* text, int code) {
-  std::fputs(fmt::format("{}: {}\n", name, text).c_str(), stderr);  // fmt::print would throw without a stderr
-  return code;
-}
-
 }  // namespace
+
+void complain(std::string_view text) {
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  std::fputs(wrapped(text, terminal ? terminal_width : any_width).c_str(), stderr);  // print would throw without one
+}
 
 int run_program(const char* name, const std::function<void()>& work) {
   try {
@@ -75,9 +76,11 @@ int run_program(const char* name, const std::function<void()>& work) {
     work();
     flush_output();
   } catch (const UsageError& error) {
-    return complain(name, error.what(), exit_usage);
+    complain(fmt::format("{}: {}", name, error.what()));
+    return exit_usage;
   } catch (const std::exception& error) {
-    return complain(name, error.what(), exit_input);
+    complain(fmt::format("{}: {}", name, error.what()));
+    return exit_input;
   }
   return 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 namespace sigmax::apps {
 
@@ -11,5 +12,8 @@ namespace sigmax::apps {
 /// removes its unfinished files; signals that are ignored stay so. What a limit on file sizes refuses is a failed
 /// write.
 int run_program(const char* name, const std::function<void()>& work);
+
+/// Prints a line to standard error, broken to the width of the tables if that is a terminal.
+void complain(std::string_view text);
 
 }  // namespace sigmax::apps

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -53,6 +54,34 @@ TEST(RunProgram, TellsTheKindOfAFailureByItsExitCode) {
   const Ending other = run_in_child(directory, [] { throw std::domain_error("lost"); });
   EXPECT_EQ(other.code, 3);
   EXPECT_EQ(other.complaint, "demo: lost\n");
+}
+
+/// What a child prints to a terminal that is its standard error.
+std::string on_a_terminal(const std::function<void()>& work) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(::open(::ptsname(terminal), O_WRONLY | O_NOCTTY), STDERR_FILENO);
+    ::_exit(run_program("demo", work));
+  }
+  ::waitpid(child, nullptr, 0);
+  std::string text(4096, '\0');
+  const auto size = ::read(terminal, text.data(), text.size());
+  ::close(terminal);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  return text;
+}
+
+TEST(RunProgram, BreaksLongComplaintsOnATerminalOnly) {
+  const TemporaryDirectory directory;
+  const std::string word(30, 'x');
+  const auto work = [&] { throw InputError(word + " " + word + " " + word); };
+  EXPECT_EQ(run_in_child(directory, work).complaint, "demo: " + word + " " + word + " " + word + "\n");
+  const std::string text = on_a_terminal(work);
+  if (text.empty()) GTEST_SKIP() << "there is no terminal to be had here";
+  EXPECT_EQ(text, "demo: " + word + " " + word + "\r\n" + word + "\r\n");
+  EXPECT_EQ(on_a_terminal([] { throw InputError("short"); }), "demo: short\r\n");
 }
 
 TEST(RunProgram, OutputThatIsLostIsAFailure) {
