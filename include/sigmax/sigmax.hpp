@@ -2,38 +2,7 @@
 
 /// Everything of sigmax.
 
-#include <sigmax/core/algebra.hpp>
-#include <sigmax/core/banded_rows.hpp>
-#include <sigmax/core/belief.hpp>
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/distribution.hpp>
-#include <sigmax/core/hybrid_distribution.hpp>
-#include <sigmax/core/induced.hpp>
-#include <sigmax/core/likelihood.hpp>
-#include <sigmax/core/mean_interval.hpp>
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/network.hpp>
-#include <sigmax/core/network/bif.hpp>
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/evidence.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/graphviz.hpp>
-#include <sigmax/core/network/measure.hpp>
-#include <sigmax/core/network/query.hpp>
-#include <sigmax/core/network/transform.hpp>
-#include <sigmax/core/network/variable.hpp>
-#include <sigmax/core/relation.hpp>
-#include <sigmax/core/route.hpp>
-#include <sigmax/core/rows.hpp>
-#include <sigmax/core/scaled_number.hpp>
-#include <sigmax/core/sparse_rows.hpp>
-#include <sigmax/core/tie.hpp>
-#include <sigmax/core/transform.hpp>
-#include <sigmax/core/uncertainty.hpp>
-#include <sigmax/core/update.hpp>
-#include <sigmax/core/variable.hpp>
-#include <sigmax/core/witness.hpp>
+#include <sigmax/core.hpp>
 #include <sigmax/estimation/any_member.hpp>
 #include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/any_sensor.hpp>

@@ -73,6 +73,15 @@ TEST(GaussianPossibility, OfASingularCovarianceOfAnyRankKnowsItsSupport) {
   knows_its_support<6>();
 }
 
+/// What counts as rounding is small: a variance of 1e-12 of the greatest one is none, and off a support is off it.
+TEST(GaussianPossibility, TakesOnlyRoundingForNothing) {
+  const GaussianPossibility<2> thin{{Vector<2>::Zero(), SquareMatrix<2>{{4.0, 0.0}, {0.0, 1e-13}}}};
+  EXPECT_NEAR(thin.log({0.0, std::sqrt(1e-13)}), -0.5, 1e-9);
+  const GaussianPossibility<2> flat{{Vector<2>::Zero(), SquareMatrix<2>{{4.0, 0.0}, {0.0, 0.0}}}};
+  EXPECT_EQ(flat.log({1.0, 1e-8}), -0.125);
+  EXPECT_EQ(flat.log({1.0, 1e-6}), log_zero);
+}
+
 /// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
 TEST(GaussianPossibility, IsTheDensityOnTheRatioScale) {
   holds([] {

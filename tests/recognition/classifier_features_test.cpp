@@ -237,6 +237,22 @@ TEST(Classifier, TakesAListOfReadings) {
   EXPECT_THROW(two.observe({1}), std::invalid_argument);
 }
 
+TEST(Classifier, TakesAListOfFindings) {
+  const RandomVariable pattern{"pattern", 2}, feature{"feature", 2};
+  const Relation relation{feature, pattern, {{0.75, 0.25}, {0.25, 0.75}}};
+  const Likelihood graded{feature, {0.5, 1.0}};
+  Classifier plain{uninformative(pattern), relation}, listed = plain, twice = plain;
+  plain.observe(graded);
+  listed.observe({graded});
+  twice.observe({{graded}});
+  EXPECT_EQ(listed.belief(), plain.belief());
+  EXPECT_EQ(twice.belief(), plain.belief());
+  Classifier two{uninformative(pattern), std::vector{relation, relation}};
+  two.observe({graded, std::size_t{1}});
+  plain.observe({1});
+  EXPECT_PRED_FORMAT3(near, two.belief().values(), plain.belief().values(), 1e-15);
+}
+
 /// A pattern that no feature reaches had an uninformative row, and under maxima was fully possible for ever.
 TYPED_TEST(ClassifierWithFeatures, APatternThatNoFeatureReachesIsImpossible) {
   using Kind = TypeParam;

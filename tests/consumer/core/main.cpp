@@ -1,7 +1,6 @@
 #include <iostream>
 
-#include <sigmax/core/network.hpp>
-#include <sigmax/core/update.hpp>
+#include <sigmax/core.hpp>
 
 int main() {
   const sigmax::FuzzyVariable age{"age", {"young", "middle", "old"}}, mood{"mood", {"calm", "wild"}};

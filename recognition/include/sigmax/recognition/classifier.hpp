@@ -71,6 +71,7 @@ class Classifier {
 
   /// The same of a report that may be graded.
   void observe(const Report<Feature>& report) { observe_likelihood(likelihood(report)); }
+  void observe(std::initializer_list<Finding<Feature>> report) { observe(Report<Feature>(report)); }
 
   /// The same of a graded report about the only feature. Throws std::invalid_argument if there are several.
   void observe(const Likelihood<Feature>& report) { observe_likelihood(compose(report, only_feature().relation())); }
