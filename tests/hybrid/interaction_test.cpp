@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+
 namespace sigmax {
 namespace {
 
@@ -18,6 +23,22 @@ TEST(Interaction, ByDefaultIsThatOfTheReadings) {
   EXPECT_EQ(random.output_tie, Tie::stay);
   EXPECT_EQ(random.mixed_start, MixedStart::of_each_mode);
   EXPECT_EQ(fuzzy.likelihood, LikelihoodForm::density);
+}
+
+/// What docs/multiple_models.md says of the first step of GPB1.
+TEST(Interaction, ACommonStartIsCollapsedBeforeTheFirstStepToo) {
+  const RandomVariable mode{"mode", 2};
+  const Relation<Random, Random> transition = {mode, mode, {{0.9, 0.1}, {0.1, 0.9}}};
+  const Gaussian<3> start{Vector<3>::Zero(), Vector<3>{1.0, 4.0, 100.0}.asDiagonal()};
+  const auto variance_after_no_time = [&](Lift lift, MixedStart mixed_start) {
+    InteractingMultipleModel filter{std::tuple{dwna<1>(1e-6), dwpa<1>(1e-6)}, transition, start,
+                                    Interaction<Random>{.lift = lift, .mixed_start = mixed_start}};
+    filter.step(0.0);
+    return std::get<1>(filter.estimates()).covariance(2, 2);
+  };
+  EXPECT_NEAR(variance_after_no_time(Lift::zero, MixedStart::common), 50.0, 1e-9);
+  EXPECT_NEAR(variance_after_no_time(Lift::borrowed_variance, MixedStart::common), 100.0, 1e-9);
+  EXPECT_NEAR(variance_after_no_time(Lift::zero, MixedStart::of_each_mode), 90.0, 1e-9);
 }
 
 }  // namespace
