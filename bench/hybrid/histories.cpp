@@ -3,8 +3,9 @@
 ///     sigmax_histories --scenario 1 --group 1 --runs 2000 --seed 1001 \
 ///         imm:p=.02,q=.05,s=3,w=1 himm_histories:p=.008,q=.03,s=3,w=1
 ///
-/// A filter is a scheme (imm, himm, himm_histories, imm_histories) with settings; several values with / between them
-/// are a filter each, so that a grid is one word. p, q: the transition out of and into constant velocity; s, w: σ_w of
+/// A filter is a scheme (imm, himm, himm_histories, imm_histories; imm_scales: an IMM with a manoeuvre mode for each
+/// entry scale; told: a filter that is told the modes) with settings; several values with / between them are a filter
+/// each, so that a grid is one word. p, q: the transition out of and into constant velocity; s, w: σ_w of
 /// both models; e: entry scales with + between them (of imm and himm: none is the borrowed variance), v: their share
 /// along z; b: histories; l: minus the least log weight; c: cut; t: tempering.
 
@@ -108,6 +109,137 @@ struct RunnerOf final : Runner {
   Filter filter;
 };
 
+std::vector<double> scales_of(const Spec& spec, std::vector<double> by_default) {
+  const auto scales = spec.settings.find("e");
+  if (scales == spec.settings.end()) return by_default;
+  by_default.clear();
+  for (const auto& scale : split(scales->second, '+')) by_default.push_back(std::stod(scale));
+  return by_default;
+}
+
+/// The two models by hand, for what no filter of the library is: entered with an acceleration of a scale, left without.
+struct Pair {
+  explicit Pair(const Spec& spec)
+      : calm(dwna<3>(spec.number("s", 3.0))),
+        turning(dwpa<3>(spec.number("w", spec.number("s", 3.0)))),
+        vertical(spec.number("v", EntryPrior{}.vertical)) {}
+
+  Gaussian<9> entered(const Gaussian<6>& from, double scale) const {
+    Gaussian<9> result{Vector<9>::Zero(), SquareMatrix<9>::Zero()};
+    result.mean.head<6>() = from.mean;
+    result.covariance.topLeftCorner<6, 6>() = from.covariance;
+    for (const Eigen::Index i : {6, 7, 8}) {
+      const double sigma = i == 8 ? vertical * scale : scale;
+      result.covariance(i, i) = sigma * sigma;
+    }
+    return result;
+  }
+  static Gaussian<6> left(const Gaussian<9>& from) {
+    return {from.mean.head<6>(), from.covariance.topLeftCorner<6, 6>()};
+  }
+
+  IndependentAxes<3, DiscreteWhiteNoise<2>> calm;
+  IndependentAxes<3, DiscreteWhiteNoise<3>> turning;
+  double vertical;
+};
+
+template <int N>
+Gaussian<3> position_of(const Gaussian<N>& estimate) {
+  return {estimate.mean.template head<3>(), estimate.covariance.template topLeftCorner<3, 3>()};
+}
+
+/// One Kalman filter that changes its model when the target does.
+struct Told final : Runner {
+  Told(const Spec& spec, const Scenario& scenario)
+      : pair(spec),
+        scale(scales_of(spec, {25.0}).front()),
+        first(scenario.first_accelerated),
+        last(scenario.last_accelerated) {}
+  void restart(const Bank<Models>::Estimates& start) override {
+    straight = std::get<0>(start);
+    sample = 3;
+  }
+  Gaussian<3> step(double dt, const Gaussian<3>& z) override {
+    const bool turned = turns;
+    turns = sample >= first && sample <= last;
+    ++sample;
+    if (turns) {
+      if (!turned) curved = pair.entered(straight, scale);
+      curved = update(pair.turning, predict(pair.turning, curved, dt), z);
+      return position_of(curved);
+    }
+    if (turned) straight = Pair::left(curved);
+    straight = update(pair.calm, predict(pair.calm, straight, dt), z);
+    return position_of(straight);
+  }
+
+  Pair pair;
+  double scale;
+  int first, last, sample = 3;
+  bool turns = false;
+  Gaussian<6> straight;
+  Gaussian<9> curved;
+};
+
+/// An IMM with a mode for constant velocity and one for each scale that an acceleration may have when it begins; p is
+/// shared among them, and one goes over into another by way of constant velocity only.
+struct ImmOfScales final : Runner {
+  explicit ImmOfScales(const Spec& spec)
+      : pair(spec), scales(scales_of(spec, {11.0, 20.0, 40.0})), p(spec.number("p", 0.05)), q(spec.number("q", p)) {}
+  void restart(const Bank<Models>::Estimates& start) override {
+    straight = std::get<0>(start);
+    curved.assign(scales.size(), std::get<1>(start));
+    weights.assign(scales.size() + 1, 1.0 / static_cast<double>(scales.size() + 1));
+  }
+  Gaussian<3> step(double dt, const Gaussian<3>& z) override {
+    const std::size_t n = scales.size();
+    std::vector<double> next(n + 1);
+    next[0] = (1.0 - p) * weights[0];
+    for (std::size_t j = 1; j <= n; ++j) next[0] += q * weights[j];
+    std::vector<Gaussian<9>> mixed(n);
+    Gaussian<6> calm;
+    std::vector<std::pair<double, Gaussian<6>>> parts{{(1.0 - p) * weights[0] / next[0], straight}};
+    for (std::size_t j = 0; j < n; ++j) parts.emplace_back(q * weights[j + 1] / next[0], Pair::left(curved[j]));
+    calm = moments(parts);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double in = p / static_cast<double>(n) * weights[0], stays = (1.0 - q) * weights[j + 1];
+      next[j + 1] = in + stays;
+      mixed[j] = moments<9>({{in / next[j + 1], pair.entered(straight, scales[j])}, {stays / next[j + 1], curved[j]}});
+    }
+    std::vector<double> logs(n + 1);
+    const auto take = [&](const auto& model, const auto& from, std::size_t mode) {
+      auto result = predict(model, from, dt);
+      logs[mode] = std::log(next[mode]) + update(model, result, z, result).log_likelihood;
+      return result;
+    };
+    straight = take(pair.calm, calm, 0);
+    for (std::size_t j = 0; j < n; ++j) curved[j] = take(pair.turning, mixed[j], j + 1);
+    const double greatest = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0;
+    for (const double log : logs) sum += std::exp(log - greatest);
+    for (std::size_t j = 0; j <= n; ++j) weights[j] = std::exp(logs[j] - greatest) / sum;
+    std::vector<std::pair<double, Gaussian<3>>> output{{weights[0], position_of(straight)}};
+    for (std::size_t j = 0; j < n; ++j) output.emplace_back(weights[j + 1], position_of(curved[j]));
+    return moments(output);
+  }
+  template <int N>
+  static Gaussian<N> moments(const std::vector<std::pair<double, Gaussian<N>>>& parts) {
+    Gaussian<N> result{Vector<N>::Zero(), SquareMatrix<N>::Zero()};
+    for (const auto& [weight, part] : parts) result.mean += weight * part.mean;
+    for (const auto& [weight, part] : parts) {
+      const Vector<N> apart = part.mean - result.mean;
+      result.covariance += weight * (part.covariance + apart * apart.transpose());
+    }
+    return result;
+  }
+
+  Pair pair;
+  std::vector<double> scales, weights;
+  double p, q;
+  Gaussian<6> straight;
+  std::vector<Gaussian<9>> curved;
+};
+
 template <Uncertainty Kind>
 std::unique_ptr<Runner> made(const Spec& spec, bool histories) {
   constexpr bool fuzzy = std::same_as<Kind, Fuzzy>;
@@ -120,10 +252,7 @@ std::unique_ptr<Runner> made(const Spec& spec, bool histories) {
   const Relation<Kind, Kind> transition{mode, mode, {{stays, p}, {q, stays_too}}};
   Interaction<Kind> interaction;
   if (histories || spec.settings.count("e") > 0) interaction.lift = Lift::prior;
-  if (const auto scales = spec.settings.find("e"); scales != spec.settings.end()) {
-    interaction.entry.scales.clear();
-    for (const auto& scale : split(scales->second, '+')) interaction.entry.scales.push_back(std::stod(scale));
-  }
+  interaction.entry.scales = scales_of(spec, interaction.entry.scales);
   interaction.entry.vertical = spec.number("v", interaction.entry.vertical);
   const Gaussian<9> nowhere{Vector<9>::Zero(), SquareMatrix<9>::Identity()};
   if (!histories)
@@ -138,12 +267,15 @@ std::unique_ptr<Runner> made(const Spec& spec, bool histories) {
       HistoryFilter<Models, Kind>(models, transition, nowhere, rules, interaction));
 }
 
-std::unique_ptr<Runner> made(const Spec& spec) {
+std::unique_ptr<Runner> made(const Spec& spec, const Scenario& scenario) {
+  if (spec.scheme == "told") return std::make_unique<Told>(spec, scenario);
+  if (spec.scheme == "imm_scales") return std::make_unique<ImmOfScales>(spec);
   if (spec.scheme == "imm") return made<Random>(spec, false);
   if (spec.scheme == "himm") return made<Fuzzy>(spec, false);
   if (spec.scheme == "imm_histories") return made<Random>(spec, true);
   if (spec.scheme == "himm_histories") return made<Fuzzy>(spec, true);
-  throw std::invalid_argument("no filter '" + spec.scheme + "'; expected imm, himm, imm_histories, himm_histories");
+  throw std::invalid_argument("no filter '" + spec.scheme +
+                              "'; expected imm, himm, imm_histories, himm_histories, imm_scales, told");
 }
 
 constexpr std::size_t phase_count = 5;
@@ -191,7 +323,7 @@ std::vector<Sums> run(const std::vector<Spec>& specs, const Scenario& scenario, 
                                       three_point_start<3>(first[0], first[1], first[2])};
   std::vector<Sums> result;
   for (const Spec& spec : specs) {
-    const auto filter = made(spec);
+    const auto filter = made(spec, scenario);
     filter->restart(start);
     Sums& sums = result.emplace_back();
     std::vector<Gaussian<3>> estimates;
