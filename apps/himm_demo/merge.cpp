@@ -71,6 +71,7 @@ void merge(const MergeOptions& options) {
   }
   arguments.insert(arguments.end(), {"--finished", "--out", options.output.out});
   if (options.output.wide) arguments.emplace_back("--wide");
+  if (!options.output.report.empty()) arguments.insert(arguments.end(), {"--report", options.output.report});
   CLI::App again{"", "himm_demo"};
   const std::string command =
       all.campaign.substr(0, all.campaign.find(' ')) + " " + fmt::format("{}", fmt::join(arguments, " "));
@@ -92,6 +93,7 @@ void add_merge(CLI::App& program, const std::string& command) {
       "  himm_demo merge part1 part2 part3 part4 --out whole\n"
       "  himm_demo merge part* --out whole --wide");
   add_output(app, options->output);
+  add_report(app, options->output);
   app.get_option("--out")->required();
   app.callback([options] { merge(*options); });
 }

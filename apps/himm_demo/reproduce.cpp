@@ -36,6 +36,7 @@ void add_reproduce(CLI::App& program, const std::string& command) {
       "  himm_demo reproduce --runs 100 --out results\n"
       "  himm_demo reproduce --runs 10000 --shard 1/4 --out part1");
   add_output(app, options->output);
+  add_report(app, options->output);
   app.callback([options] { reproduce_and_report(*options); });
 }
 

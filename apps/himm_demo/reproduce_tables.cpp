@@ -9,7 +9,6 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::array phase_names = {"before", "during", "after"};
 constexpr std::array finding_names = {"inside", "outside", "open"};
 
 std::string_view name_of(FigureOf figure) {
@@ -31,12 +30,6 @@ std::string_view name_of(FigureOf figure) {
   }
 }
 
-/// In per cent where it is a share or a relative difference.
-double scale_of(FigureOf figure) {
-  const bool relative = figure == FigureOf::rmse || figure == FigureOf::onset_rmse || figure == FigureOf::lead;
-  return relative ? 100.0 : 1.0;
-}
-
 /// The place of the figure that speaks most against the sentence, in half widths of its interval.
 std::size_t least_favourable(const std::vector<Measured>& all) {
   const auto margin = [](const Measured& measured) {
@@ -49,11 +42,49 @@ std::size_t least_favourable(const std::vector<Measured>& all) {
   return static_cast<std::size_t>(worst - all.begin());
 }
 
-std::string shown(const Measured& measured) {
-  const double scale = scale_of(measured.statement->figure);
-  return fmt::format("{} ± {}{}",
-                     number_text(scale * measured.interval.mean, 1, measured.statement->against != Actor::nobody),
-                     number_text(scale * measured.interval.half_width, 1), scale > 1.0 ? " %" : "");
+std::string text_of(const Measured& measured) {
+  const Interval interval = shown(measured);
+  return fmt::format("{} ± {}{}", number_text(interval.mean, 1, measured.statement->against != Actor::nobody),
+                     number_text(interval.half_width, 1), scale_of(measured.statement->figure) > 1.0 ? " %" : "");
+}
+
+/// Columns, and after them those of the RMSE by phase and axis.
+std::vector<ResultColumn> with_rmse(std::vector<ResultColumn> columns) {
+  for (const char* phase : phase_names)
+    for (const char* axis : axis_names)
+      columns.push_back({.key = fmt::format("rmse_{}_{}_m", phase, axis), .interval = true});
+  return columns;
+}
+
+/// Rows of the measurement and all filters of a condition, which begin with these cells.
+void add_rmse(const Condition& condition, const std::vector<Cell>& first, ResultTable& table) {
+  std::vector<std::string> names = {"measurement"};
+  for (const auto& filter : condition.filters()) names.push_back(filter.name);
+  for (const auto& name : names) {
+    std::vector<Cell> cells = first;
+    cells.emplace_back(name);
+    for (std::size_t phase = 0; phase < 3; ++phase)
+      for (std::size_t axis = 0; axis < 3; ++axis) cells.emplace_back(condition.rmse(name, phase, axis).interval());
+    table.row(std::move(cells));
+  }
+}
+
+/// What fits above a verdict in a table of 80 columns.
+std::string short_name(std::string_view reading) {
+  const auto last = reading.rfind('_');
+  const auto word = reading.substr(last == std::string_view::npos ? 0 : last + 1);
+  return word.size() <= 3 ? std::string(word) : std::string(word.substr(0, 3)) + ".";
+}
+
+}  // namespace
+
+std::string name_of(const Condition& condition) {
+  return fmt::format("{}/{}", condition.scenario_number(), condition.group_number());
+}
+
+double scale_of(FigureOf figure) {
+  const bool relative = figure == FigureOf::rmse || figure == FigureOf::onset_rmse || figure == FigureOf::lead;
+  return relative ? 100.0 : 1.0;
 }
 
 std::string_view word_of(Actor actor) {
@@ -71,25 +102,21 @@ std::string_view word_of(Actor actor) {
   }
 }
 
-/// Of whom a figure is, where and when.
-std::string subject_of(const Measured& measured) {
+Interval shown(const Measured& measured) {
+  const double scale = scale_of(measured.statement->figure);
+  return {scale * measured.interval.mean, scale * measured.interval.half_width};
+}
+
+std::string subject_of(const Measured& measured, bool with_place) {
   const Statement& statement = *measured.statement;
-  std::string text = fmt::format("{}/{} {}", statement.scenario, statement.group, word_of(statement.of));
+  std::string text = with_place ? fmt::format("{}/{} ", statement.scenario, statement.group) : "";
+  text += word_of(statement.of);
   if (statement.against != Actor::nobody) text.append(" : ").append(word_of(statement.against));
   if (statement.figure != FigureOf::rmse) text.append(", ").append(name_of(statement.figure));
   if (measured.phase) text.append(", ").append(phase_names[*measured.phase]);
   if (measured.axis) text.append(" ").append(axis_names[*measured.axis]);
   return text;
 }
-
-/// What fits above a verdict in a table of 80 columns.
-std::string short_name(std::string_view reading) {
-  const auto last = reading.rfind('_');
-  const auto word = reading.substr(last == std::string_view::npos ? 0 : last + 1);
-  return word.size() <= 3 ? std::string(word) : std::string(word.substr(0, 3)) + ".";
-}
-
-}  // namespace
 
 Judgements judge(const std::vector<Condition>& conditions) {
   Judgements all;
@@ -148,8 +175,8 @@ ResultTable deciding_figures(const Judgements& all, Preset preset) {
     const auto inside = std::count_if(figures.begin(), figures.end(),
                                       [](const Measured& measured) { return measured.finding == Finding::inside; });
     const std::size_t worst = least_favourable(figures);
-    table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), subject_of(figures[worst]), shown(figures[worst]),
-               shown(judged.against_released[worst])});
+    table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), subject_of(figures[worst]), text_of(figures[worst]),
+               text_of(judged.against_released[worst])});
   }
   return table;
 }
@@ -188,48 +215,42 @@ ResultTable figures_table(const Judgements& all) {
 }
 
 ResultTable filters_table(const std::vector<Condition>& conditions) {
-  std::vector<ResultColumn> columns = {{.key = "preset"}, {.key = "scenario"}, {.key = "group"}, {.key = "filter"}};
-  for (const char* phase : phase_names)
-    for (const char* axis : axis_names)
-      columns.push_back({.key = fmt::format("rmse_{}_{}_m", phase, axis), .interval = true});
-  ResultTable table(columns);
-  for (const auto& condition : conditions) {
-    std::vector<std::string> names = {"measurement"};
-    for (const auto& filter : condition.filters()) names.push_back(filter.name);
-    for (const auto& name : names) {
-      std::vector<Cell> cells = {name_of(condition.preset()), condition.scenario_number(), condition.group_number(),
-                                 name};
-      for (std::size_t phase = 0; phase < 3; ++phase)
-        for (std::size_t axis = 0; axis < 3; ++axis) cells.emplace_back(condition.rmse(name, phase, axis).interval());
-      table.row(std::move(cells));
-    }
-  }
+  ResultTable table(with_rmse({{.key = "preset"}, {.key = "scenario"}, {.key = "group"}, {.key = "filter"}}));
+  for (const auto& condition : conditions)
+    add_rmse(condition, {name_of(condition.preset()), condition.scenario_number(), condition.group_number()}, table);
   return table;
 }
 
+ResultTable rmse_table(const Condition& condition) {
+  ResultTable table(with_rmse({{.key = "filter"}}));
+  add_rmse(condition, {}, table);
+  return table;
+}
+
+double over_measurement(const Condition& condition, std::string_view filter) {
+  double sum = 0.0;
+  for (std::size_t phase = 0; phase < 3; ++phase)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum += condition.rmse(filter, phase, axis).value() / condition.rmse("measurement", phase, axis).value();
+  return sum / 9.0;
+}
+
 ResultTable overview(const std::vector<Condition>& conditions, Preset preset) {
-  std::vector<ResultColumn> columns = {{.header = "filter", .align = Align::left}};
+  std::vector<ResultColumn> columns = {{.key = "filter", .header = "filter", .align = Align::left}};
   std::vector<const Condition*> own;
   std::vector<std::string> names;
   for (const auto& condition : conditions) {
     if (condition.preset() != preset) continue;
     own.push_back(&condition);
-    columns.push_back(
-        {.header = fmt::format("{}/{}", condition.scenario_number(), condition.group_number()), .digits = 3});
+    columns.push_back({.key = name_of(condition), .header = name_of(condition), .digits = 3});
     for (const auto& filter : condition.filters())
       if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
   }
   ResultTable table(columns);
   for (const auto& name : names) {
     std::vector<Cell> cells = {name};
-    for (const Condition* condition : own) {
-      double sum = 0.0;
-      if (condition->has(name))
-        for (std::size_t phase = 0; phase < 3; ++phase)
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            sum += condition->rmse(name, phase, axis).value() / condition->rmse("measurement", phase, axis).value();
-      cells.push_back(condition->has(name) ? Cell(sum / 9.0) : Cell());
-    }
+    for (const Condition* condition : own)
+      cells.push_back(condition->has(name) ? Cell(over_measurement(*condition, name)) : Cell());
     table.row(std::move(cells));
   }
   return table;

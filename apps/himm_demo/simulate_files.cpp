@@ -82,7 +82,9 @@ void write_files(const SimulateReport& report, ResultFiles& files) {
     files.write("filters.csv", figures(report, Figures::all).csv());
     write_rmse(report, *files.open("rmse.csv"));
     write_weights(report, *files.open("weights.csv"));
-    files.write_json("summary.json", summary_of(report));
+    Json summary = summary_of(report);
+    if (files.report_wanted()) summary["report_data"] = report_data_name;
+    files.write_json("summary.json", summary);
   }
   if (files.report_wanted()) files.write_report(page_of(report));
 }

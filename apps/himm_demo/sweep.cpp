@@ -69,6 +69,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
       "  himm_demo sweep --scenario 1 --cross --filters imm,himm_own --out results\n"
       "  himm_demo sweep --cross --shard 1/16 --out part1");
   add_output(app, options->output);
+  add_report(app, options->output);
   app.callback([options] { sweep_and_report(*options); });
 }
 

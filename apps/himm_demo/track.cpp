@@ -44,7 +44,7 @@ void refuse_to_overwrite(const TrackOptions& options) {
   };
   const auto& [out, report] = std::tie(options.output.out, options.output.report);
   if (!out.empty())
-    for (const char* name : {"estimates.csv", "summary.json", report_name})
+    for (const char* name : {"estimates.csv", "summary.json", report_data_name, report_name})
       refuse("--out", out, std::filesystem::path(out) / name);
   if (!report.empty()) refuse("--report", report, report);
 }
@@ -80,7 +80,10 @@ void track_and_report(const TrackOptions& options) {
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar || recording.has_truth());
   const TrackOutcome outcome =
       run_track(options, recording, filters, {estimates ? &*estimates : nullptr, tracks ? &*tracks : nullptr});
-  const TrackReport found = report(options, recording, filters, outcome);
+  for (std::size_t f = 0; tracks && f < filters.size(); ++f)
+    for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
+  TrackReport found = report(options, recording, filters, outcome);
+  if (files.report_wanted()) found.summary["report_data"] = report_data_name;
   files.write_json("summary.json", found.summary);
   if (files.report_wanted()) files.write_report(page_of(options, filters, found, *tracks));
   fmt::print("{}", found.text);

@@ -21,7 +21,8 @@ constexpr std::size_t most_rows = 9000;  // of all series of a page together
 
 TrackPage::Track::Track(std::size_t filters, std::size_t columns, std::size_t most)
     : plots(plot_columns, std::max(most, 4 * plot_columns)),
-      estimates(filters, Thinned(columns, std::max(most, 4 * columns))) {}
+      estimates(filters, Thinned(columns, std::max(most, 4 * columns))),
+      histories(filters) {}
 
 TrackPage::TrackPage(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool truth_known)
     : filters_(filters), recording_(recording), truth_known_(truth_known), models_(model_names(filters)) {}
@@ -92,6 +93,10 @@ void TrackPage::restarted(const Fix& fix, std::size_t filter) {
   Track* const track = track_of(fix);
   if (track && track->restarts.size() < most_marks)
     track->restarts.push_back({fix.time_s, filter, track->last_position.value_or(Vector<3>::Constant(nan))});
+}
+
+void TrackPage::explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays) {
+  if (const auto found = tracks_.find(track); found != tracks_.end()) found->second.histories[filter] = stays;
 }
 
 void TrackPage::add_to(Report& page) const {

@@ -31,6 +31,9 @@ class TrackPage {
   void rejected(const Fix& fix, std::size_t filter);
   void restarted(const Fix& fix, std::size_t filter);
 
+  /// The best history of a track's modes, once all rows were read.
+  void explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays);
+
   /// Of the first track: the first axis' errors, or standard deviations, and the weights.
   std::vector<LineChart> charts_of_the_first() const;
 
@@ -52,6 +55,7 @@ class TrackPage {
     std::vector<Thinned> estimates;
     std::vector<Mark> rejections;
     std::vector<Mark> restarts;
+    std::vector<std::vector<ModeStay>> histories;  // of each filter
   };
 
   Track* track_of(const Fix& fix);
@@ -61,6 +65,7 @@ class TrackPage {
   View view_of(const std::string& name, const Track& track) const;
   std::vector<Panel> charts(const Track& track) const;
   void mark(const Track& track, LineChart& chart) const;
+  void add_histories(const Track& track, LineChart& weights) const;
   Plan plan(const std::string& name, const Track& track) const;
 
   const std::vector<FilterSettings>& filters_;

@@ -9,7 +9,8 @@ namespace sigmax::apps::track_page {
 
 constexpr const char* measurement_name = "measurement";
 constexpr const char* truth_name = "truth";
-constexpr std::size_t most_marks = 300;  // of each kind and track
+constexpr std::size_t most_marks = 300;   // of each kind and track
+constexpr std::size_t most_stays = 1000;  // of a history
 
 /// Columns of a measurement: its position, its error and where the target was.
 constexpr std::size_t plot_at = 0, plot_error_at = 3, truth_at = 6, plot_columns = 9;

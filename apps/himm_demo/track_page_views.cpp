@@ -119,6 +119,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
     }
   }
   limit_axis(nis);
+  add_histories(track, weights);
   panels.emplace_back(std::move(weights));
   panels.emplace_back(std::move(nis));
   return panels;
@@ -131,6 +132,28 @@ void TrackPage::mark(const Track& track, LineChart& chart) const {
     const Mark& restart = track.restarts[i];
     const double time = restart.time - track.first_time;
     chart.shaded.push_back({time, time, filters_[restart.filter].name + " restarts"});
+  }
+}
+
+/// Which mode the best history has when: a band for each filter that has one.
+void TrackPage::add_histories(const Track& track, LineChart& weights) const {
+  for (std::size_t f = 0; f < filters_.size() && !weights.x.empty(); ++f) {
+    const auto& stays = track.histories[f];
+    if (stays.empty()) continue;
+    if (stays.size() > most_stays) {
+      weights.note = fmt::format("The best history of {} changes {} times, too often to be drawn.", filters_[f].name,
+                                 stays.size() - 1);
+      continue;
+    }
+    HistoryBand band{"best history of " + filters_[f].name, filters_[f].name, {}};
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+      const std::string& model = filters_[f].models[stays[i].mode];
+      const auto shade = std::find(models_.begin(), models_.end(), model) - models_.begin();
+      band.stays.push_back({stays[i].since - track.first_time,
+                            i + 1 < stays.size() ? stays[i + 1].since - track.first_time : weights.x.back(), model,
+                            static_cast<std::size_t>(shade)});
+    }
+    weights.histories.push_back(std::move(band));
   }
 }
 

@@ -5,18 +5,21 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <set>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "himm_demo/filter_options.hpp"
 #include "himm_demo/recording_options.hpp"
 #include "himm_demo/tune_numbers.hpp"
+#include "himm_demo/tune_page.hpp"
 #include "himm_demo/tune_report.hpp"
 #include "himm_demo/tune_search.hpp"
 #include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
+#include "support/result_files.hpp"
 
 namespace sigmax::apps {
 
@@ -30,12 +33,15 @@ namespace {
 void refuse_to_overwrite(const TuneOptions& options) {
   auto inputs = options.files;
   inputs.push_back(options.config);
-  for (const auto& input : inputs) {
-    std::error_code none;
-    if (std::filesystem::equivalent(options.out, input, none))
-      throw UsageError(message(
-          {.what = fmt::format("--out {} would write over an input", options.out), .remedy = "choose another name"}));
-  }
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"--out", options.out}, {"--summary", options.summary}, {"--report", options.page.report}};
+  for (const auto& [option, output] : outputs)
+    for (const auto& input : inputs) {
+      std::error_code none;
+      if (std::filesystem::equivalent(output, input, none))
+        throw UsageError(message(
+            {.what = fmt::format("{} {} would write over an input", option, output), .remedy = "choose another name"}));
+    }
 }
 
 void refuse_without_search() {
@@ -66,26 +72,29 @@ std::string heading(const TuneData& data, const TuneOptions& options) {
 }
 
 /// Tunes one filter, prints what was found, and adds what is to be written.
-void tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
-                     std::vector<FilterSettings>& written) {
-  const Diagnosis before = diagnose(data, filter, options.objective);
+TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
+                             std::vector<FilterSettings>& written) {
+  Diagnosis before = diagnose(data, filter, options.objective);
   fmt::print("\nfilter {}: before\n\n{}\n", filter.name, text_of(before, options.width()));
   Progress progress(filter.name, work_of(filter, data, options), options.quiet);
-  const TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
+  TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
   progress.finish();
   fmt::print("{}\n{}", text_of(tuned, options.objective, options.width()), changes_of(tuned, options.width()));
 
   const Candidate& best = tuned.candidates[tuned.best];
+  std::optional<Diagnosis> after;
   if (tuned.best > 0) {
-    const Diagnosis after = diagnose(data, best.settings, options.objective);
-    fmt::print("\nfilter {}: with the best settings\n\n{}", filter.name, text_of(after, options.width()));
-    if (before.rmse_m && after.rmse_m)
-      fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after.rmse_m);
+    after = diagnose(data, best.settings, options.objective);
+    fmt::print("\nfilter {}: with the best settings\n\n{}", filter.name, text_of(*after, options.width()));
+    if (before.rmse_m && after->rmse_m)
+      fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
   }
   written.push_back(best.settings);
-  if (tuned.simple == tuned.best) return;
-  written.push_back(tuned.candidates[tuned.simple].settings);
-  written.back().name += "_simple";
+  if (tuned.simple != tuned.best) {
+    written.push_back(tuned.candidates[tuned.simple].settings);
+    written.back().name += "_simple";
+  }
+  return {std::move(before), std::move(after), std::move(tuned)};
 }
 
 Objective objective_of(const std::string& truth) {
@@ -110,26 +119,35 @@ void tune_and_write(TuneOptions options) {
     for (const auto& models : model_sets(filter, options)) with_models(filter, models);  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);
-  std::optional<AtomicFile> file;  // made first, so that a bad name is known before the work
-  if (!options.out.empty()) {
-    refuse_to_overwrite(options);
-    file.emplace(options.out);
-  }
+  refuse_to_overwrite(options);
+  std::optional<AtomicFile> file, summary;  // made first, so that a bad name is known before the work
+  if (!options.out.empty()) file.emplace(options.out);
+  if (!options.summary.empty()) summary.emplace(options.summary);
+  ResultFiles page(options.page);
   const TuneData data = read_tune_data(options);
   for (const auto& line : lines_of(heading(data, options), terminal_width)) fmt::print("{}\n", line);
   std::vector<FilterSettings> written;
-  for (const auto& filter : filters) tune_and_report(filter, data, options, written);
+  std::vector<TuneFindings> found;
+  for (const auto& filter : filters) found.push_back(tune_and_report(filter, data, options, written));
+  if (page.report_wanted()) page.write_report(page_of(heading(data, options), options, data, found));
+  if (summary) summary->write(summary_of(options, data, found).dump(2) + "\n");
+  if (file) file->write(as_toml(written));
+  page.commit();
+  if (summary) {
+    summary->commit();
+    fmt::print("\nWrote {}\n", options.summary);
+  }
   if (!file) return;
-  file->write(as_toml(written));
   file->commit();
   fmt::print("\nWrote {}, which track --config takes\n", options.out);
 }
 
 }  // namespace
 
-void add_tune(CLI::App& program, const std::string&) {
+void add_tune(CLI::App& program, const std::string& command) {
   CLI::App& app = *program.add_subcommand("tune", "Fits the settings of filters to recordings.");
   const auto options = std::make_shared<TuneOptions>();
+  options->page.command = command;
   app.add_option("file", options->files, "Recordings, as track reads them")->required()->type_name("FILE.csv");
   add_recording(app, options->recording);
   add_simulated_radar(app, options->radar, options->radar_at);
@@ -155,6 +173,9 @@ void add_tune(CLI::App& program, const std::string&) {
   add_seed(app, options->seed, "of the starts, and of a simulated radar");
   add_filter_options(app, options->config, options->sets, options->print_config);
   app.add_option("--out", options->out, "Write the settings found, for track --config")->type_name("FILE.toml");
+  app.add_option("--summary", options->summary, "Write what was found as data")->type_name("FILE.json");
+  app.add_option("--report", options->page.report, "Write it as a page of charts for a browser")
+      ->type_name("FILE.html");
   add_quiet(app, options->quiet);
   add_wide(app, options->wide);
   app.footer(

@@ -36,7 +36,9 @@ struct TuneOptions {
   std::string config;
   std::vector<std::string> sets;
   bool print_config = false;
-  std::string out;  ///< a file for the settings, or empty
+  std::string out;      ///< a file for the settings, or empty
+  std::string summary;  ///< a file for what was found, or empty
+  OutputOptions page;   ///< its report and command
   bool quiet = false;
   bool wide = false;
 

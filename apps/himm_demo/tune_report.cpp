@@ -60,32 +60,28 @@ std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t w
                    {"", Align::left}});
   for (std::size_t c = 0; c < tuned.candidates.size(); ++c) {
     const Candidate& candidate = tuned.candidates[c];
-    std::string remark;
-    if (c == tuned.best) remark = "best";
-    if (c == tuned.simple) remark += remark.empty() ? "simple" : ", simple";
     table.row({candidate.name, fmt::format("{}", candidate.numbers),
                fmt::format("{:.4g}", figure_of(candidate.fitted, objective)),
                fmt::format("{:.4g}", figure_of(candidate.held_out, objective)),
-               c == 0 ? "" : fmt::format("{:+.3g} ± {:.2g}", candidate.gain, candidate.gain_error), remark});
+               c == 0 ? "" : fmt::format("{:+.3g} ± {:.2g}", candidate.gain, candidate.gain_error),
+               remark_of(tuned, c)});
   }
   return table.text(width);
 }
 
-std::string changes_of(const TunedFilter& tuned, std::size_t width) {
+std::string remark_of(const TunedFilter& tuned, std::size_t candidate) {
+  std::string remark = candidate == tuned.best ? "best" : "";
+  if (candidate == tuned.simple) remark += remark.empty() ? "simple" : ", simple";
+  return remark;
+}
+
+std::vector<Change> changes(const TunedFilter& tuned) {
   const FilterSettings& before = tuned.candidates[0].settings;
   const FilterSettings& best = tuned.candidates[tuned.best].settings;
   const FilterSettings& simple = tuned.candidates[tuned.simple].settings;
-  const bool two = tuned.simple != tuned.best;
-  std::vector<TextTable::Column> columns = {{"key", Align::left}, {"before", Align::left}, {"best", Align::left}};
-  if (two) columns.push_back({"simple", Align::left});
-  TextTable table(columns);
-  bool any = false;
+  std::vector<Change> all;
   const auto add = [&](const std::string& name, const std::string& a, const std::string& b, const std::string& c) {
-    if (a == b && (!two || a == c)) return;
-    any = true;
-    std::vector<std::string> cells = {name, shown(a), shown(b)};
-    if (two) cells.push_back(shown(c));
-    table.row(std::move(cells));
+    if (a != b || a != c) all.push_back({name, shown(a), shown(b), shown(c)});
   };
   for (const auto& key : filter_keys()) {
     const auto value = [&](const FilterSettings& settings) { return key.applies(settings) ? key.write(settings) : ""; };
@@ -100,7 +96,21 @@ std::string changes_of(const TunedFilter& tuned, std::size_t width) {
       add(fmt::format("sensor.{}.{}", sensor, key.name), key.write(before.accuracy_of(sensor)),
           key.write(best.accuracy_of(sensor)), key.write(simple.accuracy_of(sensor)));
   }
-  return any ? table.text(width) : "No setting changes.\n";
+  return all;
+}
+
+std::string changes_of(const TunedFilter& tuned, std::size_t width) {
+  const bool two = tuned.simple != tuned.best;
+  std::vector<TextTable::Column> columns = {{"key", Align::left}, {"before", Align::left}, {"best", Align::left}};
+  if (two) columns.push_back({"simple", Align::left});
+  TextTable table(columns);
+  const auto all = changes(tuned);
+  for (const Change& change : all) {
+    std::vector<std::string> cells = {change.key, change.before, change.best};
+    if (two) cells.push_back(change.simple);
+    table.row(std::move(cells));
+  }
+  return all.empty() ? "No setting changes.\n" : table.text(width);
 }
 
 }  // namespace sigmax::apps

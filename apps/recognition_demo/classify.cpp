@@ -404,7 +404,9 @@ void run_classify(const ClassifyOptions& options) {
       fmt::print("\nline {}\n", row.line);
       for (const Contestant& contestant : all) print_explanation(options.output, contestant, row.readings);
     }
-  files.write_json("summary.json", summary_of_rows(options, pattern, all, result, rows));
+  Json summary = summary_of_rows(options, pattern, all, result, rows);
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
+  files.write_json("summary.json", summary);
   if (files.report_wanted()) files.write_report(page_of(options, model, all, result, rows.has_truth()));
   files.commit();
 }

@@ -134,6 +134,7 @@ void run_esm(const EsmOptions& options) {
   summary["seed"] = draws.seed;
   summary["classifiers"] = scores_table(scores).json();
   files.write("curves.csv", curves_csv(scores));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
   if (files.report_wanted()) {
     page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,

@@ -362,6 +362,7 @@ void write_results(const DataTable& data, const Results& results, const Evaluate
   summary["classifiers"] = outcomes_table(results, options.foldings).json();
   write_predictions(data, options, *files.open("predictions.csv"));
   files.write("confusion.csv", confusion_csv(data, results, options.foldings));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
 }
 

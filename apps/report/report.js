@@ -37,11 +37,13 @@
     return made;
   }
 
+  const symbolOf = (i) => d3.symbol().type(d3.symbols[i % d3.symbols.length]).size(44)();
   const crossed = 'M-4,-4L4,4M-4,4L4,-4';
 
   function swatch(colourOf, dash, shape = 'line') {
     const svg = d3.create('svg').attr('width', shape === 'line' ? 26 : 12).attr('height', 10).attr('aria-hidden', 'true');
     if (shape === 'crosses') svg.append('path').attr('d', crossed).attr('transform', 'translate(6,5)').attr('stroke', colourOf).attr('stroke-width', 1.6);
+    else if (shape === 'symbol') svg.append('path').attr('d', dash).attr('transform', 'translate(6,5)').attr('fill', colourOf);
     else if (shape === 'dots') svg.append('circle').attr('cx', 6).attr('cy', 5).attr('r', 3).attr('fill', colourOf);
     else svg.append('line').attr('x1', 0).attr('x2', 26).attr('y1', 5).attr('y2', 5).attr('stroke', colourOf)
       .attr('stroke-width', 2.5).attr('stroke-dasharray', dash.join(' '));
@@ -87,8 +89,27 @@
       canvas.fillStyle = css('--expected');
       canvas.fillRect(area.x, top, area.w, Math.max(1, bottom - top));
     }
+    visibleHistories(panel).forEach(({group, stays}, i) => {
+      const top = graph.toDomYCoord(-historyStep * (i + 0.3)), bottom = graph.toDomYCoord(-historyStep * (i + 1));
+      for (const {from, to, label, shade} of stays) {
+        const left = Math.max(area.x, graph.toDomXCoord(from)), right = Math.min(area.x + area.w, graph.toDomXCoord(to));
+        if (right <= left) continue;
+        canvas.globalAlpha = [0.22, 0.75, 0.45, 0.95][shade % 4];
+        canvas.fillStyle = colour(group, i);
+        canvas.fillRect(left, top, Math.max(1, right - left), bottom - top);
+        canvas.globalAlpha = 1;
+        canvas.fillStyle = shade % 2 ? css('--paper') : css('--ink');
+        canvas.font = '11px system-ui, sans-serif';
+        if (canvas.measureText(label).width + 6 < right - left) canvas.fillText(label, left + 4, (top + bottom) / 2 + 4);
+      }
+    });
     canvas.restore();
   }
+
+  // Bands of histories stand below zero, each so high in the unit of the weights.
+  const historyStep = 0.14;
+  const visibleHistories = (panel) => (panel.histories ?? []).filter((band) => !hidden.has(band.group));
+  const stayAt = (band, x) => band.stays.find(({from, to}) => x !== null && from <= x && x <= to)?.label;
 
   function readout(panel, holder, options) {
     const show = (row) => {
@@ -99,11 +120,28 @@
         const value = row === null ? '' : ` ${shown(curve.values[row])}`;
         holder.append(element('span', {}, swatch(options.colors[i], options.dash[i], curve.dots ? 'dots' : 'line'), ` ${curve.name}${value}`));
       });
+      for (const band of visibleHistories(panel))
+        holder.append(element('span', {}, element('i', {className: 'history', style: `background: ${colour(band.group)}`}),
+          ` ${band.name}${row === null ? '' : ` ${stayAt(band, panel.x[row]) ?? '–'}`}`));
       for (const {label} of panel.expected)
         holder.append(element('span', {}, element('i', {className: 'expected'}), ` ${label}`));
     };
     show(null);
     return {show, plugin: {activate: () => ({select: (event) => show(event.dygraph.lastRow_), deselect: () => show(null)})}};
+  }
+
+  // A band that goes on over gaps, as the line does: those of dygraphs end there.
+  function drawBand({points, dygraph, setName, drawingContext: canvas, plotArea: area, color}) {
+    const known = points.filter((point) => Number.isFinite(point.y_top) && Number.isFinite(point.y_bottom));
+    if (!known.length) return;
+    canvas.save();
+    canvas.beginPath();
+    known.forEach((point, i) => canvas[i ? 'lineTo' : 'moveTo'](point.canvasx, area.y + area.h * point.y_top));
+    known.reverse().forEach((point) => canvas.lineTo(point.canvasx, area.y + area.h * point.y_bottom));
+    canvas.fillStyle = color;
+    canvas.globalAlpha = dygraph.getNumericOption('fillAlpha', setName);
+    canvas.fill();
+    canvas.restore();
   }
 
   function style(panel) {
@@ -123,8 +161,9 @@
     const looks = style(panel);
     const box = element('div', {className: 'chart', role: 'img', ariaLabel: `${panel.title}, ${panel.y_label}; the table below has the numbers`});
     const values = element('div', {className: 'readout'});
-    const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name)],
-      panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k]))])));
+    const histories = panel.histories ?? [];
+    const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name), ...histories.map((band) => band.name)],
+      panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k])), ...histories.map((band) => stayAt(band, x) ?? '–')])));
     place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), box,
       element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
 
@@ -140,7 +179,8 @@
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
       includeZero: true, valueRange: rangeOf(panel),
       xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
-      axes: {y: {axisLabelWidth: 52}}, rightGap: 10,
+      axes: {x: {axisLabelFormatter: shown}, y: {axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : shown(y)}},
+      ...(banded && panel.joined ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
       zoomCallback: () => showReset(),
       interactionModel: {...Dygraph.defaultInteractionModel, dblclick: () => showAll()},
@@ -179,11 +219,12 @@
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
       if (!width) return;
-      const edge = {left: 56, right: 12, top: 10, bottom: 24};
+      const edge = {left: 56, right: 12, top: 10, bottom: 24};  // the left one is wider where coordinates are long
       const all = panel.traces.filter((trace) => !hidden.has(trace.group));
       const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
       const [west, east] = extent('x'), [south, north] = extent('y');
       if (west === undefined) return;
+      edge.left = Math.max(edge.left, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length));
       const inner = {width: width - edge.left - edge.right, height: height - edge.top - edge.bottom};
       const metres = 1.06 * Math.max((east - west) / inner.width, (north - south) / inner.height, 1e-9);
       const wholeX = d3.scaleLinear().range([edge.left, width - edge.right])
@@ -241,7 +282,6 @@
         swatch(colour(trace.group, panel.traces.indexOf(trace)), dashOf(trace, panel.traces.indexOf(trace)), trace.shape), ` ${trace.name}`)));
     }
     plans.push(draw);
-    draw();
     if (panel.traces.some((trace) => trace.z)) drawSpace(panel, place);
   }
 
@@ -290,7 +330,6 @@
       draw();
     }));
     plans.push(draw);
-    draw();
   }
 
   function drawScaleBar(body, x, width, height, edge) {
@@ -306,23 +345,25 @@
   // ---- Heat maps, by D3
 
   function drawHeat(panel, place) {
-    const values = element('div', {className: 'readout'});
+    const hint = panel.texts?.length ? 'Point at a cell: it says what its number comes from.' : '';
+    const values = element('div', {className: 'readout', textContent: hint});
     const box = element('div', {className: 'scroll'});
     const table = folded('Table', () => grid([`${panel.row_label} \\ ${panel.column_label}`, ...panel.columns],
       panel.rows.map((name, r) => [name, ...panel.shown[r]])));
     place.append(figure(panel, element('div', {className: 'y-label', textContent: `${panel.value_label}; rows: ${panel.row_label}`}), box,
       element('div', {className: 'x-label', textContent: panel.column_label}), values, table));
     const draw = () => {
-      const [least, greatest] = d3.extent(panel.values.flat().filter(finite));
+      let [least, greatest] = d3.extent(panel.values.flat().filter(finite));
+      if (panel.most) [least, greatest] = [panel.diverging ? -panel.most : least, panel.most];
       const end = Math.max(Math.abs(least), Math.abs(greatest)) || 1;
       const scale = panel.diverging ? d3.scaleSequential(d3.interpolatePuOr).domain([end, -end])
         : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
       const widest = d3.max(panel.rows, (name) => name.length) || 1;
       const left = Math.min(150, 12 + 7 * widest);
-      const room = (place.getBoundingClientRect().width || 500) / (place.children.length > 1 && innerWidth > 1060 ? 2 : 1) - left - 30;
+      const room = (box.getBoundingClientRect().width || 500) - left - 6;
       const cell = {width: Math.max(34, Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
       const slant = d3.max(panel.columns, (name) => name.length) * 7 > cell.width;
-      const top = slant ? 70 : 22;
+      const top = slant ? 82 : 22;
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
         .attr('width', left + cell.width * panel.columns.length + (slant ? 40 : 4)).attr('height', top + cell.height * panel.rows.length + 4);
       const cut = (name, most) => name.length > most ? `${name.slice(0, most - 1)}…` : name;
@@ -335,7 +376,7 @@
           const fill = finite(value) ? d3.color(scale(value)) : null;
           const words = [`${name}, ${column}: ${panel.shown[r][c]}`, panel.texts?.[r]?.[c]].filter((text) => text).join('; ');
           const box = svg.append('g').attr('class', 'cell').on('mouseenter', () => { values.textContent = words; })
-            .on('mouseleave', () => { values.textContent = ''; });
+            .on('mouseleave', () => { values.textContent = hint; });
           box.append('title').text(words);
           box.append('rect').attr('x', left + c * cell.width).attr('y', top + r * cell.height).attr('width', cell.width - 1)
             .attr('height', cell.height - 1).attr('fill', fill || 'none');
@@ -347,7 +388,72 @@
       box.replaceChildren(svg.node());
     };
     plans.push(draw);
-    draw();
+  }
+
+  // ---- Numbers with their intervals, by D3: a row for each, the series below each other in it
+
+  const ruler = document.createElement('canvas').getContext('2d');
+  ruler.font = '12px system-ui, sans-serif';
+  const widthOf = (text) => ruler.measureText(text).width;
+  const fitting = (text, width) => {
+    let cut = text;
+    while (cut.length > 1 && widthOf(cut === text ? cut : `${cut}…`) > width) cut = cut.slice(0, -1);
+    return cut === text ? text : `${cut}…`;
+  };
+
+  function drawIntervals(panel, place) {
+    const values = element('div', {className: 'readout'});
+    const svg = d3.create('svg').attr('class', 'intervals').attr('role', 'img').attr('aria-label', `${panel.title}, ${panel.x_label}`);
+    const table = folded('Table', () => grid(['', ...panel.series.map((series) => series.name)],
+      panel.rows.map((name, r) => [name, ...panel.series.map((series) => series.shown[r])])));
+    place.append(figure(panel, svg.node(), element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
+    const key = (words) => values.replaceChildren(...(words ? [element('span', {textContent: words})] : [
+      ...panel.series.map((series, i) => [series, colour(series.group, i), i]).filter(([series]) => !hidden.has(series.group))
+        .map(([series, paint, i]) => element('span', {}, swatch(paint, symbolOf(i), 'symbol'), ` ${series.name}`)),
+      panel.wanted_label && element('span', {}, element('i', {className: 'expected'}), ` ${panel.wanted_label}`),
+    ].filter((one) => one)));
+    const draw = () => {
+      const {width} = svg.node().getBoundingClientRect();
+      if (!width) return;
+      const shownSeries = panel.series.map((series, i) => [series, i]).filter(([series]) => !hidden.has(series.group));
+      const slot = shownSeries.length > 3 ? 9 : 12, row = Math.max(24, slot * shownSeries.length + 8);
+      const left = Math.min(14 + d3.max(panel.rows, widthOf), 0.5 * width), right = width - 14;
+      const above = panel.rows.length > 12 ? 20 : 6, bottom = above + row * panel.rows.length;
+      const ends = shownSeries.flatMap(([series]) => series.values.flat()
+        .concat(series.wanted.flatMap((one) => [one.from, one.to]))).concat(panel.reference ?? null).filter(finite);
+      const [least, greatest] = ends.length ? d3.extent(ends) : [0, 1];
+      const spare = 0.04 * (greatest - least || 1);
+      const x = d3.scaleLinear().domain([least - spare, greatest + spare]).range([left, right]);
+      svg.attr('height', bottom + 24).selectAll('*').remove();
+      svg.append('g').attr('transform', `translate(0,${bottom})`).call(d3.axisBottom(x).ticks(width / 90).tickSizeInner(above - bottom).tickSizeOuter(0));
+      if (panel.rows.length > 12)
+        svg.append('g').attr('transform', 'translate(0,18)').call(d3.axisTop(x).ticks(width / 90).tickSize(0));
+      if (finite(panel.reference))
+        svg.append('path').attr('class', 'reference').attr('d', `M${x(panel.reference)},${above}V${bottom}`);
+      panel.rows.forEach((name, r) => {
+        const top = above + row * r;
+        if (r) svg.append('path').attr('class', 'between').attr('d', `M0,${top}H${right}`);
+        svg.append('text').text(fitting(name, left - 10)).attr('text-anchor', 'end')
+          .attr('x', left - 6).attr('y', top + row / 2 + 4).append('title').text(name);
+        shownSeries.forEach(([series, i], s) => {
+          const [mean, lower, upper] = series.values[r], wanted = series.wanted[r];
+          const y = top + row / 2 + slot * (s - (shownSeries.length - 1) / 2);
+          const paint = colour(series.group, i), words = `${name}, ${series.name}: ${series.shown[r]}`;
+          const box = svg.append('g').attr('class', 'interval').on('mouseenter', () => key(words)).on('mouseleave', () => key());
+          if (wanted && (finite(wanted.from) || finite(wanted.to))) {
+            const from = finite(wanted.from) ? x(wanted.from) : left, to = finite(wanted.to) ? x(wanted.to) : right;
+            svg.insert('rect', 'g').attr('class', 'expected').attr('x', from).attr('y', y - slot / 2).attr('width', Math.max(1, to - from)).attr('height', slot);
+          }
+          box.append('rect').attr('x', left).attr('y', y - slot / 2).attr('width', right - left).attr('height', slot).attr('fill', 'transparent');
+          box.append('title').text(words);
+          if (!finite(mean)) return;
+          if (finite(lower)) box.append('path').attr('d', `M${x(lower)},${y}H${x(upper)}M${x(lower)},${y - 3}v6M${x(upper)},${y - 3}v6`).attr('stroke', paint).attr('stroke-width', 1.6);
+          box.append('path').attr('d', symbolOf(i)).attr('transform', `translate(${x(mean)},${y})`).attr('fill', paint);
+        });
+      });
+      key();
+    };
+    plans.push(draw);
   }
 
   // ---- Tables and words
@@ -371,15 +477,37 @@
     for (const row of panel.rows) {
       if (!row.length) { ruled = true; continue; }
       body.append(element('tr', {className: ruled ? 'ruled' : ''}, ...row.map((cell, i) => {
-        const made = element('td', {textContent: cell.text, className: panel.columns[i].left ? 'left' : ''});
+        const made = element('td', {textContent: cell.text, className: panel.columns[i].left ? (cell.text.length > 30 ? 'left long' : 'left') : ''});
         if (panel.columns[i].key) made.dataset.key = panel.columns[i].key;
         if (typeof cell.value === 'number') made.dataset.value = cell.value;
         return made;
       })));
       ruled = false;
     }
-    const made = figure(panel, element('div', {className: 'scroll', tabIndex: 0}, element('table', {}, element('thead', {}, ...head), body)));
-    place.append(made);
+    place.append(figure(panel, filterOf(panel, body),
+      element('div', {className: 'scroll', tabIndex: 0}, element('table', {}, element('thead', {}, ...head), body))));
+  }
+
+  // Choices of what stands in some columns: rows with other words are not shown.
+  function filterOf(panel, body) {
+    if (!panel.filtered_by?.length) return null;
+    const count = element('span', {className: 'note'});
+    const selects = panel.filtered_by.map((key) => {
+      const i = panel.columns.findIndex((column) => column.key === key);
+      const words = [...new Set(panel.rows.filter((row) => row.length).map((row) => row[i].text))];
+      const select = element('select', {}, element('option', {value: '', textContent: 'all'}),
+        ...words.map((text) => element('option', {value: text, textContent: text})));
+      select.dataset.filter = key;
+      select.addEventListener('change', choose);
+      return {i, select, label: element('label', {}, `${panel.columns[i].header}: `, select)};
+    });
+    function choose() {
+      for (const row of body.children)
+        row.hidden = selects.some(({i, select}) => select.value && row.children[i].textContent !== select.value);
+      count.textContent = `${[...body.children].filter((row) => !row.hidden).length} of ${body.children.length} rows`;
+    }
+    choose();
+    return element('div', {className: 'filter'}, ...selects.map(({label}) => label), count);
   }
 
   function drawWords(panel, place) {
@@ -388,8 +516,12 @@
       : figure(panel, text));
   }
 
-  const draw = {lines: drawLines, plan: drawPlan, heat: drawHeat, table: drawTable, words: drawWords};
-  const drawAll = (panels, place) => { for (const panel of panels) draw[panel.kind](panel, place); };
+  const draw = {lines: drawLines, plan: drawPlan, intervals: drawIntervals, heat: drawHeat, table: drawTable, words: drawWords};
+  const drawAll = (panels, place) => {
+    const before = plans.length;
+    for (const panel of panels) draw[panel.kind](panel, place);
+    plans.slice(before).forEach((again) => again());  // once each has its width
+  };
 
   // ---- The page
 
@@ -399,7 +531,7 @@
 
   const showReset = () => { reset.hidden = !charts.some(({graph}) => graph.isZoomed('x')); };
 
-  const rangeOf = (panel) => panel.greatest_y === undefined ? null : [0, panel.greatest_y];
+  const rangeOf = (panel) => panel.greatest_y === undefined ? null : [-historyStep * (panel.histories ?? []).length, panel.greatest_y];
 
   function showAll() {
     charts.forEach(({graph, panel}) => graph.updateOptions({dateWindow: null, valueRange: rangeOf(panel)}));

@@ -24,6 +24,9 @@ Json number(double value) {
   return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
 }
 
+/// All digits, as a summary has them.
+Json exact(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();
   for (const double value : values) list.push_back(number(value));
@@ -48,6 +51,13 @@ Json panel(const LineChart& chart) {
                {"expected", marked(chart.expected)},
                {"note", chart.note}};
   if (chart.joined) json["joined"] = true;
+  for (const HistoryBand& band : chart.histories) {
+    Json stays = Json::array();
+    for (const Stay& stay : band.stays)
+      stays.push_back(
+          {{"from", number(stay.from)}, {"to", number(stay.to)}, {"label", stay.label}, {"shade", stay.shade}});
+    json["histories"].push_back({{"name", band.name}, {"group", band.group}, {"stays", std::move(stays)}});
+  }
   if (chart.greatest_y) json["greatest_y"] = *chart.greatest_y;
   for (const Curve& curve : chart.curves) {
     Json one = {{"name", curve.name}, {"group", curve.group}, {"values", numbers(curve.values)}};
@@ -87,6 +97,28 @@ Json panel(const Plan& plan) {
   return json;
 }
 
+Json panel(const IntervalChart& chart) {
+  Json json = {{"kind", "intervals"}, {"title", chart.title},    {"x_label", chart.x_label},
+               {"rows", chart.rows},  {"series", Json::array()}, {"wanted_label", chart.wanted_label},
+               {"note", chart.note}};
+  if (chart.reference) json["reference"] = *chart.reference;
+  for (const IntervalSeries& series : chart.series) {
+    Json one = {{"name", series.name},
+                {"group", series.group},
+                {"values", Json::array()},
+                {"shown", Json::array()},
+                {"wanted", marked(series.wanted)}};
+    for (const Interval& value : series.values) {
+      one["values"].push_back({number(value.mean), number(value.lower()), number(value.upper())});
+      std::string shown = sized_text(value.mean, chart.digits);
+      if (value.half_width > 0.0) shown += " ± " + sized_text(value.half_width, chart.digits);
+      one["shown"].push_back(shown);
+    }
+    json["series"].push_back(std::move(one));
+  }
+  return json;
+}
+
 Json panel(const HeatMap& map) {
   Json json = {{"kind", "heat"},
                {"title", map.title},
@@ -100,11 +132,14 @@ Json panel(const HeatMap& map) {
                {"diverging", map.diverging},
                {"texts", map.texts},
                {"note", map.note}};
-  for (const auto& row : map.values) {
+  if (map.most) json["most"] = *map.most;
+  for (std::size_t r = 0; r < map.values.size(); ++r) {
     Json cells = Json::array(), shown = Json::array();
-    for (const double value : row) {
-      cells.push_back(std::isfinite(value) ? Json(value) : Json());
-      shown.push_back(sized_text(value, map.digits));
+    for (std::size_t c = 0; c < map.values[r].size(); ++c) {
+      const double value = map.values[r][c];
+      cells.push_back(exact(value));
+      shown.push_back(sized_text(map.scale * value, map.digits, map.sign) +
+                      (!map.marked.empty() && map.marked[r][c] ? "*" : ""));
     }
     json["values"].push_back(std::move(cells));
     json["shown"].push_back(std::move(shown));
@@ -113,7 +148,7 @@ Json panel(const HeatMap& map) {
 }
 
 Json panel(const ReportTable& table) {
-  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}};
+  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}, {"filtered_by", table.filtered_by}};
   json.update(table.table.page());
   return json;
 }

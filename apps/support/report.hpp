@@ -9,6 +9,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <sigmax/core/mean_interval.hpp>
+
 #include "support/result_table.hpp"
 
 namespace sigmax::apps {
@@ -38,6 +40,21 @@ struct Curve {
   bool dots = false;  ///< points rather than a line
 };
 
+/// What holds from … to: one of a history's pieces. `shade` tells those of the same label from others.
+struct Stay {
+  double from = 0.0;
+  double to = 0.0;
+  std::string label;
+  std::size_t shade = 0;
+};
+
+/// A band below the curves of a chart that says which of several things holds when, as a history of modes.
+struct HistoryBand {
+  std::string name;
+  std::string group{};
+  std::vector<Stay> stays;
+};
+
 /// Curves over one axis, mostly time. The charts of a view are zoomed together.
 struct LineChart {
   std::string title;
@@ -49,6 +66,7 @@ struct LineChart {
   std::vector<Marked> expected{};      ///< along y
   std::optional<double> greatest_y{};  ///< where the y axis ends, if not at the data
   std::string note{};
+  std::vector<HistoryBand> histories{};
   bool joined = false;  ///< gaps of a curve are of other curves' times: it goes on over them
 };
 
@@ -95,6 +113,26 @@ struct Plan {
   std::string note{};
 };
 
+/// A number with its interval in each row of a chart, and where it should be; both may be open or missing (NaN).
+struct IntervalSeries {
+  std::string name;
+  std::string group{};  ///< its name in the report's groups; empty for none
+  std::vector<Interval> values;
+  std::vector<Marked> wanted{};  ///< empty or as long as the values; infinite ends are open
+};
+
+/// Numbers with their intervals below each other, those of all series side by side in each row.
+struct IntervalChart {
+  std::string title;
+  std::string x_label;  ///< with its unit
+  std::vector<std::string> rows;
+  std::vector<IntervalSeries> series;
+  std::optional<double> reference{};  ///< where a line stands that numbers are compared with
+  std::string wanted_label{};         ///< what the shade means that says where a number should be
+  int digits = 2;
+  std::string note{};
+};
+
 /// A matrix as coloured cells. `values` has a row for each of `rows`; `texts`, if any, is what a cell says beside its
 /// number.
 struct HeatMap {
@@ -107,7 +145,11 @@ struct HeatMap {
   std::string value_label;  ///< with its unit
   bool diverging = false;   ///< zero is in the middle: below it is better
   int digits = 2;
+  double scale = 1.0;            ///< what is shown is scale × the number: 100 for per cent
+  bool sign = false;             ///< a + before what is positive
+  std::optional<double> most{};  ///< the number with the strongest colour, if not the greatest of this map
   std::vector<std::vector<std::string>> texts{};
+  std::vector<std::vector<bool>> marked{};  ///< cells with a star
   std::string note{};
 };
 
@@ -116,6 +158,7 @@ struct ReportTable {
   std::string title;
   ResultTable table;
   std::string note{};
+  std::vector<std::string> filtered_by{};  ///< keys of columns of words, by which rows can be chosen
 };
 
 /// Text as it is: settings, an explanation.
@@ -125,7 +168,7 @@ struct Words {
   bool folded = false;
 };
 
-using Panel = std::variant<LineChart, Plan, HeatMap, ReportTable, Words>;
+using Panel = std::variant<LineChart, Plan, IntervalChart, HeatMap, ReportTable, Words>;
 
 /// What is shown for one choice of a report's selector.
 struct View {
@@ -150,6 +193,7 @@ struct Report {
 };
 
 inline constexpr const char* report_name = "report.html";
+inline constexpr const char* report_data_name = "report.json";  ///< its data, for programs
 
 /// Whether this program was built with the drawing code: with dygraphs and D3.
 bool has_reports();

@@ -33,6 +33,7 @@ void ResultFiles::write_json(const std::string& name, const nlohmann::ordered_js
 bool ResultFiles::report_wanted() const { return report_ || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
+  write(report_data_name, data_of(report).dump() + "\n");
   if (report_)
     report_->write(html(report));
   else

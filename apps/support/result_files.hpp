@@ -40,6 +40,7 @@ class ResultFiles {
   /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
   /// says.
   bool report_wanted() const;
+  /// The page, and beside the other files its data, `report_data_name`, which the summary should name.
   void write_report(const Report& report);
 
   /// Puts all files into their place and prints "Wrote a.csv and summary.json to DIR".

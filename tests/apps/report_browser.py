@@ -8,6 +8,7 @@ whose numbers the page's tables must hold. --shots writes PREFIX_{400,1280}_{lig
 """
 import argparse
 import base64
+import bisect
 import json
 import os
 import pathlib
@@ -121,7 +122,7 @@ PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].map((on
 def check_drawing(browser, failures, data):
     views = data["views"][:1]
     panels = data["panels"] + [panel for view in views for panel in view["panels"]] + data["last"]
-    for kind, selector in (("lines", ".lines .chart canvas"), ("plan", ".plan .map path"), ("heat", ".heat rect")):
+    for kind, selector in (("lines", ".lines .chart canvas"), ("plan", ".plan .map path"), ("heat", ".heat rect"), ("intervals", ".intervals .interval path")):
         wanted = sum(panel["kind"] == kind for panel in panels)
         found = browser.js(f"new Set([...document.querySelectorAll({json.dumps(selector)})].map((one) => one.closest('figure'))).size")
         failures.expect(found >= wanted, f"{found} of {wanted} panels of kind {kind} are drawn")
@@ -187,6 +188,64 @@ def check_legend(browser, failures, data):
         break
 
 
+def chosen_panels(data):
+    """Those that are drawn when the page opens."""
+    return data["panels"] + [panel for view in data["views"][:1] for panel in view["panels"]] + data["last"]
+
+
+def check_intervals(browser, failures, data):
+    """Pointing at a number says it and its interval, and a group that is switched off has none."""
+    panel = next((one for one in chosen_panels(data) if one["kind"] == "intervals"), None)
+    if panel is None:
+        return
+    hidden = {group["name"] for group in data["groups"] if not group["shown"]}
+    shown = next(series for series in panel["series"] if series["group"] not in hidden)
+    row = next(k for k, value in enumerate(shown["values"]) if value[0] is not None)
+    number = row * sum(series["group"] not in hidden for series in panel["series"]) + [
+        series["name"] for series in panel["series"] if series["group"] not in hidden].index(shown["name"])
+    box = browser.box(".intervals .interval", number)
+    browser.mouse("mouseMoved", box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    text = browser.js("document.querySelector('figure.intervals .readout').textContent")
+    failures.expect(text == f"{panel['rows'][row]}, {shown['name']}: {shown['shown'][row]}", f"pointing at an interval says {text!r}")
+    browser.mouse("mouseMoved", 1, 1)
+    if not shown["group"]:
+        return
+    count = "document.querySelectorAll('figure.intervals')[0].querySelectorAll('.interval').length"
+    before = browser.js(count)
+    select = f"[...document.querySelectorAll('.bar input')].find((one) => one.dataset.group === {json.dumps(shown['group'])}).click()"
+    browser.js(select)
+    failures.expect(browser.js(count) == before - len(panel["rows"]), f"{shown['name']} is switched off and still drawn")
+    browser.js(select)
+    failures.expect(browser.js(count) == before, f"switching {shown['name']} on again does not bring it back")
+
+
+def check_heat(browser, failures, data):
+    """Pointing at a cell says its number and what it comes from."""
+    panel = next((one for one in chosen_panels(data) if one["kind"] == "heat"), None)
+    if panel is None:
+        return
+    box = browser.box(".heat .cell")
+    browser.mouse("mouseMoved", box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    text = browser.js("document.querySelector('figure.heat .readout').textContent")
+    words = [f"{panel['rows'][0]}, {panel['columns'][0]}: {panel['shown'][0][0]}"] + (panel["texts"][0][:1] if panel["texts"] else [])
+    failures.expect(text == "; ".join(word for word in words if word), f"pointing at a cell says {text!r}")
+    browser.mouse("mouseMoved", 1, 1)
+
+
+def check_filters(browser, failures, data):
+    """A table of which rows are chosen shows those, and all of them again."""
+    for table in (panel for panel in chosen_panels(data) if panel.get("filtered_by")):
+        for key in table["filtered_by"]:
+            column = [one["key"] for one in table["columns"]].index(key)
+            words = table["rows"][0][column]["text"]
+            rows = sum(bool(row) and row[column]["text"] == words for row in table["rows"])
+            choose = lambda word: browser.js(f"""(() => {{ const one = document.querySelector('select[data-filter=' + {json.dumps(json.dumps(key))} + ']');
+                one.value = {json.dumps(word)}; one.dispatchEvent(new Event('change'));
+                return [...one.closest('figure').querySelectorAll('tbody tr')].filter((row) => row.offsetParent).length; }})()""")
+            failures.expect(choose(words) == rows, f"choosing {words!r} of {key} does not show its {rows} rows")
+            failures.expect(choose("") == sum(bool(row) for row in table["rows"]), f"choosing all of {key} does not show all rows")
+
+
 def check_selector(browser, failures, data):
     if len(data["views"]) < 2:
         return
@@ -211,22 +270,55 @@ def numbers_in(json_value):
 
 
 def check_numbers(browser, failures, summary):
-    """Every number of a keyed cell stands in summary.json, in the record of its row under its key."""
+    """Every number of a keyed cell stands in summary.json, in the record of its row, or of its first two cells, under its key."""
     cells = browser.js("""[...document.querySelectorAll('td[data-value]')].map((one) =>
-        [one.parentNode.firstChild.textContent, one.dataset.key ?? '', Number(one.dataset.value)])""")
+        [[...one.parentNode.children].slice(0, 2).map((cell) => cell.textContent), one.dataset.key ?? '', Number(one.dataset.value)])""")
 
     def holds(record, row, key, value):
         if isinstance(record, dict):
-            own = record.get(row)
-            if isinstance(own, dict) and key in own and own[key] == value:
-                return True
+            own = record.get(row[0])
+            for one in (own, own.get(row[1]) if isinstance(own, dict) and len(row) > 1 else None):
+                if isinstance(one, dict) and key in one and one[key] == value:
+                    return True
             return any(holds(other, row, key, value) for other in record.values())
         return isinstance(record, list) and any(holds(other, row, key, value) for other in record)
 
     keyed = [cell for cell in cells if cell[1]]
-    failures.expect(len(keyed) > 0, "no cell of a table holds a number of the summary")
     for row, key, value in keyed:
         failures.expect(holds(summary, row, key, value), f"{row}, {key}: {value} is not in summary.json")
+    return len(keyed)
+
+
+def check_numbers_of_intervals(failures, data, summary):
+    """Every number that has an interval stands in summary.json too, to seven digits."""
+    known = sorted(numbers_in(summary))
+
+    def holds(value):
+        if value is None:
+            return True
+        near = bisect.bisect_left(known, value - 1e-6 * abs(value))
+        return near < len(known) and known[near] <= value + 1e-6 * abs(value)
+
+    compared = 0
+    for panel in data["panels"] + [panel for view in data["views"] for panel in view["panels"]] + data["last"]:
+        if panel["kind"] != "intervals":
+            continue
+        numbers = [value[0] for series in panel["series"] for value in series["values"]]
+        compared += len(numbers)
+        missing = [number for number in numbers if not holds(number)]
+        failures.expect(not missing, f"{panel['title']}: {missing[:3]} is not in summary.json")
+    return compared
+
+
+def check_data(failures, data, summary, directory):
+    """summary.json names a file that holds what the page draws, and its histories are those of the page."""
+    if "report_data" in summary:
+        told = json.loads((directory / summary["report_data"]).read_text(encoding="utf-8"))
+        failures.expect(told == data, f"{summary['report_data']} is not what the page holds")
+    histories = [[stay["label"] for stay in band["stays"]] for view in data["views"] for panel in view["panels"]
+                 for band in panel.get("histories", [])]
+    told = [[stay["mode"] for stay in stays] for tracks in summary.get("histories", {}).values() for stays in tracks.values() if stays]
+    failures.expect(sorted(histories) == sorted(told), "the histories are not those of summary.json")
 
 
 def check_tables(browser, failures, data):
@@ -285,8 +377,15 @@ def main():
             check_legend(browser, failures, data)
             check_tables(browser, failures, data)
         check_selector(browser, failures, data)
+        check_intervals(browser, failures, data)
+        check_heat(browser, failures, data)
+        check_filters(browser, failures, data)
         if options.summary:
-            check_numbers(browser, failures, json.loads(pathlib.Path(options.summary).read_text(encoding="utf-8")))
+            path = pathlib.Path(options.summary)
+            summary = json.loads(path.read_text(encoding="utf-8"))
+            compared = check_numbers(browser, failures, summary) + check_numbers_of_intervals(failures, data, summary)
+            failures.expect(compared > 0, "nothing in the page is a number of the summary")
+            check_data(failures, data, summary, path.parent)
         check_width(browser, failures)
         if options.shots:
             shoot(browser, options.shots)

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "apps/report_pages.hpp"
 #include "apps/temporary_directory.hpp"
@@ -35,8 +37,18 @@ Report example() {
                .values = {{1.0}},
                .value_label = nasty};
   heat.texts = {{nasty}};
-  report.views = {{nasty, {chart, plan}}, {"other", {chart}}};
-  report.last = {ReportTable{nasty, table, nasty}, heat, Words{nasty, nasty}, Words{nasty, nasty, true}};
+  heat.marked = {{true}};
+  heat.scale = 100.0;
+  IntervalChart intervals{.title = nasty,
+                          .x_label = nasty,
+                          .rows = {nasty, "none"},
+                          .series = {{.name = nasty, .group = nasty, .values = {{1.0, 0.25}, {std::nan(""), 0.0}}}},
+                          .reference = 0.5,
+                          .wanted_label = nasty};
+  intervals.series[0].wanted = {{-HUGE_VAL, 1.5}, {std::nan(""), std::nan("")}};
+  chart.histories = {{nasty, nasty, {{1.0, 2.0, nasty, 0}, {2.0, 3.0, "other", 1}}}};
+  report.views = {{nasty, {chart, plan, intervals}}, {"other", {chart}}};
+  report.last = {ReportTable{nasty, table, nasty, {"name"}}, heat, Words{nasty, nasty}, Words{nasty, nasty, true}};
   return report;
 }
 
@@ -49,6 +61,11 @@ TEST(Report, IsDataOfWhatItWasGiven) {
   EXPECT_EQ(cell.at("value"), 0.25);
   EXPECT_EQ(cell.at("text"), "0.25");
   EXPECT_TRUE(data.at("last").at(3).at("folded"));
+  EXPECT_EQ(data.at("last").at(1).at("shown"), nlohmann::ordered_json::parse(R"([["100.00*"]])"));
+  const auto& intervals = data.at("views").at(0).at("panels").at(2).at("series").at(0);
+  EXPECT_EQ(intervals.at("values"), nlohmann::ordered_json::parse("[[1.0, 0.75, 1.25], [null, null, null]]"));
+  EXPECT_EQ(intervals.at("shown"), nlohmann::ordered_json::parse(R"(["1.00 ± 0.25", "–"])"));
+  EXPECT_TRUE(intervals.at("wanted").at(0).at("from").is_null());
 }
 
 TEST(Report, LetsNoTextOutOfItsPlace) {
@@ -97,6 +114,165 @@ TEST(Report, OfTrackIsDrawnAndHoldsTheNumbersOfTheSummary) {
       program::run(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
                                       "sigma_position_m=[3,3,5]", "--set", "sigma_w=1.5", "--out", directory.path()});
   ASSERT_EQ(ending.status, 0) << ending.output;
+  expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
+}
+
+/// What the page of a run holds, and what its summary says.
+struct Written {
+  nlohmann::ordered_json data, summary;
+};
+
+Written written(const std::filesystem::path& directory) {
+  const auto read = [&](const std::string& name) { return nlohmann::ordered_json::parse(contents(directory / name)); };
+  auto summary = read("summary.json");
+  return {read(summary.at("report_data")), std::move(summary)};
+}
+
+/// The fields of the lines of a file that begin so, after the beginning.
+std::vector<std::string> lines_with(const std::filesystem::path& file, const std::string& beginning) {
+  std::istringstream text(contents(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);)
+    if (line.starts_with(beginning)) lines.push_back(line.substr(beginning.size()));
+  return lines;
+}
+
+TEST(Report, OfSimulateDrawsTheCurvesThatRmseCsvHolds) {
+  const TemporaryDirectory directory;
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  ASSERT_EQ(program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--out", directory.path()}).status,
+            0);
+  const auto data = written(directory.path()).data;
+  const auto& chart = data.at("views").at(0).at("panels").at(0);
+  ASSERT_EQ(chart.at("title"), "RMSE in x");
+  for (const auto& curve : chart.at("curves"))
+    for (std::size_t k = 0; k < curve.at("values").size(); ++k) {
+      const auto cell = lines_with(directory.path() / "rmse.csv",
+                                   std::to_string(k + 1) + "," + curve.at("name").get<std::string>() + ",x,");
+      ASSERT_EQ(cell.size(), 1U);
+      if (cell[0].empty()) {
+        EXPECT_TRUE(curve.at("values")[k].is_null());
+      } else {
+        EXPECT_NEAR(curve.at("values")[k].get<double>(), std::stod(cell[0]), 1e-6 * std::stod(cell[0]));
+      }
+    }
+}
+
+TEST(Report, OfReproduceShowsEverySentenceAndTheFiguresThatDecide) {
+  const TemporaryDirectory directory;
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  const auto ending =
+      program::run(SIGMAX_HIMM_DEMO, {"reproduce", "--quiet", "--runs", "3", "--out", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_LT(std::filesystem::file_size(directory.path() / "report.html"), 1000000U);
+  const auto [data, summary] = written(directory.path());
+  EXPECT_EQ(data.at("panels").at(0).at("rows").size(), summary.at("sentences").size());
+  EXPECT_EQ(data.at("views").size(), 16U) << "presets, scenarios and groups";
+  std::size_t figures = 0;
+  for (const auto& view : data.at("views"))
+    for (const auto& panel : view.at("panels"))
+      if (!panel.at("wanted_label").empty() && !panel.at("title").get<std::string>().starts_with("RMSE in"))
+        figures += panel.at("rows").size();
+  std::size_t told = 0;
+  for (const auto& [preset, sentences] : summary.at("figures").items())
+    for (const auto& [sentence, all] : sentences.items()) told += all.size();
+  EXPECT_EQ(figures, told);
+  const auto& map = data.at("last").at(0);
+  for (std::size_t row = 0; row < map.at("rows").size(); ++row) {
+    const auto& own = summary.at("over_measurement").at("paper_text").at(map.at("rows")[row]);
+    for (std::size_t column = 0; column < map.at("columns").size(); ++column)
+      if (const auto& value = map.at("values")[row][column]; !value.is_null())
+        EXPECT_EQ(value, own.at(map.at("columns")[column])) << map.at("rows")[row];
+  }
+  expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
+}
+
+TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
+  const TemporaryDirectory directory;
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  const std::vector<std::string> small = {
+      "sweep",         "--quiet", "--scenario", "2", "--filters", "imm,himm_own", "--probability", "0.05",
+      "--possibility", "0.2,0.5", "--sigma-w",  "3", "--lift",    "zero",         "--mismatch",    "1,2",
+      "--period",      "2",       "--strength", "1", "--length",  "0.5,1",        "--tuning-runs", "1",
+      "--runs",        "2",       "--out"};
+  const auto sweep = [&](const std::string& out, const std::vector<std::string>& more) {
+    auto arguments = small;
+    arguments.push_back(directory.path() / out);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    return directory.path() / out;
+  };
+  const auto alone = sweep("alone", {}), crossed = sweep("crossed", {"--cross"});
+  const auto [data, summary] = written(alone);
+  const auto& map = data.at("panels").at(0);
+  const auto rows = map.at("rows").get<std::vector<std::string>>();
+  const auto row = static_cast<std::size_t>(std::find(rows.begin(), rows.end(), "noise ×2") - rows.begin());
+  ASSERT_LT(row, rows.size());
+  ASSERT_EQ(map.at("columns"), nlohmann::ordered_json::parse(R"(["HIMM", "himm_own"])"));
+  const auto& tuned = summary.at("conditions").at("2, noise ×2").at("himm_own");
+  EXPECT_EQ(map.at("values")[row][1], tuned.at("above_imm").at("mean"));
+  EXPECT_NE(map.at("texts")[row][1].get<std::string>().find("leaving " + tuned.at("leaving").dump()), std::string::npos)
+      << map.at("texts")[row][1];
+  const auto crossing = written(crossed).data;
+  EXPECT_EQ(crossing.at("views").size(), 2U);
+  EXPECT_EQ(crossing.at("views").at(0).at("panels").at(0).at("columns").size(), 2U);
+  expect_drawn(alone / "report.html", alone / "summary.json");
+  expect_drawn(crossed / "report.html", crossed / "summary.json");
+  const auto merged = directory.path() / "merged.html";
+  const auto merge =
+      program::run(SIGMAX_HIMM_DEMO, {"merge", crossed, "--out", directory.path() / "merged", "--report", merged});
+  EXPECT_EQ(merge.status, 0) << merge.output;
+  EXPECT_NE(contents(merged).find("against the tuned IMM"), std::string::npos);
+}
+
+TEST(Report, OfAShardIsRefused) {
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  const TemporaryDirectory directory;
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"reproduce", "--runs", "2", "--shard", "1/2", "--out",
+                                                      directory.path(), "--report", directory.path() / "page.html"});
+  EXPECT_EQ(ending.status, 2);
+  EXPECT_NE(ending.output.find("give it to merge"), std::string::npos) << ending.output;
+}
+
+TEST(Report, OfTuneShowsInnovationsAndFoldsBeforeAndAfter) {
+  const TemporaryDirectory directory;
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  const auto page = directory.path() / "tune.html", found = directory.path() / "tune.json";
+  const auto ending =
+      program::run(SIGMAX_HIMM_DEMO, {"tune", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
+                                      "filters=imm", "--set", "sigma_position_m=[30,30,30]", "--models", "dwna",
+                                      "--starts", "1", "--folds", "2", "--summary", found, "--report", page});
+  if (ending.output.find("built without an optimiser") != std::string::npos) GTEST_SKIP() << "built without NLopt";
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto summary = nlohmann::ordered_json::parse(contents(found));
+  const auto& filter = summary.at("filters").at("imm");
+  EXPECT_LT(filter.at("held_out").at("all folds").at("best"), filter.at("held_out").at("all folds").at("before"));
+  EXPECT_LT(filter.at("before").at("sensors").at("all rows").at("nis"), 0.5) << "the sigmas are far too great";
+  EXPECT_TRUE(filter.at("settings").contains("sigma_position_m")) << filter.at("settings");
+  expect_drawn(page, found);
+}
+
+TEST(Report, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
+  const TemporaryDirectory directory;
+  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet",
+                                                      "--set", "filters=himm_histories", "--set", "explain=true",
+                                                      "--set", "sigma_position_m=[3,3,5]", "--out", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto [data, summary] = written(directory.path());
+  const auto& told = summary.at("histories").at("himm_histories").at("");
+  const auto& panels = data.at("views").at(0).at("panels");
+  const auto& drawn = panels.at(panels.size() - 2).at("histories").at(0).at("stays");
+  ASSERT_EQ(drawn.size(), told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(drawn[i].at("label"), told[i].at("mode"));
+    EXPECT_NEAR(
+        drawn[i].at("from").get<double>(),
+        told[i].at("since_s").get<double>() - told[0].at("since_s").get<double>() + drawn[0].at("from").get<double>(),
+        1e-3);
+    EXPECT_LE(drawn[i].at("from"), drawn[i].at("to"));
+  }
   expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
 }
 
