@@ -95,19 +95,18 @@ ResultTable folds_table(const TunedFilter& tuned, const TuneOptions& options, co
 }
 
 ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
-  ResultTable table(
-      {{.key = "models", .header = "models", .align = Align::left},
-       {.key = "remark", .header = "chosen", .align = Align::left},
-       {.key = "numbers", .header = "fitted numbers"},
-       {.key = "fitted", .header = "fitted", .digits = 4, .sized = true, .group = unit_of(objective)},
-       {.key = "held_out", .header = "held out", .digits = 4, .sized = true, .group = unit_of(objective)},
-       {.key = "gain",
-        .header = objective == Objective::rmse ? "mean, m²" : "mean",
-        .digits = 3,
-        .sign = true,
-        .sized = true,
-        .group = "gain held out:"},
-       {.key = "gain_error", .header = "± standard error", .digits = 3, .sized = true, .group = "gain held out:"}});
+  ResultTable table({{.key = "models", .header = "models", .align = Align::left},
+                     {.key = "remark", .header = "chosen", .align = Align::left},
+                     {.key = "numbers", .header = "numbers"},
+                     {.key = "fitted", .header = "fitted", .digits = 4, .sized = true, .group = unit_of(objective)},
+                     {.key = "held_out", .header = "held out", .digits = 4, .sized = true, .group = unit_of(objective)},
+                     {.key = "gain",
+                      .header = objective == Objective::rmse ? "mean, m²" : "mean",
+                      .digits = 3,
+                      .sign = true,
+                      .sized = true,
+                      .group = "gain held out:"},
+                     {.key = "gain_error", .header = "± s.e.", .digits = 3, .sized = true, .group = "gain held out:"}});
   for (std::size_t c = 0; c < tuned.candidates.size(); ++c) {
     const Candidate& candidate = tuned.candidates[c];
     table.row({candidate.name, remark_of(tuned, c), candidate.numbers, figure_of(candidate.fitted, objective),
