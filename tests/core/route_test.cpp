@@ -72,6 +72,23 @@ TEST(BestRoute, OnATieThatALaterMinimumMakesTakesTheFirst) {
   EXPECT_EQ(route.log_value, std::log(0.5));
 }
 
+/// There is no way to an impossible outcome; the one that is named is of first outcomes.
+template <Uncertainty Kind>
+void expect_first_outcomes_to_an_impossible_one() {
+  const Variable<Kind> start{"start", 3}, middle{"middle", 3}, end{"end", 2};
+  const Routes routes = compose(Relation{end, middle, {{1.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}},
+                                compose(Relation{middle, start, {{0.0, 1.0, 0.5}, {0.0, 0.5, 1.0}, {0.0, 1.0, 1.0}}},
+                                        Routes{uninformative(start)}));
+  EXPECT_EQ(routes.to(1).outcomes, (Way{0, 0, 1}));
+  EXPECT_EQ(routes.to(1).log_value, log_zero);
+  EXPECT_EQ(routes.to(0).outcomes, (Way{0, 1, 0}));
+}
+
+TEST(Routes, ToAnImpossibleOutcomeAreOfFirstOutcomes) {
+  expect_first_outcomes_to_an_impossible_one<Ordinal>();
+  expect_first_outcomes_to_an_impossible_one<Fuzzy>();
+}
+
 /// All routes of short chains, compared from the last outcome backwards as the documentation says.
 template <Uncertainty Kind>
 void expect_the_documented_winner_of_ties() {
