@@ -125,6 +125,11 @@ class Reporter {
         if (!outcome_.sensors.contains(sensor))
           warnings_.push_back(fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", sensor,
                                           filter.name, file_));
+    if (options_.predict_to && outcome_.predicted == 0)
+      warnings_.push_back(
+          fmt::format("{}: nothing was predicted: every track ends at the time of --predict-to or "
+                      "later; write it as the recording writes its times",
+                      file_));
     if (!warnings_.empty()) summary_["warnings"] = warnings_;
   }
 

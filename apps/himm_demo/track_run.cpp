@@ -111,7 +111,9 @@ class TrackRun {
       fix.line = target.rows.back().line;
       fix.track = name;
       fix.time_s = *options_.predict_to;
-      if (fix.time_s > target.before) step(target, fix);
+      if (fix.time_s <= target.before) continue;
+      step(target, fix);
+      ++outcome_.predicted;
     }
   }
 

@@ -60,6 +60,7 @@ struct TrackOutcome {
   std::map<std::string, std::size_t> sensors;  ///< the rows of each
   std::size_t refused_by_all = 0;              ///< measurements that every filter's gate turned away
   std::size_t first_refused_line = 0;          ///< of the first of them
+  std::size_t predicted = 0;                   ///< tracks, up to the time that was asked for
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Validity validity;
   Outliers outliers;

@@ -147,6 +147,9 @@ TEST(HimmDemoRealInput, ATargetIsPredictedToATime) {
   EXPECT_EQ(found.back().at("time_s"), "100");
   EXPECT_NEAR(number(found.back().at("x_m")), 1000.0, 1e-6);
   EXPECT_EQ(found.back().at("nis"), "");
+  const auto late = tracked(straight, {"--predict-to", "5"});
+  EXPECT_TRUE(says(late.output, "nothing was predicted: every track ends at the time")) << late.output;
+  EXPECT_EQ(late.estimates, tracked(straight).estimates);
 }
 
 TEST(HimmDemoRealInput, TheInputIsNotWrittenOver) {

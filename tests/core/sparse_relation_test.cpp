@@ -141,6 +141,11 @@ TEST(SparseRows, TakeCompressedRowsAsTheyAre) {
   EXPECT_THROW(SparseRows(4, std::vector<std::size_t>{1}, {2, 3}, {1.0}), std::invalid_argument);
 }
 
+TEST(SparseRows, OfNothingHaveNeitherRowsNorColumns) {
+  EXPECT_EQ(SparseRows().rows() + SparseRows().columns() + SparseRows().stored(), 0U);
+  EXPECT_EQ(BandedRows().rows() + BandedRows().columns() + BandedRows().stored(), 0U);
+}
+
 TEST(SparseRelation, ComposesToWhatFitsTheResult) {
   const RandomVariable large{"large", 100};
   SparseRows cyclic, lazy;
