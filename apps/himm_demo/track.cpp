@@ -8,12 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "himm_demo/estimates_file.hpp"
+#include "himm_demo/estimate_lines.hpp"
 #include "himm_demo/filter_options.hpp"
 #include "himm_demo/recording_options.hpp"
 #include "himm_demo/track_page.hpp"
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
+#include "himm_demo/track_shares.hpp"
 #include "support/braille.hpp"
 #include "support/result_files.hpp"
 #include "support/run.hpp"
@@ -60,26 +61,43 @@ Report page_of(const TrackOptions& options, const std::vector<FilterSettings>& f
   return page;
 }
 
-void track_and_report(const TrackOptions& options) {
+/// Each rank reads the recording for itself.
+void refuse_what_ranks_cannot_share(const TrackOptions& options) {
+  if (options.recording.track_id.empty())
+    throw UsageError(
+        message({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
+                 .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"}));
+  if (options.recording.file == "-")
+    throw UsageError(message({.what = "under mpirun every rank reads the recording, but standard input comes only once",
+                              .remedy = "give the name of a file"}));
+}
+
+void track_and_report(const TrackOptions& options, TrackShares& shares) {
   const auto filters = filters_for_recording(Settings::read(options.config, options.sets), options.radar);
   if (options.print_config) {
-    fmt::print("{}", as_toml(filters));
+    if (shares.first()) fmt::print("{}", as_toml(filters));
     return;
   }
+  if (!shares.alone()) refuse_what_ranks_cannot_share(options);
   RecordingOptions what = options.recording;
   take_what_filters_know(filters, what);
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
   refuse_to_overwrite(options);
+  const EstimateLines lines(filters, recording, options.iso_times);
+  TrackSinks sinks{.lines = options.output.out.empty() ? nullptr : &lines};
+  if (!shares.first()) {
+    run_track(options, recording, filters, sinks, shares);
+    return;
+  }
   ResultFiles files(options.output);
-  std::optional<EstimatesFile> estimates;
+  sinks.estimates = files.open("estimates.csv");
+  if (sinks.estimates) sinks.estimates->write(lines.header());
   std::optional<TrackPage> tracks;
-  if (AtomicFile* const file = files.open("estimates.csv"))
-    estimates.emplace(*file, filters, recording, options.iso_times);
-  const bool charts = charts_on_terminal(options.output);
+  const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar || recording.has_truth());
-  const TrackOutcome outcome =
-      run_track(options, recording, filters, {estimates ? &*estimates : nullptr, tracks ? &*tracks : nullptr});
+  sinks.page = tracks ? &*tracks : nullptr;
+  const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
   for (std::size_t f = 0; tracks && f < filters.size(); ++f)
     for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
   TrackReport found = report(options, recording, filters, outcome);
@@ -141,7 +159,10 @@ void add_track(CLI::App& program, const std::string& command) {
   add_output(app, options->output);
   add_report(app, options->output);
   add_no_chart(app, options->output.no_chart);
-  app.callback([options] { track_and_report(*options); });
+  app.callback([options] {
+    TrackShares shares;
+    shares.run([&] { track_and_report(*options, shares); });
+  });
 }
 
 }  // namespace sigmax::apps

@@ -64,23 +64,21 @@ void TrackPage::measured(const Fix& fix, const std::optional<Vector<3>>& positio
   track->plots.add(fix.time_s, row);
 }
 
-template <int Axes>
-void TrackPage::estimated(const Fix& fix, std::size_t filter, const TrackPoint<Axes>& point) {
+void TrackPage::estimated(const Fix& fix, const Said& said) {
   Track* const track = track_of(fix);
   if (!track) return;
   std::vector<double> row(columns(), nan);
-  for (Eigen::Index axis = 0; axis < Axes; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    row[position_at + i] = point.estimate.mean(axis);
-    if (fix.truth) row[error_at + i] = point.estimate.mean(axis) - (*fix.truth)(axis);
-    row[sigma_at + i] = std::sqrt(point.estimate.covariance(axis, axis));
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
+    row[position_at + axis] = said.told.mean[axis];
+    if (fix.truth) row[error_at + axis] = said.told.mean[axis] - (*fix.truth)(static_cast<Eigen::Index>(axis));
+    row[sigma_at + axis] = std::sqrt(said.told.variance[axis]);
   }
-  row[nis_at] = point.nis.value_or(nan);
-  const auto& own = filters_[filter].models;
+  row[nis_at] = said.nis.value_or(nan);
+  const auto& own = filters_[said.filter].models;
   for (std::size_t j = 0; j < own.size(); ++j)
     row[weights_at + static_cast<std::size_t>(std::find(models_.begin(), models_.end(), own[j]) - models_.begin())] =
-        point.weights[j];
-  track->estimates[filter].add(point.time, row);
+        said.weights[j];
+  track->estimates[said.filter].add(said.time, row);
 }
 
 void TrackPage::rejected(const Fix& fix, std::size_t filter) {
@@ -121,8 +119,5 @@ void TrackPage::add_to(Report& page) const {
                     "every stretch.",
                     taken, kept));
 }
-
-template void TrackPage::estimated(const Fix&, std::size_t, const TrackPoint<2>&);
-template void TrackPage::estimated(const Fix&, std::size_t, const TrackPoint<3>&);
 
 }  // namespace sigmax::apps

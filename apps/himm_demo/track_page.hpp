@@ -9,7 +9,7 @@
 
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/recording.hpp"
-#include "himm_demo/tracker.hpp"
+#include "himm_demo/said.hpp"
 #include "support/report.hpp"
 #include "support/thinned.hpp"
 
@@ -24,8 +24,7 @@ class TrackPage {
   void measured(const Fix& fix, const std::optional<Vector<3>>& position, const std::optional<Geodetic>& anchor);
 
   /// What a filter said of the row, in the same coordinates.
-  template <int Axes>
-  void estimated(const Fix& fix, std::size_t filter, const TrackPoint<Axes>& point);
+  void estimated(const Fix& fix, const Said& said);
 
   /// That a filter's gate turned the row's measurement away, or that a filter started once more.
   void rejected(const Fix& fix, std::size_t filter);
@@ -75,9 +74,6 @@ class TrackPage {
   std::map<std::string, Track> tracks_;
   std::size_t not_shown_ = 0;  // rows of tracks beyond
 };
-
-extern template void TrackPage::estimated(const Fix&, std::size_t, const TrackPoint<2>&);
-extern template void TrackPage::estimated(const Fix&, std::size_t, const TrackPoint<3>&);
 
 /// Parallels and meridians about a place that cross a part of its frame, at round degrees.
 std::vector<GraticuleLine> graticule(const Geodetic& anchor, double west, double east, double south, double north);

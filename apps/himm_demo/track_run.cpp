@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sigmax/estimation/chi_square.hpp>
-
-#include "himm_demo/estimates_file.hpp"
+#include "himm_demo/estimate_lines.hpp"
 #include "himm_demo/fix_reading.hpp"
 #include "himm_demo/simulated_radar.hpp"
-#include "himm_demo/track_page.hpp"
+#include "himm_demo/track_ledger.hpp"
+#include "himm_demo/track_shares.hpp"
 #include "himm_demo/tracker.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
@@ -22,10 +21,6 @@
 
 namespace sigmax::apps {
 namespace {
-
-void add_error(Sums& sums, const Vector<3>& error) {
-  for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));
-}
 
 /// The frame in which a filter follows a target from a start on.
 template <int Axes>
@@ -35,18 +30,16 @@ struct Segment {
   LocalFrame<Axes> frame;
 };
 
-/// One target of a recording, followed by every filter.
+/// One target of a recording, followed by every filter: here, or in another rank.
 template <int Axes>
 struct Target {
-  Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream)
-      : trackers(filters.begin(), filters.end()),
+  Target(const std::vector<FilterSettings>& filters, const RandomStream& random_stream, int its_rank, bool here)
+      : rank(its_rank),
+        trackers(filters.begin(), here ? filters.end() : filters.begin()),
+        tallies(filters.size()),
         segments(filters.size()),
         random(random_stream),
         keeps_all(std::any_of(filters.begin(), filters.end(), [](const auto& filter) { return filter.smooth; })) {}
-
-  bool all_started() const {
-    return std::all_of(trackers.begin(), trackers.end(), [](const auto& tracker) { return tracker.starts() > 0; });
-  }
 
   /// The frame of a row's estimate; there is one if the recording is geodetic.
   const LocalFrame<Axes>& frame(std::size_t filter, std::size_t tag) const {
@@ -56,7 +49,9 @@ struct Target {
     return std::prev(after)->frame;
   }
 
+  int rank;  // that follows it
   std::vector<Tracker<Axes>> trackers;
+  std::vector<Tally> tallies;
   std::optional<LocalFrame<Axes>> anchor;                    // where positions are counted from in the output
   std::vector<std::vector<Segment<Axes>>> segments;          // of each filter
   double before = std::numeric_limits<double>::quiet_NaN();  // the time of the row before
@@ -73,17 +68,19 @@ template <int Axes>
 class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
-           TrackSinks sinks)
-      : options_(options), recording_(recording), filters_(filters), sinks_(sinks) {
-    outcome_.filters.resize(filters.size());
-    for (std::size_t f = 0; f < filters.size(); ++f)
-      for (auto& part : outcome_.filters[f].sums) part.weights.assign(filters[f].models.size(), 0.0);
+           TrackSinks sinks, TrackShares& shares)
+      : options_(options),
+        recording_(recording),
+        filters_(filters),
+        sinks_(sinks),
+        shares_(shares),
+        ledger_(options, filters, Axes, sinks) {
     if (options.radar_at) radar_at_ = Vector<3>(options.radar_at->data());
   }
 
   TrackOutcome run() {
     const auto total = recording_.csv().bytes_total();
-    Progress progress(file(), total.value_or(1), options_.output.quiet || !total);
+    Progress progress(file(), total.value_or(1), options_.output.quiet || !total || !shares_.first());
     std::uint64_t done = 0;
     for (Fix fix; recording_.next(fix);) {
       take(fix);
@@ -92,12 +89,12 @@ class TrackRun {
     }
     progress.finish();
     if (options_.predict_to) predict();
-    for (auto& [name, target] : targets_) smooth(target);
+    for (auto& [name, target] : targets_) end(name, target);
+    shares_.finish();
+    if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
     outcome_.tracks = targets_.size();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks()))
       outcome_.origin = file_anchor_->origin();
-    for (const auto& [name, target] : targets_) count(name, target);
-    if (outcome_.never_started.size() == targets_.size()) refuse_nothing();
     return std::move(outcome_);
   }
 
@@ -107,6 +104,7 @@ class TrackRun {
   /// A last step of each target that ended before the time asked for, without a measurement.
   void predict() {
     for (auto& [name, target] : targets_) {
+      if (!shares_.concerns(target.rank)) continue;
       Fix fix;
       fix.line = target.rows.back().line;
       fix.track = name;
@@ -117,35 +115,26 @@ class TrackRun {
     }
   }
 
-  void count(const std::string& name, const Target<Axes>& target) {
-    if (!target.all_started()) outcome_.never_started.push_back(name);
-    for (std::size_t f = 0; f < filters_.size(); ++f) {
-      const Tracker<Axes>& tracker = target.trackers[f];
-      outcome_.filters[f].rejected += tracker.rejected();
-      outcome_.filters[f].restarts += tracker.starts() > 0 ? tracker.starts() - 1 : 0;
-      if (filters_[f].explain) outcome_.filters[f].histories[name] = tracker.explained();
-    }
-  }
-
   void take(Fix fix) {
-    ++outcome_.rows;
-    if (fix.measured()) ++outcome_.measurements;
-    if (recording_.has_sensors()) ++outcome_.sensors[fix.sensor];
-    auto target = targets_.find(fix.track);
-    if (target == targets_.end())
-      target = targets_.try_emplace(fix.track, filters_, stream_of(options_.seed, fix.track)).first;
-    if (fix.place) place(target->second, fix);
+    ledger_.read(fix, recording_.has_sensors());
+    Target<Axes>& target = target_of(fix.track);
+    if (fix.place) place(target, fix);
+    if (!shares_.concerns(target.rank)) return;
     if (options_.radar && fix.position && !fix.no_height)
-      see_by_radar(fix, *options_.radar, radar_at_, target->second.random, file());
+      see_by_radar(fix, *options_.radar, radar_at_, target.random, file());
     else if (options_.radar)
       fix.position.reset();
-    if (fix.seen) outcome_.validity.add(fix, *fix.seen, filters_);
-    if (fix.truth && fix.located() && !fix.no_height)
-      add_by_part(outcome_.raw, fix.roll_deg, [&](Sums& sums) {
-        add_error(sums, (fix.seen ? radar_at_ + to_cartesian(*fix.seen) : *fix.position) - *fix.truth);
-      });
-    if (sinks_.page) show(target->second, fix);
-    step(target->second, fix);
+    std::optional<Geodetic> anchor;
+    if (target.anchor) anchor = target.anchor->origin();
+    ledger_.measured(fix, position_of(fix, target), anchor);
+    step(target, fix);
+  }
+
+  Target<Axes>& target_of(const std::string& track) {
+    if (const auto found = targets_.find(track); found != targets_.end()) return found->second;
+    const int rank = shares_.rank_of(targets_.size());
+    return targets_.try_emplace(track, filters_, stream_of(options_.seed, track), rank, shares_.follows(rank))
+        .first->second;
   }
 
   /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of
@@ -193,46 +182,60 @@ class TrackRun {
     target.rows.push_back(fix);
     ++target.taken;
     if (!target.keeps_all && target.rows.size() > 2) target.rows.pop_front();
+    const auto step = shares_.by<Step>(target.rank, [&] { return followed(target, fix, again); });
+    if (!step) return;
     std::optional<double> least;  // of the filters' NIS
-    std::size_t refusing = 0;     // filters whose gate turns the measurement away
-    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
+    for (const Said& said : step->said) {
+      ledger_.said(target.row(said.tag), said);
+      if (said.tag + 1 == target.taken && said.nis && (!least || *said.nis < *least)) least = said.nis;
+    }
+    ledger_.stepped(fix, target.tallies, step->tallies, least);
+    target.tallies = step->tallies;
+  }
+
+  /// What the filters make of the last row.
+  Step followed(Target<Axes>& target, const Fix& fix, bool again) {
+    Step step;
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
       auto& tracker = target.trackers[f];
-      if (again && !tracker.running()) continue;
-      const std::size_t rejected = tracker.rejected(), starts = tracker.starts();
       try {
-        tracker.take(fix.time_s, reading(fix, target, f), target.taken - 1, [&](std::size_t tag) {
-          if (tracker.settings().smooth) return;
-          const TrackPoint<Axes> now = tracker.now();
-          record(target, tag, f, now);
-          if (tag + 1 == target.taken && now.nis && (!least || *now.nis < *least)) least = now.nis;
-        });
-        follow(target, f);
-      } catch (const InputError&) {
-        throw;  // of the output
+        if (!again || tracker.running()) {
+          tracker.take(fix.time_s, reading(fix, target, f), target.taken - 1, [&](std::size_t tag) {
+            if (!tracker.settings().smooth) step.said.push_back(said(target, tag, f, tracker.now()));
+          });
+          follow(target, f);
+        }
       } catch (const std::exception& error) {
         refuse_failure(f, fix, error);
       }
-      if (tracker.rejected() > rejected) ++refusing;
-      if (sinks_.page && tracker.rejected() > rejected) sinks_.page->rejected(fix, f);
-      if (sinks_.page && starts > 0 && tracker.starts() > starts) sinks_.page->restarted(fix, f);
+      step.tallies.push_back({tracker.rejected(), tracker.starts()});
     }
-    if (refusing == filters_.size() && outcome_.refused_by_all++ == 0) outcome_.first_refused_line = fix.line;
-    if (least) outcome_.outliers.add(fix.line, *least);
+    return step;
   }
 
-  /// The steps of a target whose rows have all been read, as smoothing sees them.
-  void smooth(Target<Axes>& target) {
-    for (std::size_t f = 0; f < target.trackers.size(); ++f) {
-      std::vector<TrackPoint<Axes>> points;
-      try {
-        points = target.trackers[f].finish();
-      } catch (const std::exception& error) {
-        refuse_failure(f, target.rows.back(), error);
-      }
-      for (const auto& point : points)
-        if (!point.is_start) record(target, point.tag, f, point);
+  /// The end of a target whose rows have all been read.
+  void end(const std::string& name, Target<Axes>& target) {
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      auto words = shares_.by<LastWords>(target.rank, [&] { return last_words(target, f); });
+      if (!words) continue;
+      for (const Said& said : words->said) ledger_.said(target.row(said.tag), said);
+      ledger_.history(name, f, std::move(words->history));
     }
     target.rows.clear();
+    ledger_.ended(name, target.tallies);
+  }
+
+  /// The steps as smoothing sees them, and when the modes changed.
+  LastWords last_words(const Target<Axes>& target, std::size_t f) const {
+    LastWords words;
+    try {
+      for (auto& point : target.trackers[f].finish())
+        if (!point.is_start) words.said.push_back(said(target, point.tag, f, std::move(point)));
+    } catch (const std::exception& error) {
+      refuse_failure(f, target.rows.back(), error);
+    }
+    words.history = target.trackers[f].explained();
+    return words;
   }
 
   /// What a row measures, in the frame of the filter and with the covariances that it believes.
@@ -263,52 +266,33 @@ class TrackRun {
     return fix;
   }
 
-  template <class Add>
-  static void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (parts[p].holds(roll)) add(sums[p]);
-  }
-
-  /// Takes down what filter f says of a row.
-  void record(const Target<Axes>& target, std::size_t tag, std::size_t f, const TrackPoint<Axes>& point) {
-    const Fix& fix = target.row(tag);
-    if (sinks_.estimates || sinks_.page) tell(target, tag, f, point);
-    if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
-    const auto& estimate = point.estimate;
-    const int quantities = measured_quantities(fix, filters_[f].accuracy_of(fix.sensor), Axes);
-    add_by_part(outcome_.filters[f].sums, fix.roll_deg, [&](Sums& sums) {
-      ++sums.count;
-      for (Eigen::Index axis = 0; axis < Axes; ++axis)
-        sums.sigma[static_cast<std::size_t>(axis)].add_square(estimate.covariance(axis, axis));
-      if (fix.truth) {
-        Vector<3> error = Vector<3>::Zero();
-        error.template head<Axes>() = estimate.mean.template head<Axes>() - fix.truth->template head<Axes>();
-        add_error(sums, error);
-      }
-      for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-      if (point.nis) sums.nis.add(*point.nis, usual_nis_[static_cast<std::size_t>(quantities) - 1]);
-    });
-  }
-
-  void tell(const Target<Axes>& target, std::size_t tag, std::size_t f, TrackPoint<Axes> point) {
-    const Fix& fix = target.row(tag);
+  /// What a filter says of a row, as estimates.csv has it and as the sums and the page need it.
+  Said said(const Target<Axes>& target, std::size_t tag, std::size_t f, TrackPoint<Axes> point) const {
+    Said said{.filter = f, .tag = tag, .time = point.time, .own = position_of(point), .nis = point.nis};
     std::optional<Geodetic> place;
-    if (target.anchor) place = tell_from(*target.anchor, target.frame(f, tag), point);
-    if (sinks_.estimates) sinks_.estimates->add(fix.track, filters_[f], point, place);
-    if (sinks_.page) sinks_.page->estimated(fix, f, point);
+    if (target.anchor && tells_) place = tell_from(*target.anchor, target.frame(f, tag), point);
+    said.told = position_of(point);
+    if (sinks_.lines) said.line = sinks_.lines->line(target.row(tag).track, filters_[f], point, place);
+    said.weights = std::move(point.weights);
+    return said;
   }
 
-  /// Shows a row on the page.
-  void show(const Target<Axes>& target, const Fix& fix) {
-    std::optional<Vector<3>> position = fix.position;
-    if (fix.seen) position = radar_at_ + to_cartesian(*fix.seen);
-    if (fix.place) {
-      position = Vector<3>::Zero();
-      position->template head<Axes>() = target.anchor->to_local(*fix.place);
+  static Said::Position position_of(const TrackPoint<Axes>& point) {
+    Said::Position position;
+    for (Eigen::Index i = 0; i < Axes; ++i) {
+      position.mean[static_cast<std::size_t>(i)] = point.estimate.mean(i);
+      position.variance[static_cast<std::size_t>(i)] = point.estimate.covariance(i, i);
     }
-    std::optional<Geodetic> anchor;
-    if (target.anchor) anchor = target.anchor->origin();
-    sinks_.page->measured(fix, position, anchor);
+    return position;
+  }
+
+  /// Where a row's measurement was.
+  std::optional<Vector<3>> position_of(const Fix& fix, const Target<Axes>& target) const {
+    if (fix.seen) return radar_at_ + to_cartesian(*fix.seen);
+    if (!fix.place || !sinks_.page) return fix.position;
+    Vector<3> position = Vector<3>::Zero();
+    position.template head<Axes>() = target.anchor->to_local(*fix.place);
+    return position;
   }
 
   [[noreturn]] void refuse_failure(std::size_t f, const Fix& fix, const std::exception& error) const {
@@ -336,15 +320,12 @@ class TrackRun {
   RecordingReader& recording_;
   const std::vector<FilterSettings>& filters_;
   TrackSinks sinks_;
+  TrackShares& shares_;
+  TrackLedger ledger_;
+  TrackOutcome& outcome_ = ledger_.outcome;
+  bool tells_ = sinks_.lines || sinks_.page || !shares_.first();  // where a target is on the earth
   std::map<std::string, Target<Axes>, std::less<>> targets_;
-  TrackOutcome outcome_;
   std::optional<LocalFrame<Axes>> file_anchor_;
-  /// Below which 95 % of the NIS are, of 1 to 6 quantities.
-  std::array<double, 6> usual_nis_ = [] {
-    std::array<double, 6> result;
-    for (std::size_t m = 0; m < 6; ++m) result[m] = chi_square_quantile(0.95, static_cast<double>(m + 1));
-    return result;
-  }();
   bool fixed_ = options_.radar || recording_.has_truth();  // whether all is about one point
   Vector<3> radar_at_ = Vector<3>::Zero();
 };
@@ -352,9 +333,9 @@ class TrackRun {
 }  // namespace
 
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
-                       const std::vector<FilterSettings>& filters, TrackSinks sinks) {
-  if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, sinks).run();
-  return TrackRun<2>(options, recording, filters, sinks).run();
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares) {
+  if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, sinks, shares).run();
+  return TrackRun<2>(options, recording, filters, sinks, shares).run();
 }
 
 }  // namespace sigmax::apps

@@ -17,8 +17,10 @@
 
 namespace sigmax::apps {
 
-class EstimatesFile;
+class AtomicFile;
+class EstimateLines;
 class TrackPage;
+class TrackShares;
 
 /// Rows that are judged together: all, or by the aircraft's bank where the recording tells it.
 struct Part {
@@ -68,12 +70,14 @@ struct TrackOutcome {
 
 /// Where a run puts what it finds row by row; null where nobody wants it.
 struct TrackSinks {
-  EstimatesFile* estimates = nullptr;
+  const EstimateLines* lines = nullptr;  ///< of estimates.csv
+  AtomicFile* estimates = nullptr;       ///< where they go, in the first rank
   TrackPage* page = nullptr;
 };
 
-/// Runs all filters over a recording. Throws InputError with file and line.
+/// Runs all filters over a recording, or over the tracks of this rank: then the outcome is the first rank's, and
+/// without meaning in others. Throws InputError with file and line.
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
-                       const std::vector<FilterSettings>& filters, TrackSinks sinks);
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares);
 
 }  // namespace sigmax::apps

@@ -103,13 +103,13 @@ std::optional<CellRows> run_first(const Campaign& campaign, Shard shard, Ranks* 
 }  // namespace
 
 std::optional<CellRows> run(const Campaign& campaign, Shard shard, int threads, const OutputOptions& options) {
-  const auto ranks = shard.of == 1 && !shard.finished ? Ranks::join() : nullptr;
+  const auto ranks = shard.of == 1 && !shard.finished ? Ranks::join("use --shard I/N and merge") : nullptr;
   try {
     if (!ranks || ranks->first()) return run_first(campaign, shard, ranks.get(), threads, options);
     ranks->serve(campaign.work);
     return std::nullopt;
   } catch (const std::exception& error) {
-    if (ranks) ranks->abort(fmt::format("himm_demo: {}", error.what()));
+    if (ranks) ranks->abort(error);
     throw;
   }
 }

@@ -1,10 +1,14 @@
 #include "support/ranks.hpp"
 
-#include <cstdio>
+#include <csignal>
 #include <cstdlib>
+#include <deque>
 #include <initializer_list>
 
+#include <fmt/core.h>
+
 #include "support/error.hpp"
+#include "support/run.hpp"
 
 #ifdef SIGMAX_MPI
 #include <mpi.h>
@@ -25,7 +29,9 @@ bool among_others() {
 
 constexpr int tag_row = 1;   // from a worker: the cell and its row, or nothing at first
 constexpr int tag_cell = 2;  // to a worker: the next cell, or none
+constexpr int tag_told = 3;  // from a worker: bytes
 constexpr long none = -1;
+constexpr std::size_t most_under_way = 1000;  // messages of bytes
 
 class MpiRanks : public Ranks {
  public:
@@ -33,10 +39,15 @@ class MpiRanks : public Ranks {
     MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    if (!first()) std::signal(SIGTERM, SIG_DFL);  // what ends all is the first one's to tell
   }
-  ~MpiRanks() override { MPI_Finalize(); }
+  ~MpiRanks() override {
+    for (auto& [bytes, request] : under_way_) MPI_Wait(&request, MPI_STATUS_IGNORE);
+    MPI_Finalize();
+  }
 
-  bool first() const override { return rank_ == 0; }
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
 
   void hand_out(std::span<const std::size_t> cells, const std::function<void(Finished)>& finished) override {
     std::size_t next = 0;
@@ -45,7 +56,7 @@ class MpiRanks : public Ranks {
       MPI_Status status;
       MPI_Probe(MPI_ANY_SOURCE, tag_row, MPI_COMM_WORLD, &status);
       for (int more = 1; more != 0; MPI_Iprobe(MPI_ANY_SOURCE, tag_row, MPI_COMM_WORLD, &more, &status)) {
-        std::vector<double> row = receive(status);
+        auto row = receive<std::vector<double>>(status, MPI_DOUBLE);
         const long cell = next < cells.size() ? static_cast<long>(cells[next++]) : none;
         MPI_Send(&cell, 1, MPI_LONG, status.MPI_SOURCE, tag_cell, MPI_COMM_WORLD);
         if (cell == none) --workers;
@@ -71,36 +82,56 @@ class MpiRanks : public Ranks {
     }
   }
 
-  void abort(const std::string& message) override {
-    std::fputs((message + "\n").c_str(), stderr);
-    MPI_Abort(MPI_COMM_WORLD, 3);
+  void tell(std::string bytes) override {
+    auto& [kept, request] = under_way_.emplace_back(std::move(bytes), MPI_REQUEST_NULL);
+    MPI_Isend(kept.data(), static_cast<int>(kept.size()), MPI_BYTE, 0, tag_told, MPI_COMM_WORLD, &request);
+    if (under_way_.size() > most_under_way) MPI_Wait(&under_way_.front().second, MPI_STATUS_IGNORE);
+    for (int arrived = 1; !under_way_.empty();) {
+      MPI_Test(&under_way_.front().second, &arrived, MPI_STATUS_IGNORE);
+      if (arrived == 0) return;
+      under_way_.pop_front();
+    }
+  }
+
+  std::string hear(int rank) override {
+    MPI_Status status;
+    MPI_Probe(rank, tag_told, MPI_COMM_WORLD, &status);
+    return receive<std::string>(status, MPI_BYTE);
+  }
+
+  void abort(const std::exception& error) override {
+    complain(fmt::format("himm_demo: {}", error.what()));
+    MPI_Abort(MPI_COMM_WORLD, exit_code(error));
     std::abort();
   }
 
  private:
-  static std::vector<double> receive(const MPI_Status& status) {
+  template <class Values>
+  static Values receive(const MPI_Status& status, MPI_Datatype type) {
     int count = 0;
-    MPI_Get_count(&status, MPI_DOUBLE, &count);
-    std::vector<double> row(static_cast<std::size_t>(count));
-    MPI_Recv(row.data(), count, MPI_DOUBLE, status.MPI_SOURCE, tag_row, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return row;
+    MPI_Get_count(&status, type, &count);
+    Values values;
+    values.resize(static_cast<std::size_t>(count));
+    MPI_Recv(values.data(), count, type, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return values;
   }
 
   int rank_ = 0;
   int size_ = 1;
+  std::deque<std::pair<std::string, MPI_Request>> under_way_;
 };
 
 #endif
 
 }  // namespace
 
-std::unique_ptr<Ranks> Ranks::join() {
+std::unique_ptr<Ranks> Ranks::join([[maybe_unused]] std::string_view instead) {
   if (!among_others()) return nullptr;
 #ifdef SIGMAX_MPI
   return std::make_unique<MpiRanks>();
 #else
   throw UsageError(message({.what = "this build has no MPI, so mpirun would do the same work in every rank",
-                            .remedy = "use --shard I/N and merge, or configure with libopenmpi-dev installed"}));
+                            .remedy = fmt::format("{}, or configure with libopenmpi-dev installed", instead)}));
 #endif
 }
 

@@ -70,17 +70,18 @@ void complain(std::string_view text) {
   std::fputs(wrapped(text, terminal ? terminal_width : any_width).c_str(), stderr);  // print would throw without one
 }
 
+int exit_code(const std::exception& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr ? exit_usage : exit_input;
+}
+
 int run_program(const char* name, const std::function<void()>& work) {
   try {
     handle_signals(name);
     work();
     flush_output();
-  } catch (const UsageError& error) {
-    complain(fmt::format("{}: {}", name, error.what()));
-    return exit_usage;
   } catch (const std::exception& error) {
     complain(fmt::format("{}: {}", name, error.what()));
-    return exit_input;
+    return exit_code(error);
   }
   return 0;
 }

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string_view>
 
 namespace sigmax::apps {
 
-/// Does a program's work and returns its exit code: 0, 2 after a UsageError, 3 after any other exception or if standard
-/// output cannot be written. The message goes to standard error, after the program's name.
+/// Does a program's work and returns its exit code: 0, that of an exception, or 3 if standard output cannot be written.
+/// The message goes to standard error, after the program's name.
 ///
 /// On SIGINT, SIGTERM, SIGHUP or SIGPIPE the program ends at once with 128 and the signal's number, 130 for SIGINT, and
 /// removes its unfinished files; signals that are ignored stay so. What a limit on file sizes refuses is a failed
@@ -15,5 +16,8 @@ int run_program(const char* name, const std::function<void()>& work);
 
 /// Prints a line to standard error, broken to the width of the tables if that is a terminal.
 void complain(std::string_view text);
+
+/// The exit code of a program that ends by this exception: 2 after a UsageError, else 3.
+int exit_code(const std::exception& error);
 
 }  // namespace sigmax::apps

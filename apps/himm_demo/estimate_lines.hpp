@@ -7,7 +7,6 @@
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/recording.hpp"
 #include "himm_demo/tracker.hpp"
-#include "support/output.hpp"
 
 namespace sigmax::apps {
 
@@ -16,22 +15,21 @@ namespace sigmax::apps {
 template <int Axes>
 Geodetic tell_from(const LocalFrame<Axes>& anchor, const LocalFrame<Axes>& frame, TrackPoint<Axes>& point);
 
-/// Writes estimates.csv: a row for each filter and step.
-class EstimatesFile {
+/// The lines of estimates.csv: a header, and one for each filter and step.
+class EstimateLines {
  public:
-  EstimatesFile(AtomicFile& file, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
-                bool iso_times);
+  EstimateLines(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool iso_times);
+
+  std::string header() const;
 
   /// `place` is where a geodetic target is.
   template <int Axes>
-  void add(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
-           const std::optional<Geodetic>& place);
+  std::string line(const std::string& track, const FilterSettings& settings, const TrackPoint<Axes>& point,
+                   const std::optional<Geodetic>& place) const;
 
  private:
-  void cell(std::optional<double> value);
-
-  AtomicFile& file_;
-  const RecordingReader& recording_;
+  bool has_tracks_;
+  bool geodetic_;
   bool iso_times_;
   std::vector<std::string> models_;
   bool turns_ = false;
