@@ -229,8 +229,8 @@ class TrackRun {
   LastWords last_words(const Target<Axes>& target, std::size_t f) const {
     LastWords words;
     try {
-      for (auto& point : target.trackers[f].finish())
-        if (!point.is_start) words.said.push_back(said(target, point.tag, f, std::move(point)));
+      for (const auto& point : target.trackers[f].finish())
+        if (!point.is_start) words.said.push_back(said(target, point.tag, f, point));
     } catch (const std::exception& error) {
       refuse_failure(f, target.rows.back(), error);
     }

@@ -39,7 +39,7 @@ class MpiRanks : public Ranks {
     MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
-    if (!first()) std::signal(SIGTERM, SIG_DFL);  // what ends all is the first one's to tell
+    if (rank_ != 0) std::signal(SIGTERM, SIG_DFL);  // what ends all is the first one's to tell
   }
   ~MpiRanks() override {
     for (auto& [bytes, request] : under_way_) MPI_Wait(&request, MPI_STATUS_IGNORE);
