@@ -114,6 +114,8 @@ void add_output(CLI::App& app, OutputOptions& options) {
 void add_report(CLI::App& app, OutputOptions& options) {
   app.add_option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
       ->type_name("FILE");
+  app.add_option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
+      ->type_name("DIR");
 }
 
 void add_no_chart(CLI::App& app, bool& no_chart) {
