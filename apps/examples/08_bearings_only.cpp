@@ -50,5 +50,5 @@ int main(int argc, char** argv) {
   }
   std::cout << "RMSE of position over " << runs << " runs of " << scans << " scans in m, with 95 % confidence\n";
   study.print();
-  if (argc > 2) study.draw("Bearings only", "scan", "RMSE, m").save(std::string(argv[2]) + "/bearings_only.svg");
+  if (argc > 2) save_svg(study.chart("Bearings only", "scan", "RMSE, m"), std::string(argv[2]) + "/bearings_only.svg");
 }

@@ -12,7 +12,7 @@ const double variance_w = 10.0, variance_v = 1.0;  // of the two noises
 double grown(double x, int k) { return 0.5 * x + 25.0 * x / (1.0 + x * x) + 8.0 * std::cos(1.2 * k); }
 
 template <Uncertainty Kind>  // nothing else tells sums from maxima
-Study::Estimates follow(const std::vector<double>& measurements, apps::Plot& last_belief) {
+Study::Estimates follow(const std::vector<double>& measurements, apps::LineChart& last_belief) {
   GridFilter<Kind, 1> filter{Grid<1>{Vector<1>{-20.0}, Vector<1>{20.0}, Vector<1>{0.2}},
                              [](const Vector<1>& x) { return -0.5 * x(0) * x(0) / 5.0; },
                              {.negligible = 1e-9, .cells = 200, .most = 10000}};
@@ -25,12 +25,14 @@ Study::Estimates follow(const std::vector<double>& measurements, apps::Plot& las
     ++k;
   }
   filter.adapt();
-  std::vector<double> x, parts;
+  const double greatest = filter.belief()[index_of_greatest(filter.belief().values())];
+  auto& curves = last_belief.curves;
+  curves.push_back({.name = std::string(Kind::measure), .values = std::vector<double>(last_belief.x.size(), NAN)});
   for (std::size_t i = 0; i < filter.grid().size(); ++i) {
-    x.push_back(filter.grid().centre(i)(0));
-    parts.push_back(filter.belief()[i] / filter.belief()[index_of_greatest(filter.belief().values())]);
+    last_belief.x.push_back(filter.grid().centre(i)(0));
+    for (apps::Curve& curve : curves) curve.values.push_back(NAN);
+    curves.back().values.back() = filter.belief()[i] / greatest;
   }
-  last_belief.line(std::string(Kind::measure), x, parts);
   return estimates;
 }
 
@@ -45,13 +47,18 @@ int main(int argc, char** argv) {
       truth.push_back(x = grown(x, k) + std::sqrt(variance_w) * noise.normal());
       measurements.push_back(x * x / 20.0 + std::sqrt(variance_v) * noise.normal());
     }
-    apps::Plot belief{"Growth model, belief after 50 steps", "x", "part of the greatest value"};
-    belief.points("truth", {truth.back()}, {0.0});
+    apps::LineChart belief{.title = "Growth model, belief after 50 steps",
+                           .x_label = "x",
+                           .y_label = "part of the greatest value",
+                           .x = {},
+                           .curves = {},
+                           .shaded = {{x, x, "truth"}},
+                           .joined = true};
     const auto random = follow<Random>(measurements, belief), fuzzy = follow<Fuzzy>(measurements, belief);
     study.add(truth, random, fuzzy);
-    if (run == 8 && argc > 2) belief.save(std::string(argv[2]) + "/growth_model_belief.svg");
+    if (run == 8 && argc > 2) save_svg(belief, std::string(argv[2]) + "/growth_model_belief.svg");
   }
   std::cout << "RMSE over " << runs << " runs of " << steps << " steps, with 95 % confidence\n";
   study.print();
-  if (argc > 2) study.draw("Growth model", "step", "RMSE").save(std::string(argv[2]) + "/growth_model.svg");
+  if (argc > 2) save_svg(study.chart("Growth model", "step", "RMSE"), std::string(argv[2]) + "/growth_model.svg");
 }

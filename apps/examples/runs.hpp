@@ -12,7 +12,7 @@
 
 #include <sigmax/core/mean_interval.hpp>
 
-#include "examples/plot.hpp"
+#include "support/pictures.hpp"
 
 namespace examples {
 
@@ -59,17 +59,16 @@ class Study {
   }
 
   /// The means of both kinds: RMSE over the runs, step by step.
-  sigmax::apps::Plot draw(std::string title, std::string x_label, std::string y_label) const {
-    sigmax::apps::Plot plot{std::move(title), std::move(x_label), std::move(y_label)};
+  sigmax::apps::LineChart chart(std::string title, std::string x_label, std::string y_label) const {
+    sigmax::apps::LineChart chart{
+        .title = std::move(title), .x_label = std::move(x_label), .y_label = std::move(y_label), .x = {}, .curves = {}};
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
-      std::vector<double> steps, roots;
-      for (const sigmax::RunningMean& squares : by_step_[i]) {
-        steps.push_back(static_cast<double>(steps.size() + 1));
-        roots.push_back(std::sqrt(squares.mean()));
-      }
-      plot.line(std::string(names[i]), steps, roots);
+      chart.curves.push_back({.name = std::string(names[i]), .values = {}});
+      for (const sigmax::RunningMean& squares : by_step_[i])
+        chart.curves.back().values.push_back(std::sqrt(squares.mean()));
     }
-    return plot;
+    for (std::size_t k = 1; k <= by_step_[0].size(); ++k) chart.x.push_back(static_cast<double>(k));
+    return chart;
   }
 
  private:

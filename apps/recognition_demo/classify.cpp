@@ -367,7 +367,7 @@ Report page_of(const ClassifyOptions& options, const LearnedModel& model, const 
     page.views.push_back(view_of(result.shown[i], pattern, all));
   if (page.views.size() < result.rows)
     page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
-  page.last = relation_maps(model, 6);
+  page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
   return page;
 }
 

@@ -31,25 +31,47 @@ Belief<Kind> belief_in_patterns(const Contestant& contestant, const Classifier<K
   return classifier.log_belief();
 }
 
-template <class Reports>
-Trace follow_reports(const Contestant& contestant, std::size_t truth, const Reports& reports) {
-  return std::visit(
+/// Calls see(belief) after each report. What would exclude every pattern is passed over; returns how many reports were.
+template <class Reports, class See>
+std::size_t observe_all(const Contestant& contestant, const Reports& reports, const See& see) {
+  std::size_t refused = 0;
+  std::visit(
       [&](auto classifier) {
         classifier.reset();
-        Trace trace;
         for (const auto& report : reports) {
           try {
             observe(classifier, report);
           } catch (const std::domain_error&) {
-            ++trace.refused;
+            ++refused;
           }
-          trace.credit.push_back(credit_of(belief_in_patterns(contestant, classifier).logs(), truth));
+          see(belief_in_patterns(contestant, classifier));
         }
-        const auto belief = belief_in_patterns(contestant, classifier).distribution();
-        trace.belief.assign(belief.values().begin(), belief.values().end());
-        return trace;
       },
       contestant.classifier);
+  return refused;
+}
+
+template <class Kind>
+std::vector<double> numbers_of(const Belief<Kind>& belief) {
+  const auto distribution = belief.distribution();
+  return {distribution.values().begin(), distribution.values().end()};
+}
+
+template <class Reports>
+Trace follow_reports(const Contestant& contestant, std::size_t truth, const Reports& reports) {
+  Trace trace;
+  trace.refused = observe_all(contestant, reports, [&](const auto& belief) {
+    trace.credit.push_back(credit_of(belief.logs(), truth));
+    if (trace.credit.size() == reports.size()) trace.belief = numbers_of(belief);
+  });
+  return trace;
+}
+
+template <class Reports>
+Beliefs beliefs_over_reports(const Contestant& contestant, const Reports& reports) {
+  Beliefs beliefs;
+  observe_all(contestant, reports, [&](const auto& belief) { beliefs.push_back(numbers_of(belief)); });
+  return beliefs;
 }
 
 bool is_fuzzy(const Contestant& contestant) { return std::holds_alternative<MaxClassifier>(contestant.classifier); }
@@ -69,6 +91,14 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
 
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<GradedReport>& reports) {
   return follow_reports(contestant, truth, reports);
+}
+
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports) {
+  return beliefs_over_reports(contestant, reports);
+}
+
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<GradedReport>& reports) {
+  return beliefs_over_reports(contestant, reports);
 }
 
 Scoreboard::Scoreboard(const std::vector<Contestant>& contestants) {

@@ -48,6 +48,11 @@ using GradedReport = std::vector<double>;
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports);
 Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<GradedReport>& reports);
 
+/// Probability or possibility of every pattern after each report.
+using Beliefs = std::vector<std::vector<double>>;
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports);
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<GradedReport>& reports);
+
 /// What all runs together say of one contestant.
 struct Score {
   std::string name;

@@ -10,7 +10,9 @@
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
 #include "recognition_demo/encounter_data.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/thinned.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -80,7 +82,16 @@ void draw_and_report(const EncounterOptions& options, const EncounterData& data,
   summary["seed"] = draws.seed;
   summary["classifiers"] = scores_table(scores).json();
   files.write("curves.csv", curves_csv(scores));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
+  if (!files.report_wanted()) return;
+  Report page = page_of_contest("What class of aircraft is it?", draws.output, all);
+  page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
+                              options.reports, options.file, draws.seed)};
+  page.panels = {accuracy_chart(scores)};
+  page.last = relation_maps(relations, relations.size());
+  page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
+  files.write_report(page);
 }
 
 /// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
@@ -141,6 +152,35 @@ ResultTable decisions_table(const RandomVariable& pattern, const std::vector<Tra
   }
   return table;
 }
+
+/// What each classifier thinks of the classes along a recording.
+View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track) {
+  const std::vector<std::string> classes = labels_of(data.counts.pattern());
+  std::vector<Readings> reports;
+  for (const TrackReport& report : track.reports) reports.push_back(report.readings);
+  std::vector<Beliefs> beliefs;
+  for (const Contestant& contestant : contestants) beliefs.push_back(beliefs_over(contestant, reports));
+  const std::size_t columns = contestants.size() * classes.size();
+  Thinned rows(columns, std::max<std::size_t>(1000, 4 * columns));
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    std::vector<double> row;
+    for (const Beliefs& one : beliefs) row.insert(row.end(), one[k].begin(), one[k].end());
+    rows.add(track.reports[k].time_s - track.reports.front().time_s, row);
+  }
+  std::vector<Beliefs> kept(contestants.size(), Beliefs(rows.kept(), std::vector<double>(classes.size())));
+  for (std::size_t column = 0; column < columns; ++column) {
+    const auto values = rows.column(column);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      kept[column / classes.size()][k][column % classes.size()] = values[k];
+  }
+  View view{"all reports", support_charts(classes, contestants, kept, rows.times(), "time since the first report, s")};
+  if (rows.thinned())
+    for (Panel& panel : view.panels)
+      std::get<LineChart>(panel).note = fmt::format(
+          "Thinned: of {} reports {} are drawn, with the extremes of every stretch.", rows.taken(), rows.kept());
+  return view;
+}
+
 std::string reports_csv(const EncounterData& data, const TrackReports& track) {
   std::vector<ResultColumn> columns = {{.key = "time_s"}};
   for (const auto& feature : data.counts.features()) columns.push_back({.key = feature.name()});
@@ -158,8 +198,9 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
   const OutputOptions& output = options.draws.output;
   const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
   const auto& pattern = data.counts.pattern();
+  const auto all = contestants(data.counts);
   std::vector<TrackOutcome> outcomes;
-  for (const Contestant& contestant : contestants(data.counts))
+  for (const Contestant& contestant : all)
     outcomes.push_back(
         std::visit([&](const auto& classifier) { return follow_track(contestant.name, classifier, track.reports); },
                    contestant.classifier));
@@ -188,7 +229,18 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
       one["belief_after_all"][pattern.label(c)] = outcome.belief[c];
     }
   files.write("reports.csv", reports_csv(data, track));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
+  if (!files.report_wanted()) return;
+  Report page = page_of_contest("What class of aircraft is " + options.track + "?", output, all);
+  page.verdict = {
+      fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
+                  "be, for they repeat each other.",
+                  track.reports.size(), options.every_s)};
+  page.views = {view_of(data, all, track)};
+  page.last = {ReportTable{"Decisions", decisions_table(pattern, outcomes), "Ties share a report."},
+               ReportTable{"What was seen", seen_table(data, track)}};
+  files.write_report(page);
 }
 
 void run_encounter(const EncounterOptions& options) {
@@ -227,6 +279,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
       ->needs(track)
       ->type_name("FT");
   add_draws(app, options->draws);
+  add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo encounter encounter_features.csv\n"

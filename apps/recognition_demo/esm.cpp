@@ -81,11 +81,13 @@ std::vector<Cell> row_of_run(const EsmWorld& world, std::size_t run, const EsmTr
 
 /// A run that the page shows: the support of each platform over its reports.
 View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, const EsmTraces& traces) {
-  std::vector<std::string> platforms;
-  for (std::size_t c = 0; c < world.platform.size(); ++c) platforms.push_back(world.platform.label(c));
   const std::size_t most = std::min<std::size_t>(traces.reports.size(), 100);
-  return support_view(fmt::format("run {}", run + 1), platforms, all, traces.truth,
-                      {traces.reports.begin(), traces.reports.begin() + static_cast<std::ptrdiff_t>(most)});
+  const std::vector<Readings> reports(traces.reports.begin(),
+                                      traces.reports.begin() + static_cast<std::ptrdiff_t>(most));
+  std::vector<Beliefs> beliefs;
+  for (const Contestant& contestant : all) beliefs.push_back(beliefs_over(contestant, reports));
+  return {fmt::format("run {}", run + 1),
+          support_charts(labels_of(world.platform), all, beliefs, counted_from(1, most), "reports", traces.truth)};
 }
 
 void run_esm(const EsmOptions& options) {
@@ -137,9 +139,13 @@ void run_esm(const EsmOptions& options) {
   if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
   if (files.report_wanted()) {
-    page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
-                                described_usage(options))};
+    page.verdict = {
+        fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
+                    described_usage(options)),
+        "Point at a cell of the matrix below: it tells through which emitter the reading is most possible."};
     page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
+    page.last.emplace_back(
+        witness_map(with_fuzzy_condition(to_possibility(world.sensor(hit), DuboisPrade{})), world.carries()));
     page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
     files.write_report(page);
   }

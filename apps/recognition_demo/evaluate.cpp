@@ -45,6 +45,7 @@ struct Outcome {
   std::string name;
   std::variant<Evaluation<Random>, Evaluation<Fuzzy>> evaluation;
   std::size_t excluded = 0;  ///< rows that excluded every class
+  Reliability reliability{};
 
   const ConfusionMatrix& confusion() const {
     return std::visit([](const auto& e) -> const ConfusionMatrix& { return e.confusion(); }, evaluation);
@@ -140,6 +141,7 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
                   using Kind = typename std::decay_t<decltype(belief)>::kind;
                   auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
                   if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
+                  outcomes[i].reliability.add(row.label(), belief);
                   if (excluded) ++outcomes[i].excluded;
                   if (i + 1 < outcomes.size()) return;
                   right.set(row.index(), static_cast<std::uint8_t>(bits));
@@ -162,6 +164,7 @@ class Results {
     }
     for (std::size_t i = 0; i < outcomes_.size(); ++i) {
       outcomes_[i].excluded += fold[i].excluded;
+      outcomes_[i].reliability.add(fold[i].reliability);
       std::visit(
           [&](auto& evaluation) { evaluation.add(std::get<std::decay_t<decltype(evaluation)>>(fold[i].evaluation)); },
           outcomes_[i].evaluation);
@@ -214,6 +217,7 @@ ResultTable outcomes_table(const Results& results, std::size_t foldings) {
                      {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
                      {.key = "log_loss", .header = "log-loss", .digits = 3},
                      {.key = "brier", .header = "Brier", .digits = 3},
+                     {.key = "calibration_error"},
                      {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
                      {.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
                      {.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
@@ -223,17 +227,18 @@ ResultTable outcomes_table(const Results& results, std::size_t foldings) {
     std::vector<Cell> cells = {outcome.name, outcome.confusion().accuracy(),
                                i == 0 ? Cell() : Cell(results.minus_first(i, foldings)), outcome.confusion().macro_f1(),
                                outcome.ties()};
-    cells.resize(11);
+    cells.resize(12);
     if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
       cells[5] = random->log_loss();
       cells[6] = random->brier();
+      cells[7] = outcome.reliability.calibration_error();
     } else {
       const auto& fuzzy = std::get<Evaluation<Fuzzy>>(outcome.evaluation);
-      cells[7] = fuzzy.necessity();
-      cells[8] = fuzzy.coverage();
-      cells[9] = fuzzy.cut_size();
+      cells[8] = fuzzy.necessity();
+      cells[9] = fuzzy.coverage();
+      cells[10] = fuzzy.cut_size();
     }
-    if (outcome.excluded > 0) cells[10] = outcome.excluded;
+    if (outcome.excluded > 0) cells[11] = outcome.excluded;
     table.row(std::move(cells));
   }
   return table;
@@ -260,6 +265,21 @@ std::string confusion_csv(const DataTable& data, const Results& results, std::si
         table.row({outcome.name, data.classes[truth], data.classes[c],
                    outcome.confusion()(truth, c) / static_cast<double>(foldings)});
   return table.csv();
+}
+
+/// The bins of each classifier, with as many statements as a folding has.
+Json reliability_json(const Results& results, std::size_t foldings) {
+  Json json;
+  for (const Outcome& outcome : results.outcomes())
+    for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
+      json[outcome.name].push_back({{"from", bin.from},
+                                    {"to", bin.to},
+                                    {"statements", bin.count},
+                                    {"mean_degree", bin.mean_degree},
+                                    {"share_that_is_true", bin.share},
+                                    {"lower", bin.lower},
+                                    {"upper", bin.upper}});
+  return json;
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
@@ -360,13 +380,14 @@ void write_results(const DataTable& data, const Results& results, const Evaluate
   summary["misread"] = options.learning.misread;
   summary["bins"] = options.learning.bins;
   summary["classifiers"] = outcomes_table(results, options.foldings).json();
+  summary["reliability"] = reliability_json(results, options.foldings);
   write_predictions(data, options, *files.open("predictions.csv"));
   files.write("confusion.csv", confusion_csv(data, results, options.foldings));
   if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
 }
 
-/// Confusion matrices side by side, and what was learned of all rows.
+/// Confusion matrices and reliability side by side, and what was learned of all rows.
 Report page_of(const DataTable& data, const Results& results, const EvaluateOptions& options) {
   Report page{.title = "Cross-validation of " + data.file, .command = options.output.command};
   page.verdict = {fmt::format("{}. {} folds, {} foldings, seed {}; {}.", described(data), options.folds,
@@ -377,7 +398,11 @@ Report page_of(const DataTable& data, const Results& results, const EvaluateOpti
   if (data.classes.size() <= most_classes)
     for (const Outcome& outcome : results.outcomes())
       page.panels.emplace_back(confusion_map(outcome.name, data.classes, outcome.confusion(), options.foldings));
-  page.last = relation_maps(learn(data, options.learning), 6);
+  for (const Outcome& outcome : results.outcomes())
+    page.panels.emplace_back(reliability_chart(outcome.name, outcome.reliability,
+                                               std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation),
+                                               options.foldings));
+  page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
   return page;
 }
 

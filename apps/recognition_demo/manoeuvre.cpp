@@ -10,6 +10,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/manoeuvre_scenario.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
@@ -186,6 +187,55 @@ void print_manoeuvres(const DrawOptions& options, const ManoeuvreScenario& scena
   print_dominated(output, contestants);
 }
 
+LineChart with_acceleration(LineChart chart) {
+  using Scenario = ManoeuvreScenario;
+  chart.shaded = {{double{Scenario::first_accelerated}, double{Scenario::last_accelerated}, "acceleration"}};
+  return chart;
+}
+
+/// A flight: what each filter thinks of the modes, and what that says of the target.
+View view_of(const ManoeuvreScenario& scenario, const std::vector<Pairing>& pairings,
+             const std::vector<Contestant>& contestants, const Flight& flight) {
+  View view{fmt::format("run 1, {}", scenario.target.label(flight.truth)), {}};
+  const auto modes = [&](std::string title, std::string y_label, const std::vector<std::vector<double>>& logs) {
+    LineChart chart{.title = std::move(title),
+                    .x_label = "sample",
+                    .y_label = std::move(y_label),
+                    .x = counted_from(1, logs.size()),
+                    .curves = {},
+                    .greatest_y = 1.05};
+    for (std::size_t j = 0; j < scenario.mode.size(); ++j) {
+      chart.curves.push_back({.name = scenario.mode.label(j), .values = {}});
+      for (const auto& weights : logs)
+        chart.curves.back().values.push_back(weights.empty() ? std::nan("") : std::exp(weights[j]));
+    }
+    return with_acceleration(std::move(chart));
+  };
+  view.panels.emplace_back(modes("Modes of the IMM", "probability", flight.run.imm));
+  view.panels.emplace_back(modes("Modes of the HIMM", "possibility", flight.run.himm));
+  const auto by_sum = reports_by_sum(scenario, flight.run), by_max = reports_by_max(scenario, flight.run);
+  std::vector<Beliefs> beliefs;
+  for (const Pairing& pairing : pairings)
+    beliefs.push_back(beliefs_over(pairing.contestant, pairing.of_himm ? by_max : by_sum));
+  for (Panel& chart :
+       support_charts(labels_of(scenario.target), contestants, beliefs,
+                      counted_from(ManoeuvreScenario::first_classified, by_sum.size()), "sample", flight.truth))
+    view.panels.emplace_back(with_acceleration(std::get<LineChart>(std::move(chart))));
+  return view;
+}
+
+/// Right decisions about each target over the samples, from all runs.
+View view_of_all(std::size_t runs, const std::vector<TargetScores>& results) {
+  View view{fmt::format("all {} runs", runs), {}};
+  for (const TargetScores& result : results) {
+    LineChart chart = with_acceleration(accuracy_chart(result.scores, "sample", ManoeuvreScenario::first_classified));
+    chart.title = "Right decisions about the " + result.target;
+    chart.greatest_y = 1.05;
+    view.panels.emplace_back(std::move(chart));
+  }
+  return view;
+}
+
 void run_manoeuvre(const DrawOptions& options) {
   ResultFiles files(options.output);
   const ManoeuvreScenario scenario;
@@ -196,6 +246,8 @@ void run_manoeuvre(const DrawOptions& options) {
 
   const std::size_t targets = scenario.target.size();
   std::vector<TargetScores> results;
+  Report page = page_of_contest("Airliner, bomber or fighter?", options.output, contestants);
+  page.chooser = "Show";
   Progress progress("runs", options.runs * targets, options.output.quiet);
   for (std::size_t target = 0; target < targets; ++target) {
     Scoreboard board(contestants);
@@ -204,6 +256,7 @@ void run_manoeuvre(const DrawOptions& options) {
         [&](std::size_t run, const Flight& flight) {
           board.add(flight);
           flights.write(run, flight);
+          if (run == 0 && files.report_wanted()) page.views.push_back(view_of(scenario, all, contestants, flight));
         },
         targets, target);
     results.push_back({scenario.target.label(target), board.scores()});
@@ -217,7 +270,18 @@ void run_manoeuvre(const DrawOptions& options) {
   summary["seed"] = options.seed;
   for (const TargetScores& result : results) summary["targets"][result.target] = scores_table(result.scores).json();
   files.write("curves.csv", curves_of_targets(results));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
+  if (files.report_wanted()) {
+    page.verdict = {
+        fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and "
+                    "HIMM are the reports.",
+                    options.runs, options.seed)};
+    page.views.insert(page.views.begin(), view_of_all(options.runs, results));
+    page.last.emplace_back(ReportTable{"After the last sample", targets_table(scenario, results)});
+    page.last.emplace_back(ReportTable{"Differences, ± 95 % by paired runs", differences_table(results)});
+    files.write_report(page);
+  }
   files.commit();
 }
 
@@ -230,6 +294,7 @@ void add_manoeuvre(CLI::App& program, const std::string& command) {
   CLI::App& app = *program.add_subcommand(
       "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
   add_draws(app, *options);
+  add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo manoeuvre\n"

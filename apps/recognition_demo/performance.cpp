@@ -11,6 +11,7 @@
 
 #include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/draws.hpp"
+#include "recognition_demo/pages.hpp"
 #include "recognition_demo/performance_data.hpp"
 #include "recognition_demo/subcommands.hpp"
 
@@ -25,13 +26,19 @@ struct PerformanceOptions {
   DrawOptions draws;
 };
 
-/// Bins of one quantity that hold all but a thousandth of every type's density at either end.
-Discretization bins_of(const std::vector<Performance>& types, std::size_t bins) {
+/// All but a thousandth of every type's density at either end.
+std::pair<double, double> range_of(const std::vector<Performance>& types) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const Performance& type : types) {
     least = std::min(least, type.density.quantile(0.001));
     greatest = std::max(greatest, type.density.quantile(0.999));
   }
+  return {least, greatest};
+}
+
+/// Bins of one quantity over that range.
+Discretization bins_of(const std::vector<Performance>& types, std::size_t bins) {
+  const auto [least, greatest] = range_of(types);
   std::vector<double> cuts;
   for (std::size_t i = 1; i < bins; ++i)
     cuts.push_back(least + (greatest - least) * static_cast<double>(i) / static_cast<double>(bins));
@@ -143,6 +150,67 @@ void print_performance(const PerformanceOptions& options, const PerformanceData&
   print_scores(output, scores, "quantities");
 }
 
+/// A quantity as far as classifiers by maxima know it: of each type's values.
+LineChart quantity_chart(const PerformanceData& data, const PerformanceOptions& options, const World& world,
+                         std::size_t variable, std::size_t type) {
+  const auto& types = data.table[variable];
+  const auto [least, greatest] = range_of(types);
+  const Discretization& bins = world.bins[variable];
+  const RandomVariable type_variable{"type", data.types};
+  const auto feature = bins.variable<Random>(data.variables[variable]);
+  const auto p = probable(feature, type_variable, bins, types);
+  LineChart chart{.title = data.variables[variable],
+                  .x_label = data.variables[variable] + ", in the file's unit",
+                  .y_label = "possibility",
+                  .x = {},
+                  .curves = {},
+                  .greatest_y = 1.05};
+  const double width = (greatest - least) / static_cast<double>(bins.size());
+  for (std::size_t b = 0; b < bins.size(); ++b) chart.x.push_back(least + (static_cast<double>(b) + 0.5) * width);
+  const auto add = [&](const std::string& name, const auto& relation) {
+    chart.curves.push_back({.name = name, .values = {}});
+    for (std::size_t b = 0; b < bins.size(); ++b) chart.curves.back().values.push_back(relation(type, b));
+  };
+  add("triangle", possible(feature, type_variable, bins, types, options.least));
+  add("density by the ratio scale", to_possibility(p, RatioScale{}));
+  add("density by Dubois-Prade", to_possibility(p, DuboisPrade{}));
+  return chart;
+}
+
+/// The quantities that tell the types apart best.
+std::vector<std::size_t> most_telling(const PerformanceData& data, const World& world, std::size_t most) {
+  const RandomVariable type{"type", data.types};
+  std::vector<std::pair<double, std::size_t>> all;
+  for (std::size_t v = 0; v < data.variables.size(); ++v)
+    all.emplace_back(
+        -telling(probable(world.bins[v].variable<Random>(data.variables[v]), type, world.bins[v], data.table[v])), v);
+  std::sort(all.begin(), all.end());
+  std::vector<std::size_t> best;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) best.push_back(all[i].second);
+  return best;
+}
+
+Report page_of(const PerformanceOptions& options, const PerformanceData& data, const World& world,
+               const std::vector<Score>& scores) {
+  constexpr std::size_t most_types = 20, most_quantities = 6;
+  Report page = page_of_contest("Which type of aircraft is it?", options.draws.output, world.contestants);
+  page.verdict = {
+      fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
+                  "those of the {} quantities that tell the types apart best.",
+                  options.draws.runs, data.types.size(), options.draws.seed, most_quantities)};
+  page.panels = {accuracy_chart(scores, "quantities")};
+  page.chooser = "Type";
+  const auto quantities = most_telling(data, world, most_quantities);
+  for (std::size_t type = 0; type < std::min(most_types, data.types.size()); ++type) {
+    View& view = page.views.emplace_back(View{data.types[type], {}});
+    for (const std::size_t variable : quantities)
+      view.panels.emplace_back(quantity_chart(data, options, world, variable, type));
+  }
+  page.last = {
+      ReportTable{"Right decisions", scores_table(scores, "quantities"), "Differences ± 95 % by paired runs."}};
+  return page;
+}
+
 void run_performance(const PerformanceOptions& options) {
   const DrawOptions& draws = options.draws;
   ResultFiles files(draws.output);
@@ -167,7 +235,9 @@ void run_performance(const PerformanceOptions& options) {
   summary["remarks"] = data.remarks;
   summary["classifiers"] = scores_table(scores).json();
   files.write("curves.csv", curves_csv(scores));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
+  if (files.report_wanted()) files.write_report(page_of(options, data, world, scores));
   files.commit();
 }
 
@@ -191,6 +261,7 @@ void add_performance(CLI::App& program, const std::string& command) {
       ->check(number_in(0.0, 1.0))
       ->capture_default_str();
   add_draws(app, options->draws);
+  add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo performance openap_performance.csv\n"

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -13,6 +14,7 @@
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/report.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -174,7 +176,12 @@ ResultTable regime_table(std::span<const SettingScores> settings) {
 
 /// Where possibilities did better, and where worse, by more than the interval. What is the same in every run counts
 /// once.
-void print_verdict(const OutputOptions& options, const std::vector<SettingScores>& all) {
+struct Verdict {
+  std::string sentence;
+  ResultTable better;
+};
+
+Verdict verdict_of(const std::vector<SettingScores>& all) {
   ResultTable better({{.header = "regime", .align = Align::left},
                       {.header = "setting", .align = Align::left},
                       {.header = "better than sigma", .align = Align::left},
@@ -188,13 +195,64 @@ void print_verdict(const OutputOptions& options, const std::vector<SettingScores
       ++(difference.above_zero() ? better_count : difference.below_zero() ? worse : undecided);
       if (difference.above_zero()) better.row({setting.regime, setting.setting, score.name, difference});
     }
+  return {fmt::format("Of {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} better; one "
+                      "in forty would be better by chance. Classifiers that decide alike in every run count once.",
+                      better_count + worse + undecided, worse, undecided, better_count),
+          std::move(better)};
+}
+
+void print_verdict(const OutputOptions& options, const Verdict& verdict) {
   fmt::print("\n");
-  print_text(options, fmt::format("Of {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} "
-                                  "better; one in forty would be better by chance. Classifiers that decide alike in "
-                                  "every run count once{}",
-                                  better_count + worse + undecided, worse, undecided, better_count,
-                                  better.empty() ? "." : ".\n\n"));
-  if (!better.empty()) better.print(options.width());
+  print_text(options, verdict.sentence + (verdict.better.empty() ? "" : "\n\n"));
+  if (!verdict.better.empty()) verdict.better.print(options.width());
+}
+
+/// Points more than sigma inference, by setting and classifier.
+HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings) {
+  HeatMap map{.title = fmt::format("Regime {}", regime.name),
+              .row_label = "setting",
+              .column_label = "classifier",
+              .rows = {},
+              .columns = {},
+              .values = {},
+              .value_label = "points more than sigma inference",
+              .diverging = true,
+              .digits = 1,
+              .scale = 100.0,
+              .sign = true,
+              .most = 0.2,
+              .note = regime.description + "."};
+  const auto& first = settings.front().scores;
+  for (std::size_t i = 1; i < first.size(); ++i) map.columns.push_back(first[i].name);
+  for (const SettingScores& setting : settings) {
+    map.rows.push_back(setting.setting);
+    auto& values = map.values.emplace_back();
+    auto& texts = map.texts.emplace_back();
+    for (std::size_t i = 1; i < first.size(); ++i) {
+      const Score& score = setting.scores[i];
+      const Interval points = score.minus_first.interval();
+      values.push_back(std::abs(points.mean) < 1e-12 ? 0.0 : points.mean);  // what only rounding parts
+      texts.push_back(fmt::format("± {:.1f}; {:.1f} % right, sigma {:.1f} %", 100.0 * points.half_width,
+                                  100.0 * score.accuracy.back(), 100.0 * setting.scores.front().accuracy.back()));
+    }
+  }
+  return map;
+}
+
+Report page_of(const RegimesOptions& options, const std::vector<Regime>& all, const std::vector<SettingScores>& results,
+               const Verdict& verdict) {
+  Report page{.title = "Where is max inference the better one?", .command = options.draws.output.command};
+  page.verdict = {verdict.sentence,
+                  fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more "
+                              "often right than sigma inference, orange: more seldom; the colours end at 20 points.",
+                              options.draws.runs, options.reports, options.draws.seed)};
+  std::span<const SettingScores> rest = results;
+  for (const Regime& regime : all) {
+    page.panels.emplace_back(regime_map(regime, rest.first(regime.settings.size())));
+    rest = rest.subspan(regime.settings.size());
+  }
+  if (!verdict.better.empty()) page.last.emplace_back(ReportTable{"Better than sigma inference", verdict.better});
+  return page;
 }
 
 std::string regimes_csv(const std::vector<SettingScores>& all) {
@@ -256,7 +314,8 @@ void run_regimes(const RegimesOptions& options) {
     regime_table(rest.first(regime.settings.size())).print(draws.output.width());
     rest = rest.subspan(regime.settings.size());
   }
-  print_verdict(draws.output, results);
+  const Verdict verdict = verdict_of(results);
+  print_verdict(draws.output, verdict);
 
   Json summary = summary_of(draws.output);
   summary["synthetic"] = true;
@@ -266,7 +325,9 @@ void run_regimes(const RegimesOptions& options) {
   for (const SettingScores& setting : results)
     summary["regimes"][setting.regime][setting.setting] = scores_table(setting.scores).json();
   files.write("regimes.csv", regimes_csv(results));
+  if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
+  if (files.report_wanted()) files.write_report(page_of(options, all, results, verdict));
   files.commit();
 }
 
@@ -283,6 +344,7 @@ void add_regimes(CLI::App& program, const std::string& command) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_draws(app, options->draws);
+  add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo regimes\n"

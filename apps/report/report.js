@@ -75,15 +75,23 @@
     canvas.beginPath();
     canvas.rect(area.x, area.y, area.w, area.h);
     canvas.clip();
+    canvas.font = '11px system-ui, sans-serif';
     canvas.fillStyle = css('--shade');
     for (const {from, to, label} of panel.shaded) {
       const left = graph.toDomXCoord(from), right = graph.toDomXCoord(to);
       canvas.fillRect(left, area.y, Math.max(1, right - left), area.h);
       canvas.fillStyle = css('--faint');
-      canvas.font = '11px system-ui, sans-serif';
       canvas.fillText(label, Math.max(left, area.x) + 4, area.y + 12);
       canvas.fillStyle = css('--shade');
     }
+    let end = -Infinity;  // of what stands above the points, as far as there is room
+    panel.remarks?.forEach((text, k) => {
+      const at = graph.toDomXCoord(panel.x[k]), half = canvas.measureText(text).width / 2;
+      if (!text || at - half < end) return;
+      canvas.fillStyle = css('--faint');
+      canvas.fillText(text, Math.max(area.x, Math.min(at - half, area.x + area.w - 2 * half)), area.y + 10);
+      end = at + half + 4;
+    });
     for (const {from, to} of panel.expected) {
       const top = graph.toDomYCoord(to), bottom = graph.toDomYCoord(from);
       canvas.fillStyle = css('--expected');
@@ -115,6 +123,7 @@
     const show = (row) => {
       holder.replaceChildren();
       if (row !== null) holder.append(element('span', {textContent: `${panel.x_label}: ${shown(panel.x[row])}`}));
+      if (row !== null && panel.remarks) holder.append(element('span', {textContent: panel.remarks[row]}));
       panel.curves.forEach((curve, i) => {
         if (hidden.has(curve.group)) return;
         const value = row === null ? '' : ` ${shown(curve.values[row])}`;
@@ -161,9 +170,10 @@
     const looks = style(panel);
     const box = element('div', {className: 'chart', role: 'img', ariaLabel: `${panel.title}, ${panel.y_label}; the table below has the numbers`});
     const values = element('div', {className: 'readout'});
-    const histories = panel.histories ?? [];
-    const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name), ...histories.map((band) => band.name)],
-      panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k])), ...histories.map((band) => stayAt(band, x) ?? '–')])));
+    const histories = panel.histories ?? [], remarks = (k) => panel.remarks ? [panel.remarks[k]] : [];
+    const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name), ...histories.map((band) => band.name),
+      ...remarks(0).fill('')], panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k])),
+      ...histories.map((band) => stayAt(band, x) ?? '–'), ...remarks(k)])));
     place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), box,
       element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
 
@@ -350,8 +360,8 @@
     const box = element('div', {className: 'scroll'});
     const table = folded('Table', () => grid([`${panel.row_label} \\ ${panel.column_label}`, ...panel.columns],
       panel.rows.map((name, r) => [name, ...panel.shown[r]])));
-    place.append(figure(panel, element('div', {className: 'y-label', textContent: `${panel.value_label}; rows: ${panel.row_label}`}), box,
-      element('div', {className: 'x-label', textContent: panel.column_label}), values, table));
+    place.append(figure(panel, element('div', {className: 'y-label', textContent: `${panel.value_label}; rows: ${panel.row_label}, columns: ${panel.column_label}`}), box,
+      values, table));
     const draw = () => {
       let [least, greatest] = d3.extent(panel.values.flat().filter(finite));
       if (panel.most) [least, greatest] = [panel.diverging ? -panel.most : least, panel.most];
@@ -362,12 +372,13 @@
       const left = Math.min(150, 12 + 7 * widest);
       const room = (box.getBoundingClientRect().width || 500) - left - 6;
       const cell = {width: Math.max(34, Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
-      const slant = d3.max(panel.columns, (name) => name.length) * 7 > cell.width;
-      const top = slant ? 82 : 22;
+      const longest = d3.max(panel.columns, (name) => name.length), letters = Math.min(longest, 24);
+      const slant = longest * 7 > cell.width;
+      const top = slant ? 16 + 4.8 * letters : 22;
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
-        .attr('width', left + cell.width * panel.columns.length + (slant ? 40 : 4)).attr('height', top + cell.height * panel.rows.length + 4);
+        .attr('width', left + cell.width * panel.columns.length + (slant ? Math.max(4, 5.6 * letters - cell.width / 2) : 4)).attr('height', top + cell.height * panel.rows.length + 4);
       const cut = (name, most) => name.length > most ? `${name.slice(0, most - 1)}…` : name;
-      panel.columns.forEach((name, c) => svg.append('text').text(cut(name, slant ? 14 : 99)).attr('text-anchor', slant ? 'start' : 'middle')
+      panel.columns.forEach((name, c) => svg.append('text').text(cut(name, letters)).attr('text-anchor', slant ? 'start' : 'middle')
         .attr('transform', `translate(${left + (c + 0.5) * cell.width},${top - 7})${slant ? ' rotate(-40)' : ''}`));
       panel.rows.forEach((name, r) => {
         svg.append('text').text(cut(name, 20)).attr('text-anchor', 'end').attr('x', left - 6).attr('y', top + (r + 0.5) * cell.height + 4);
@@ -527,7 +538,7 @@
 
   const place = element('section', {className: 'panels', id: 'view'});
   const reset = element('button', {type: 'button', id: 'reset', textContent: 'Whole time', hidden: true});
-  let synchronized = null;
+  let synchronized = [];
 
   const showReset = () => { reset.hidden = !charts.some(({graph}) => graph.isZoomed('x')); };
 
@@ -539,20 +550,21 @@
   }
 
   function showView(index) {
-    const window = charts.find(({graph}) => graph.isZoomed('x'))?.graph.xAxisRange();
-    synchronized?.detach();
-    charts.forEach(({graph}) => graph.destroy());
-    charts = []; plans = fixedPlans.slice();
+    const zoomed = charts.find(({graph}) => graph.isZoomed('x')), window = zoomed?.graph.xAxisRange();
+    synchronized.forEach((one) => one.detach());
+    charts.slice(fixedCharts.length).forEach(({graph}) => graph.destroy());
+    charts = fixedCharts.slice(); plans = fixedPlans.slice();
     place.replaceChildren();
     drawAll(data.views[index].panels, place);
     synchronize();
-    if (window) charts.forEach(({graph}) => graph.updateOptions({dateWindow: window}));
+    charts.filter(({panel}) => panel.x_label === zoomed?.panel.x_label).forEach(({graph}) => graph.updateOptions({dateWindow: window}));
     showReset();
   }
 
   function synchronize() {
-    const graphs = charts.map(({graph}) => graph);
-    synchronized = graphs.length > 1 ? Dygraph.synchronize(graphs, {selection: true, zoom: true, range: false}) : null;
+    const axes = d3.nest().key(({panel}) => panel.x_label).entries(charts);
+    synchronized = axes.map(({values}) => values.map(({graph}) => graph)).filter((graphs) => graphs.length > 1)
+      .map((graphs) => Dygraph.synchronize(graphs, {selection: true, zoom: true, range: false}));
   }
 
   function bar() {
@@ -594,7 +606,7 @@
     + 'a map is dragged, and zoomed by double-click or Shift and the wheel.')));
   drawAll(data.panels, first);
   drawAll(data.last, last);
-  const fixedPlans = plans.slice();
+  const fixedPlans = plans.slice(), fixedCharts = charts.slice();
   if (data.views.length) showView(0); else synchronize();
 
   const relook = () => {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "support/error.hpp"
+#include "support/gnuplot.hpp"
 #include "support/input.hpp"
 #include "support/run.hpp"
 #include "support/spelling.hpp"
@@ -114,6 +115,13 @@ void add_output(CLI::App& app, OutputOptions& options) {
 void add_report(CLI::App& app, OutputOptions& options) {
   app.add_option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
       ->type_name("FILE");
+  const auto needs_gnuplot = [](const std::string&) {
+    Gnuplot{};  // throws, before any work
+    return std::string();
+  };
+  app.add_option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
+      ->type_name("DIR")
+      ->check(CLI::Validator(needs_gnuplot, ""));
 }
 
 void add_no_chart(CLI::App& app, bool& no_chart) {

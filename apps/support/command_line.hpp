@@ -15,6 +15,7 @@ namespace sigmax::apps {
 struct OutputOptions {
   std::string out;        ///< a directory for files, or empty
   std::string report;     ///< the file of the report, or empty: that of the directory, if there is one
+  std::string plots;      ///< a directory for the report's pictures as SVG and PDF, or empty
   bool quiet = false;     ///< no progress bar
   bool wide = false;      ///< rows of tables are not broken
   bool no_chart = false;  ///< on the terminal
@@ -26,7 +27,7 @@ struct OutputOptions {
 /// Prints a paragraph, broken to the width of the tables.
 void print_text(const OutputOptions& options, std::string_view text);
 
-/// --out, --quiet and --wide; --report; --no-chart.
+/// --out, --quiet and --wide; --report and --plots; --no-chart.
 void add_output(CLI::App& app, OutputOptions& options);
 void add_report(CLI::App& app, OutputOptions& options);
 void add_no_chart(CLI::App& app, bool& no_chart);

@@ -50,6 +50,7 @@ Json panel(const LineChart& chart) {
                {"shaded", marked(chart.shaded)},
                {"expected", marked(chart.expected)},
                {"note", chart.note}};
+  if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
   if (chart.joined) json["joined"] = true;
   for (const HistoryBand& band : chart.histories) {
     Json stays = Json::array();

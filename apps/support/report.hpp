@@ -66,6 +66,7 @@ struct LineChart {
   std::vector<Marked> expected{};      ///< along y
   std::optional<double> greatest_y{};  ///< where the y axis ends, if not at the data
   std::string note{};
+  std::vector<std::string> remarks{};  ///< beside the numbers at each x; empty or as long
   std::vector<HistoryBand> histories{};
   bool joined = false;  ///< gaps of a curve are of other curves' times: it goes on over them
 };

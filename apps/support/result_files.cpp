@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/error.hpp"
+#include "support/pictures.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -12,8 +13,10 @@ ResultFiles::ResultFiles(const OutputOptions& options) {
   if (!options.report.empty() && !has_reports())
     throw UsageError(message({.what = "--report: this program was built without charts",
                               .remedy = "install libjs-dygraphs and node-d3, and build again"}));
+  if (!options.plots.empty()) gnuplot_.emplace();
   if (!options.out.empty()) directory_.emplace(options.out);
   if (!options.report.empty()) report_.emplace(options.report);
+  if (!options.plots.empty()) plots_.emplace(options.plots);
 }
 
 AtomicFile* ResultFiles::open(const std::string& name) {
@@ -30,27 +33,39 @@ void ResultFiles::write_json(const std::string& name, const nlohmann::ordered_js
   if (wanted()) write(name, json.dump(2) + "\n");
 }
 
-bool ResultFiles::report_wanted() const { return report_ || (wanted() && has_reports()); }
+bool ResultFiles::report_wanted() const { return report_ || plots_ || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
   write(report_data_name, data_of(report).dump() + "\n");
   if (report_)
     report_->write(html(report));
-  else
+  else if (has_reports())
     write(report_name, html(report));
+  if (!plots_) return;
+  for (const Picture& picture : pictures_of(report)) {
+    pictures_.emplace_back(picture.name + ".svg", gnuplot_->svg(picture));
+    pictures_.emplace_back(picture.name + ".pdf", gnuplot_->pdf(picture));
+  }
 }
 
 void ResultFiles::commit() {
-  if (files_.empty() && !report_) return;
+  if (files_.empty() && !report_ && !plots_) return;
   for (AtomicFile& file : files_) file.store();
   if (report_) report_->store();
   for (AtomicFile& file : files_) file.commit();
   if (report_) report_->commit();
+  for (const auto& [name, document] : pictures_) {
+    AtomicFile file = plots_->file(name);
+    file.write(document);
+    file.commit();
+  }
   std::vector<std::string> written;
   if (!names_.empty())
     written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
                                   names_.size() > 1 ? " and " : "", names_.back(), directory_->path().native()));
   if (report_) written.push_back(report_->path().native());
+  if (plots_)
+    written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_->path().native()));
   fmt::print("\nWrote {}\n", fmt::join(written, ", and "));
 }
 

@@ -4,18 +4,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "support/command_line.hpp"
+#include "support/gnuplot.hpp"
 #include "support/output.hpp"
 #include "support/report.hpp"
 
 namespace sigmax::apps {
 
-/// The result files of a run. Without --out nothing is written but the report, if --report asks for it. Directory and
-/// report are begun first, so that a bad place is known before the work; the files appear together at the end.
+/// The result files of a run. Without --out nothing is written but the report and its pictures, if --report and --plots
+/// ask for them. Directories and report are begun first, so that a bad place is known before the work; the files appear
+/// together at the end.
 ///
 ///     ResultFiles files(options);
 ///     …
@@ -25,7 +28,8 @@ namespace sigmax::apps {
 ///     files.commit();
 class ResultFiles {
  public:
-  /// Throws UsageError if --report asks for what this program was built without.
+  /// Throws UsageError if --report asks for what this program was built without, or --plots for gnuplot and it is not
+  /// there.
   explicit ResultFiles(const OutputOptions& options);
 
   /// Whether there is a directory to write to.
@@ -38,9 +42,11 @@ class ResultFiles {
   void write_json(const std::string& name, const nlohmann::ordered_json& json);
 
   /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
-  /// says.
+  /// says, or as pictures.
   bool report_wanted() const;
-  /// The page, and beside the other files its data, `report_data_name`, which the summary should name.
+
+  /// Writes the page, and beside the other files its data, `report_data_name`, which the summary should name; and the
+  /// pictures if they are wanted.
   void write_report(const Report& report);
 
   /// Puts all files into their place and prints "Wrote a.csv and summary.json to DIR".
@@ -51,6 +57,9 @@ class ResultFiles {
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
   std::optional<AtomicFile> report_;  // where it is not in the directory
+  std::optional<OutputDirectory> plots_;
+  std::optional<Gnuplot> gnuplot_;
+  std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
 };
 
 /// What every summary begins with: the version and the command.

@@ -72,5 +72,6 @@
 #include <sigmax/recognition/explanation.hpp>
 #include <sigmax/recognition/feature_model.hpp>
 #include <sigmax/recognition/folds.hpp>
+#include <sigmax/recognition/reliability.hpp>
 #include <sigmax/recognition/report.hpp>
 #include <sigmax/recognition/triangle.hpp>

@@ -119,9 +119,17 @@ AXES = "[...document.querySelectorAll('.lines')].map((one) => [...one.querySelec
 PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
 
 
+def chosen_panels(data):
+    """Those that are drawn when the page opens."""
+    return data["panels"] + [panel for view in data["views"][:1] for panel in view["panels"]] + data["last"]
+
+
+def panels_of(data, kind):
+    return [panel for panel in chosen_panels(data) if panel["kind"] == kind]
+
+
 def check_drawing(browser, failures, data):
-    views = data["views"][:1]
-    panels = data["panels"] + [panel for view in views for panel in view["panels"]] + data["last"]
+    panels = chosen_panels(data)
     for kind, selector in (("lines", ".lines .chart canvas"), ("plan", ".plan .map path"), ("heat", ".heat rect"), ("intervals", ".intervals .interval path")):
         wanted = sum(panel["kind"] == kind for panel in panels)
         found = browser.js(f"new Set([...document.querySelectorAll({json.dumps(selector)})].map((one) => one.closest('figure'))).size")
@@ -150,7 +158,8 @@ def check_zoom(browser, failures):
         browser.mouse("mouseMoved", left + (right - left) * step / 5, middle, held=True)
     browser.mouse("mouseReleased", right, middle)
     zoomed = browser.js(AXES)
-    same_axis = [i for i, labels in enumerate(before) if labels == before[0]]
+    dragged = browser.js("[...document.querySelectorAll('.lines')].indexOf(document.querySelector('#view .lines'))")
+    same_axis = [i for i, labels in enumerate(before) if labels == before[dragged]]
     failures.expect(all(zoomed[i] != before[i] for i in same_axis), "dragging does not zoom every chart")
     failures.expect(len({zoomed[i] for i in same_axis}) == 1, "the charts are not zoomed together")
     failures.expect(not browser.js("document.getElementById('reset').hidden"), "no way back from a zoom")
@@ -159,14 +168,15 @@ def check_zoom(browser, failures):
 
 
 def check_hover(browser, failures, data):
-    box = browser.box("#view .lines .chart")
+    box = browser.box(".lines .chart")
     browser.mouse("mouseMoved", box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    text = browser.js("document.querySelector('#view .lines .readout').textContent")
-    panel = next(one for one in data["views"][0]["panels"] if one["kind"] == "lines")
+    text = browser.js("document.querySelector('.lines .readout').textContent")
+    panel = panels_of(data, "lines")[0]
     number = lambda value: "–" if value is None else json.loads(browser.js(f"JSON.stringify(String(Number(({value!r}).toPrecision(5))))"))
     at = text.split(":", 1)[-1].strip()
     rows = [k for k, x in enumerate(panel["x"]) if at.startswith(number(x))]
-    right = any(all(f"{curve['name']} {number(curve['values'][k])}" in text for curve in panel["curves"]) for k in rows)
+    right = any(all(f"{curve['name']} {number(curve['values'][k])}" in text for curve in panel["curves"])
+                and panel.get("remarks", [""] * (k + 1))[k] in text for k in rows)
     failures.expect(right, f"hovering shows no row of the data: {text!r}")
 
 
@@ -186,11 +196,6 @@ def check_legend(browser, failures, data):
         browser.js(select)
         failures.expect(browser.js(PICTURES) == before, f"switching {name} on again does not bring it back")
         break
-
-
-def chosen_panels(data):
-    """Those that are drawn when the page opens."""
-    return data["panels"] + [panel for view in data["views"][:1] for panel in view["panels"]] + data["last"]
 
 
 def check_intervals(browser, failures, data):
@@ -323,12 +328,12 @@ def check_data(failures, data, summary, directory):
 
 def check_tables(browser, failures, data):
     """Behind each chart there is a table with its numbers."""
-    count = browser.js("""[...document.querySelectorAll('#view .lines details')].map((one) => { one.open = true; return one; }).length""")
-    wanted = sum(panel["kind"] == "lines" for panel in data["views"][0]["panels"])
+    count = browser.js("""[...document.querySelectorAll('.lines details')].map((one) => { one.open = true; return one; }).length""")
+    wanted = len(panels_of(data, "lines"))
     failures.expect(count == wanted, f"{count} tables behind {wanted} charts")
     time.sleep(0.2)
-    rows = browser.js("[...document.querySelectorAll('#view .lines details')].map((one) => one.querySelectorAll('tbody tr').length)")
-    lengths = [len(panel["x"]) for panel in data["views"][0]["panels"] if panel["kind"] == "lines"]
+    rows = browser.js("[...document.querySelectorAll('.lines details')].map((one) => one.querySelectorAll('tbody tr').length)")
+    lengths = [len(panel["x"]) for panel in panels_of(data, "lines")]
     failures.expect(rows == lengths, f"the tables have {rows} rows, not {lengths}")
     browser.js("document.querySelectorAll('details').forEach((one) => { one.open = false; })")
 
@@ -373,8 +378,9 @@ def main():
         check_drawing(browser, failures, data)
         if data["views"] and any(panel["kind"] == "lines" for panel in data["views"][0]["panels"]):
             check_zoom(browser, failures)
-            check_hover(browser, failures, data)
             check_legend(browser, failures, data)
+        if panels_of(data, "lines"):
+            check_hover(browser, failures, data)
             check_tables(browser, failures, data)
         check_selector(browser, failures, data)
         check_intervals(browser, failures, data)

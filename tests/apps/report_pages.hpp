@@ -3,10 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
+
+/// The data that a page holds.
+inline nlohmann::ordered_json data_in(const std::filesystem::path& page) {
+  const std::string text = contents(page), begin = "<script type=\"application/json\" id=\"data\">";
+  const auto from = text.find(begin) + begin.size();
+  return nlohmann::ordered_json::parse(text.substr(from, text.find("</script>", from) - from));
+}
 
 /// Uses a page in headless Chromium (report_browser.py): it is drawn, nothing complains, zoom, hover, legend and
 /// selector work, and the numbers of its tables are those of the summary. Skips without Chromium or python3-websocket.

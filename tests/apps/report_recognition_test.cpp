@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/recognition_demo_support.hpp"
+#include "apps/report_pages.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/near.hpp"
+#include "support/report.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using sigmax::support::near;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* fruit = SIGMAX_SOURCE "/apps/examples/data/fruit.csv";
+
+/// The pages of recognition_demo, which tests use in a browser.
+class RecognitionReport : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  }
+
+  /// Runs a subcommand with --out, and returns the data of its page.
+  Json page_of(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--quiet", "--out", directory_.path()});
+    const auto ending = recognition_demo(arguments);
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    summary_ = Json::parse(contents(directory_.path() / "summary.json"));
+    return data_in(page());
+  }
+
+  std::filesystem::path page() const { return directory_.path() / "report.html"; }
+  void expect_numbers_of_the_summary() const { expect_drawn(page(), directory_.path() / "summary.json"); }
+
+  TemporaryDirectory directory_;
+  Json summary_;
+};
+
+Json panel_called(const Json& panels, const std::string& title) {
+  for (const auto& panel : panels)
+    if (panel.at("title") == title) return panel;
+  ADD_FAILURE() << "no panel " << title;
+  return {};
+}
+
+TEST_F(RecognitionReport, OfEvaluateHasConfusionMatricesAndReliabilityOfTheSummary) {
+  const Json data = page_of({"evaluate", fruit, "--label", "fruit", "--foldings", "2"});
+  for (const auto& [classifier, bins] : summary_.at("reliability").items()) {
+    const Json chart = panel_called(data.at("panels"), "Reliability of " + classifier);
+    const Json &share = chart.at("curves").at(0), &diagonal = chart.at("curves").at(1);
+    ASSERT_EQ(chart.at("x").size(), bins.size() + 2);  // and the ends of the diagonal
+    EXPECT_EQ(diagonal.at("values"), chart.at("x"));
+    double statements = 0.0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      const Json& bin = bins[i];
+      EXPECT_PRED_FORMAT3(near, chart.at("x")[i + 1].get<double>(), bin.at("mean_degree").get<double>(), 1e-6);
+      EXPECT_PRED_FORMAT3(near, share.at("values")[i + 1].get<double>(), bin.at("share_that_is_true").get<double>(),
+                          1e-6);
+      EXPECT_PRED_FORMAT3(near, share.at("lower")[i + 1].get<double>(), bin.at("lower").get<double>(), 1e-6);
+      EXPECT_PRED_FORMAT3(near, share.at("upper")[i + 1].get<double>(), bin.at("upper").get<double>(), 1e-6);
+      EXPECT_PRED_FORMAT3(near, std::stod(chart.at("remarks")[i + 1].get<std::string>()),
+                          bin.at("statements").get<double>(), 0.06);
+      statements += bin.at("statements").get<double>();
+    }
+    EXPECT_PRED_FORMAT3(near, statements,
+                        summary_.at("rows").get<double>() * static_cast<double>(summary_.at("classes").size()), 1e-9);
+  }
+  expect_numbers_of_the_summary();
+}
+
+/// The bins again from predictions.csv, in plain loops.
+TEST_F(RecognitionReport, ReliabilityIsThatOfThePredictions) {
+  page_of({"evaluate", fruit, "--label", "fruit", "--foldings", "1"});
+  const auto predictions = rows_of(directory_.path() / "predictions.csv");
+  for (const auto& [classifier, bins] : summary_.at("reliability").items()) {
+    std::map<int, Numbers> degrees, truths;
+    for (const auto& row : predictions)
+      if (row.at("classifier") == classifier)
+        for (const auto& name : summary_.at("classes")) {
+          const double degree = std::stod(row.at(name.get<std::string>()));
+          const int bin = std::min(9, static_cast<int>(10.0 * degree));
+          degrees[bin].push_back(degree);
+          truths[bin].push_back(row.at("truth") == name ? 1.0 : 0.0);
+        }
+    ASSERT_EQ(bins.size(), degrees.size()) << classifier;
+    std::size_t i = 0;
+    for (const auto& [bin, values] : degrees) {
+      const double n = static_cast<double>(values.size());
+      EXPECT_EQ(bins[i].at("from").get<double>(), bin / 10.0);
+      EXPECT_EQ(bins[i].at("statements").get<double>(), n);
+      EXPECT_PRED_FORMAT3(near, bins[i].at("mean_degree").get<double>(), sum(values) / n, 1e-9);
+      EXPECT_PRED_FORMAT3(near, bins[i].at("share_that_is_true").get<double>(), sum(truths[bin]) / n, 1e-12);
+      ++i;
+    }
+  }
+}
+
+/// Names of classes that are no names to a page or to gnuplot.
+TEST_F(RecognitionReport, ShowsAClassAsItIsCalled) {
+  std::string text = "size,colour,kind\n";
+  for (int i = 0; i < 40; ++i)
+    text += std::to_string(i % 7 + (i % 2) * 4) + "," + (i % 3 ? "red" : "</td>") + "," +
+            (i % 2 ? "</script><b>" : "it's `x` {_} \\") + "\n";
+  const auto file = directory_.write("odd.csv", text);
+  const Json data = page_of({"evaluate", file, "--label", "kind", "--foldings", "1", "--folds", "2"});
+  EXPECT_EQ(data.at("panels").at(1).at("rows").at(0).get<std::string>() +
+                data.at("panels").at(1).at("rows").at(1).get<std::string>(),
+            "</script><b>it's `x` {_} \\");
+  EXPECT_EQ(contents(page()).find("</script><b>"), std::string::npos);
+  expect_numbers_of_the_summary();
+}
+
+TEST_F(RecognitionReport, OfClassifyExplainsAChosenRow) {
+  const std::string model = directory_.path() / "fruit.json", page = directory_.path() / "fruit.html";
+  ASSERT_EQ(recognition_demo({"train", fruit, "--label", "fruit", "--model", model}).status, 0);
+  const auto ending = recognition_demo({"classify", model, SIGMAX_SOURCE "/apps/examples/data/fruit_new.csv", "--rows",
+                                        "3", "--quiet", "--report", page});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  const Json data = data_in(page);
+  ASSERT_EQ(data.at("views").size(), 3U);
+  for (const auto& view : data.at("views")) {  // the class that is explained is the one with the greatest support
+    const auto& support = view.at("panels").at(0);
+    const auto values = support.at("values").at(0).get<std::vector<double>>();
+    const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    const std::string why = view.at("panels").at(1).at("columns").at(0).at("header");
+    EXPECT_TRUE(why.starts_with("sigma: " + support.at("columns").at(best).get<std::string>() + " rather than")) << why;
+  }
+  expect_drawn(page);
+}
+
+/// T1 carries e1 and e2. The sensor is right with 0.7 and reads each other emitter with 0.075, which Dubois and Prade's
+/// transform makes 1 and 0.3: a carried emitter is read through itself, another through the first that is carried.
+TEST_F(RecognitionReport, OfEsmShowsThroughWhichEmitterAReadingIsPossible) {
+  const Json data = page_of({"esm", "--runs", "50"});
+  const Json map = panel_called(data.at("last"), "What may be read of each platform");
+  const std::map<std::string, std::vector<std::string>> carried = {
+      {"T1", {"e1", "e2"}}, {"T2", {"e2", "e3"}}, {"T3", {"e1", "e3", "e4"}}, {"T4", {"e2", "e4", "e5"}}};
+  for (std::size_t r = 0; r < 4; ++r)
+    for (std::size_t c = 0; c < 5; ++c) {
+      const auto& emitters = carried.at(map.at("rows")[r]);
+      const std::string reading = map.at("columns")[c];
+      const bool itself = std::count(emitters.begin(), emitters.end(), reading) > 0;
+      EXPECT_PRED_FORMAT3(near, map.at("values")[r][c].get<double>(), itself ? 1.0 : 0.3, 1e-12);
+      EXPECT_EQ(map.at("texts")[r][c], "through " + (itself ? reading : emitters.front()));
+    }
+  ASSERT_EQ(data.at("views").size(), 7U);
+  for (const auto& chart : data.at("views")[1].at("panels")) EXPECT_EQ(chart.at("x").size(), 40U);
+  expect_numbers_of_the_summary();
+}
+
+TEST_F(RecognitionReport, OfRegimesHasTheDifferencesOfTheSummary) {
+  const Json data = page_of({"regimes", "--runs", "20", "--reports", "5"});
+  ASSERT_EQ(data.at("panels").size(), summary_.at("regimes").size());
+  for (const auto& [regime, settings] : summary_.at("regimes").items()) {
+    const Json map = panel_called(data.at("panels"), "Regime " + regime);
+    for (std::size_t r = 0; r < map.at("rows").size(); ++r)
+      for (std::size_t c = 0; c < map.at("columns").size(); ++c) {
+        const Json& found = settings.at(map.at("rows")[r].get<std::string>())
+                                .at(map.at("columns")[c].get<std::string>())
+                                .at("accuracy_minus_that_of_the_first");
+        EXPECT_PRED_FORMAT3(near, map.at("values")[r][c].get<double>(), found.at("mean").get<double>(), 1e-12);
+      }
+  }
+  expect_drawn(page());
+}
+
+TEST_F(RecognitionReport, OfManoeuvreHasTheScoresOfTheSummaryAndAFlightOfEachTarget) {
+  const Json data = page_of({"manoeuvre", "--runs", "20"});
+  ASSERT_EQ(data.at("views").size(), 4U);
+  for (const auto& [target, classifiers] : summary_.at("targets").items()) {
+    const Json chart = panel_called(data.at("views")[0].at("panels"), "Right decisions about the " + target);
+    EXPECT_EQ(chart.at("x").back(), 30.0);
+    for (const auto& curve : chart.at("curves"))
+      EXPECT_PRED_FORMAT3(near, curve.at("values").back().get<double>(),
+                          classifiers.at(curve.at("name").get<std::string>()).at("accuracy").get<double>(), 1e-6);
+  }
+  // What the page shows of the first flight is what samples.csv and runs.csv say of it.
+  const auto samples = rows_of(directory_.path() / "samples.csv");
+  const Json himm = panel_called(data.at("views")[1].at("panels"), "Modes of the HIMM");
+  EXPECT_PRED_FORMAT3(near, himm.at("curves")[0].at("values")[29].get<double>(), std::stod(samples[29].at("himm_cv")),
+                      1e-6);
+  const auto runs = rows_of(directory_.path() / "runs.csv");
+  const Json airliner = panel_called(data.at("views")[1].at("panels"), "airliner, the truth");
+  for (const auto& curve : airliner.at("curves"))
+    EXPECT_PRED_FORMAT3(near, curve.at("values").back().get<double>(),
+                        std::stod(runs[0].at(curve.at("name").get<std::string>() + ": airliner")), 1e-6);
+  expect_drawn(page());
+}
+
+constexpr const char* counts =
+    "class,feature,bin,lower,upper,count\n"
+    "slow,altitude_layer_ft_agl,1,50,1000,30\nslow,altitude_layer_ft_agl,2,1000,5000,10\n"
+    "slow,airspeed_kt,1,0,100,50\nslow,airspeed_kt,2,100,300,50\n"
+    "slow,vertical_rate_ft_per_min,1,-2000,0,7\nslow,vertical_rate_ft_per_min,2,0,2000,3\n"
+    "slow,turn_rate_deg_per_s,1,-8,2,20\nslow,turn_rate_deg_per_s,2,2,8,60\n"
+    "fast,altitude_layer_ft_agl,1,50,1000,5\nfast,altitude_layer_ft_agl,2,1000,5000,35\n"
+    "fast,airspeed_kt,1,0,100,1\nfast,airspeed_kt,2,100,300,99\n"
+    "fast,vertical_rate_ft_per_min,1,-2000,0,5\nfast,vertical_rate_ft_per_min,2,0,2000,5\n"
+    "fast,turn_rate_deg_per_s,1,-8,2,10\nfast,turn_rate_deg_per_s,2,2,8,70\n";
+
+TEST_F(RecognitionReport, OfEncounterHasWhatWasCountedAndDecided) {
+  const Json data = page_of({"encounter", directory_.write("counts.csv", counts), "--runs", "30"});
+  const Json map = panel_called(data.at("last"), "What was learned of airspeed_kt");
+  EXPECT_PRED_FORMAT3(near, map.at("values")[1][0].get<double>(), 0.01, 1e-12);
+  expect_numbers_of_the_summary();
+}
+
+TEST_F(RecognitionReport, OfARecordingFollowsTheSupportOfEachClass) {
+  std::string rows = "time_s,altitude_ft,groundspeed_kt,track_deg,vertical_rate_fpm\n";
+  for (int k = 0; k < 2000; ++k)
+    rows +=
+        std::to_string(10 * k) + "," + std::to_string(k % 3 ? 300 : 2000) + ",90,10," + (k % 2 ? "10" : "-10") + "\n";
+  const Json data = page_of({"encounter", directory_.write("counts.csv", counts), "--track",
+                             directory_.write("track.csv", rows), "--ground", "0"});
+  const Json& panels = data.at("views").at(0).at("panels");
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_LE(panels[0].at("x").size(), 1000U);
+  EXPECT_NE(panels[0].at("note").get<std::string>().find("of 2000 reports"), std::string::npos) << panels[0].at("note");
+  for (const auto& curve : panel_called(panels, "slow").at("curves"))
+    EXPECT_PRED_FORMAT3(near, curve.at("values").back().get<double>(),
+                        summary_.at("classifiers")
+                            .at(curve.at("name").get<std::string>())
+                            .at("belief_after_all")
+                            .at("slow")
+                            .get<double>(),
+                        1e-6);
+  expect_drawn(page());
+}
+
+TEST_F(RecognitionReport, OfPerformanceShowsEachTypesPossibilities) {
+  const Json data = page_of({"performance",
+                             directory_.write("performance.csv",
+                                              "type,variable,optimum,minimum,maximum,model,parameters\n"
+                                              "a,range,2,1,4,norm,2|0.7\na,speed,20,10,40,norm,21|8\n"
+                                              "b,range,3,2,5,norm,3.2|0.9\nb,speed,15,12,50,norm,25|10\n"),
+                             "--runs", "30"});
+  ASSERT_EQ(data.at("views").size(), 2U);
+  const Json range = panel_called(data.at("views")[0].at("panels"), "range");
+  for (const auto& curve : range.at("curves")) {
+    const auto values = curve.at("values").get<Numbers>();
+    const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    EXPECT_EQ(values[best], 1.0) << curve.at("name");
+    EXPECT_PRED_FORMAT3(near, range.at("x")[best].get<double>(), 2.0, 0.1) << curve.at("name");  // where the optimum is
+  }
+  expect_numbers_of_the_summary();
+}
+
+}  // namespace
+}  // namespace sigmax::apps
