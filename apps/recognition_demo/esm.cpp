@@ -139,10 +139,8 @@ void run_esm(const EsmOptions& options) {
   if (files.report_wanted()) summary["report_data"] = report_data_name;
   files.write_json("summary.json", summary);
   if (files.report_wanted()) {
-    page.verdict = {
-        fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
-                    described_usage(options)),
-        "Point at a cell of the matrix below: it tells through which emitter the reading is most possible."};
+    page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
+                                described_usage(options))};
     page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
     page.last.emplace_back(
         witness_map(with_fuzzy_condition(to_possibility(world.sensor(hit), DuboisPrade{})), world.carries()));
