@@ -39,8 +39,7 @@ std::string seven_tracks() {
 /// What mpirun prints and how it ends; nothing, with `skipped` filled, where it cannot be.
 program::Ending in_ranks(const Arguments& arguments, std::string& skipped) {
   if (!has_mpirun()) return skipped = "there is no mpirun", program::Ending{};
-  const auto words = mpirun(arguments);
-  auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
+  auto ending = run_in_ranks(arguments);
   if (ending.output.find("this build has no MPI") != std::string::npos) {
     EXPECT_NE(ending.output.find("; run it without mpirun, or configure with"), std::string::npos) << ending.output;
     EXPECT_EQ(ending.status, 2);

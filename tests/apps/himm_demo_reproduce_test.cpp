@@ -171,8 +171,7 @@ TEST(HimmDemoReproduce, RanksGiveTheSameBytes) {
   const TemporaryDirectory directory;
   const Arguments arguments = {"reproduce", "--runs", "3"};
   campaign(directory.path() / "whole", arguments);
-  const auto words = mpirun(arguments + Arguments{"--quiet", "--out", directory.path() / "ranks"});
-  const auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
+  const auto ending = run_in_ranks(arguments + Arguments{"--quiet", "--out", directory.path() / "ranks"});
   if (ending.output.find("this build has no MPI") != std::string::npos) {
     EXPECT_NE(ending.status, 0);
     GTEST_SKIP() << "this build has no MPI, and says so";
