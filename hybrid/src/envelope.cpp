@@ -38,6 +38,11 @@ const Envelope::AtPoints& Envelope::normal_points(Eigen::Index n) {
   return all[at];
 }
 
+Envelope& Envelope::of_this_thread() {
+  thread_local Envelope envelope;
+  return envelope;
+}
+
 void Envelope::clear(Eigen::Index n) {
   if (n < 1 || n > max_size)
     throw std::invalid_argument("an envelope of " + std::to_string(n) + " components; expected 1 to " +
@@ -49,7 +54,7 @@ void Envelope::clear(Eigen::Index n) {
 void Envelope::add(double weight, const Eigen::Ref<const Eigen::VectorXd>& mean,
                    const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
   if (!(weight > 0.0)) return;
-  if (count_ == parts_.size()) parts_.emplace_back();
+  if (count_ == parts_.size()) parts_.emplace_back().varies.reserve(max_size);
   Part& part = parts_[count_];
   part.weight = weight;
   part.mean = mean;

@@ -16,6 +16,7 @@
 #include "apps/manoeuvring_targets.hpp"
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
+#include "support/enveloped.hpp"
 #include "support/near.hpp"
 #include "support/program.hpp"
 #include "support/second_order_restatement.hpp"
@@ -59,6 +60,10 @@ std::vector<Named> named_filters() {
       {"himm_own", himm([](Options& own) { own.mixed_covariance = MixedCovariance::own; })},
       {"himm_own_recentred", himm(as_it_is)},
       {"himm_released", himm([](Options& own) { own.mixed_covariance = MixedCovariance::released; })},
+      {"himm_envelope", himm([](Options& own) {
+         own.mixed_covariance = MixedCovariance::envelope;
+         own.envelope = support::enveloped;
+       })},
       {"himm_global", himm([](Options& own) { own.common_start = true; })},
       {"himm_possibility", himm([](Options& own) { own.possibilistic = true; })},
       {"viterbi", himm(as_it_is), true},

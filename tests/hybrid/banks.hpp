@@ -15,6 +15,7 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
+#include "support/enveloped.hpp"
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
 #include "support/second_order_restatement.hpp"
@@ -147,22 +148,6 @@ struct Alone {
 inline restatement::Model restate(const Planar& model) {
   const double sigma_w = model.motion().visit([](const auto& motion) { return motion.law().sigma_w(); });
   return model.size() == 4 ? restatement::dwna(2, sigma_w) : restatement::dwpa(2, sigma_w);
-}
-
-/// The envelope of some states; envelope_test.cpp holds it against plain sums.
-inline restatement::State enveloped(const std::vector<restatement::State>& states, const std::vector<double>& weights) {
-  const auto n = states.front().mean.size();
-  Envelope envelope;
-  envelope.clear(static_cast<Eigen::Index>(n));
-  const auto rows = [n](const auto& values, Eigen::Index columns) {
-    return Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(n), columns);
-  };
-  for (std::size_t l = 0; l < states.size(); ++l)
-    envelope.add(weights[l], rows(states[l].mean, 1), rows(states[l].covariance.values, static_cast<Eigen::Index>(n)));
-  Eigen::VectorXd mean(n);
-  Eigen::MatrixXd covariance(n, n);
-  envelope.match(mean, covariance);
-  return {entries(mean), dense(covariance)};
 }
 
 /// The enumerations are spelled alike and in one order.

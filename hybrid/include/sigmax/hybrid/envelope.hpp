@@ -20,6 +20,9 @@ namespace sigmax {
 /// and counts beside them in full. Otherwise covariances are positive definite.
 class Envelope {
  public:
+  /// One whose memory the calling thread keeps.
+  static Envelope& of_this_thread();
+
   /// No parts; those to come have `n` ≤ 32 components. Throws std::invalid_argument above.
   void clear(Eigen::Index n);
 
@@ -67,7 +70,7 @@ class Envelope {
 /// One Gaussian with the moments of the envelope of a mixture, as `collapse` takes it; gives β.
 template <class Mixture, class Weight, int N, int MaxN>
 double match_envelope(const Mixture& mixture, const Weight& weight, Gaussian<N, MaxN>& result) {
-  thread_local Envelope envelope;
+  Envelope& envelope = Envelope::of_this_thread();
   envelope.clear(result.mean.size());
   mixture.visit_all([&](std::size_t l, const auto& part) {
     result.covariance.setZero();
