@@ -76,7 +76,7 @@ std::optional<CellRows> run_first(const Campaign& campaign, Shard shard, Ranks* 
         message({.what = "--shard without --out would leave nothing to merge", .remedy = "give --out DIR"}));
   if (shard.of > 1 && !options.report.empty())
     throw UsageError(message({.what = "--report shows all shards, and this is one", .remedy = "give it to merge"}));
-  ResultFiles{options};  // refuses a place that cannot be written before the work
+  { const ResultFiles trial(options); }  // refuses a place that cannot be written before the work
   std::unique_ptr<Journal> journal;
   if (!options.out.empty())
     journal = std::make_unique<Journal>(OutputDirectory(options.out).path() / journal_name, campaign.description);
