@@ -221,7 +221,8 @@ TEST_F(RecognitionReport, OfARecordingFollowsTheSupportOfEachClass) {
   ASSERT_EQ(panels.size(), 2U);
   EXPECT_LE(panels[0].at("x").size(), 1000U);
   EXPECT_NE(panels[0].at("note").get<std::string>().find("of 2000 reports"), std::string::npos) << panels[0].at("note");
-  for (const auto& curve : panel_called(panels, "slow").at("curves"))
+  const Json slow = panel_called(panels, "slow");  // a temporary would not outlive the loop's head
+  for (const auto& curve : slow.at("curves"))
     EXPECT_PRED_FORMAT3(near, curve.at("values").back().get<double>(),
                         summary_.at("classifiers")
                             .at(curve.at("name").get<std::string>())

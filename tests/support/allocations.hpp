@@ -24,6 +24,11 @@ std::size_t allocations_of(const Action& action) {
   if (void* const memory = std::malloc(size)) return memory;
   throw std::bad_alloc{};
 }
+/// std::stable_sort asks this one, and gives its memory back to the delete below.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++sigmax::support::allocations;
+  return std::malloc(size);
+}
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   ++sigmax::support::allocations;
   const auto step = static_cast<std::size_t>(alignment);
