@@ -1,5 +1,5 @@
-# The warning set is private to this build: nothing here reaches a consumer.
-# (-Wrestrict of g++ 12 warns of its own std::string, bug 105651.)
+#The warning set is private to this build : nothing here reaches a consumer.
+#(- Wrestrict of g ++ 12 warns of its own std::string, bug 105651.)
 function(sigmax_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
@@ -9,8 +9,8 @@ function(sigmax_warnings target)
 endfunction()
 option(SIGMAX_WERROR "Treat warnings as errors (CI does)" OFF)
 
-# sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
-# headers below it are the room's file set: they are installed, and each must compile alone.
+#sigmax_room(NAME[SOURCES …][DEPENDS …]) : the library sigmax::NAME of one room, with its own include root.All
+#headers below it are the room's file set: they are installed, and each must compile alone.
 function(sigmax_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   set(target sigmax_${name})
@@ -41,12 +41,20 @@ function(sigmax_install target)
   endif()
 endfunction()
 
+# Most of a program's compile time is the headers of its libraries, so a few files are compiled as one; off while one
+# file is being worked at.
+option(SIGMAX_UNITY "Compile several files of the programs as one" ON)
+function(sigmax_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIGMAX_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+endfunction()
+
 # sigmax_program(NAME LIBRARIES …): NAME/*.cpp as one program, which is installed; with a manual page made of its --help
 # where there is help2man.
 function(sigmax_program name)
   file(GLOB sources CONFIGURE_DEPENDS ${name}/*.cpp)
   add_executable(${name} ${sources})
   sigmax_warnings(${name})
+  sigmax_unity(${name})
   target_link_libraries(${name} PRIVATE ${ARGN})
   if(SIGMAX_INSTALL)
     install(TARGETS ${name} RUNTIME COMPONENT tools)

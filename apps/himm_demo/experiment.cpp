@@ -12,9 +12,9 @@ namespace sigmax::apps {
 namespace {
 
 /// Adds up runs, in their order.
-class Tally {
+class RunSums {
  public:
-  Tally(const Experiment& experiment, const FilterSettings* filter) : experiment_(experiment), filter_(filter) {
+  RunSums(const Experiment& experiment, const FilterSettings* filter) : experiment_(experiment), filter_(filter) {
     const auto samples = static_cast<std::size_t>(experiment.scenario.samples);
     squared_.assign(samples, {0.0, 0.0, 0.0});
     spread_.resize(samples);
@@ -119,8 +119,8 @@ class Tally {
 }  // namespace
 
 Outcome run(const Experiment& experiment, const std::function<void()>& advance) {
-  Tally measurement(experiment, nullptr);
-  std::vector<Tally> filters;
+  RunSums measurement(experiment, nullptr);
+  std::vector<RunSums> filters;
   for (const auto& filter : experiment.filters) filters.emplace_back(experiment, &filter);
   std::vector<TracedRun> kept;
   constexpr std::size_t block = 64;  // of runs that are kept at a time

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "himm_demo/page_names.hpp"
+
 namespace sigmax::apps {
 namespace {
-
-constexpr const char* measurement_name = "measurement";
 
 /// All filters, those first that the sentences are about: their colours differ.
 std::vector<std::string> names_of(const std::vector<Condition>& conditions) {

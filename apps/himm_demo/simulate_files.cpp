@@ -2,20 +2,17 @@
 #include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "himm_demo/simulate_page.hpp"
 #include "himm_demo/simulate_report.hpp"
 #include "himm_demo/simulate_tables.hpp"
 #include "support/csv.hpp"
+#include "support/json.hpp"
 #include "support/output.hpp"
 #include "support/result_files.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json summary_of(const SimulateReport& report) {
   const auto& experiment = report.experiment;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "himm_demo/page_names.hpp"
 #include "himm_demo/simulate_report.hpp"
 #include "support/report.hpp"
 
@@ -13,10 +14,6 @@ Report page_of(const SimulateReport& report);
 
 /// Of these those that end the output on a terminal: the RMSE in x, and the weights.
 std::vector<LineChart> charts_of(const SimulateReport& report);
-
-/// Names that charts share beside those of the filters.
-inline constexpr const char* measurement_name = "measurement";
-inline constexpr const char* truth_name = "truth";
 
 /// So many filters that not all can be told apart at once.
 inline bool crowded(const Experiment& experiment) { return experiment.filters.size() > 6; }

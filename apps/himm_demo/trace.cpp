@@ -1,7 +1,6 @@
 #include "himm_demo/trace.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -9,10 +8,10 @@
 
 #include <sigmax/estimation/metrics.hpp>
 
+#include "support/missing.hpp"
+
 namespace sigmax::apps {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::array<double, 3> by_axis(const Vector<3>& error) { return {error.x(), error.y(), error.z()}; }
 

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "himm_demo/track_page_columns.hpp"
+#include "support/missing.hpp"
 
 namespace sigmax::apps {
 using namespace track_page;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_tracks = 8;
 constexpr std::size_t most_rows = 9000;  // of all series of a page together
 

@@ -2,13 +2,12 @@
 
 #include <cstddef>
 
+#include "himm_demo/page_names.hpp"
 #include "himm_demo/track_page.hpp"
 
 /// What collecting and drawing a recording's page agree on.
 namespace sigmax::apps::track_page {
 
-constexpr const char* measurement_name = "measurement";
-constexpr const char* truth_name = "truth";
 constexpr std::size_t most_marks = 300;   // of each kind and track
 constexpr std::size_t most_stays = 1000;  // of a history
 

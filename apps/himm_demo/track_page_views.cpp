@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,13 +10,12 @@
 #include "himm_demo/scenario.hpp"
 #include "himm_demo/track_page.hpp"
 #include "himm_demo/track_page_columns.hpp"
+#include "support/missing.hpp"
 
 namespace sigmax::apps {
 using namespace track_page;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers of one series at the times of all; NaN in between.
 std::vector<double> at_times(const std::vector<double>& all, const std::vector<double>& times,

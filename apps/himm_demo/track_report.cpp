@@ -5,14 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "support/json.hpp"
 #include "support/output.hpp"
 #include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Makes the report part by part; text and data grow together.
 class Reporter {

@@ -1,23 +1,20 @@
 #include "himm_demo/tune_page.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "himm_demo/tune_report.hpp"
+#include "support/json.hpp"
+#include "support/missing.hpp"
 #include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char *before_name = "before", *best_name = "best", *simple_name = "simple";
 
 const std::string& name_of(const TuneFindings& findings) { return findings.tuned.candidates[0].settings.name; }

@@ -8,7 +8,7 @@ namespace sigmax::apps {
 namespace {
 
 /// One figure before its interval is known, which depends on how many there are.
-struct Figure {
+struct RawFigure {
   const Statement* statement;
   std::optional<std::size_t> phase;
   std::optional<std::size_t> axis;
@@ -45,7 +45,7 @@ Statistic figure_of(const Statement& statement, const Condition& condition, cons
 }
 
 void add_figures(const Statement& statement, const Condition& condition, const Cast& cast,
-                 std::vector<Figure>& figures) {
+                 std::vector<RawFigure>& figures) {
   const std::string of = cast.filter(statement.of);
   const std::string against = cast.filter(statement.against);
   if (statement.figure == FigureOf::rmse) {
@@ -101,7 +101,7 @@ std::string Cast::filter(Actor subject) const {
 
 std::vector<Measured> measure(const Sentence& sentence, const std::vector<const Condition*>& conditions,
                               const Cast& cast) {
-  std::vector<Figure> figures;
+  std::vector<RawFigure> figures;
   for (const auto& statement : sentence.statements)
     add_figures(statement, condition_of(statement, conditions), cast, figures);
   std::vector<Measured> all;

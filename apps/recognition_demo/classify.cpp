@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
@@ -16,14 +15,13 @@
 #include "recognition_demo/subcommands.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
+#include "support/json.hpp"
 #include "support/progress.hpp"
 #include "support/result_files.hpp"
 #include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct ClassifyOptions {
   std::string model;

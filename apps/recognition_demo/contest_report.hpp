@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "recognition_demo/contest.hpp"
 #include "support/command_line.hpp"
+#include "support/json.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
@@ -16,8 +15,6 @@
 #include "support/result_table.hpp"
 
 namespace sigmax::apps {
-
-using Json = nlohmann::ordered_json;
 
 /// The options that subcommands with random draws share.
 struct DrawOptions {

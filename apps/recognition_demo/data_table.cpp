@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -14,18 +13,17 @@
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
+#include "support/missing.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Words beyond this many are names of things, not values of a feature.
 constexpr std::size_t most_values = 4096;
 
 /// Words numbered as they come.
-class Words {
+class Vocabulary {
  public:
   Code code(std::string_view word) {
     const auto found = codes_.find(word);
@@ -126,7 +124,7 @@ class ColumnReader {
   }
 
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
-  const Words& words() const { return words_; }
+  const Vocabulary& words() const { return words_; }
   std::size_t index() const { return index_; }
 
  private:
@@ -144,7 +142,7 @@ class ColumnReader {
   std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
   std::size_t numeric_cells_ = 0;
   bool too_many_words_ = false;
-  Words words_;
+  Vocabulary words_;
 };
 
 std::string lower_case(std::string_view text) {
@@ -237,7 +235,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   DataTable table;
   table.file = reader.file();
   table.label = options.label;
-  Words classes;
+  Vocabulary classes;
   std::vector<std::size_t> rows_of, last_line_of;  // by class, as they come
   std::size_t first_line = 0;
   for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});

@@ -11,6 +11,7 @@
 
 #include "support/csv.hpp"
 #include "support/input.hpp"
+#include "support/missing.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -86,7 +87,6 @@ EncounterData read_encounter(const std::filesystem::path& path) {
 TrackReports read_track(const std::filesystem::path& path, const EncounterData& data, double every_s,
                         std::optional<double> ground_ft) {
   constexpr double longest_step_s = 15.0;
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   CsvReader reader{path};
   const std::size_t time = reader.column("time_s");
   const std::size_t altitude = column_of(reader, {"altitude_ft", "altitude_gnss_ft"});

@@ -15,7 +15,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr double hit = 0.7;
+constexpr double sensor_hit = 0.7;
 
 struct EsmOptions {
   std::string usage = "uniform";  ///< or dirichlet
@@ -30,7 +30,7 @@ Usage usage_of(const EsmOptions& options) {
 }
 
 std::vector<Contestant> contestants(const EsmWorld& world, const EsmOptions& options) {
-  const auto sensor = world.sensor(hit);
+  const auto sensor = world.sensor(sensor_hit);
   const auto ratio = with_fuzzy_condition(to_possibility(sensor, RatioScale{}));
   const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
   const auto usage = world.equal_usage();
@@ -94,7 +94,7 @@ void run_esm(const EsmOptions& options) {
   const DrawOptions& draws = options.draws;
   ResultFiles files(draws.output);
   const EsmWorld world;
-  const EsmTruth truth{.usage = usage_of(options), .hit = hit};
+  const EsmTruth truth{.usage = usage_of(options), .hit = sensor_hit};
   const auto all = contestants(world, options);
   const ResultTable runs = runs_table(world, all);
   AtomicFile* const runs_file = files.open("runs.csv");
@@ -123,14 +123,15 @@ void run_esm(const EsmOptions& options) {
              fmt::format("Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor "
                          "reports the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of "
                          "{} reports, seed {}\n\n",
-                         hit, (1.0 - hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed));
+                         sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports,
+                         draws.seed));
   print_scores(draws.output, scores);
 
   Json summary = summary_of(draws.output);
   summary["synthetic"] = true;
   summary["usage"] = options.usage;
   if (options.usage == "dirichlet") summary["alpha"] = options.alpha;
-  summary["probability_of_a_right_reading"] = hit;
+  summary["probability_of_a_right_reading"] = sensor_hit;
   summary["runs"] = draws.runs;
   summary["reports"] = options.reports;
   summary["seed"] = draws.seed;
@@ -143,7 +144,7 @@ void run_esm(const EsmOptions& options) {
                                 described_usage(options))};
     page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
     page.last.emplace_back(
-        witness_map(with_fuzzy_condition(to_possibility(world.sensor(hit), DuboisPrade{})), world.carries()));
+        witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
     page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
     files.write_report(page);
   }

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
@@ -18,6 +17,7 @@
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/json.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "support/result_files.hpp"
@@ -26,8 +26,6 @@
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct EvaluateOptions {
   std::string file;

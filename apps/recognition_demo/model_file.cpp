@@ -4,16 +4,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "recognition_demo/learned_model.hpp"
 #include "support/input.hpp"
+#include "support/json.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view format_name = "sigmax recognition model";
 constexpr int format_version = 1;

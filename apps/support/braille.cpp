@@ -68,7 +68,7 @@ class Canvas {
   std::vector<std::size_t> curves_;
 };
 
-struct Range {
+struct Extent {
   double least = std::numeric_limits<double>::infinity();
   double greatest = -std::numeric_limits<double>::infinity();
 
@@ -96,7 +96,7 @@ std::vector<std::string> colours_of(const LineChart& chart, bool colour) {
 }  // namespace
 
 std::string braille(const LineChart& chart, std::size_t width, std::size_t height, bool colour) {
-  Range across, up;
+  Extent across, up;
   for (const Curve& curve : chart.curves)
     for (std::size_t k = 0; k < curve.values.size(); ++k)
       if (std::isfinite(curve.values[k])) {

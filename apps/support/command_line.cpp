@@ -21,8 +21,6 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr int exit_usage = 2;
-
 using Arguments = std::vector<std::string>;
 
 /// Help as CLI11 writes it, broken to the width of a terminal.

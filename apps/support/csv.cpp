@@ -16,7 +16,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 16;
+constexpr std::size_t read_at_once = std::size_t{1} << 16;
 
 // A record beyond this is not data: a quote was left open, or the file is no CSV.
 constexpr std::size_t longest_record = std::size_t{1} << 20;
@@ -63,7 +63,7 @@ CsvReader::CsvReader(const std::filesystem::path& path)
     : owned_(std::make_unique<std::ifstream>(open_input(path))),
       stream_(owned_.get()),
       header_(std::make_shared<CsvHeader>(CsvHeader{path.string(), {}})),
-      buffer_(buffer_size) {
+      buffer_(read_at_once) {
   std::error_code unknown;
   if (std::filesystem::is_regular_file(path, unknown)) {
     const auto size = std::filesystem::file_size(path, unknown);
@@ -73,7 +73,7 @@ CsvReader::CsvReader(const std::filesystem::path& path)
 }
 
 CsvReader::CsvReader(std::istream& stream, std::string name)
-    : stream_(&stream), header_(std::make_shared<CsvHeader>(CsvHeader{std::move(name), {}})), buffer_(buffer_size) {
+    : stream_(&stream), header_(std::make_shared<CsvHeader>(CsvHeader{std::move(name), {}})), buffer_(read_at_once) {
   read_header();
 }
 

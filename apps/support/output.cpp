@@ -19,7 +19,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 16;
+constexpr std::size_t written_at_once = std::size_t{1} << 16;
 
 /// The names of the temporary files that there are, where a signal handler can read them.
 struct Unfinished {
@@ -77,7 +77,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), pla
       fail(error_number);
     }
   }
-  buffer_.reserve(buffer_size);
+  buffer_.reserve(written_at_once);
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
@@ -104,7 +104,7 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::write(std::string_view text) {
   if (descriptor_ < 0) throw std::logic_error(path_.native() + " is written after its commit");
   buffer_ += text;
-  if (buffer_.size() >= buffer_size) flush();
+  if (buffer_.size() >= written_at_once) flush();
 }
 
 void AtomicFile::store() {

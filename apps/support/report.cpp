@@ -8,15 +8,13 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "support/json.hpp"
 #include "support/report_assets.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Seven digits are more than a screen shows, and half as long as all.
 Json number(double value) {

@@ -5,15 +5,13 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "support/csv.hpp"
+#include "support/json.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <class... Cases>
 struct Overloaded : Cases... {

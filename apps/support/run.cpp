@@ -19,8 +19,6 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr int exit_usage = 2;
-constexpr int exit_input = 3;
 constexpr int exit_signal = 128;
 
 // Made before a signal can come: a handler may not allocate.

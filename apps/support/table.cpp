@@ -15,20 +15,20 @@ namespace {
 
 constexpr std::string_view gap = "  ";
 
-struct Range {
+struct Characters {
   char32_t first;
   char32_t last;
 };
 
 // The blocks that results and names in this program's tables can plausibly hold, not all of Unicode.
-constexpr Range zero_wide[] = {{0x0300, 0x036F}, {0x200B, 0x200F}, {0x20D0, 0x20FF}, {0xFE00, 0xFE0F}};
-constexpr Range double_wide[] = {{0x1100, 0x115F}, {0x2E80, 0xA4CF}, {0xAC00, 0xD7A3},
-                                 {0xF900, 0xFAFF}, {0xFF00, 0xFF60}, {0x1F300, 0x1FAFF}};
+constexpr Characters zero_wide[] = {{0x0300, 0x036F}, {0x200B, 0x200F}, {0x20D0, 0x20FF}, {0xFE00, 0xFE0F}};
+constexpr Characters double_wide[] = {{0x1100, 0x115F}, {0x2E80, 0xA4CF}, {0xAC00, 0xD7A3},
+                                      {0xF900, 0xFAFF}, {0xFF00, 0xFF60}, {0x1F300, 0x1FAFF}};
 
 template <std::size_t size>
-bool contains(const Range (&ranges)[size], char32_t character) {
+bool contains(const Characters (&ranges)[size], char32_t character) {
   return std::any_of(std::begin(ranges), std::end(ranges),
-                     [character](Range range) { return range.first <= character && character <= range.last; });
+                     [character](Characters range) { return range.first <= character && character <= range.last; });
 }
 
 /// Takes the first character off the text; a byte that starts none counts as one.
