@@ -6,47 +6,33 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "support/error.hpp"
+#include "support/unnamed_file.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-/// A file without a name, which is gone with the program.
-using Scratch = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-Scratch scratch() {
-  Scratch file(std::tmpfile(), std::fclose);
-  if (!file)
-    throw InputError(message({.what = "a temporary file for gnuplot cannot be made: " + reason(errno),
-                              .remedy = "make room in the folder for temporary files"}));
-  return file;
-}
-
-std::string contents(std::FILE* file) {
-  std::rewind(file);
-  std::string text;
-  std::array<char, 1 << 14> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), file)) > 0;) text.append(buffer.data(), n);
+std::string contents(const UnnamedFile& file) {
+  std::string text(file.size(), ' ');
+  file.read(0, std::as_writable_bytes(std::span(text)));
   return text;
 }
 
 /// What gnuplot writes when it reads the script; nothing where there is no gnuplot.
 std::string run(const std::string& script) {
-  const Scratch in = scratch(), out = scratch(), complaints = scratch();
-  std::fwrite(script.data(), 1, script.size(), in.get());
-  std::rewind(in.get());
+  const UnnamedFile in("gnuplot"), out("gnuplot"), complaints("gnuplot");
+  in.write(0, std::as_bytes(std::span(script)));
   posix_spawn_file_actions_t streams;
   ::posix_spawn_file_actions_init(&streams);
   int to = 0;
-  for (const Scratch* file : {&in, &out, &complaints})
-    ::posix_spawn_file_actions_adddup2(&streams, ::fileno(file->get()), to++);
+  for (const UnnamedFile* file : {&in, &out, &complaints})
+    ::posix_spawn_file_actions_adddup2(&streams, file->descriptor(), to++);
   std::string name = "gnuplot", no_settings = "-d", standard_input = "-";
   std::array<char*, 4> arguments{name.data(), no_settings.data(), standard_input.data(), nullptr};
   pid_t child = 0;
@@ -59,8 +45,8 @@ std::string run(const std::string& script) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error("gnuplot failed: " + printable(contents(complaints.get()), true));
-  return contents(out.get());
+    throw std::runtime_error("gnuplot failed: " + printable(contents(complaints), true));
+  return contents(out);
 }
 
 /// Takes the time of day out of a PDF, in whose tables places are counted.

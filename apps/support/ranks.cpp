@@ -100,7 +100,7 @@ class MpiRanks : public Ranks {
   }
 
   void abort(const std::exception& error) override {
-    complain(fmt::format("himm_demo: {}", error.what()));
+    complain(error);
     MPI_Abort(MPI_COMM_WORLD, exit_code(error));
     std::abort();
   }

@@ -21,6 +21,8 @@ namespace {
 
 constexpr int exit_signal = 128;
 
+const char* program = "";
+
 // Made before a signal can come: a handler may not allocate.
 std::array<char, 200> interrupted{};
 std::size_t interrupted_size = 0;
@@ -72,13 +74,16 @@ int exit_code(const std::exception& error) {
   return dynamic_cast<const UsageError*>(&error) != nullptr ? exit_usage : exit_input;
 }
 
+void complain(const std::exception& error) { complain(fmt::format("{}: {}", program, error.what())); }
+
 int run_program(const char* name, const std::function<void()>& work) {
+  program = name;
   try {
     handle_signals(name);
     work();
     flush_output();
   } catch (const std::exception& error) {
-    complain(fmt::format("{}: {}", name, error.what()));
+    complain(error);
     return exit_code(error);
   }
   return 0;

@@ -20,6 +20,9 @@ int run_program(const char* name, const std::function<void()>& work);
 /// Prints a line to standard error, broken to the width of the tables if that is a terminal.
 void complain(std::string_view text);
 
+/// What happened, after the name of the program that runs.
+void complain(const std::exception& error);
+
 /// The exit code of a program that ends by this exception: exit_usage after a UsageError, else exit_input.
 int exit_code(const std::exception& error);
 

@@ -3,22 +3,29 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "support/unnamed_file.hpp"
 
 namespace sigmax::apps {
 
 /// Bytes that are written once and read often, in memory that does not grow with them: the last MiB is held, what came
-/// before is in a temporary file without a name. Different threads may read, and overwrite different bytes, at a time.
-///
-/// The file is in $TMPDIR, else in /tmp; if it cannot be written, InputError says why.
+/// before is in an UnnamedFile. Different threads may read, and overwrite different bytes, at a time.
 class Scratch {
  public:
   Scratch() = default;
-  Scratch(Scratch&& other) noexcept;
-  Scratch& operator=(Scratch&& other) noexcept;
-  ~Scratch();
+  Scratch(Scratch&& other) noexcept
+      : held_(std::move(other.held_)), in_file_(std::exchange(other.in_file_, 0)), file_(std::move(other.file_)) {}
+  Scratch& operator=(Scratch&& other) noexcept {
+    std::swap(held_, other.held_);
+    std::swap(in_file_, other.in_file_);
+    std::swap(file_, other.file_);
+    return *this;
+  }
 
   std::uint64_t size() const { return in_file_ + held_.size(); }
 
@@ -29,12 +36,11 @@ class Scratch {
   void overwrite(std::uint64_t first, std::span<const std::byte> bytes);
 
  private:
-  void open();
   std::size_t in_file(std::uint64_t first, std::size_t count) const;
 
   std::vector<std::byte> held_;
   std::uint64_t in_file_ = 0;
-  int descriptor_ = -1;
+  std::optional<UnnamedFile> file_;
 };
 
 /// Plain values in a Scratch.

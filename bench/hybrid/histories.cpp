@@ -198,13 +198,17 @@ struct ImmOfScales final : Runner {
     for (std::size_t j = 1; j <= n; ++j) next[0] += q * weights[j];
     std::vector<Gaussian<9>> mixed(n);
     Gaussian<6> calm;
-    std::vector<std::pair<double, Gaussian<6>>> parts{{(1.0 - p) * weights[0] / next[0], straight}};
-    for (std::size_t j = 0; j < n; ++j) parts.emplace_back(q * weights[j + 1] / next[0], Pair::left(curved[j]));
-    calm = moments(parts);
+    std::vector<double> shares{(1.0 - p) * weights[0] / next[0]};
+    std::vector<Gaussian<6>> lefts{straight};
+    for (std::size_t j = 0; j < n; ++j) {
+      shares.push_back(q * weights[j + 1] / next[0]);
+      lefts.push_back(Pair::left(curved[j]));
+    }
+    calm = moments(shares, lefts);
     for (std::size_t j = 0; j < n; ++j) {
       const double in = p / static_cast<double>(n) * weights[0], stays = (1.0 - q) * weights[j + 1];
       next[j + 1] = in + stays;
-      mixed[j] = moments<9>({{in / next[j + 1], pair.entered(straight, scales[j])}, {stays / next[j + 1], curved[j]}});
+      mixed[j] = moments<9>({in / next[j + 1], stays / next[j + 1]}, {pair.entered(straight, scales[j]), curved[j]});
     }
     std::vector<double> logs(n + 1);
     const auto take = [&](const auto& model, const auto& from, std::size_t mode) {
@@ -218,18 +222,15 @@ struct ImmOfScales final : Runner {
     double sum = 0.0;
     for (const double log : logs) sum += std::exp(log - greatest);
     for (std::size_t j = 0; j <= n; ++j) weights[j] = std::exp(logs[j] - greatest) / sum;
-    std::vector<std::pair<double, Gaussian<3>>> output{{weights[0], position_of(straight)}};
-    for (std::size_t j = 0; j < n; ++j) output.emplace_back(weights[j + 1], position_of(curved[j]));
-    return moments(output);
+    std::vector<Gaussian<3>> positions{position_of(straight)};
+    for (const auto& each : curved) positions.push_back(position_of(each));
+    return moments(weights, positions);
   }
   template <int N>
-  static Gaussian<N> moments(const std::vector<std::pair<double, Gaussian<N>>>& parts) {
-    Gaussian<N> result{Vector<N>::Zero(), SquareMatrix<N>::Zero()};
-    for (const auto& [weight, part] : parts) result.mean += weight * part.mean;
-    for (const auto& [weight, part] : parts) {
-      const Vector<N> apart = part.mean - result.mean;
-      result.covariance += weight * (part.covariance + apart * apart.transpose());
-    }
+  static Gaussian<N> moments(const std::vector<double>& weights, const std::vector<Gaussian<N>>& parts) {
+    Gaussian<N> result;
+    const auto weight = [&](std::size_t l) { return weights[l]; };
+    match_moments(EstimateMixture<Gaussian<N>>{parts}, weight, weight, result);
     return result;
   }
 

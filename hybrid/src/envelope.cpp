@@ -69,8 +69,8 @@ void Envelope::add(double weight, const Eigen::Ref<const Eigen::VectorXd>& mean,
           i < k ? 0.0 : covariance(part.varies[static_cast<std::size_t>(i)], part.varies[static_cast<std::size_t>(k)]);
   if (Eigen::LLT<Eigen::Ref<Square>>(part.root).info() != Eigen::Success)
     throw std::domain_error(
-        "a covariance in an envelope is not positive definite; expected a lift that knows every "
-        "component, or a start without certainty");
+        "a covariance in an envelope is certain of a combination of components that each have a variance (it is not "
+        "positive definite); expected only single components to be certain");
   part.log_scale = std::log(weight) - part.root.diagonal().array().log().sum();
   ++count_;
 }
@@ -123,17 +123,19 @@ void Envelope::weigh(Part& part) {
 
 double Envelope::match(Eigen::Ref<Eigen::VectorXd> mean, Eigen::Ref<Eigen::MatrixXd> covariance) {
   if (count_ == 0) throw std::logic_error("an envelope without a part of positive weight");
-  double beta = 0.0;
+  double mass = 0.0, greatest = 0.0, total = 0.0;
   mean.setZero();
   for (std::size_t l = 0; l < count_; ++l) {
     Part& part = parts_[l];
     weigh(part);
-    beta += part.mass;
+    mass += part.mass;
+    greatest = std::max(greatest, part.weight);
+    total += part.weight;
     mean += part.mass * part.mean;
     for (std::size_t i = 0; i < part.varies.size(); ++i)
       mean(part.varies[i]) += part.shift(static_cast<Eigen::Index>(i));
   }
-  mean /= beta;
+  mean /= mass;
   covariance.setZero();
   for (const Part& part : *this) {
     apart_ = part.mean - mean;
@@ -146,8 +148,8 @@ double Envelope::match(Eigen::Ref<Eigen::VectorXd> mean, Eigen::Ref<Eigen::Matri
         covariance(part.varies[i], part.varies[k]) += part.second(static_cast<Eigen::Index>(i), column);
     }
   }
-  covariance /= beta;
-  return beta;
+  covariance /= mass;
+  return std::clamp(mass, greatest, total);  // which sampling may miss by a little
 }
 
 }  // namespace sigmax

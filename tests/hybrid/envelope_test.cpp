@@ -46,31 +46,48 @@ Weighted planar(double weight, double x, double y, double xx, double xy, double 
   return {weight, Eigen::Vector2d{x, y}, Eigen::Matrix2d{{xx, xy}, {xy, yy}}};
 }
 
-/// The density times the weight, by its formula.
-double height(const Weighted& part, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd d = x - part.mean;
-  const double n = static_cast<double>(x.size());
-  return part.weight * std::exp(-0.5 * d.dot(part.covariance.inverse() * d)) /
-         std::sqrt(std::pow(2.0 * std::numbers::pi, n) * part.covariance.determinant());
-}
+/// The density times the weight, by its formula, on a line or in the plane.
+class Height {
+ public:
+  explicit Height(const Weighted& part)
+      : n_(part.mean.size()),
+        x_(part.mean(0)),
+        y_(n_ == 2 ? part.mean(1) : 0.0),
+        scale_(part.weight /
+               std::sqrt(std::pow(2.0 * std::numbers::pi, static_cast<double>(n_)) * part.covariance.determinant())) {
+    const Eigen::MatrixXd inverse = part.covariance.inverse();
+    xx_ = inverse(0, 0);
+    if (n_ == 2) xy_ = inverse(0, 1), yy_ = inverse(1, 1);
+  }
+  double at(double x, double y) const {
+    const double a = x - x_, b = y - y_;
+    return scale_ * std::exp(-0.5 * (xx_ * a * a + 2.0 * xy_ * a * b + yy_ * b * b));
+  }
+
+ private:
+  Eigen::Index n_;
+  double x_, y_, scale_, xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
+};
 
 /// The same moments by adding up the greatest height over a fine grid.
 Moments added_up(const std::vector<Weighted>& parts, double half_width, int cells) {
   const auto n = parts.front().mean.size();
   Moments result{0.0, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-  const double width = 2.0 * half_width / cells;
-  Eigen::VectorXd x(n);
+  const double width = 2.0 * half_width / cells, cell = n == 1 ? width : width * width;
+  const std::vector<Height> heights(parts.begin(), parts.end());
+  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
   for (int i = 0; i < cells; ++i)
     for (int k = 0; k < (n == 1 ? 1 : cells); ++k) {
-      x(0) = -half_width + width * (i + 0.5);
-      if (n == 2) x(1) = -half_width + width * (k + 0.5);
+      const double x = -half_width + width * (i + 0.5), y = n == 1 ? 0.0 : -half_width + width * (k + 0.5);
       double greatest = 0.0;
-      for (const auto& part : parts) greatest = std::max(greatest, height(part, x));
-      const double mass = greatest * std::pow(width, static_cast<double>(n));
+      for (const Height& height : heights) greatest = std::max(greatest, height.at(x, y));
+      const double mass = greatest * cell;
       result.beta += mass;
-      result.mean += mass * x;
-      result.covariance += mass * x * x.transpose();
+      sx += mass * x, sy += mass * y;
+      sxx += mass * x * x, sxy += mass * x * y, syy += mass * y * y;
     }
+  result.mean = Eigen::Vector2d{sx, sy}.head(n);
+  result.covariance = Eigen::Matrix2d{{sxx, sxy}, {sxy, syy}}.topLeftCorner(n, n);
   result.mean /= result.beta;
   result.covariance /= result.beta;
   result.covariance -= result.mean * result.mean.transpose();
@@ -129,6 +146,24 @@ TEST(Envelope, APartWithoutAVarianceCountsBesideOthersInFull) {
   EXPECT_NEAR(matched({flat, again}).beta, 1.0, 1e-12);
   again.mean(1) = 2.0;  // on another they do not
   EXPECT_NEAR(matched({flat, again}).beta, 1.5, 1e-12);
+}
+
+TEST(Envelope, OfPartsWithoutAnyVarianceIsTheirMassesWhereTheyAre) {
+  const auto at = [](double weight, double x, double y) { return planar(weight, x, y, 0.0, 0.0, 0.0); };
+  const auto found = matched({at(1.0, 0.0, 1.0), at(0.5, 3.0, 1.0), at(0.2, 3.0, 1.0)});
+  EXPECT_NEAR(found.beta, 1.5, 1e-12);
+  EXPECT_NEAR(found.mean(0), 1.0, 1e-12);
+  EXPECT_NEAR(found.covariance(0, 0), 2.0, 1e-12);
+  EXPECT_EQ(found.covariance(1, 1), 0.0);
+}
+
+TEST(Envelope, HasAMassBetweenTheGreatestWeightAndTheirSum) {
+  for (const double apart : {0.0, 0.01, 0.1, 1.0, 10.0})
+    for (const double variance : {1.0, 1.01, 2.0, 1e4}) {
+      const double beta = matched({scalar(1.0, 0.0, 1.0), scalar(0.8, apart, variance)}).beta;
+      EXPECT_GE(beta, 1.0) << apart << ' ' << variance;
+      EXPECT_LE(beta, 1.8) << apart << ' ' << variance;
+    }
 }
 
 TEST(Envelope, DoesNotDependOnUnits) {

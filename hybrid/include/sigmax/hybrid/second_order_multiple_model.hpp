@@ -19,8 +19,8 @@ namespace sigmax {
 ///
 /// Each of the M² pairs of a predecessor l and a mode j predicts and updates; the predecessors of a mode then collapse
 /// *after* the measurement, by their weights π(j|l) ⊗ b(l) ⊗ Λ_lj. There is no mixed start: of `Interaction`, its
-/// readings (`mixed_start`, `mixed_covariance`, `mixing_weights`) do not concern this filter; `mixing_tie` is the tie
-/// among predecessors. `step` allocates nothing.
+/// readings (`mixed_start`, `mixed_covariance`, `mixing_weights`) do not concern that collapse,
+/// `MixedCovariance::envelope` only the output; `mixing_tie` is the tie among predecessors. `step` allocates nothing.
 template <class Models, Uncertainty Kind>
 class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   using Filter = MultipleModelFilter<Models, Kind>;
