@@ -60,6 +60,34 @@ RelationNetwork generated() {
   return network;
 }
 
+/// A square grid of binary variables, each given the ones to its left and above.
+RelationNetwork grid(std::size_t side) {
+  std::mt19937_64 generator(2);
+  RelationNetwork network;
+  for (std::size_t k = 0; k < side * side; ++k) {
+    std::vector<NetworkVariable> parents;
+    if (k % side > 0) parents.push_back(network[k - 1].variable);
+    if (k >= side) parents.push_back(network[k - side].variable);
+    std::vector<std::vector<double>> table;
+    for (std::size_t r = 0; r < (std::size_t{1} << parents.size()); ++r) {
+      const double p = 0.05 + 0.9 * static_cast<double>(generator() >> 11) * 0x1p-53;
+      table.push_back({p, 1.0 - p});
+    }
+    network.declare(RandomVariable{"x" + std::to_string(k), 2}, parents, table);
+  }
+  return network;
+}
+
+/// Variables of three outcomes, each given the one before it.
+RelationNetwork chain(std::size_t length) {
+  RelationNetwork network;
+  network.declare(uninformative(RandomVariable{"x0", 3}));
+  for (std::size_t k = 1; k < length; ++k)
+    network.declare(RandomVariable{"x" + std::to_string(k), 3}, {network[k - 1].variable},
+                    {{0.8, 0.15, 0.05}, {0.1, 0.8, 0.1}, {0.05, 0.15, 0.8}});
+  return network;
+}
+
 /// The most likely outcomes of the last quarter of the variables, so that the evidence is possible.
 Evidence evidence_of(const RelationNetwork& network) {
   const Explanation likely = most_likely_explanation(network);
@@ -82,6 +110,12 @@ void posteriors(benchmark::State& state, const RelationNetwork& network) {
   state.SetItemsProcessed(state.iterations());
 }
 
+/// Posteriors of all variables at once.
+void all_posteriors(benchmark::State& state, const RelationNetwork& network, const Evidence& evidence) {
+  for (auto _ : state) benchmark::DoNotOptimize(marginals(network, evidence));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(network.size()));
+}
+
 void explanations(benchmark::State& state, const RelationNetwork& network) {
   const Evidence evidence = evidence_of(network);
   for (auto _ : state) benchmark::DoNotOptimize(most_likely_explanation(network, evidence));
@@ -97,6 +131,9 @@ void add(const std::string& name, const RelationNetwork& network) {
   const auto query_of = [&](const std::string& kinds, const RelationNetwork& of) {
     in_microseconds(benchmark::RegisterBenchmark(("posterior/" + name + "/" + kinds).c_str(),
                                                  [of](benchmark::State& state) { posteriors(state, of); }));
+    in_microseconds(
+        benchmark::RegisterBenchmark(("all_posteriors/" + name + "/" + kinds).c_str(),
+                                     [of](benchmark::State& state) { all_posteriors(state, of, evidence_of(of)); }));
   };
   query_of("random", network);
   query_of("fuzzy", fuzzy);
@@ -105,10 +142,23 @@ void add(const std::string& name, const RelationNetwork& network) {
                                                [network](benchmark::State& state) { explanations(state, network); }));
 }
 
+/// All variables, nothing known.
+void add_priors(const std::string& name, const RelationNetwork& network) {
+  benchmark::RegisterBenchmark(("all_priors/" + name).c_str(), [network](benchmark::State& state) {
+    all_posteriors(state, network, {});
+  })->Unit(benchmark::kMicrosecond);
+}
+
 const bool registered = [] {
   add("generated", generated());
   for (const std::string name : {"alarm", "pathfinder"})
-    if (std::filesystem::exists(path_of(name))) add(name, published(name));
+    if (std::filesystem::exists(path_of(name))) {
+      const RelationNetwork network = published(name);
+      add(name, network);
+      add_priors(name, network);
+    }
+  add_priors("grid of 12 x 12", grid(12));
+  add_priors("chain of 3000", chain(3000));
   return true;
 }();
 

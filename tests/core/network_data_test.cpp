@@ -128,6 +128,20 @@ void expect_explanation(const RelationNetwork& network, std::size_t evidence) {
   EXPECT_PRED_FORMAT3(near, static_cast<double>(route), static_cast<double>(greatest), 1e-12);
 }
 
+/// All at once against one after the other.
+void expect_marginals(const RelationNetwork& network, std::size_t evidence) {
+  const Case given = symptoms(network, evidence);
+  const auto all = marginals(network, given.evidence);
+  ASSERT_EQ(all.size(), network.size());
+  for (std::size_t v = 0; v < network.size(); ++v) {
+    SCOPED_TRACE(network[v].variable.name());
+    const NetworkAnswer single = query(network, {network[v].variable.name()}, given.evidence);
+    EXPECT_PRED_FORMAT3(near, all[v].normalized(), single.normalized(), 1e-12);
+    EXPECT_PRED_FORMAT3(near, all[v].total().log(), single.total().log(), 1e-12);
+    EXPECT_EQ(all[v].induced(), single.induced());
+  }
+}
+
 using SmallNetwork = PublishedNetwork;
 
 TEST_P(SmallNetwork, AnswersAsThePlainComputation) {
@@ -141,6 +155,14 @@ TEST_P(SmallNetwork, MadeFuzzyInPartAnswersAsThePlainComputation) {
   for (std::size_t v = 0; v < network.size(); v += 3) every_third.push_back(network[v].variable.name());
   for (const std::size_t evidence : {0U, 3U, 8U})
     expect_posteriors(as_fuzzy(network, DuboisPrade{}, every_third), evidence);
+}
+TEST_P(SmallNetwork, HasTheSameAnswersAllAtOnce) {
+  std::vector<std::string> the_last;
+  for (std::size_t v = network.size() / 2; v < network.size(); ++v) the_last.push_back(network[v].variable.name());
+  for (const std::size_t evidence : {0U, 8U})
+    for (const RelationNetwork& each :
+         {network, as_fuzzy(network, RatioScale{}), as_fuzzy(network, RatioScale{}, the_last)})
+      expect_marginals(each, evidence);
 }
 TEST_P(SmallNetwork, IsExplainedAsByThePlainComputation) {
   for (const std::size_t evidence : {0U, 3U, 8U}) {
@@ -173,6 +195,8 @@ TEST_P(LargeNetwork, GivesTheSameEvidenceWhateverIsAsked) {
     }
   }
 }
+
+TEST_P(LargeNetwork, HasTheSameAnswersAllAtOnce) { expect_marginals(network, 10); }
 
 TEST_P(LargeNetwork, IsExplainedByARouteOfTheValueGiven) {
   const Case given = symptoms(network, 10);

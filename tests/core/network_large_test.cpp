@@ -108,55 +108,6 @@ TEST(NetworkOrder, OfALongChainOfAlternatingKindsIsFast) {
   EXPECT_EQ(answer.elimination().order.front(), name(length - 2));
 }
 
-TEST(NetworkMarginals, AreTheSingleQueries) {
-  const RelationNetwork random = grid(4);
-  const RelationNetwork fuzzy = as_fuzzy(random, RatioScale{});
-  for (const RelationNetwork* const network : {&random, &fuzzy}) {
-    const Evidence evidence{{name(5), "1"}, {name(10), "0"}};
-    const auto all = marginals(*network, evidence);
-    ASSERT_EQ(all.size(), network->size());
-    for (std::size_t v = 0; v < all.size(); ++v) {
-      const auto single = query(*network, {name(v)}, evidence);
-      EXPECT_EQ(all[v].variables()[0].name(), name(v));
-      EXPECT_FALSE(all[v].induced());
-      EXPECT_PRED_FORMAT3(near, all[v].total().log(), single.total().log(), 1e-12);
-      for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_PRED_FORMAT3(near, all[v].values()[i].value(), single.values()[i].value(), 1e-12);
-    }
-  }
-}
-
-TEST(NetworkMarginals, OfPartsThatNothingJoinsWeighEachOther) {
-  const RandomVariable a{"a", 2}, b{"b", 3}, c{"c", 1};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.25, 0.75}});
-  network.declare(uninformative(b));
-  network.declare(uninformative(c));
-  const Evidence evidence = Evidence{}.observe(Likelihood{a, {0.5, 0.125}}).observe(Likelihood{b, {0.0, 0.5, 0.25}});
-  const auto all = marginals(network, evidence);
-  for (std::size_t v = 0; v < 3; ++v) {
-    const auto single = query(network, {network[v].variable.name()}, evidence);
-    for (std::size_t i = 0; i < network[v].variable.size(); ++i)
-      EXPECT_PRED_FORMAT3(near, all[v].values()[i].value(), single.values()[i].value(), 1e-14);
-  }
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        marginals(network, Evidence{}.observe(Likelihood{a, {0.0, 0.0}}));
-      },
-      {"likelihood of a"}));
-}
-
-TEST(NetworkMarginals, OfDifferentKindsAreAsManyQueries) {
-  const RandomVariable x{"x", 2};
-  const FuzzyVariable y{"y", 2};
-  RelationNetwork network;
-  network.declare(Distribution{y, {1.0, 0.5}});
-  network.declare(Relation{x, y, {{0.75, 0.25}, {0.125, 0.875}}});
-  const auto all = marginals(network);
-  EXPECT_TRUE(all[1].induced());
-  EXPECT_EQ(all[1].values()[1].value(), 0.875 * 0.5);
-}
-
 TEST(Network, OfAMillionOutcomesIsNeverATable) {
   const RandomVariable now{"now", 1000000}, next{"next", 1000000};
   SparseRows rows;

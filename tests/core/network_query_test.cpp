@@ -123,6 +123,14 @@ TEST(NetworkQuery, OfAVariableWithEvidenceLeavesOnlyWhatWasSeen) {
   EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.0, 1.0}), 0.0);
 }
 
+TEST(NetworkQuery, OfWhatIsKnownIsNotInduced) {  // speed is random within fuzzy variables, but nothing is left to sum
+  const auto answer = query(chain(), {"speed"}, {{"speed", "fast"}});
+  EXPECT_FALSE(answer.induced());
+  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.0, 0.7}), 1e-15);
+  EXPECT_EQ(answer.total(), query(chain(), {}, {{"speed", "fast"}}).total());
+  EXPECT_TRUE(query(chain(), {"speed"}, {{"age", "old"}}).induced());
+}
+
 TEST(NetworkQuery, NamesTheEvidenceThatExcludesEverything) {
   const FuzzyVariable a{"a", 2}, b{"b", 2};
   RelationNetwork network;

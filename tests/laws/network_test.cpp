@@ -178,6 +178,39 @@ TEST(NetworkLaws, AQueryOfMixedVariablesIsTheEnumerationInnermostFirst) {
   holds([] { query_is_enumeration(Kinds::mixed); });
 }
 
+/// Of all variables at once; induced where the single query is.
+void marginals_are_enumerations(Kinds kinds) {
+  const World world = any_world(kinds);
+  RC_LOG() << world;
+  const RelationNetwork network = network_of(world);
+  const Evidence evidence = evidence_of(world);
+  if (plain::enumerate(world.network, world.weights, {}).front() == 0) {
+    RC_ASSERT_THROWS_AS(marginals(network, evidence), std::domain_error);
+    return;
+  }
+  const auto answers = marginals(network, evidence);
+  RC_ASSERT(answers.size() == network.size());
+  for (std::size_t v = 0; v < network.size(); ++v) {
+    const auto expected = plain::enumerate(world.network, world.weights, {v});
+    RC_ASSERT(answers[v].variables()[0] == network[v].variable);
+    RC_ASSERT(answers[v].values().size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) require_same(answers[v].values()[i], expected[i]);
+    require_same(answers[v].total(), total_of(world, {v}, expected));
+    RC_ASSERT(answers[v].induced() == query(network, {name_of(v)}, evidence).induced());
+    RC_CLASSIFY(answers[v].induced(), "induced");
+  }
+}
+
+TEST(NetworkLaws, TheMarginalsOfRandomVariablesAreEnumerations) {
+  holds([] { marginals_are_enumerations(Kinds::random); });
+}
+TEST(NetworkLaws, TheMarginalsOfFuzzyVariablesAreEnumerations) {
+  holds([] { marginals_are_enumerations(Kinds::fuzzy); });
+}
+TEST(NetworkLaws, TheMarginalsOfMixedVariablesAreEnumerationsInnermostFirst) {
+  holds([] { marginals_are_enumerations(Kinds::mixed); });
+}
+
 TEST(NetworkLaws, TheTotalWithoutEvidenceIsOne) {
   holds([] {
     const World world = any_world(Kinds::mixed);

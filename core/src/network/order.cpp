@@ -71,6 +71,39 @@ class Interactions {
 
 bool is_ranked(Role role) { return role == Role::eliminated || role == Role::kept; }
 
+/// Innermost first, calls visit(c, all), all being the variables outside of `c` that are joined to it, be it through
+/// what is within it.
+template <class Visit>
+void for_each_outside(const Interactions& graph, const std::vector<Role>& roles, const Visit& visit) {
+  // What has been visited falls into parts that are joined, each with the variables outside of it.
+  const std::size_t n = roles.size();
+  std::vector<std::size_t> part(n, n);
+  std::vector<std::set<Vertex>> outside(n);
+  const auto root = [&part](Vertex v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  for (Vertex c = n; c-- > 0;) {
+    if (!is_ranked(roles[c])) continue;
+    part[c] = c;
+    std::set<Vertex> all;
+    for (const Vertex u : graph.around(c)) {
+      if (!is_ranked(roles[u])) continue;
+      if (u < c) {
+        all.insert(u);
+      } else if (const Vertex r = root(u); r != c) {
+        if (outside[r].size() > all.size()) std::swap(outside[r], all);
+        all.insert(outside[r].begin(), outside[r].end());
+        outside[r].clear();
+        part[r] = c;
+      }
+    }
+    all.erase(c);
+    visit(c, all);
+    outside[c] = std::move(all);
+  }
+}
+
 /// Which variables cannot be brought innermost: a variable of another kind within such a one, its blocker, is joined to
 /// it, be it through variables within the blocker. A blocker blocks until it is eliminated itself.
 class Blocking {
@@ -98,37 +131,13 @@ class Blocking {
     by_[by].push_back(u);
   }
 
-  /// Innermost first: what has been visited falls into parts that are joined, each with the variables outside of it
-  /// that it is joined to.
   void find_all() {
     const std::size_t n = roles_->size();
-    std::vector<std::size_t> part(n, n);
-    std::vector<std::set<Vertex>> outside(n);
-    const auto root = [&part](Vertex v) {
-      while (part[v] != v) v = part[v] = part[part[v]];
-      return v;
-    };
     std::vector<Vertex> blocker(n, n);
-    for (Vertex c = n; c-- > 0;) {
-      if (!ranked(c)) continue;
-      part[c] = c;
-      std::set<Vertex> all;
-      for (const Vertex u : graph_->around(c)) {
-        if (!ranked(u)) continue;
-        if (u < c) {
-          all.insert(u);
-        } else if (const Vertex r = root(u); r != c) {
-          if (outside[r].size() > all.size()) std::swap(outside[r], all);
-          all.insert(outside[r].begin(), outside[r].end());
-          outside[r].clear();
-          part[r] = c;
-        }
-      }
-      all.erase(c);
-      for (const Vertex u : all)
+    for_each_outside(*graph_, *roles_, [&](Vertex c, const std::set<Vertex>& outside) {
+      for (const Vertex u : outside)
         if ((*kinds_)[u] != (*kinds_)[c]) blocker[u] = c;
-      outside[c] = std::move(all);
-    }
+    });
     for (Vertex u = 0; u < n; ++u)
       if (blocker[u] < n) block(u, blocker[u]);
   }
@@ -233,6 +242,26 @@ bool of_two_kinds(const OrderProblem& problem) {
     first = problem.kinds[v];
   }
   return false;
+}
+
+std::vector<bool> can_be_last(const OrderProblem& problem) {
+  const std::size_t n = problem.roles.size();
+  std::vector<bool> can(n);
+  for (Vertex v = 0; v < n; ++v) can[v] = problem.roles[v] == Role::eliminated;
+  std::vector<std::vector<Vertex>> followers(n);  // of its own kind, that lead where it does
+  const Interactions graph(problem);
+  for_each_outside(graph, problem.roles, [&](Vertex c, const std::set<Vertex>& outside) {
+    for (const Vertex u : outside) {
+      if (problem.kinds[u] == problem.kinds[c])
+        followers[u].push_back(c);
+      else
+        can[c] = false;
+    }
+  });
+  for (Vertex u = 0; u < n; ++u)  // outermost first
+    if (!can[u])
+      for (const Vertex c : followers[u]) can[c] = false;
+  return can;
 }
 
 Order order_of_elimination(const OrderProblem& problem) {

@@ -60,7 +60,9 @@ Plan plan_of(const RelationNetwork& network, const std::vector<std::string>& var
   }
   const auto problem = elimination::order_problem(network, plan.parts, fixed);
   plan.order = elimination::order_of_elimination(problem);
-  const auto as_declared = elimination::order_problem(network, plan.parts, kept);
+  // What the evidence leaves one outcome of can be eliminated first or last.
+  const auto as_declared =
+      elimination::order_problem(network, elimination::parts_of(network, plan.parts.tables, plan.findings, {}), kept);
   plan.induced = elimination::of_two_kinds(as_declared) && !elimination::order_of_elimination(as_declared).complete;
 
   Elimination& cost = plan.cost;

@@ -101,9 +101,12 @@ NetworkAnswer query(const RelationNetwork& network, const std::vector<std::strin
 Elimination cost(const RelationNetwork& network, const std::vector<std::string>& variables,
                  const Evidence& evidence = {});
 
-/// query(network, {name}, evidence) of every variable, in the order of declaration: in two passes for all if they are
-/// of one kind. Of variables of different kinds each has an order of its own, and it is as many queries.
-/// What two passes tell of their elimination is its size, not its order.
+/// query(network, {name}, evidence) of every variable, in the order of declaration, from one tree of cliques if they are
+/// of one kind: little more work than a single query. The total of each is the evidence.
+///
+/// Of different kinds, those that are not induced share a tree for each kind, with all others eliminated before. Each
+/// that is induced has an order of its own, and is a query by itself; as are all where the tree is above the limit.
+/// What a tree tells of its elimination is its size, not its order. Throws as `query` does.
 std::vector<NetworkAnswer> marginals(const RelationNetwork& network, const Evidence& evidence = {},
                                      std::size_t table_limit = default_table_limit);
 

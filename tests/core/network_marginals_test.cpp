@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/network/query.hpp>
+#include <sigmax/core/network/transform.hpp>
+
+#include "support/near.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::throws;
+
+std::string name(std::size_t k) { return "x" + std::to_string(k); }
+
+/// marginals() against query() of each variable: the numbers, the total, and whether they are induced.
+void expect_single_queries(const RelationNetwork& network, const Evidence& evidence) {
+  const auto all = marginals(network, evidence);
+  ASSERT_EQ(all.size(), network.size());
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    SCOPED_TRACE(network[v].variable.name());
+    const auto single = query(network, {network[v].variable.name()}, evidence);
+    EXPECT_EQ(all[v].variables()[0], network[v].variable);
+    EXPECT_EQ(all[v].induced(), single.induced());
+    EXPECT_PRED_FORMAT3(near, all[v].total().log(), single.total().log(), 1e-12);
+    ASSERT_EQ(all[v].values().size(), single.values().size());
+    for (std::size_t i = 0; i < single.values().size(); ++i) {
+      EXPECT_EQ(all[v].values()[i].is_zero(), single.values()[i].is_zero());
+      EXPECT_PRED_FORMAT3(near, all[v].values()[i].over(single.total()), single.normalized()[i], 1e-12);
+    }
+  }
+}
+
+/// A square grid of binary random variables, each given the ones to its left and above.
+RelationNetwork grid(std::size_t side) {
+  RelationNetwork network;
+  std::vector<NetworkVariable> variables;
+  for (std::size_t k = 0; k < side * side; ++k) {
+    std::vector<NetworkVariable> parents;
+    if (k % side > 0) parents.push_back(variables[k - 1]);
+    if (k >= side) parents.push_back(variables[k - side]);
+    variables.emplace_back(RandomVariable{name(k), 2});
+    std::vector<std::vector<double>> rows;
+    for (std::size_t r = 0; r < (std::size_t{1} << parents.size()); ++r) {
+      const double p = 0.125 * static_cast<double>(1 + (r + k) % 7);
+      rows.push_back({p, 1.0 - p});
+    }
+    network.declare(variables.back(), parents, rows);
+  }
+  return network;
+}
+
+TEST(NetworkMarginals, AreTheSingleQueries) {
+  const RelationNetwork random = grid(4);
+  const Evidence evidence{{name(5), "1"}, {name(10), "0"}};
+  expect_single_queries(random, evidence);
+  expect_single_queries(as_fuzzy(random, RatioScale{}), evidence);
+  expect_single_queries(as_fuzzy(random, RatioScale{}, std::vector{name(3), name(8), name(15)}), evidence);
+}
+
+TEST(NetworkMarginals, OfOneVariable) {
+  RelationNetwork network;
+  const FuzzyVariable a{"a", 3};
+  network.declare(Distribution{a, {0.25, 1.0, 0.0}});
+  expect_single_queries(network, {});
+  expect_single_queries(network, Evidence{}.observe(Likelihood{a, {0.5, 0.25, 1.0}}));
+  const auto seen = marginals(network, {{"a", "0"}});
+  EXPECT_EQ(seen[0].total().value(), 0.25);
+  EXPECT_EQ(seen[0].normalized(), (std::vector{1.0, 0.0, 0.0}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { marginals(network, {{"a", "2"}}); }, {"a = '2'"}));
+  EXPECT_TRUE(marginals(RelationNetwork{}).empty());
+}
+
+TEST(NetworkMarginals, OfWhatWasSeenAltogetherAreCertain) {
+  const RelationNetwork random = grid(3);
+  Evidence evidence;
+  for (std::size_t k = 0; k < 9; ++k) evidence.observe(name(k), k % 2 == 0 ? "1" : "0");
+  for (const RelationNetwork& network : {random, as_fuzzy(random, RatioScale{}, std::vector{name(0), name(5)})}) {
+    expect_single_queries(network, evidence);
+    const auto all = marginals(network, evidence);
+    EXPECT_EQ(all[4].normalized(), (std::vector{0.0, 1.0}));
+    EXPECT_EQ(all[4].total(), query(network, {}, evidence).total());
+  }
+}
+
+TEST(NetworkMarginals, OfPartsThatNothingJoinsWeighEachOther) {
+  const RandomVariable a{"a", 2}, b{"b", 3}, c{"c", 1};
+  RelationNetwork network;
+  network.declare(Distribution{a, {0.25, 0.75}});
+  network.declare(uninformative(b));
+  network.declare(uninformative(c));
+  const Evidence evidence = Evidence{}.observe(Likelihood{a, {0.5, 0.125}}).observe(Likelihood{b, {0.0, 0.5, 0.25}});
+  const auto all = marginals(network, evidence);
+  for (std::size_t v = 0; v < 3; ++v) {
+    const auto single = query(network, {network[v].variable.name()}, evidence);
+    for (std::size_t i = 0; i < network[v].variable.size(); ++i)
+      EXPECT_PRED_FORMAT3(near, all[v].values()[i].value(), single.values()[i].value(), 1e-14);
+  }
+  EXPECT_TRUE(throws<std::domain_error>(
+      [&] {
+        marginals(network, Evidence{}.observe(Likelihood{a, {0.0, 0.0}}));
+      },
+      {"likelihood of a"}));
+}
+
+TEST(NetworkMarginals, NameTheEvidenceThatExcludesEverything) {
+  const FuzzyVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
+  RelationNetwork network;
+  network.declare(uninformative(a));
+  network.declare(Relation{b, a, {{1.0, 0.0}, {0.0, 1.0}}});
+  network.declare(Relation{c, b, {{1.0, 0.0}, {0.0, 1.0}}});
+  EXPECT_TRUE(throws<std::domain_error>([&] { marginals(network, {{"a", "0"}, {"c", "1"}}); }, {"a = '0'", "c = '1'"}));
+  // Here only the tree finds out.
+  const Evidence soft = Evidence{}
+                            .observe(Likelihood{a, {0.5, 0.0}})
+                            .observe(Likelihood{b, {0.5, 0.5}})
+                            .observe(Likelihood{c, {0.0, 0.5}});
+  EXPECT_TRUE(throws<std::domain_error>([&] { marginals(network, soft); }, {"likelihood of a", "likelihood of c"}));
+}
+
+TEST(NetworkMarginals, KeepNumbersThatNoDoubleHoldsTogether) {
+  // Every report makes one outcome of the hub 2⁻¹⁰⁰ times as possible as the other.
+  const std::size_t reports = 40;
+  const FuzzyVariable hub{"hub", 2};
+  RelationNetwork network;
+  network.declare(uninformative(hub));
+  Evidence evidence;
+  for (std::size_t k = 0; k < reports; ++k) {
+    const FuzzyVariable sign{"sign" + std::to_string(k), 2}, report{"report" + std::to_string(k), 2};
+    network.declare(Relation{sign, hub, {{1.0, 0.5}, {0x1p-100, 1.0}}});
+    network.declare(Relation{report, sign, {{1.0, 0.5}, {1.0, 0x1p-200}}});
+    evidence.observe(report.name(), "1");
+  }
+  const auto all = marginals(network, evidence);
+  // sign 0: ½ · 1, or 2⁻¹⁰⁰ · ½ under the other outcome of the hub; sign 1 has 2⁻²⁰⁰ less.
+  EXPECT_EQ(all[0].values()[0], (ScaledNumber{1.0, -static_cast<std::int64_t>(reports)}));
+  EXPECT_EQ(all[0].values()[1], (ScaledNumber{1.0, -101 * static_cast<std::int64_t>(reports)}));
+  EXPECT_EQ(all[0].normalized()[1], 0.0);  // which as a double is zero
+  expect_single_queries(network, evidence);
+}
+
+TEST(NetworkMarginals, OfALongChainNeitherUnderflowNorDrift) {
+  const std::size_t length = 3000;
+  RelationNetwork network;
+  network.declare(Distribution{RandomVariable{name(0), 2}, {1.0, 0.0}});
+  Evidence evidence;
+  for (std::size_t k = 1; k < length; ++k)
+    network.declare(Relation{RandomVariable{name(k), 2}, RandomVariable{name(k - 1), 2}, {{0.75, 0.25}, {0.25, 0.75}}});
+  for (std::size_t k = 0; k < length; ++k)
+    evidence.observe(Likelihood{network.variable<Random>(name(k)), {0.0625, 0.03125}});
+  const auto all = marginals(network, evidence);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, length / 2, length - 1}) {
+    const auto single = query(network, {name(k)}, evidence);
+    EXPECT_PRED_FORMAT3(near, all[k].normalized(), single.normalized(), 1e-12);
+    EXPECT_PRED_FORMAT3(near, all[k].total().log(), single.total().log(), 1e-12);
+    EXPECT_LT(all[k].total().exponent(), -12000);
+  }
+}
+
+TEST(NetworkMarginals, OfDifferentKindsShareATreeWhereTheOrderAllows) {
+  // The random variables are declared outside the fuzzy ones that report on them: those go first, once for all.
+  RelationNetwork network;
+  Evidence evidence;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const RandomVariable state{name(k), 2};
+    if (k == 0)
+      network.declare(Distribution{state, {0.25, 0.75}});
+    else
+      network.declare(Relation{state, RandomVariable{name(k - 1), 2}, {{0.75, 0.25}, {0.125, 0.875}}});
+  }
+  for (std::size_t k = 0; k < 6; k += 2) {
+    const FuzzyVariable mood{"mood" + std::to_string(k), 3};
+    network.declare(mood, {network[k].variable, network[k + 1].variable},
+                    {{1.0, 0.5, 0.25}, {0.5, 1.0, 0.5}, {0.0, 0.5, 1.0}, {0.125, 1.0, 1.0}});
+    network.declare(
+        Relation{FuzzyVariable{"report" + std::to_string(k), 2}, mood, {{1.0, 0.25}, {0.5, 1.0}, {1.0, 0.0}}});
+    evidence.observe("report" + std::to_string(k), "1");
+  }
+  expect_single_queries(network, evidence);
+  expect_single_queries(network, {});
+  const auto all = marginals(network, evidence);
+  for (std::size_t v = 0; v < network.size(); ++v) {
+    const bool is_mood = network[v].variable.name().starts_with("mood");
+    EXPECT_EQ(all[v].induced(), is_mood) << network[v].variable.name();
+    // A tree of cliques tells no order, and the moods are as many queries.
+    EXPECT_EQ(all[v].elimination().order.empty(), !is_mood);
+  }
+}
+
+TEST(NetworkMarginals, AreAnsweredWhereOnlyTheTreeIsTooLarge) {
+  // Each pair of 24 coins has a child: together they join all coins, but a single query has only the two.
+  const std::size_t coins = 24;
+  RelationNetwork network;
+  for (std::size_t k = 0; k < coins; ++k) network.declare(uninformative(RandomVariable{name(k), 2}));
+  for (std::size_t a = 0; a < coins; ++a)
+    for (std::size_t b = a + 1; b < coins; ++b)
+      network.declare(RandomVariable{name(a) + " " + name(b), 2}, {network[a].variable, network[b].variable},
+                      {{1.0, 0.0}, {0.5, 0.5}, {0.5, 0.5}, {0.25, 0.75}});
+  const auto all = marginals(network, {}, 1 << 20);
+  EXPECT_EQ(all[0].values()[0].value(), 0.5);
+  EXPECT_EQ(all.back().values()[0].value(), 0.5625);
+}
+
+}  // namespace
+}  // namespace sigmax
