@@ -131,7 +131,8 @@ TEST(FilterBank, StepsInOneCallAndThreadsChangeNothing) {
 }
 
 TEST(FilterBank, WrongTracksAndScansAreNamed) {
-  Bank<Random> bank{models(), transition<Random>()};
+  FilterBank bank{models(), transition<Random>()};
+  static_assert(std::same_as<decltype(bank), Bank<Random>>);
   bank.add(start(0.0));
   auto scan = bank.scan();
   const Gaussian<2> z = *measured(1, 1);

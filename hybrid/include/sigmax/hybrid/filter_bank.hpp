@@ -285,4 +285,13 @@ class FilterBank {
   std::vector<std::size_t> free_;
 };
 
+template <class Models, Uncertainty Kind>
+FilterBank(Models, Relation<Kind, Kind>) -> FilterBank<Models, Kind>;
+template <class Models, Uncertainty Kind>
+FilterBank(Models, Relation<Kind, Kind>, Interaction<Kind>) -> FilterBank<Models, Kind>;
+template <class Models, class Transition>
+FilterBank(Models, Transition) -> FilterBank<Models, typename Transition::kind>;
+template <class Models, class Transition, Uncertainty Kind>
+FilterBank(Models, Transition, Interaction<Kind>) -> FilterBank<Models, Kind>;
+
 }  // namespace sigmax
