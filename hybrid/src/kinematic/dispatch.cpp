@@ -1,22 +1,40 @@
 #include "kinematic/kernels.hpp"
 
+#include <array>
+
 namespace sigmax::detail::kinematic {
 namespace {
 
-/// The best that this processor has.
-const Kernels& best() {
+struct Available {
+  std::array<const Kernels*, 3> kernels{&baseline()};
+  std::size_t count = 1;
+
+  Available() {
 #ifdef SIGMAX_X86_KERNELS
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2();
+    const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (fma) kernels[count++] = &avx2();
+    if (fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
+      kernels[count++] = &avx512();
 #endif
-  return baseline();
+  }
+};
+
+const Kernels*& chosen() {
+  static const Kernels* kernels = available().back();
+  return kernels;
 }
 
-const Kernels& kernels() {
-  static const Kernels& chosen = best();
-  return chosen;
-}
+const Kernels& kernels() { return *chosen(); }
 
 }  // namespace
+
+std::span<const Kernels* const> available() {
+  static const Available all;
+  return {all.kernels.data(), all.count};
+}
+
+void choose(const Kernels& kernels) { chosen() = &kernels; }
 
 bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Track& next, Told& told) {
   return kernels().step[plan.axes - 1][selects](plan, now, z, R, next, told);

@@ -272,7 +272,7 @@ struct Prediction {
         C noise;
         fill(noise, number(law.Q[static_cast<std::size_t>(at(a, b))]));
         if (a == b) noise = noise + Precision<Number>::rounding * terms[a];
-        for (int k = 0; k < A; ++k) P[at(a, b)][k] = P[at(a, b)][k] + only(k, noise);
+        for (int k = 0; k < A; ++k) P[at(a, b)][k] = plus_only(k, P[at(a, b)][k], noise);
       }
     }
   }
@@ -357,7 +357,7 @@ SIGMAX_INLINE Innovated<C, A> update(const Measured<C, A>& measured, Estimate<C,
   for (int a = 0; a < Order; ++a) {
     const C loss = lost * before[a];
     slack = least(slack, Precision<Real<C>>::greatest_loss * diagonal<A>(P[at(a, a)]) - loss);
-    for (int k = 0; k < A; ++k) P[at(a, a)][k] = P[at(a, a)][k] + only(k, loss);
+    for (int k = 0; k < A; ++k) P[at(a, a)][k] = plus_only(k, P[at(a, a)][k], loss);
   }
   for (int k = 0; k < A; ++k) fine = fine & (slack[k] >= V{});
   good = good & (fine | (measured.there <= V{}));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <sigmax/hybrid/kinematic_plan.hpp>
 
 namespace sigmax::detail::kinematic {
@@ -14,5 +16,12 @@ struct Kernels {
 
 const Kernels& baseline();
 const Kernels& avx2();
+const Kernels& avx512();
+
+/// Those that this processor can run, the best one last.
+std::span<const Kernels* const> available();
+
+/// Which of them take the steps to come, by default the best. For tests: what a FilterBank holds is of one of them.
+void choose(const Kernels& kernels);
 
 }  // namespace sigmax::detail::kinematic

@@ -61,7 +61,7 @@ struct ColumnOf<Axes<V, A>> {
 
 /// @{
 /// Column k of a diagonal block, which may be known from its diagonal down; `changed` from there; column k but for its
-/// entry k zero; the diagonal; and the least along each axis.
+/// entry k zero, and that added to a column; the diagonal; and the least along each axis.
 template <int A>
 Quad full(const Quad* block, int k) {
   return block[k];
@@ -71,6 +71,7 @@ inline Quad only(int k, Quad column) {
   const decltype(column < Quad{}) mask{k == 0 ? -1 : 0, k == 1 ? -1 : 0, k == 2 ? -1 : 0, 0};
   return mask ? column : Quad{};
 }
+inline Quad plus_only(int k, Quad column, Quad added) { return column + only(k, added); }
 template <int A>
 Quad diagonal(const Quad* block) {
   Quad result = block[0];
@@ -96,6 +97,11 @@ Axes<V, A> only(int k, const Axes<V, A>& column) {
   Axes<V, A> result{};
   result[k] = column[k];
   return result;
+}
+template <class V, int A>
+Axes<V, A> plus_only(int k, Axes<V, A> column, const Axes<V, A>& added) {
+  column[k] += added[k];
+  return column;
 }
 template <int A, class V>
 Axes<V, A> diagonal(const Axes<V, A>* block) {
