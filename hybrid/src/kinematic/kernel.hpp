@@ -423,28 +423,35 @@ struct Step {
     for (int j = 0; j < modes; ++j) {
       with_order(plan.order[static_cast<std::size_t>(j)], [&](auto order) {
         constexpr int Order = decltype(order)::value;
-        Estimate<C, A> own;
-        if constexpr (selects) {
-          const V from = winner(modes, coming[j], V{} + static_cast<Real<C>>(j), plan.mixing_tie);
-          mix_by_selection<C, A, Order>(plan, now, j, from, own);
-        } else {
-          const V share = one / prior[j];
-          for (int i = 0; i < modes; ++i) coming[j][i] *= share;
-          average<C, A, Order>(plan, now, now[j], coming[j], own);
-        }
-        prior[j] /= total;
+        const auto filter = [&](Estimate<C, A>& own) __attribute__((always_inline)) {
+          if constexpr (selects) {
+            const V from = winner(modes, coming[j], V{} + static_cast<Real<C>>(j), plan.mixing_tie);
+            mix_by_selection<C, A, Order>(plan, now, j, from, own);
+          } else {
+            const V share = one / prior[j];
+            for (int i = 0; i < modes; ++i) coming[j][i] *= share;
+            average<C, A, Order>(plan, now, now[j], coming[j], own);
+          }
+          prior[j] /= total;
 
-        // Step 2: every model predicts and updates, (60), (61).
-        Prediction<C, A, Order>::predict(plan.law[static_cast<std::size_t>(j)], own);
-        for (int a = 0; a < Order; ++a) predicted[j][a] = own.x[a];
-        if (measures) {
-          innovated[j] = update<C, A, Order>(*measured, own, good);
-          const V distance = innovated[j].squared_distance;
-          nearest = j == 0 ? distance : select(distance < nearest, distance, nearest);
+          // Step 2: every model predicts and updates, (60), (61).
+          Prediction<C, A, Order>::predict(plan.law[static_cast<std::size_t>(j)], own);
+          for (int a = 0; a < Order; ++a) predicted[j][a] = own.x[a];
+          if (measures) {
+            innovated[j] = update<C, A, Order>(*measured, own, good);
+            const V distance = innovated[j].squared_distance;
+            nearest = j == 0 ? distance : select(distance < nearest, distance, nearest);
+          }
+          judge<C, A, Order>(own, good);
+        };
+        if constexpr (LaneOf<V>::count > 1) {
+          filter(next[j]);
+        } else {  // one track's numbers stay in registers in part
+          Estimate<C, A> own;
+          filter(own);
+          for (int a = 0; a < Order; ++a) next[j].x[a] = own.x[a];
+          for_each_column<A, Order>([&](int a, int b, int k) { next[j].P[at(a, b)][k] = own.P[at(a, b)][k]; });
         }
-        judge<C, A, Order>(own, good);
-        for (int a = 0; a < Order; ++a) next[j].x[a] = own.x[a];
-        for_each_column<A, Order>([&](int a, int b, int k) { next[j].P[at(a, b)][k] = own.P[at(a, b)][k]; });
       });
     }
 
