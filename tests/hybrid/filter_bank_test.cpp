@@ -11,6 +11,7 @@
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 
+#include "hybrid/instruction_sets.hpp"
 #include "support/matrices.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
@@ -21,6 +22,7 @@ namespace {
 using support::near;
 using support::near_matrix;
 using support::throws;
+using support::under_each_instruction_set;
 
 template <Uncertainty Kind>
 Relation<Kind, Kind> transition() {
@@ -105,8 +107,12 @@ void is_as_many_single_filters() {
   }
 }
 
-TEST(FilterBank, IsAsManySingleFiltersOfARandomMode) { is_as_many_single_filters<Random>(); }
-TEST(FilterBank, IsAsManySingleFiltersOfAFuzzyMode) { is_as_many_single_filters<Fuzzy>(); }
+TEST(FilterBank, IsAsManySingleFiltersOfARandomMode) {
+  under_each_instruction_set([] { is_as_many_single_filters<Random>(); });
+}
+TEST(FilterBank, IsAsManySingleFiltersOfAFuzzyMode) {
+  under_each_instruction_set([] { is_as_many_single_filters<Fuzzy>(); });
+}
 
 TEST(FilterBank, StepsInOneCallAndThreadsChangeNothing) {
   Bank<Fuzzy> one{models(), transition<Fuzzy>()}, two = one, single_steps = one;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "hybrid/instruction_sets.hpp"
 #include "hybrid/laws.hpp"
 
 namespace sigmax {
@@ -46,6 +47,14 @@ TEST(InteractingMultipleModel, HimmWithItsOwnRecentredCovarianceEqualsTheRestate
 TEST(InteractingMultipleModel, HimmWithTheReleasedCovarianceEqualsTheRestatementUnderEachLift) {
   for (const Lift lift : lifts)
     equals_the_restatement<Interacting, Fuzzy>({lift, {MixedCovariance::released}, Tie::stay});
+}
+
+TEST(InteractingMultipleModel, EqualsTheRestatementByEachInstructionSet) {
+  under_each_instruction_set([] {
+    for (const Lift lift : lifts) equals_the_restatement<Interacting, Random>({lift, {}, Tie::stay}, 60);
+    for (const auto covariance : {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred})
+      for (const Tie tie : ties) equals_the_restatement<Interacting, Fuzzy>({Lift::zero, {covariance, tie}, tie}, 60);
+  });
 }
 
 TEST(InteractingMultipleModel, HimmByTheEnvelopeEqualsTheRestatementUnderEachLift) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "kinematic/kernels.hpp"
+
+namespace sigmax::support {
+
+/// Does it with the short step as compiled for each instruction set that this processor has, the best one last.
+template <class Action>
+void under_each_instruction_set(const Action& action) {
+  for (const auto* kernels : detail::kinematic::available()) {
+    SCOPED_TRACE(testing::Message() << "by vectors of " << kernels->lanes << " numbers");
+    detail::kinematic::choose(*kernels);
+    action();
+  }
+}
+
+}  // namespace sigmax::support
