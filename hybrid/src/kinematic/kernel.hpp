@@ -423,7 +423,7 @@ struct Step {
     for (int j = 0; j < modes; ++j) {
       with_order(plan.order[static_cast<std::size_t>(j)], [&](auto order) {
         constexpr int Order = decltype(order)::value;
-        const auto filter = [&](Estimate<C, A>& own) __attribute__((always_inline)) {
+        const auto filter = [&](Estimate<C, A> & own) __attribute__((always_inline)) {
           if constexpr (selects) {
             const V from = winner(modes, coming[j], V{} + static_cast<Real<C>>(j), plan.mixing_tie);
             mix_by_selection<C, A, Order>(plan, now, j, from, own);
