@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <sigmax/core/chain.hpp>
+#include <sigmax/core/forward_backward.hpp>
 #include <sigmax/core/route.hpp>
 
 #include "numbers.hpp"
@@ -92,6 +95,84 @@ void routes(benchmark::State& state) {
   count_links(state);
 }
 
+/// The posteriors of all times.
+template <Uncertainty Kind>
+void forward_backward_of_all_times(benchmark::State& state) {
+  const auto next = transition<Kind>(size(state), 1);
+  const std::vector<Likelihood<Kind>> reports(links, Likelihood<Kind>{next.to(), numbers(size(state), 2)});
+  const auto start = uninformative(next.to());
+  for (auto _ : state) benchmark::DoNotOptimize(forward_backward(start, next, reports));
+  count_links(state);
+}
+
+/// A table over neighbouring times, the later one fastest, as a library of factors keeps it: every operation makes a
+/// new one.
+struct PairTable {
+  std::size_t n;
+  std::vector<double> numbers;
+
+  template <class A>
+  std::vector<double> over_earlier() const {
+    std::vector<double> result(n, A::zero());
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) result[j] = A::plus(result[j], numbers[i * n + j]);
+    return normalized<A>(std::move(result));
+  }
+  template <class A>
+  std::vector<double> over_later() const {
+    std::vector<double> result(n, A::zero());
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) result[i] = A::plus(result[i], numbers[i * n + j]);
+    return normalized<A>(std::move(result));
+  }
+  PairTable times_earlier(const std::vector<double>& factor) const {
+    PairTable result = *this;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) result.numbers[i * n + j] *= factor[i];
+    return result;
+  }
+  PairTable times_later(const std::vector<double>& factor) const {
+    PairTable result = *this;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) result.numbers[i * n + j] *= factor[j];
+    return result;
+  }
+  template <class A>
+  static std::vector<double> normalized(std::vector<double> numbers) {
+    condition<A>(std::span(numbers));
+    return numbers;
+  }
+};
+
+/// The same posteriors by propagation of tables: collected and distributed through the tables of neighbouring times.
+template <Uncertainty Kind>
+void table_propagation(benchmark::State& state) {
+  using A = AlgebraOf<Kind>;
+  const std::size_t n = size(state);
+  const auto next = transition<Kind>(n, 1);
+  const std::vector<double> report = numbers(n, 2);
+  const PairTable relation{n, std::vector<double>(next.table().data(), next.table().data() + n * n)};
+  for (auto _ : state) {
+    std::vector<PairTable> tables;
+    std::vector<std::vector<double>> messages, posteriors;
+    std::vector<double> message = PairTable::normalized<A>(std::vector<double>(n, 1.0));
+    for (int link = 0; link < links; ++link) {
+      tables.push_back(relation.times_later(report).times_earlier(message));
+      messages.push_back(message = tables.back().template over_earlier<A>());
+    }
+    posteriors.push_back(messages.back());
+    for (std::size_t t = tables.size() - 1; t > 0; --t) {
+      std::vector<double> told = tables[t].template over_later<A>();
+      posteriors.push_back(told);
+      for (std::size_t i = 0; i < n; ++i) told[i] = messages[t - 1][i] == 0.0 ? 0.0 : told[i] / messages[t - 1][i];
+      tables[t - 1] = tables[t - 1].times_later(told);
+    }
+    posteriors.push_back(tables[0].template over_later<A>());
+    benchmark::DoNotOptimize(posteriors.data());
+  }
+  count_links(state);
+}
+
 void sizes_and_subnormals(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"n", "subnormal"});
   for (const int n : {3, 10, 100})
@@ -105,6 +186,10 @@ BENCHMARK(chain_without_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(plain_rows<Random>)->Apply(sizes_and_subnormals);
 BENCHMARK(plain_rows<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_of_alternating_kinds)->Apply(sizes_and_subnormals);
+BENCHMARK(forward_backward_of_all_times<Random>)->Arg(3)->Arg(16);
+BENCHMARK(table_propagation<Random>)->Arg(3)->Arg(16);
+BENCHMARK(forward_backward_of_all_times<Fuzzy>)->Arg(3)->Arg(16);
+BENCHMARK(table_propagation<Fuzzy>)->Arg(3)->Arg(16);
 BENCHMARK(routes<Fuzzy>)->Arg(3)->Arg(10)->Arg(100);
 BENCHMARK(routes<Ordinal>)->Arg(3)->Arg(10)->Arg(100);
 

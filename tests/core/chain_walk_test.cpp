@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <sigmax/core/chain.hpp>
+#include <sigmax/core/forward_backward.hpp>
 #include <sigmax/core/route.hpp>
 #include <sigmax/core/update.hpp>
 #include <sigmax/core/witness.hpp>
@@ -55,6 +56,14 @@ TEST(ChainWalk, OfChainsIsWhatTheDocumentSays) {
   const double root = std::sqrt(17.0) / 16.0, greater = 9.0 / 32.0 + root / 2.0, lesser = 9.0 / 32.0 - root / 2.0;
   const double expected = std::log((0.375 - lesser) / (greater - lesser)) + 100000.0 * std::log(greater);
   EXPECT_PRED_FORMAT3(near, chain.log_total(), expected, 1e-13);
+
+  const auto all = forward_backward(prior, next, reports);
+  all.at(0);        // the start, given everything
+  all.at(17);       // after the 17th report, and those that follow
+  all.log_total();  // the log evidence, again
+  EXPECT_PRED_FORMAT3(near, all.log_total(), chain.log_total(), 1e-13);
+  EXPECT_PRED_FORMAT3(near, all.at(100000).values(), chain.normalized().values(), 1e-12);
+  EXPECT_GT(all.at(17)[0], all.at(0)[0]);  // no report is about the start itself
 
   const FuzzyVariable mood{"mood", {"calm", "wild"}};
   const Relation mood_given_weather{mood, weather, {{1.0, 0.5}, {0.25, 1.0}}};

@@ -14,6 +14,7 @@
 #include <sigmax/core/condition.hpp>
 #include <sigmax/core/distribution.hpp>
 #include <sigmax/core/entries.hpp>
+#include <sigmax/core/forward_backward.hpp>
 #include <sigmax/core/hybrid_distribution.hpp>
 #include <sigmax/core/induced.hpp>
 #include <sigmax/core/likelihood.hpp>
