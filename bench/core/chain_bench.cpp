@@ -97,7 +97,7 @@ void routes(benchmark::State& state) {
 
 /// The posteriors of all times.
 template <Uncertainty Kind>
-void forward_backward_of_all_times(benchmark::State& state) {
+void chain_posteriors(benchmark::State& state) {
   const auto next = transition<Kind>(size(state), 1);
   const std::vector<Likelihood<Kind>> reports(links, Likelihood<Kind>{next.to(), numbers(size(state), 2)});
   const auto start = uninformative(next.to());
@@ -186,10 +186,10 @@ BENCHMARK(chain_without_evidence<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(plain_rows<Random>)->Apply(sizes_and_subnormals);
 BENCHMARK(plain_rows<Fuzzy>)->Apply(sizes_and_subnormals);
 BENCHMARK(chain_of_alternating_kinds)->Apply(sizes_and_subnormals);
-BENCHMARK(forward_backward_of_all_times<Random>)->Arg(3)->Arg(16);
-BENCHMARK(table_propagation<Random>)->Arg(3)->Arg(16);
-BENCHMARK(forward_backward_of_all_times<Fuzzy>)->Arg(3)->Arg(16);
-BENCHMARK(table_propagation<Fuzzy>)->Arg(3)->Arg(16);
+BENCHMARK(chain_posteriors<Random>)->ArgName("n")->Arg(3)->Arg(16);
+BENCHMARK(table_propagation<Random>)->ArgName("n")->Arg(3)->Arg(16);
+BENCHMARK(chain_posteriors<Fuzzy>)->ArgName("n")->Arg(3)->Arg(16);
+BENCHMARK(table_propagation<Fuzzy>)->ArgName("n")->Arg(3)->Arg(16);
 BENCHMARK(routes<Fuzzy>)->Arg(3)->Arg(10)->Arg(100);
 BENCHMARK(routes<Ordinal>)->Arg(3)->Arg(10)->Arg(100);
 

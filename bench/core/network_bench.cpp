@@ -100,7 +100,7 @@ Evidence evidence_of(const RelationNetwork& network) {
 }
 
 /// Posteriors of one variable after the other.
-void posteriors(benchmark::State& state, const RelationNetwork& network) {
+void single_posteriors(benchmark::State& state, const RelationNetwork& network) {
   const Evidence evidence = evidence_of(network);
   std::size_t v = 0;
   for (auto _ : state) {
@@ -130,9 +130,9 @@ void add(const std::string& name, const RelationNetwork& network) {
   const auto in_microseconds = [](benchmark::internal::Benchmark* bench) { bench->Unit(benchmark::kMicrosecond); };
   const auto query_of = [&](const std::string& kinds, const RelationNetwork& of) {
     in_microseconds(benchmark::RegisterBenchmark(("posterior/" + name + "/" + kinds).c_str(),
-                                                 [of](benchmark::State& state) { posteriors(state, of); }));
+                                                 [of](benchmark::State& state) { single_posteriors(state, of); }));
     in_microseconds(
-        benchmark::RegisterBenchmark(("all_posteriors/" + name + "/" + kinds).c_str(),
+        benchmark::RegisterBenchmark(("posteriors/" + name + "/" + kinds).c_str(),
                                      [of](benchmark::State& state) { all_posteriors(state, of, evidence_of(of)); }));
   };
   query_of("random", network);
@@ -142,9 +142,9 @@ void add(const std::string& name, const RelationNetwork& network) {
                                                [network](benchmark::State& state) { explanations(state, network); }));
 }
 
-/// All variables, nothing known.
-void add_priors(const std::string& name, const RelationNetwork& network) {
-  benchmark::RegisterBenchmark(("all_priors/" + name).c_str(), [network](benchmark::State& state) {
+/// All variables at once, without evidence.
+void add_without_evidence(const std::string& name, const RelationNetwork& network) {
+  benchmark::RegisterBenchmark(("posteriors/" + name + "/nothing known").c_str(), [network](benchmark::State& state) {
     all_posteriors(state, network, {});
   })->Unit(benchmark::kMicrosecond);
 }
@@ -155,10 +155,10 @@ const bool registered = [] {
     if (std::filesystem::exists(path_of(name))) {
       const RelationNetwork network = published(name);
       add(name, network);
-      add_priors(name, network);
+      add_without_evidence(name, network);
     }
-  add_priors("grid of 12 x 12", grid(12));
-  add_priors("chain of 3000", chain(3000));
+  add_without_evidence("grid of 12 x 12", grid(12));
+  add_without_evidence("chain of 3000", chain(3000));
   return true;
 }();
 
