@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <sigmax/core/compose.hpp>
@@ -33,6 +35,25 @@ Relation<Kind, Kind> transition(std::size_t n, std::uint64_t seed, double chance
     std::copy(row.begin(), row.end(), rows.row(i).begin());
   }
   return {x, x, std::move(rows), detail::ByLaw{}};
+}
+
+/// Ten equal numbers a row, or fewer where two of the columns drawn at random are the same.
+inline constexpr std::size_t entries_of_a_row = 10;
+template <Uncertainty Kind>
+Relation<Kind, Kind> sparse_transition(std::size_t n, std::uint64_t seed) {
+  const Variable<Kind> x{"x", n};
+  std::mt19937_64 generator(seed);
+  SparseRows rows(n);
+  std::vector<std::size_t> columns(entries_of_a_row);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t& column : columns) column = generator() % n;
+    std::sort(columns.begin(), columns.end());
+    const auto end = std::unique(columns.begin(), columns.end());
+    const auto share = equal_share<AlgebraOf<Kind>>(static_cast<std::size_t>(end - columns.begin()));
+    for (auto column = columns.begin(); column != end; ++column) rows.append_entry(*column, share);
+    rows.end_row();
+  }
+  return {x, x, std::move(rows)};
 }
 
 }  // namespace sigmax::bench

@@ -3,35 +3,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <utility>
-#include <vector>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
+#include <sigmax/core/witness.hpp>
+
+#include "numbers.hpp"
 
 namespace sigmax {
 namespace {
 
-constexpr std::size_t entries = 10;  // a row
-
-/// Ten equal numbers a row in columns drawn at random, the same for the same seed.
-template <Uncertainty Kind>
-Relation<Kind, Kind> sparse(std::size_t n, std::uint64_t seed) {
-  const Variable<Kind> x{"x", n};
-  std::mt19937_64 generator(seed);
-  SparseRows rows(n);
-  std::vector<std::size_t> columns(entries);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t& column : columns) column = generator() % n;
-    std::sort(columns.begin(), columns.end());
-    const auto end = std::unique(columns.begin(), columns.end());
-    const auto share = equal_share<AlgebraOf<Kind>>(static_cast<std::size_t>(end - columns.begin()));
-    for (auto column = columns.begin(); column != end; ++column) rows.append_entry(*column, share);
-    rows.end_row();
-  }
-  return {x, x, std::move(rows)};
-}
+constexpr std::size_t entries = bench::entries_of_a_row;
 
 /// Ten equal numbers a row around the diagonal.
 template <Uncertainty Kind>
@@ -53,8 +36,31 @@ void count_operations(benchmark::State& state, std::size_t factor) {
 
 template <Uncertainty Kind>
 void compose_sparse(benchmark::State& state) {
-  const auto left = sparse<Kind>(size(state), 1), right = sparse<Kind>(size(state), 2);
+  const auto left = bench::sparse_transition<Kind>(size(state), 1),
+             right = bench::sparse_transition<Kind>(size(state), 2);
   for (auto _ : state) benchmark::DoNotOptimize(compose(left, right));
+  count_operations(state, entries);
+}
+
+/// The same into the memory of a former result.
+template <Uncertainty Kind>
+void compose_sparse_again(benchmark::State& state) {
+  const auto left = bench::sparse_transition<Kind>(size(state), 1),
+             right = bench::sparse_transition<Kind>(size(state), 2);
+  auto result = compose(left, right);
+  for (auto _ : state) {
+    compose(left, right, result);
+    benchmark::ClobberMemory();
+  }
+  count_operations(state, entries);
+}
+
+/// The same with the first intermediate value that attains each number.
+template <Uncertainty Kind>
+void sparse_winners(benchmark::State& state) {
+  const auto left = bench::sparse_transition<Kind>(size(state), 1),
+             right = bench::sparse_transition<Kind>(size(state), 2);
+  for (auto _ : state) benchmark::DoNotOptimize(compose_with_witness(left, right));
   count_operations(state, entries);
 }
 
@@ -67,7 +73,7 @@ void compose_banded(benchmark::State& state) {
 
 template <Uncertainty Kind>
 void compose_with_distribution(benchmark::State& state) {
-  const auto relation = sparse<Kind>(size(state), 1);
+  const auto relation = bench::sparse_transition<Kind>(size(state), 1);
   const auto prior = uninformative(relation.from());
   for (auto _ : state) benchmark::DoNotOptimize(compose(relation, prior));
   count_operations(state, 1);
@@ -75,7 +81,7 @@ void compose_with_distribution(benchmark::State& state) {
 
 template <Uncertainty Kind>
 void invert_sparse(benchmark::State& state) {
-  const auto relation = sparse<Kind>(size(state), 1);
+  const auto relation = bench::sparse_transition<Kind>(size(state), 1);
   const auto prior = uninformative(relation.from());
   for (auto _ : state) benchmark::DoNotOptimize(invert(relation, prior));
   count_operations(state, 1);
@@ -83,6 +89,9 @@ void invert_sparse(benchmark::State& state) {
 
 BENCHMARK(compose_sparse<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_sparse<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(compose_sparse_again<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(compose_sparse_again<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(sparse_winners<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_banded<Random>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_banded<Fuzzy>)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(compose_with_distribution<Random>)->Arg(100000)->Unit(benchmark::kMillisecond);

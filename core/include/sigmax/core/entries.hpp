@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace sigmax {
@@ -15,9 +16,9 @@ struct RunOfEntries {
   double value(std::size_t k) const { return values[k]; }
 };
 
-/// The same with the column of each number beside it.
+/// The same with the column of each number beside it; 32 bits, because there are many.
 struct ListOfEntries {
-  std::span<const std::size_t> columns;
+  std::span<const std::uint32_t> columns;
   std::span<const double> values;
   std::size_t size() const { return values.size(); }
   std::size_t index(std::size_t k) const { return columns[k]; }

@@ -19,6 +19,12 @@ inline Table& as_table(AnyRows& rows) {
   return rows.emplace<Table>(std::size_t{0}, std::size_t{0});
 }
 
+/// The sparse rows that a result is written to; keeps their memory if it is some already.
+inline SparseRows& as_sparse_rows(AnyRows& rows) {
+  if (SparseRows* const sparse = std::get_if<SparseRows>(&rows)) return *sparse;
+  return rows.emplace<SparseRows>();
+}
+
 namespace detail {
 
 /// action(r) once for every row that is stored: rows without a number of their own share one.

@@ -2,15 +2,40 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <limits>
+#include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <sigmax/core/entries.hpp>
 
 namespace sigmax {
+
+namespace detail {
+
+/// Leaves new numbers unset where nothing is said of them: a vector that is resized to be written does not write twice.
+template <class T>
+struct UnsetAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+  template <class U, class... Arguments>
+  void construct(U* number, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) == 0)
+      ::new (static_cast<void*>(number)) U;
+    else
+      ::new (static_cast<void*>(number)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
+}  // namespace detail
 
 /// One number of a sparse row.
 struct Entry {
@@ -23,6 +48,9 @@ struct Entry {
 ///     SparseRows{{{0, 0.3}, {7, 1.0}}, {{7, 1.0}}}   // a row per outcome of the condition: column, value
 class SparseRows {
  public:
+  using Columns = std::vector<std::uint32_t, detail::UnsetAllocator<std::uint32_t>>;
+  using Values = std::vector<double, detail::UnsetAllocator<double>>;
+
   explicit SparseRows(std::size_t columns = 0) : columns_(columns) {}
   SparseRows(std::initializer_list<std::initializer_list<Entry>> rows) {
     for (const auto& row : rows) append(row);
@@ -30,8 +58,7 @@ class SparseRows {
 
   /// The arrays of compressed sparse rows as they are: row r has entries `ends[r − 1]` up to `ends[r]`.
   /// Throws std::invalid_argument if the arrays do not fit together.
-  SparseRows(std::size_t columns, std::span<const std::size_t> ends, std::vector<std::size_t> indices,
-             std::vector<double> values)
+  SparseRows(std::size_t columns, std::span<const std::size_t> ends, Columns indices, Values values)
       : columns_(columns), indices_(std::move(indices)), values_(std::move(values)) {
     for (const std::size_t end : ends) {
       if (end < end_) throw std::invalid_argument("the ends of sparse rows do not ascend");
@@ -50,15 +77,44 @@ class SparseRows {
   }
   void append(std::initializer_list<Entry> row) { append(std::span(row.begin(), row.size())); }
 
-  /// Appends a row entry by entry: the entries, then `end_row`.
+  /// Appends a row entry by entry: the entries, then `end_row`. Throws std::invalid_argument if the column does not fit
+  /// into 32 bits.
   void append_entry(std::size_t column, double value) {
+    if (column > std::numeric_limits<std::uint32_t>::max())
+      throw std::invalid_argument("sparse rows have columns below 2^32, not " + std::to_string(column));
     columns_ = std::max(columns_, column + 1);
-    indices_.push_back(column);
+    indices_.push_back(static_cast<std::uint32_t>(column));
     values_.push_back(value);
   }
   void end_row() {
     extents_.push_back({end_, values_.size() - end_});
     end_ = values_.size();
+  }
+
+  /// Removes all rows and keeps their memory.
+  void clear(std::size_t columns) {
+    columns_ = columns;
+    extents_.clear();
+    indices_.clear();
+    values_.clear();
+    end_ = 0;
+  }
+  void reserve(std::size_t rows, std::size_t numbers) {
+    extents_.reserve(rows);
+    indices_.reserve(numbers);
+    values_.reserve(numbers);
+  }
+
+  /// Appends a row of at most so many entries: write(columns, values) writes them to where these point, columns below
+  /// `columns()`, and returns how many they are.
+  template <class Write>
+  void append_written(std::size_t most, const Write& write) {
+    indices_.resize(end_ + most);
+    values_.resize(end_ + most);
+    const std::size_t size = write(indices_.data() + end_, values_.data() + end_);
+    indices_.resize(end_ + size);
+    values_.resize(end_ + size);
+    end_row();
   }
 
   /// Makes rows share one further row of equal numbers in every column: what is stored grows by one row only.
@@ -94,8 +150,8 @@ class SparseRows {
  private:
   std::size_t columns_ = 0, end_ = 0;
   std::vector<std::pair<std::size_t, std::size_t>> extents_;  // of each row: first, size
-  std::vector<std::size_t> indices_;
-  std::vector<double> values_;
+  Columns indices_;
+  Values values_;
 };
 
 }  // namespace sigmax

@@ -18,7 +18,7 @@ struct NoWinners {
   static constexpr bool wanted = false;
   void assign(std::size_t) {}
   void resize(std::size_t) {}
-  void append(Winner) {}
+  void reserve(std::size_t) {}
   void merge(std::size_t, ScaledNumber, ScaledNumber, const NoWinners&) {}
   NoWinners from(std::size_t) const { return {}; }
   void note(std::size_t, bool, Winner, double) const {}
@@ -31,7 +31,7 @@ struct FirstWinners {
 
   void assign(std::size_t size) { all.assign(size, 0); }
   void resize(std::size_t size) { all.resize(size, 0); }
-  void append(Winner winner) { all.push_back(winner); }
+  void reserve(std::size_t size) { all.reserve(size); }
 
   /// Where a term from another band, with winners of its own, joins number k.
   void merge(std::size_t k, ScaledNumber number, ScaledNumber term, const FirstWinners& of_term) {

@@ -45,11 +45,9 @@ void compose(const AnyRows& left, const AnyRows& right, AnyRows& result, Winners
           }
         if constexpr (!std::is_same_v<Left, Table>)
           if (is_sparse(l, r)) {
-            SparseRows rows = sparse_composition<A>(l, r, winners);
-            if (Winners::wanted || rows.stored() < rows.rows() * rows.columns() / 2)
-              result = std::move(rows);
-            else
-              result = dense_table(rows);
+            SparseRows& rows = as_sparse_rows(result);
+            sparse_composition<A>(l, r, rows, winners);
+            if (!Winners::wanted && rows.stored() >= rows.rows() * rows.columns() / 2) result = dense_table(rows);
             return;
           }
         compose<A>(l, r, as_table(result), winners);

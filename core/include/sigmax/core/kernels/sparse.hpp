@@ -25,18 +25,30 @@ class AscendingSet {
     filled_[number / 4096] |= std::uint64_t{1} << number / 64 % 64;
   }
 
-  /// action(number) for each, ascending; then the set is empty.
-  template <class Action>
-  void drain(const Action& action) {
-    for (std::size_t block = 0; block < filled_.size(); ++block)
-      for (; filled_[block] != 0; filled_[block] &= filled_[block] - 1) {
-        const std::size_t word = 64 * block + static_cast<std::size_t>(std::countr_zero(filled_[block]));
-        for (; words_[word] != 0; words_[word] &= words_[word] - 1)
-          action(64 * word + static_cast<std::size_t>(std::countr_zero(words_[word])));
+  /// Writes the numbers, ascending, and returns how many they are; then the set is empty. There is room for one more.
+  std::size_t drain(std::uint32_t* out) {
+    std::uint32_t* const begin = out;
+    for (std::size_t block = 0; block < filled_.size(); ++block) {
+      for (std::uint64_t filled = std::exchange(filled_[block], 0); filled != 0; filled &= filled - 1) {
+        const std::size_t word = 64 * block + static_cast<std::size_t>(std::countr_zero(filled));
+        const auto first = static_cast<std::uint32_t>(64 * word);
+        std::uint64_t bits = std::exchange(words_[word], 0);
+        *out++ = first + lowest(bits);
+        bits &= bits - 1;
+        *out = first + lowest(bits);  // most words hold one or two, which of them no processor foresees
+        out += bits != 0 ? 1 : 0;
+        for (bits &= bits - 1; bits != 0; bits &= bits - 1) *out++ = first + lowest(bits);
       }
+    }
+    return static_cast<std::size_t>(out - begin);
   }
 
  private:
+  /// The place of the lowest bit; of none any, so that the compiler need not branch.
+  static std::uint32_t lowest(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(std::countr_zero(bits | std::uint64_t{1} << 63));
+  }
+
   std::vector<std::uint64_t> words_, filled_;
 };
 
@@ -44,78 +56,102 @@ class AscendingSet {
 /// zero().
 template <Algebra A>
 class GrowingRow {
-  struct Slot {  // what is read together lies together
-    double number;
-    Winner winner, row;
-  };
-
  public:
-  explicit GrowingRow(std::size_t columns) : slots_(columns, Slot{0.0, 0, none}), touched_(columns) {}
-
-  void begin(Winner row) { row_ = row; }
+  GrowingRow(std::size_t columns, bool with_winners)
+      : numbers_(columns, A::zero()), winners_(with_winners ? columns : 0, 0), touched_(columns) {}
 
   double& operator[](std::size_t column) {
-    Slot& slot = slots_[column];
-    if (slot.row != row_) {
-      slot = {A::zero(), 0, row_};
-      touched_.insert(column);
-    }
-    return slot.number;
+    touched_.insert(column);
+    return numbers_[column];
   }
 
   /// What takes note of the winners, by column, if `winners` wants them.
-  struct Notes {
-    static constexpr bool wanted = true;
-    Slot* slots;
-    void note(std::size_t column, bool better, Winner index, double) const {
-      slots[column].winner = better ? index : slots[column].winner;
-    }
-  };
   template <class Winners>
   auto notes_for(const Winners& winners) {
     if constexpr (Winners::wanted)
-      return Notes{slots_.data()};
+      return FirstWinners::OfRow{winners_.data()};
     else
       return winners;
   }
 
-  /// action(column, number, winner) for every column that was touched, ascending; ends the row.
-  template <class Action>
-  void drain(const Action& action) {
-    touched_.drain([&](std::size_t column) { action(column, slots_[column].number, slots_[column].winner); });
+  /// Writes the columns that were touched, ascending, and their numbers, and appends their winners; returns how many
+  /// they are, and ends the row. There is room for one more column.
+  template <class Winners>
+  std::size_t drain(std::uint32_t* columns, double* numbers, Winners& winners) {
+    const std::size_t size = touched_.drain(columns);
+    for (std::size_t k = 0; k < size; ++k) numbers[k] = std::exchange(numbers_[columns[k]], A::zero());
+    if constexpr (Winners::wanted) {
+      const std::size_t before = winners.all.size();
+      winners.resize(before + size);
+      for (std::size_t k = 0; k < size; ++k) winners.all[before + k] = std::exchange(winners_[columns[k]], 0);
+    }
+    return size;
   }
 
  private:
-  static constexpr Winner none = std::numeric_limits<Winner>::max();
-  std::vector<Slot> slots_;
+  std::vector<double> numbers_;
+  std::vector<Winner> winners_;
   AscendingSet touched_;
-  Winner row_ = none;
 };
+
+/// Asks for the beginning of rows that are read next, wherever memory has them.
+inline void prefetch([[maybe_unused]] const ListOfEntries& row) {
+#if defined(__GNUC__)
+  constexpr std::size_t line = 64, ahead = 32;  // entries; what follows them processors foresee
+  const std::size_t size = std::min(row.size(), ahead);
+  for (std::size_t k = 0; k < size; k += line / sizeof(std::uint32_t)) __builtin_prefetch(row.columns.data() + k);
+  for (std::size_t k = 0; k < size; k += line / sizeof(double)) __builtin_prefetch(row.values.data() + k);
+#endif
+}
+inline void prefetch(const RunOfEntries&) {}
+
+/// How many terms the row with these weights of a composition has; what they are made of is asked for.
+template <class Left, class Weights>
+std::size_t announce(const Left& left, const Weights& weights) {
+  std::size_t terms = 0;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    const auto row = left.entries(weights.index(j));
+    prefetch(row);
+    terms += row.size();
+  }
+  return terms;
+}
+
+/// How many terms a composition has, if all rows of `left` are of one size: room for its result. But no more than a
+/// multiple of what the parts take, for many terms may share a column.
+template <class Left, class Right>
+std::size_t expected_terms(const Left& left, const Right& right) {
+  constexpr std::size_t multiple = 16;
+  if (left.rows() == 0) return 0;
+  const std::size_t of_a_row = left.stored() / left.rows() + 1;
+  return std::min(of_a_row * right.stored(), multiple * (left.stored() + right.stored()));
+}
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
 /// last bit; where ⊕ adds, that of a dense result from a kernel for large tables is to rounding. `winners` is
-/// FirstWinners or NoWinners.
+/// FirstWinners or NoWinners; `result` is neither of the parts, and its memory is used again.
 template <Algebra A, class Left, class Right, class Winners>
-SparseRows sparse_composition(const Left& left, const Right& right, Winners& winners) {
-  SparseRows result(left.columns());
-  GrowingRow<A> row(left.columns());
-  const auto notes = row.notes_for(winners);
+void sparse_composition(const Left& left, const Right& right, SparseRows& result, Winners& winners) {
+  const std::size_t expected = expected_terms(left, right);
+  result.clear(left.columns());
+  result.reserve(right.rows(), expected);
   winners.assign(0);
+  winners.reserve(expected);
+  GrowingRow<A> row(left.columns(), Winners::wanted);
+  const auto notes = row.notes_for(winners);
+  std::size_t terms = right.rows() > 0 ? announce(left, right.entries(0)) : 0;
   for (std::size_t i = 0; i < right.rows(); ++i) {
-    row.begin(static_cast<Winner>(i));
+    const std::size_t room = std::min(terms, left.columns()) + 1;
+    if (i + 1 < right.rows()) terms = announce(left, right.entries(i + 1));
     const auto weights = right.entries(i);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       if (weights.value(j) == A::zero()) continue;
       accumulate<A>(weights.value(j), left.entries(weights.index(j)), row, weights.index(j), notes);
     }
-    row.drain([&](std::size_t column, double number, Winner winner) {
-      result.append_entry(column, number);
-      winners.append(winner);
-    });
-    result.end_row();
+    result.append_written(
+        room, [&](std::uint32_t* columns, double* numbers) { return row.drain(columns, numbers, winners); });
   }
-  return result;
 }
 
 /// The columns from the first to the last that row i of a banded composition reaches.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,13 +19,13 @@ SparseRows transposed(const Rows& rows) {
     for (std::size_t k = 0; k < entries.size(); ++k) ++ends[entries.index(k) + 1];
   }
   for (std::size_t column = 0; column < rows.columns(); ++column) ends[column + 1] += ends[column];
-  std::vector<std::size_t> indices(ends.back());
-  std::vector<double> values(ends.back());
+  SparseRows::Columns indices(ends.back());
+  SparseRows::Values values(ends.back());
   for (std::size_t r = 0; r < rows.rows(); ++r) {
     const auto entries = rows.entries(r);
     for (std::size_t k = 0; k < entries.size(); ++k) {
       const std::size_t at = ends[entries.index(k)]++;
-      indices[at] = r;
+      indices[at] = static_cast<std::uint32_t>(r);
       values[at] = entries.value(k);
     }
   }
