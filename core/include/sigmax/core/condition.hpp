@@ -49,14 +49,14 @@ void condition(std::span<double> joint) {
   if constexpr (ScalingAlgebra<A>) {
     // Divided by the greatest first, so that their ⊕ neither overflows nor rounds a lone number away from one.
     const double greatest = detail::total<Max>(joint);
-    for (double& value : joint) value /= greatest;
+    double sum = A::zero();
+    for (double& value : joint) sum = A::plus(sum, value /= greatest);
+    if (sum == A::one()) return;
+    for (double& value : joint) value = A::divide(value, sum);
+  } else {
+    const double sum = detail::total<A>(joint);
+    for (double& value : joint) value = value == sum ? A::one() : value;
   }
-  const double sum = detail::total<A>(joint);
-  for (double& value : joint)
-    if constexpr (ScalingAlgebra<A>)
-      value = A::divide(value, sum);
-    else
-      value = value == sum ? A::one() : value;
 }
 
 /// How far the ⊕ of a composition may lie from one before it is divided out.

@@ -84,7 +84,9 @@ Distribution<Kind> update(const Distribution<Kind>& prior, const Likelihood<Kind
   } else {
     for (std::size_t i = 0; i < joint.size(); ++i) joint(0, i) = A::times(prior[i], likelihood.number(i));
   }
-  if (total<Kind>(joint.values()) == A::zero()) check::excluded(prior.variable());
+  const std::span<const double> numbers = joint.values();
+  if (std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == A::zero(); }))
+    check::excluded(prior.variable());
   condition<A>(joint.values());
   return {prior.variable(), std::move(joint), detail::ByLaw{}};
 }
