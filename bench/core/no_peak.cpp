@@ -6,5 +6,6 @@ namespace sigmax::bench {
 
 double peak(Operation) { return 0.0; }
 double read_bandwidth(std::size_t) { return 0.0; }
+double triad_bandwidth(std::size_t) { return 0.0; }
 
 }  // namespace sigmax::bench

@@ -73,6 +73,17 @@ double bytes_read(const double* numbers, std::size_t size, std::size_t times) {
   return static_cast<double>(times * (size / step * step) * sizeof(double)) / seconds;
 }
 
+double bytes_moved(double* a, const double* b, const double* c, std::size_t size, std::size_t times) {
+  const std::size_t step = hn::Lanes(all);
+  const double start = thread_time();
+  for (std::size_t t = 0; t < times; ++t) {
+    for (std::size_t i = 0; i + step <= size; i += step)
+      hn::StoreU(hn::Mul(hn::LoadU(all, b + i), hn::LoadU(all, c + i)), all, a + i);
+    benchmark::ClobberMemory();
+  }
+  return static_cast<double>(times * (size / step * step) * 3 * sizeof(double)) / (thread_time() - start);
+}
+
 }  // namespace
 }  // namespace sigmax::bench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -83,6 +94,7 @@ namespace {
 
 HWY_EXPORT(peak_of);
 HWY_EXPORT(bytes_read);
+HWY_EXPORT(bytes_moved);
 
 void peaks(benchmark::State& state, std::int64_t set, Operation operation) {
   hwy::SetSupportedTargetsForTest(set);
@@ -97,6 +109,12 @@ void reading(benchmark::State& state) {
   for (auto _ : state) best = std::max(best, read_bandwidth(static_cast<std::size_t>(state.range(0))));
   state.counters["bytes"] = benchmark::Counter(best, benchmark::Counter::kDefaults, benchmark::Counter::kIs1024);
 }
+void moving(benchmark::State& state) {
+  double best = 0.0;
+  for (auto _ : state) best = std::max(best, triad_bandwidth(static_cast<std::size_t>(state.range(0))));
+  state.counters["bytes"] = benchmark::Counter(best, benchmark::Counter::kDefaults, benchmark::Counter::kIs1024);
+}
+BENCHMARK(moving)->Name("peak/triad")->Arg(1 << 14)->Arg(1 << 18)->Arg(1 << 22)->Arg(1 << 27);
 BENCHMARK(reading)->Name("peak/read")->Arg(1 << 14)->Arg(1 << 18)->Arg(1 << 22)->Arg(1 << 27);
 
 const bool registered = [] {
@@ -123,6 +141,17 @@ double read_bandwidth(std::size_t bytes) {
   const std::size_t times = std::max<std::size_t>(1, (std::size_t{1} << 24) / bytes);
   HWY_DYNAMIC_DISPATCH(bytes_read)(numbers.data(), numbers.size(), 1);
   return HWY_DYNAMIC_DISPATCH(bytes_read)(numbers.data(), numbers.size(), times);
+}
+
+double triad_bandwidth(std::size_t bytes) {
+  const std::size_t size = bytes / (3 * sizeof(double));
+  const std::vector<double> b(size, 1.0), c(size, 0.5);
+  std::vector<double> a(size);
+  const std::size_t times = std::max<std::size_t>(1, (std::size_t{1} << 24) / std::max<std::size_t>(1, bytes));
+  double best = 0.0;
+  for (int i = 0; i < 5; ++i)
+    best = std::max(best, HWY_DYNAMIC_DISPATCH(bytes_moved)(a.data(), b.data(), c.data(), size, times));
+  return best;
 }
 
 }  // namespace sigmax::bench

@@ -19,6 +19,10 @@ double peak(Operation operation);
 /// Bytes a second that one core reads, again and again from the same memory of this size.
 double read_bandwidth(std::size_t bytes);
 
+/// Bytes a second that one core moves by a(k) = b(k) · c(k), again and again through arrays that are of this size
+/// together; zero without Highway.
+double triad_bandwidth(std::size_t bytes);
+
 /// Processor time of this thread in seconds.
 inline double thread_time() {
   timespec time{};
@@ -46,6 +50,27 @@ class BesidePeak {
  private:
   benchmark::State& state_;
   Operation operation_;
+  double before_, start_;
+};
+
+/// The same for what only loads and stores: beside its items a second which fraction its bytes, each counted once, are
+/// of the bandwidth.
+class BesideBandwidth {
+ public:
+  BesideBandwidth(benchmark::State& state, std::size_t bytes)
+      : state_(state), bytes_(bytes), before_(triad_bandwidth(bytes)), start_(thread_time()) {}
+
+  void report(std::int64_t items) {
+    const double seconds = thread_time() - start_;
+    state_.SetItemsProcessed(state_.iterations() * items);
+    const double best = std::max(before_, triad_bandwidth(bytes_));
+    const double total = static_cast<double>(bytes_) * static_cast<double>(state_.iterations());
+    if (best > 0.0) state_.counters["of_bandwidth"] = total / seconds / best;
+  }
+
+ private:
+  benchmark::State& state_;
+  std::size_t bytes_;
   double before_, start_;
 };
 

@@ -5,7 +5,8 @@
 
 #include <sigmax/core/update.hpp>
 
-#include "numbers.hpp"
+#include "core/numbers.hpp"
+#include "core/peak.hpp"
 
 namespace sigmax {
 namespace {
@@ -13,15 +14,15 @@ namespace {
 std::size_t size(const benchmark::State& state) { return static_cast<std::size_t>(state.range(0)); }
 
 /// One item is one outcome, or one number of the relation that is inverted.
-void count(benchmark::State& state, std::int64_t items) { state.SetItemsProcessed(state.iterations() * items); }
-
 template <Uncertainty Kind>
 void update_distribution(benchmark::State& state) {
   const Variable<Kind> x{"x", size(state)};
   const auto prior = normalized(x, std::span<const double>(bench::numbers(x.size(), 1)));
   const Likelihood<Kind> likelihood{x, bench::numbers(x.size(), 2)};
+  using Number = typename Likelihood<Kind>::Row::Number;
+  bench::BesideBandwidth beside{state, x.size() * (2 * sizeof(double) + sizeof(Number))};  // prior, result; likelihood
   for (auto _ : state) benchmark::DoNotOptimize(update(prior, likelihood));
-  count(state, state.range(0));
+  beside.report(state.range(0));
 }
 
 template <Uncertainty Kind>
@@ -30,8 +31,9 @@ void update_belief(benchmark::State& state) {
   const Belief<Kind> prior{normalized(x, std::span<const double>(bench::numbers(x.size(), 1)))};
   const Likelihood<Kind> likelihood{x, bench::numbers(x.size(), 2)};
   Belief<Kind> posterior = prior;
+  bench::BesideBandwidth beside{state, x.size() * 3 * sizeof(double)};
   for (auto _ : state) benchmark::DoNotOptimize(update(prior, likelihood, posterior));
-  count(state, state.range(0));
+  beside.report(state.range(0));
 }
 
 template <Uncertainty Kind>
@@ -39,7 +41,7 @@ void invert_relation(benchmark::State& state) {
   const auto relation = bench::transition<Kind>(size(state), 1);
   const auto prior = uninformative(relation.from());
   for (auto _ : state) benchmark::DoNotOptimize(invert(relation, prior));
-  count(state, state.range(0) * state.range(0));
+  state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
 }
 
 BENCHMARK(update_distribution<Random>)->RangeMultiplier(8)->Range(2, 1 << 16);
