@@ -248,7 +248,7 @@ std::vector<bool> can_be_last(const OrderProblem& problem) {
   const std::size_t n = problem.roles.size();
   std::vector<bool> can(n);
   for (Vertex v = 0; v < n; ++v) can[v] = problem.roles[v] == Role::eliminated;
-  std::vector<std::vector<Vertex>> followers(n);  // of its own kind, that lead where it does
+  std::vector<std::vector<Vertex>> followers(n);  // of its own kind, that cannot be last if it cannot
   const Interactions graph(problem);
   for_each_outside(graph, problem.roles, [&](Vertex c, const std::set<Vertex>& outside) {
     for (const Vertex u : outside) {

@@ -35,9 +35,9 @@ struct Order {
 /// Whether variables of different kinds are eliminated or kept.
 bool of_two_kinds(const OrderProblem& problem);
 
-/// For every variable, whether it is eliminated and leads to none of another kind: none outside it is joined to it
-/// through what is within it, be it by way of others of its own kind. All of these that are of one kind can be kept to
-/// the last together, docs/networks.md.
+/// For every variable, whether it is eliminated and all outside it that are joined to it, be it through what is within
+/// it, are of its kind and can be last as well. All that can and are of one kind can be kept to the last together,
+/// docs/networks.md.
 std::vector<bool> can_be_last(const OrderProblem& problem);
 
 /// An order of elimination that provably gives the value of the reverse order of declaration; by the least fill.
