@@ -59,7 +59,7 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
     this->require(dt, z);
     if constexpr (Filter::shortens)
-      if (position_by(sensor) && z.size() == Filter::axes && this->shortened(dt, &z, gate, predicted_)) return;
+      if (this->is_position(sensor, z.size()) && this->shortened(dt, &z, gate, predicted_)) return;
     bool taken = false, concluded = false;
     this->located(dt, [&] {
       mix(dt);                                       // step 1, (51)–(59)
@@ -127,15 +127,6 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
       return this->template shortened<Measurement>(dt, nullptr, no_gate, predicted_);
     else
       return false;
-  }
-
-  /// Whether a sensor is that of the position, by its type or as it was chosen.
-  template <class Sensor>
-  static bool position_by(const Sensor& sensor) {
-    if constexpr (detail::ChosenSensor<Sensor>)
-      return sensor.visit([](const auto& chosen) { return position_by(chosen); });
-    else
-      return std::same_as<Sensor, PositionSensor<Filter::axes>>;
   }
 
   /// What is predicted is what is known.

@@ -18,25 +18,31 @@
 /// Which filters may take the short step of kinematic_plan.hpp, and when.
 namespace sigmax::detail::kinematic {
 
+/// Along how many axes a motion goes, and its order along each; zero if it is none along independent axes, or one whose
+/// F_s is not made of shears.
+struct Shape {
+  int axes = 0, order = 0;
+  bool operator==(const Shape&) const = default;
+};
+
 /// @{
-/// The law of a motion over one step, and its order; zero if it is no motion along independent axes, or one whose F_s
-/// is not made of shears.
+/// The law of a motion over one step, and its shape.
 template <class Moves>
-int describe(const Moves&, double, Law&) {
-  return 0;
+Shape describe(const Moves&, double, Law&) {
+  return {};
 }
 template <int A, class MotionLaw>
-int describe(const IndependentAxes<A, MotionLaw>& motion, double dt, Law& law) {
+Shape describe(const IndependentAxes<A, MotionLaw>& motion, double dt, Law& law) {
   constexpr int order = MotionLaw::order;
   const auto at = [](int a, int b) { return static_cast<std::size_t>(triangle(a) + b); };
   const SquareMatrix<order> F = motion.law().transition(dt);
   const SquareMatrix<order> Q = motion.law().process_covariance(dt);
   for (int a = 0; a + 1 < order; ++a)
-    if (F(a, a) != 1.0) return 0;
+    if (F(a, a) != 1.0) return {};
   law.shears = {};
   if constexpr (order == 2) law.shears[0] = F(0, 1);
   if constexpr (order == 3) {
-    if (F(1, 2) == 0.0 && F(0, 2) != 0.0) return 0;
+    if (F(1, 2) == 0.0 && F(0, 2) != 0.0) return {};
     const double last = F(1, 2) == 0.0 ? 0.0 : F(0, 2) / F(1, 2);
     law.shears = {F(0, 1) - last, F(1, 2), last};
   }
@@ -48,15 +54,15 @@ int describe(const IndependentAxes<A, MotionLaw>& motion, double dt, Law& law) {
     }
   const auto input = motion.known_input(dt);
   for (int i = 0; i < order * A; ++i) law.u[static_cast<std::size_t>(i)] = input(i);
-  return order;
+  return {A, order};
 }
 template <int MaxStateSize, class... Moves>
-int describe(const AnyMotion<MaxStateSize, Moves...>& motion, double dt, Law& law) {
+Shape describe(const AnyMotion<MaxStateSize, Moves...>& motion, double dt, Law& law) {
   return motion.visit([&](const auto& chosen) { return describe(chosen, dt, law); });
 }
 template <class Model>
   requires requires(const Model& model) { model.motion(); }
-int describe(const Model& model, double dt, Law& law) { return describe(model.motion(), dt, law); }
+Shape describe(const Model& model, double dt, Law& law) { return describe(model.motion(), dt, law); }
 /// @}
 
 /// @{
@@ -66,8 +72,7 @@ inline constexpr bool may_be = false;
 template <int A, class MotionLaw>
 inline constexpr bool may_be<IndependentAxes<A, MotionLaw>> = true;
 template <int MaxStateSize, class... Moves>
-inline constexpr bool may_be<AnyMotion<MaxStateSize, Moves...>> = (AnyMotion<MaxStateSize, Moves...>::axes > 0) &&
-                                                                  (may_be<Moves> || ...);
+inline constexpr bool may_be<AnyMotion<MaxStateSize, Moves...>> = (may_be<Moves> || ...);
 template <class Model>
   requires requires { typename Model::MotionType; }
 inline constexpr bool may_be<Model> = may_be<typename Model::MotionType>;
@@ -90,7 +95,6 @@ class Shortcut {
   Shortcut(const Models& models, const Interaction<Kind>& interaction) {
     if constexpr (possible) {
       if (mode_count(models) > static_cast<std::size_t>(max_modes) || interaction.lift == Lift::prior) return;
-      plan_.axes = Bank<Models>::axes;
       plan_.modes = static_cast<int>(mode_count(models));
       plan_.lift = interaction.lift;
       plan_.output_tie = interaction.output_tie;
@@ -107,8 +111,10 @@ class Shortcut {
       outputs_ = true;
       for_each_mode(models, [&](auto j) {
         Law law;
-        plan_.order[std::size_t{j}] = describe(mode(models, j), 1.0, law);
-        outputs_ = outputs_ && plan_.order[std::size_t{j}] > 0;
+        const Shape shape = describe(mode(models, j), 1.0, law);
+        if (std::size_t{j} == 0) plan_.axes = shape.axes;
+        plan_.order[std::size_t{j}] = shape.order;
+        outputs_ = outputs_ && shape.order > 0 && shape.axes == plan_.axes;
       });
       steps_ = steps_ && outputs_;
     }
@@ -124,11 +130,14 @@ class Shortcut {
       described_ = true;
       for_each_mode(models, [&](auto j) {
         const std::size_t at = j;
-        described_ = described_ && describe(mode(models, j), dt, plan_.law[at]) == plan_.order[at];
+        described_ = described_ && describe(mode(models, j), dt, plan_.law[at]) == Shape{plan_.axes, plan_.order[at]};
       });
     }
     return described_;
   }
+
+  /// Along which all models move, if there is a short step.
+  int axes() const { return plan_.axes; }
 
   /// One step with the measurement z and its R, or none. False if it must be the general one.
   bool step(const State& now, const double* z, const double* R, State& next, Told& told) const {

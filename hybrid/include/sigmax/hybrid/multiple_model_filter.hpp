@@ -185,6 +185,17 @@ class MultipleModelFilter {
     forget_mode();
   }
 
+  /// Whether so many numbers of a sensor are the position along all axes of models that have a short step.
+  template <class Sensor>
+  bool is_position([[maybe_unused]] const Sensor& sensor, Eigen::Index size) const {
+    if constexpr (detail::ChosenSensor<Sensor>)
+      return sensor.visit([&](const auto& chosen) { return is_position(chosen, size); });
+    else if constexpr (measures_leading_components<Sensor>)
+      return Sensor::axes == shortcut_.axes() && size == Sensor::axes;
+    else
+      return false;
+  }
+
   /// What the step is writing: until `conclude`, all that is public shows the state before.
   State& next() { return states_[1 - current_]; }
 
@@ -247,7 +258,7 @@ class MultipleModelFilter {
     predicted_mode_ = select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
     bool taken = z != nullptr;
     if (z) {
-      for (std::size_t j = 0; j < modes(); ++j) assign<axes>(told, j, innovations_[j]);
+      for (std::size_t j = 0; j < modes(); ++j) assign(told, j, innovations_[j]);
       taken = passes(gate);
     }
     if (z && !taken && !take(nullptr, nullptr)) return false;
@@ -329,10 +340,10 @@ class MultipleModelFilter {
 
   static double unit(std::size_t) { return 1.0; }
 
-  template <int A>
   void assign(const detail::kinematic::Told& told, std::size_t j, AnyInnovation& to) const {
-    to.residual = Eigen::Map<const Vector<A>>(told.residual[j].data());
-    to.covariance = Eigen::Map<const SquareMatrix<A>>(told.S[j].data());
+    const int A = shortcut_.axes();
+    to.residual = Eigen::Map<const Eigen::VectorXd>(told.residual[j].data(), A);
+    to.covariance = Eigen::Map<const Eigen::MatrixXd>(told.S[j].data(), A, A);
     to.squared_distance = told.squared_distance[j];
     to.log_likelihood = -0.5 * told.squared_distance[j];
     if (interaction_.likelihood == LikelihoodForm::density)
