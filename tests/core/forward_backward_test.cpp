@@ -184,6 +184,23 @@ TEST(ForwardBackward, KeepsWhatNoDoubleHoldsTogether) {
   EXPECT_PRED_FORMAT3(near, leaked.log_total(), -1000 * std::log(2.0), 1e-14);
 }
 
+TEST(ForwardBackward, KeepsWhatNoDoubleHoldsInAReport) {
+  // Nor any exponent of a double: twelve bits would take 2⁻⁴⁰⁹⁶ for one.
+  const FuzzyVariable x{"x", 2};
+  const Relation stays{x, x, {{1.0, 0.0}, {0.0, 1.0}}};
+  for (const int power : {-290, -310, -1000, -1100, -2048, -4096, -8192}) {
+    std::vector<Likelihood<Fuzzy>> reports(2, Likelihood<Fuzzy>{x});
+    reports[0].set_log(1, power * std::log(2.0));
+    const auto found = forward_backward(Distribution{x, {1.0, 0.25}}, stays, reports);
+    EXPECT_PRED_FORMAT3(near, found.at(2).values(), (Numbers{1.0, std::ldexp(0.25, power)}), 1e-15) << power;
+    EXPECT_EQ(found.log_total(), 0.0) << power;
+    reports[1].set_log(0, power * std::log(2.0));
+    const auto undone = forward_backward(Distribution{x, {1.0, 0.25}}, stays, reports);
+    EXPECT_PRED_FORMAT3(near, undone.at(1).values(), (Numbers{1.0, 0.25}), 1e-15) << power;
+    EXPECT_PRED_FORMAT3(near, undone.log_total(), power * std::log(2.0), 1e-15) << power;
+  }
+}
+
 TEST(ForwardBackward, RefusesWhatDoesNotFit) {
   const RandomVariable x{"x", 2}, y{"y", 2};
   const Distribution start{x, {1.0, 0.0}};

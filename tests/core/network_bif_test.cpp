@@ -122,7 +122,7 @@ TEST(Bif, NamesTheLineOfABadProbability) {
   EXPECT_TRUE(refused(given + "probability ( b ) {\n  table 0.5, 0.5;", {"test.bif:13:", "3 numbers for 'b'", "';'"}));
   EXPECT_TRUE(refused(given + "probability ( b ) {\n  table 0.5, 0.5, 0.0, 0.0;", {"test.bif:13:", "';'", "'0.0'"}));
   EXPECT_TRUE(refused(given + "probability ( b ) {\n  table 0.5, 0,5;", {"test.bif:13:", "between 0 and 1", "'5'"}));
-  for (const std::string number : {"nan", "inf", "-0.5", "0.5x", "1e999", "+0.5", "0x1"})
+  for (const std::string number : {"nan", "inf", "-0.5", "1.5", "0.5x", "1e999", "+0.5", "0x1"})
     EXPECT_TRUE(refused(given + "probability ( b ) {\n  table " + number + ", 0.5, 0.5;\n}",
                         {"test.bif:13:", "between 0 and 1", "'" + number + "'"}));
   EXPECT_TRUE(refused(given + "probability ( b | a ) {\n (yes) 1, 0, 0;\n (maybe) 1, 0, 0;\n}",

@@ -6,6 +6,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sigmax/core/witness.hpp>
@@ -79,6 +80,16 @@ TEST(Explain, ReadsACrispFeatureOffItsTable) {
 }
 
 /// The sensor's crisp reading leads through the value that `compose_with_witness` says.
+TEST(Explain, TellsTheReportAndTheFeatureOfEachFinding) {
+  const Classifier classifier{uninformative(platform), std::vector{emitter_given_platform, emitter_given_platform}};
+  const std::vector<Report<Fuzzy>> reports{
+      {missing, std::size_t{1}}, {missing, missing}, {std::size_t{0}, std::size_t{1}}};
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (const Contribution& each : explain(classifier, std::span(reports), 0, 1).contributions)
+    found.emplace_back(each.report, each.feature);
+  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {2, 0}, {2, 1}}));
+}
+
 TEST(Explain, NamesTheWitnessOfTheComposition) {
   holds([] {
     const auto pattern = any_variable<Fuzzy>("pattern"), feature = any_variable<Fuzzy>("feature");
