@@ -80,6 +80,8 @@ ExactRow exact_compose(const Rows& left, const ExactRow& right) {
 
 TEST(Chain, OfNothingIsItsStart) {
   const Chain chain{Distribution{weather, {0.25, 0.5, 0.25}}};
+  EXPECT_EQ(chain.variable(), weather);
+  EXPECT_EQ(Chain{chain}.variable(), weather);
   EXPECT_EQ(chain.log_total(), 0.0);
   EXPECT_EQ(chain.log(1), std::log(0.5));
   EXPECT_EQ(most_likely(chain), "wet");
