@@ -101,8 +101,8 @@ NetworkAnswer query(const RelationNetwork& network, const std::vector<std::strin
 Elimination cost(const RelationNetwork& network, const std::vector<std::string>& variables,
                  const Evidence& evidence = {});
 
-/// query(network, {name}, evidence) of every variable, in the order of declaration, from one tree of cliques if they are
-/// of one kind: little more work than a single query. The total of each is the evidence.
+/// query(network, {name}, evidence) of every variable, in the order of declaration, from one tree of cliques if they
+/// are of one kind: little more work than a single query. The total of each is the evidence.
 ///
 /// Of different kinds, those that are not induced share a tree for each kind, with all others eliminated before. Each
 /// that is induced has an order of its own, and is a query by itself; as are all where the tree is above the limit.
