@@ -14,7 +14,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t most_parts = 25;
+constexpr std::size_t most_sweep_batches = 25;
 constexpr std::size_t components = 9;  // by phase and axis
 using Squares = std::array<double, components>;
 
@@ -192,7 +192,7 @@ std::vector<double> SweepWorld::work(std::size_t cell) const {
 
   std::vector<double> row = {static_cast<double>(best - scores.begin()), *best};
   const auto runs = static_cast<std::uint64_t>(choice_.runs);
-  const std::uint64_t batches = std::min<std::uint64_t>(most_parts, runs);
+  const std::uint64_t batches = std::min<std::uint64_t>(most_sweep_batches, runs);
   for (std::uint64_t batch = 0; batch < batches; ++batch) {
     Squares own{}, raw{};
     const std::uint64_t first = runs * batch / batches, last = runs * (batch + 1) / batches;

@@ -18,35 +18,17 @@
 #include <sigmax/core/network/transform.hpp>
 #include <sigmax/core/sample.hpp>
 
+#include "core/network_grid.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
+using support::grid;
+using support::name;
 using support::near;
 using support::throws;
-
-std::string name(std::size_t k) { return "x" + std::to_string(k); }
-
-/// A square grid of binary random variables, each given the ones to its left and above.
-RelationNetwork grid(std::size_t side) {
-  RelationNetwork network;
-  std::vector<NetworkVariable> variables;
-  for (std::size_t k = 0; k < side * side; ++k) {
-    std::vector<NetworkVariable> parents;
-    if (k % side > 0) parents.push_back(variables[k - 1]);
-    if (k >= side) parents.push_back(variables[k - side]);
-    variables.emplace_back(RandomVariable{name(k), 2});
-    std::vector<std::vector<double>> rows;
-    for (std::size_t r = 0; r < (std::size_t{1} << parents.size()); ++r) {
-      const double p = 0.125 * static_cast<double>(1 + (r + k) % 7);
-      rows.push_back({p, 1.0 - p});
-    }
-    network.declare(variables.back(), parents, rows);
-  }
-  return network;
-}
 
 TEST(NetworkLimit, RefusesATableThatIsTooLargeBeforeItIsMade) {
   const RelationNetwork network = grid(40);
