@@ -43,6 +43,7 @@ class MpiRanks : public Ranks {
   }
   ~MpiRanks() override {
     for (auto& [bytes, request] : under_way_) MPI_Wait(&request, MPI_STATUS_IGNORE);
+    MPI_Barrier(MPI_COMM_WORLD);  // mpirun may crash or stay if the first aborts while others finalize
     MPI_Finalize();
   }
 
