@@ -83,8 +83,11 @@ std::string EstimateLines::line(const std::string& track, const FilterSettings& 
   return line + "\n";
 }
 
+template Geodetic tell_from(const LocalFrame<1>&, const LocalFrame<1>&, TrackPoint<1>&);
 template Geodetic tell_from(const LocalFrame<2>&, const LocalFrame<2>&, TrackPoint<2>&);
 template Geodetic tell_from(const LocalFrame<3>&, const LocalFrame<3>&, TrackPoint<3>&);
+template std::string EstimateLines::line(const std::string&, const FilterSettings&, const TrackPoint<1>&,
+                                         const std::optional<Geodetic>&) const;
 template std::string EstimateLines::line(const std::string&, const FilterSettings&, const TrackPoint<2>&,
                                          const std::optional<Geodetic>&) const;
 template std::string EstimateLines::line(const std::string&, const FilterSettings&, const TrackPoint<3>&,

@@ -16,20 +16,24 @@ namespace sigmax::apps {
 template <int Axes>
 std::optional<Reading<Axes>> reading_of(const Fix& fix, const FilterSettings& settings, const Vector<3>& radar_at) {
   const Accuracy& accuracy = settings.accuracy_of(fix.sensor);
-  const Polar sigma = accuracy.radar_of(fix.sigma);
-  if (fix.bearing)
-    return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
-                         .bearing_from = radar_at.head<2>()};
-  if (fix.seen) {
-    const bool doppler = fix.range_rate && accuracy.range_rate_mps;
-    auto reading =
-        radar_reading<Axes>(*fix.seen, sigma, radar_at, doppler ? RadarForm::polar : settings.radar_measurement);
-    if (doppler) reading.range_rate = {*fix.range_rate, std::pow(*accuracy.range_rate_mps, 2)};
-    return reading;
+  if constexpr (Axes > 1) {
+    const Polar sigma = accuracy.radar_of(fix.sigma);
+    if (fix.bearing)
+      return Reading<Axes>{.bearing = {{*fix.bearing, sigma.azimuth * sigma.azimuth}},
+                           .bearing_from = radar_at.head<2>()};
+    if (fix.seen) {
+      const bool doppler = fix.range_rate && accuracy.range_rate_mps;
+      auto reading =
+          radar_reading<Axes>(*fix.seen, sigma, radar_at, doppler ? RadarForm::polar : settings.radar_measurement);
+      if (doppler) reading.range_rate = {*fix.range_rate, std::pow(*accuracy.range_rate_mps, 2)};
+      return reading;
+    }
   }
   const bool moving = fix.moving() && accuracy.velocity_mps;
   if (!fix.position && !moving) return std::nullopt;
-  Reading<Axes> reading{.measured = fix.measured_axes(Axes)};
+  Reading<Axes> reading;
+  for (std::size_t axis = 0; axis < reading.missing.size(); ++axis)
+    reading.missing[axis] = !fix.position || fix.missing[axis];
   if (fix.position) reading.position.mean = fix.position->head<Axes>();
   for (int i = 0; i < Axes; ++i) {
     const auto axis = static_cast<std::size_t>(i);

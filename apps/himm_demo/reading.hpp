@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -18,10 +19,12 @@ enum class RadarForm { standard, unbiased, debiased, polar };
 /// What a row measured, as a filter takes it.
 template <int Axes>
 struct Reading {
+  static constexpr int radar_axes = std::max(Axes, 2);  // no radar sees along one
+
   /// Range, azimuth and with three axes elevation, and the radar that measured them.
   struct Seen {
-    PolarSensor<Axes> radar;
-    Gaussian<Axes> z;
+    PolarSensor<radar_axes> radar;
+    Gaussian<radar_axes> z;
   };
 
   /// A number and its variance.
@@ -31,8 +34,8 @@ struct Reading {
   };
 
   Gaussian<Axes> position{Vector<Axes>::Zero(), SquareMatrix<Axes>::Zero()};  ///< of a radar: converted
-  int measured = Axes;       ///< so many leading axes of the position were measured
-  std::optional<Seen> seen;  ///< by a radar, if the filter takes that in the radar's own space
+  std::array<bool, static_cast<std::size_t>(Axes)> missing{};  ///< axes of the position that were not measured
+  std::optional<Seen> seen{};  ///< by a radar, if the filter takes that in the radar's own space
   std::array<std::optional<Scalar>, static_cast<std::size_t>(Axes)> velocity{};  ///< along each axis, in m/s
   std::optional<Scalar> range_rate{};                                            ///< of the radar that has `seen`
   std::optional<Scalar> bearing{};  ///< all that was measured, counter-clockwise from x in rad
@@ -48,7 +51,7 @@ Reading<Axes> radar_reading(const Polar& measured, Polar sigma, const Vector<3>&
   if (form == RadarForm::debiased) conversion = Conversion::debiased;
   const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
   const Vector<3> mean = position.mean + radar_at;
-  Reading<Axes> reading{{mean.head<Axes>(), position.covariance.topLeftCorner<Axes, Axes>()}, Axes, std::nullopt};
+  Reading<Axes> reading{{mean.head<Axes>(), position.covariance.topLeftCorner<Axes, Axes>()}};
   if (form == RadarForm::polar)
     reading.seen = {PolarSensor<Axes>(Vector<Axes>(radar_at.head<Axes>())),
                     PolarSensor<Axes>::measurement(measured, sigma)};

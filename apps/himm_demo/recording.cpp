@@ -89,22 +89,27 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   roll_ = find("roll_deg");
 
   const auto are_there = [](const Columns& columns) { return columns[0] && columns[1]; };
-  const bool is_cartesian = are_there(cartesian);
   geodetic_ = are_there(geodetic);
   if (!are_there(polar_)) polar_ = {};
+  const bool along_one = cartesian[0] && !cartesian[1] && !cartesian[2] && !geodetic_ && !polar();
+  const bool is_cartesian = are_there(cartesian) || along_one;
   refuse_other_kinds(is_cartesian, time.has_value());
   time_ = *time;
   position_ = geodetic_ ? geodetic : is_cartesian ? cartesian : Columns{};
 
-  const auto axes_of = [](const Columns& columns) { return columns[2] ? 3 : 2; };
+  const auto axes_of = [](const Columns& columns) {
+    return static_cast<int>(std::find(columns.begin(), columns.end(), std::nullopt) - columns.begin());
+  };
   axes_ = axes_of(polar() ? polar_ : position_);
   if (polar() && is_cartesian && axes_of(position_) != axes_)
     throw InputError(message({.where = csv_.file() + ":1",
                               .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
                               .expected = "both z_m and elevation_deg, or none of them",
                               .remedy = "give all sensors of a file as many axes"}));
-  if (!are_there(truth_) || axes_of(truth_) < axes_) truth_ = {};
-  if (axes_ == 2) truth_[2].reset();
+  if (axes_of(truth_) < axes_) truth_ = {};
+  for (std::size_t axis = static_cast<std::size_t>(axes_); axis < truth_.size(); ++axis) truth_[axis].reset();
+  for (std::size_t axis = static_cast<std::size_t>(axes_); axis < velocity_.size(); ++axis) velocity_[axis].reset();
+  if (axes_ == 1) course_ = {};
 }
 
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const {
@@ -127,7 +132,7 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const 
   throw InputError(message({.where = csv_.file() + ":1",
                             .what = what,
                             .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
-                            .expected = "time_s,x_m,y_m[,z_m], or time_s,latitude_deg,longitude_deg[,altitude_m] "
+                            .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] "
                                         "(or altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg"
                                         "[,elevation_deg]",
                             .remedy = remedy}));
@@ -146,7 +151,7 @@ bool RecordingReader::next(Fix& fix) {
     if (senseless_++ == 0) first_senseless_line_ = fix.line;
     return true;
   }
-  const auto position = numbers(position_, &fix.no_height);
+  const auto position = numbers(position_, &fix.missing);
   if (!position) take_bearing(fix);
   const auto seen = fix.bearing ? std::nullopt : numbers(polar_);
   if (position && seen)
@@ -252,26 +257,27 @@ void RecordingReader::take_sigmas(Fix& fix, const Columns& columns, double angle
   }
 }
 
-/// The numbers in the columns that there are, 0 in those that there are not; nothing if all cells are empty.
-std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns, bool* no_height) const {
+/// The numbers in the columns that there are, 0 in those that there are not; nothing if all cells are empty. If some
+/// are, and may be, those are `missing`: any of a Cartesian position, and the altitude of a place.
+std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& columns,
+                                                              std::array<bool, 3>* missing) const {
   std::array<double, 3> result = {0.0, 0.0, 0.0};
+  std::array<bool, 3> empty{};
   std::size_t filled = 0;
-  std::optional<std::size_t> empty;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i]) continue;
-    if (const auto cell = row_.optional_number(columns[i]->index)) {
-      result[i] = *cell * columns[i]->unit;
-      ++filled;
-    } else if (!empty) {
-      empty = columns[i]->index;
-    }
+    const auto cell = row_.optional_number(columns[i]->index);
+    empty[i] = !cell;
+    if (!cell) continue;
+    result[i] = *cell * columns[i]->unit;
+    ++filled;
   }
   if (filled == 0) return std::nullopt;
-  if (empty && no_height && filled == 2 && columns[2] && *empty == columns[2]->index)
-    *no_height = true;
-  else if (empty)
-    throw row_.error(*empty, "a number, since the row's other coordinates are there",
-                     "fill the cell or empty them all");
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (empty[i] && (!missing || (geodetic_ && i < 2)))
+      throw row_.error(columns[i]->index, "a number, since the row's other coordinates are there",
+                       "fill the cell or empty them all");
+  if (missing) *missing = empty;
   return result;
 }
 

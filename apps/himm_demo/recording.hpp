@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -36,9 +37,9 @@ struct Fix {
   double time_s = 0.0;
   std::string track;                              ///< empty without a column that tells tracks apart
   std::string sensor;                             ///< empty without a column `sensor`
-  std::optional<Vector<3>> position;              ///< measured: east, north, up in m; z is 0 on two axes
+  std::optional<Vector<3>> position;              ///< measured: east, north, up in m; 0 along what is missing
   std::optional<Geodetic> place;                  ///< measured; the altitude is 0 on two axes
-  bool no_height = false;                         ///< of three axes only the first two were measured
+  std::array<bool, 3> missing{};                  ///< axes of the recording along which the position was not measured
   std::optional<Polar> seen;                      ///< measured by a radar; the elevation is 0 on two axes
   std::optional<double> range_rate;               ///< measured with that, in m/s
   std::optional<double> bearing;                  ///< measured alone, in rad counter-clockwise from east
@@ -48,9 +49,14 @@ struct Fix {
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
 
-  /// So many leading axes of the position were measured, by whatever sensor.
-  int measured_axes(int axes) const { return !located() ? 0 : no_height ? axes - 1 : axes; }
   bool located() const { return position || place || seen; }
+  bool partly() const { return missing[0] || missing[1] || missing[2]; }
+  bool whole() const { return located() && !partly(); }
+
+  /// So many axes of the position were measured, by whatever sensor.
+  int measured_axes(int axes) const {
+    return located() ? axes - static_cast<int>(std::count(missing.begin(), missing.end(), true)) : 0;
+  }
   bool moving() const { return velocity[0] || velocity[1] || velocity[2]; }
   bool measured() const { return located() || bearing || moving(); }
 
@@ -111,7 +117,7 @@ class RecordingReader {
   bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);
-  std::optional<std::array<double, 3>> numbers(const Columns& columns, bool* no_height = nullptr) const;
+  std::optional<std::array<double, 3>> numbers(const Columns& columns, std::array<bool, 3>* missing = nullptr) const;
   void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
   void take_bearing(Fix& fix) const;
   void take_velocity(Fix& fix) const;

@@ -30,7 +30,7 @@ void refuse_what_means_nothing(const TrackOptions& options, const RecordingReade
   if (!options.radar) return;
   if (recording.polar()) throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
   if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
-  if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has two");
+  if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has fewer");
 }
 
 /// What is read must not be written over.
@@ -122,7 +122,7 @@ void add_track(CLI::App& program, const std::string& command) {
   add_simulated_radar(app, options->radar, options->radar_at);
   app.footer(
       "Recordings are told apart by their columns; others are ignored:\n"
-      "  time_s,x_m,y_m[,z_m]                               positions in m\n"
+      "  time_s,x_m[,y_m[,z_m]]                             positions in m\n"
       "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
       "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
       "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
@@ -131,8 +131,9 @@ void add_track(CLI::App& program, const std::string& command) {
       "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
       "accuracy of the row. Times are seconds, dates and times as\n"
       "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
-      "without a position is a missed measurement; its height alone may be missing, and\n"
-      "a radar's row with nothing but an azimuth is a bearing.\n"
+      "without a position is a missed measurement; one with some of x_m, y_m, z_m, or a\n"
+      "place without its height, measures what it has, and a radar's row with nothing\n"
+      "but an azimuth is a bearing.\n"
       "With sigma_velocity_mps, vx_mps,vy_mps[,vz_mps] are measurements too, or\n"
       "groundspeed_kt,track_deg (speed_mps, course_deg) and vertical_rate_fpm; with\n"
       "sigma_range_rate_mps a radar's range_rate_mps.\n"

@@ -32,13 +32,14 @@ TrackLedger::TrackLedger(const TrackOptions& options, const std::vector<FilterSe
 void TrackLedger::read(const Fix& fix, bool has_sensors) {
   ++outcome.rows;
   if (fix.measured()) ++outcome.measurements;
+  if (fix.partly()) ++outcome.partial;
   if (has_sensors) ++outcome.sensors[fix.sensor];
 }
 
 void TrackLedger::measured(const Fix& fix, const std::optional<Vector<3>>& position,
                            const std::optional<Geodetic>& anchor) {
   if (fix.seen) outcome.validity.add(fix, *fix.seen, filters_);
-  if (fix.truth && fix.located() && !fix.no_height)
+  if (fix.truth && fix.whole())
     add_by_part(outcome.raw, fix.roll_deg, [&](Sums& sums) {
       const Vector<3> error = *position - *fix.truth;
       for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add(error(static_cast<Eigen::Index>(axis)));

@@ -56,9 +56,9 @@ void TrackPage::measured(const Fix& fix, const std::optional<Vector<3>>& positio
   std::vector<double> row(plot_columns, nan);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    if (position) row[plot_at + i] = (*position)(axis);
+    if (position && !fix.missing[i]) row[plot_at + i] = (*position)(axis);
     if (fix.truth) row[truth_at + i] = (*fix.truth)(axis);
-    if (position && fix.truth) row[plot_error_at + i] = (*position)(axis) - (*fix.truth)(axis);
+    if (position && fix.truth && !fix.missing[i]) row[plot_error_at + i] = (*position)(axis) - (*fix.truth)(axis);
   }
   track->plots.add(fix.time_s, row);
 }

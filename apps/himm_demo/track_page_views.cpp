@@ -42,7 +42,7 @@ bool any(const std::vector<double>& values) {
 
 View TrackPage::view_of(const std::string& name, const Track& track) const {
   View view{name, charts(track)};
-  view.panels.insert(view.panels.begin(), plan(name, track));
+  if (recording_.axes() > 1) view.panels.insert(view.panels.begin(), plan(name, track));
   return view;
 }
 
@@ -52,7 +52,7 @@ std::vector<LineChart> TrackPage::charts_of_the_first() const {
   return {std::get<LineChart>(panels.front()), std::get<LineChart>(panels[panels.size() - 2])};
 }
 
-/// Errors or standard deviations, NIS and weights; all of one time.
+/// Along one axis the position; errors or standard deviations, NIS and weights; all of one time.
 std::vector<Panel> TrackPage::charts(const Track& track) const {
   std::vector<double> all = since(track.first_time, track.plots.times());
   for (const Thinned& estimates : track.estimates) {
@@ -77,6 +77,14 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   std::vector<Panel> panels;
   const auto axes = static_cast<std::size_t>(recording_.axes());
   const bool geodetic = recording_.geodetic();
+  if (axes == 1) {
+    LineChart along = chart("Position", "x, m");
+    along.curves.push_back(
+        {.name = measurement_name, .group = measurement_name, .values = of(track.plots, plot_at), .dots = true});
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      along.curves.push_back({filters_[f].name, filters_[f].name, of(track.estimates[f], position_at)});
+    panels.emplace_back(std::move(along));
+  }
   constexpr std::array places = {"east", "north", "up"};
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const std::string name = geodetic ? places[axis] : axis_names[axis];

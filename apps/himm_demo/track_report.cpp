@@ -52,6 +52,7 @@ class Reporter {
     }
     summary_["rows"] = outcome_.rows;
     summary_["measurements"] = outcome_.measurements;
+    if (outcome_.partial > 0) summary_["partial_measurements"] = outcome_.partial;
     summary_["skipped"] = recording_.skipped();
     if (recording_.has_sensors()) summary_["sensors"] = outcome_.sensors;
     if (recording_.has_tracks())
@@ -63,8 +64,10 @@ class Reporter {
     const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
       return filter.radar_measurement == RadarForm::polar;
     });
-    say(fmt::format("{}: {} rows, {} measurements, {} axes{}{}", file_, outcome_.rows, outcome_.measurements,
-                    recording_.axes(), recording_.geodetic() ? ", geodetic to local east-north-up" : "",
+    say(fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file_, outcome_.rows, outcome_.measurements,
+                    outcome_.partial > 0 ? fmt::format(" ({} along some axes only)", outcome_.partial) : "",
+                    recording_.axes(), recording_.axes() == 1 ? "axis" : "axes",
+                    recording_.geodetic() ? ", geodetic to local east-north-up" : "",
                     !recording_.polar() ? ""
                     : converted         ? ", a radar's measurements converted"
                                         : ", a radar's measurements"));

@@ -120,7 +120,7 @@ class TrackRun {
     Target<Axes>& target = target_of(fix.track);
     if (fix.place) place(target, fix);
     if (!shares_.concerns(target.rank)) return;
-    if (options_.radar && fix.position && !fix.no_height)
+    if (options_.radar && fix.position && fix.whole())
       see_by_radar(fix, *options_.radar, radar_at_, target.random, file());
     else if (options_.radar)
       fix.position.reset();
@@ -157,7 +157,9 @@ class TrackRun {
   }
 
   /// So far from the origin of a frame its axes are no longer east and north.
-  static bool far_away(const Vector<Axes>& position) { return position.template head<2>().norm() > 50e3; }
+  static bool far_away(const Vector<Axes>& position) {
+    return position.template head<std::min(Axes, 2)>().norm() > 50e3;
+  }
 
   /// Moves the frame of a filter along with a target that has gone far.
   void follow(Target<Axes>& target, std::size_t f) {
@@ -241,7 +243,7 @@ class TrackRun {
   /// What a row measures, in the frame of the filter and with the covariances that it believes.
   std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
     const Tracker<Axes>& tracker = target.trackers[f];
-    if (!tracker.running() && (fix.no_height || !fix.located())) return std::nullopt;
+    if (!tracker.running() && !fix.whole()) return std::nullopt;
     if (!target.anchor) return reading_of<Axes>(fix, filters_[f], radar_at_);
     return reading_of<Axes>(localized(fix, target.segments[f].back().frame, tracker), filters_[f], radar_at_);
   }
@@ -251,7 +253,7 @@ class TrackRun {
   static Fix localized(Fix fix, const LocalFrame<Axes>& frame, const Tracker<Axes>& tracker) {
     const auto known = [&] { return Vector<Axes>(tracker.now().estimate.mean.template head<Axes>()); };
     if (fix.place) {
-      if (fix.no_height) fix.place->altitude_m = frame.to_geodetic(known()).altitude_m;  // it is at the target's
+      if (fix.missing[2]) fix.place->altitude_m = frame.to_geodetic(known()).altitude_m;  // it is at the target's
       fix.position = Vector<3>::Zero();
       fix.position->template head<Axes>() = frame.to_local(*fix.place);
       fix.place.reset();
@@ -307,13 +309,14 @@ class TrackRun {
       throw InputError(message({.where = file(),
                                 .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
                                 .remedy = "see how the file writes the value"}));
-    throw InputError(
-        message({.where = file(),
-                 .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
-                                             : "there is too little for every filter to start",
-                 .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
-                 .expected = "at least three measurements (two rows if the start is given)",
-                 .remedy = "give more rows, or start = \"given\" with start_time_s"}));
+    throw InputError(message(
+        {.where = file(),
+         .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
+                                     : "there is too little for every filter to start",
+         .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
+         .expected = "at least three measurements (two rows if the start is given)",
+         .remedy = outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
+                                        : "give more rows, or start = \"given\" with start_time_s"}));
   }
 
   const TrackOptions& options_;
@@ -334,6 +337,7 @@ class TrackRun {
 
 TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
                        const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares) {
+  if (recording.axes() == 1) return TrackRun<1>(options, recording, filters, sinks, shares).run();
   if (recording.axes() == 3) return TrackRun<3>(options, recording, filters, sinks, shares).run();
   return TrackRun<2>(options, recording, filters, sinks, shares).run();
 }

@@ -57,6 +57,7 @@ struct TrackOutcome {
   SumsByPart raw;  ///< of the measurements, where the truth is known
   std::size_t rows = 0;
   std::size_t measurements = 0;
+  std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t tracks = 0;
   std::vector<std::string> never_started;      ///< tracks that are too short for a filter
   std::map<std::string, std::size_t> sensors;  ///< the rows of each

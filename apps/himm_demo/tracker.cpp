@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
+
+#include "support/error.hpp"
 
 namespace sigmax::apps {
 
 TargetChoice choice_of(const FilterSettings& settings, int axes) {
+  for (const auto& motion : settings.motions)
+    if (axes < motion.known().least_axes)
+      throw UsageError(message({.what = "filter '" + settings.name + "': the recording has one axis, and " +
+                                        motion.name + " turns in a plane",
+                                .remedy = "choose motions that do not turn"}));
   TargetChoice choice = settings;
   choice.axes = axes;
   choice.rules = {.gate_probability = settings.gate_probability,
@@ -23,15 +29,19 @@ AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::s
   if (!reading) return plot;
   Vector<6> z = Vector<6>::Zero();
   SquareMatrix<6> R = SquareMatrix<6>::Zero();
-  const auto lead = [&](const Gaussian<Axes>& measured, int size) {
-    z.head(size) = measured.mean.head(size);
-    R.topLeftCorner(size, size) = measured.covariance.topLeftCorner(size, size);
-    plot.size = size;
+  const auto lead = [&](const auto& measured) {
+    plot.size = static_cast<int>(measured.mean.size());
+    z.head(plot.size) = measured.mean;
+    R.topLeftCorner(plot.size, plot.size) = measured.covariance;
   };
   const auto add = [&](const typename Reading<Axes>::Scalar& quantity) {
     z(plot.size) = quantity.value;
     R(plot.size, plot.size) = quantity.variance;
     ++plot.size;
+  };
+  const auto add_component = [&](int place, const typename Reading<Axes>::Scalar& quantity) {
+    plot.places[static_cast<std::size_t>(plot.size)] = place;
+    add(quantity);
   };
   if (reading->bearing) {
     plot.sensor = AnyPlot::Sensor::bearing;
@@ -39,25 +49,31 @@ AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::s
     std::copy_n(reading->bearing_from.begin(), 2, plot.origin.begin());
   } else if (reading->seen) {
     plot.sensor = reading->range_rate ? AnyPlot::Sensor::doppler : AnyPlot::Sensor::polar;
-    lead(reading->seen->z, Axes);
+    lead(reading->seen->z);
     if (reading->range_rate) add(*reading->range_rate);
-    std::copy_n(reading->seen->radar.origin().begin(), Axes, plot.origin.begin());
+    std::copy(reading->seen->radar.origin().begin(), reading->seen->radar.origin().end(), plot.origin.begin());
   } else {
-    lead(reading->position, reading->measured);
-    std::iota(plot.places.begin(), plot.places.end(), 0);
-    for (std::size_t axis = 0; axis < reading->velocity.size(); ++axis)
-      if (const auto& along = reading->velocity[axis]) {
-        plot.places[static_cast<std::size_t>(plot.size)] = Axes + static_cast<int>(axis);
-        add(*along);
-      }
-    const bool position = plot.size == Axes && reading->measured == Axes;
-    plot.sensor = position ? AnyPlot::Sensor::position : AnyPlot::Sensor::components;
+    const auto missing = std::count(reading->missing.begin(), reading->missing.end(), true);
+    const auto moving = std::count_if(reading->velocity.begin(), reading->velocity.end(),
+                                      [](const auto& along) { return along.has_value(); });
+    if (missing == 0 && moving == 0) {
+      plot.sensor = AnyPlot::Sensor::position;
+      lead(reading->position);
+    } else {
+      plot.sensor = AnyPlot::Sensor::components;
+      const auto& [mean, covariance] = reading->position;
+      for (int i = 0; i < Axes; ++i)
+        if (!reading->missing[static_cast<std::size_t>(i)]) add_component(i, {mean(i), covariance(i, i)});
+      for (int i = 0; i < Axes; ++i)
+        if (const auto& along = reading->velocity[static_cast<std::size_t>(i)]) add_component(Axes + i, *along);
+    }
   }
   std::copy_n(z.begin(), plot.size, plot.z.begin());
   Eigen::Map<Eigen::MatrixXd>(plot.covariance.data(), plot.size, plot.size) = R.topLeftCorner(plot.size, plot.size);
   return plot;
 }
 
+template AnyPlot plot_of<1>(double, const std::optional<Reading<1>>&, std::size_t);
 template AnyPlot plot_of<2>(double, const std::optional<Reading<2>>&, std::size_t);
 template AnyPlot plot_of<3>(double, const std::optional<Reading<3>>&, std::size_t);
 
@@ -115,6 +131,7 @@ auto Tracker<Axes>::finish() const -> std::vector<Point> {
   return points;
 }
 
+template class Tracker<1>;
 template class Tracker<2>;
 template class Tracker<3>;
 

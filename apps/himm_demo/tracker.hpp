@@ -73,6 +73,7 @@ class Tracker {
   AnyTarget target_;
 };
 
+extern template class Tracker<1>;
 extern template class Tracker<2>;
 extern template class Tracker<3>;
 

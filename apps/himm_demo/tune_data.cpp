@@ -52,7 +52,7 @@ class TuneReader {
         if (!its.origin) its.origin = one_frame ? *first : recording.origin().value_or(*fix.place);
         localize(fix, its);
       }
-      if (options_.radar && fix.position && !fix.no_height)
+      if (options_.radar && fix.position && fix.whole())
         see_by_radar(fix, *options_.radar, data_.radar_at, its.random, recording.csv().file());
       else if (options_.radar)
         fix.position.reset();
@@ -68,7 +68,7 @@ class TuneReader {
       throw InputError(
           message({.where = file,
                    .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options_.files[0], Axes),
-                   .remedy = "tune recordings of two and of three axes apart"}));
+                   .remedy = "tune recordings of one, two and three axes apart"}));
     if (options_.objective != Objective::prequential && !options_.radar && !recording.has_truth())
       throw InputError(
           message({.where = file + ":1",
@@ -79,15 +79,15 @@ class TuneReader {
     if (recording.polar())
       throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
     if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
-    if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has two");
+    if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has fewer");
   }
 
   /// The place as a position; without a height it is at the target's last.
   static void localize(Fix& fix, Open& track) {
     Geodetic place = *fix.place;
     fix.place.reset();
-    if (fix.no_height && !track.altitude_m) return;
-    if (fix.no_height) place.altitude_m = *track.altitude_m;
+    if (fix.missing[2] && !track.altitude_m) return;
+    if (fix.missing[2]) place.altitude_m = *track.altitude_m;
     track.altitude_m = place.altitude_m;
     const LocalFrame<Axes> frame(*track.origin);
     const Vector<Axes> position = frame.to_local(place);
@@ -149,7 +149,7 @@ void summarize(TuneData& data) {
       if (!fix.located()) continue;
       if (fix.seen)
         all_polars.add({fix.seen->range, fix.seen->azimuth, fix.seen->elevation});
-      else
+      else if (fix.whole())
         all_positions.add(*fix.position);
       const bool unsaid = std::any_of(fix.sigma.begin(), fix.sigma.begin() + data.axes,
                                       [](const auto& sigma) { return !sigma.has_value(); });
@@ -169,10 +169,12 @@ TuneData read_tune_data(const TuneOptions& options) {
   if (std::count(options.files.begin(), options.files.end(), "-") > 0)
     throw UsageError("tune reads its files more than once: it takes no standard input");
   data.axes = RecordingReader(first).axes();
-  if (data.axes == 3)
-    read_all<3>(options, data);
-  else
+  if (data.axes == 1)
+    read_all<1>(options, data);
+  else if (data.axes == 2)
     read_all<2>(options, data);
+  else
+    read_all<3>(options, data);
   summarize(data);
   if (data.measurements < fewest_in_all)
     throw InputError(message(
@@ -209,7 +211,8 @@ std::vector<AnyPlot> plots_of(const TuneData& data, const TuneTrack& track, cons
 }  // namespace
 
 std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSettings& settings) const {
-  return axes == 3 ? plots_of<3>(*this, track, settings) : plots_of<2>(*this, track, settings);
+  if (axes == 1) return plots_of<1>(*this, track, settings);
+  return axes == 2 ? plots_of<2>(*this, track, settings) : plots_of<3>(*this, track, settings);
 }
 
 }  // namespace sigmax::apps

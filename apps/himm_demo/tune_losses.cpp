@@ -68,7 +68,7 @@ Losses losses(const TuneData& data, const FilterSettings& settings, Objective ob
     };
     for (const AnyPlot& plot : data.plots(track, settings)) {
       const Fix& fix = track.rows[plot.tag];
-      if (target.running() || (fix.located() && !fix.no_height)) target.take(plot, stepped);
+      if (target.running() || fix.whole()) target.take(plot, stepped);
     }
   }
   return result;

@@ -54,7 +54,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
     const auto& sigma = now.position_m;
     const double ratio = sigma.size() == 1 ? 1.0 : sigma[1] / sigma[0];
     const double height = sigma.back();
-    const bool one = axes == 2 && sigma.size() == 1;
+    const bool one = axes < 3 && sigma.size() == 1;
     add("sigma_position_m", sigma[0], [=](Accuracy& accuracy, double value) {
       if (one)
         accuracy.position_m = {value};

@@ -44,6 +44,8 @@ Vector<Axes> LocalFrame<Axes>::to_local(const Geodetic& point) const {
   if constexpr (Axes == 3)
     cartesian(origin_).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, position(0), position(1),
                                position(2));
+  else if constexpr (Axes == 1)
+    position(0) = point.altitude_m - origin_.altitude_m;
   else
     AzimuthalEquidistant().Forward(origin_.latitude_deg, origin_.longitude_deg, point.latitude_deg, point.longitude_deg,
                                    position(0), position(1));
@@ -56,6 +58,8 @@ Geodetic LocalFrame<Axes>::to_geodetic(const Vector<Axes>& position) const {
   if constexpr (Axes == 3)
     cartesian(origin_).Reverse(position(0), position(1), position(2), point.latitude_deg, point.longitude_deg,
                                point.altitude_m);
+  else if constexpr (Axes == 1)
+    point = {origin_.latitude_deg, origin_.longitude_deg, origin_.altitude_m + position(0)};
   else
     AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, position(0), position(1),
                                    point.latitude_deg, point.longitude_deg);
@@ -65,7 +69,9 @@ Geodetic LocalFrame<Axes>::to_geodetic(const Vector<Axes>& position) const {
 template <int Axes>
 SquareMatrix<Axes> LocalFrame<Axes>::local_axes(const Vector<Axes>& position) const {
   double latitude = 0.0, longitude = 0.0;
-  if constexpr (Axes == 3) {
+  if constexpr (Axes == 1) {
+    return SquareMatrix<1>::Identity();
+  } else if constexpr (Axes == 3) {
     double altitude = 0.0;
     std::vector<double> rows(9);  // from there to here
     cartesian(origin_).Reverse(position(0), position(1), position(2), latitude, longitude, altitude, rows);
@@ -81,6 +87,7 @@ SquareMatrix<Axes> LocalFrame<Axes>::local_axes(const Vector<Axes>& position) co
   }
 }
 
+template class LocalFrame<1>;
 template class LocalFrame<2>;
 template class LocalFrame<3>;
 

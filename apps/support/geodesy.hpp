@@ -17,8 +17,8 @@ struct Geodetic {
 /// East, north and, with three axes, up about an origin, in m. At a pole the origin's longitude says which way is
 /// north.
 ///
-/// Three axes are Cartesian. Two axes are a map of the ellipsoid that keeps distances and directions from the origin
-/// (azimuthal equidistant), so that no point of the Earth comes out near another.
+/// Three axes are Cartesian; a single one is the height. Two axes are a map of the ellipsoid that keeps distances and
+/// directions from the origin (azimuthal equidistant), so that no point of the Earth comes out near another.
 template <int Axes>
 class LocalFrame {
  public:
@@ -39,6 +39,7 @@ class LocalFrame {
   Geodetic origin_;
 };
 
+extern template class LocalFrame<1>;
 extern template class LocalFrame<2>;
 extern template class LocalFrame<3>;
 

@@ -10,8 +10,8 @@ namespace sigmax {
 namespace {
 
 std::unique_ptr<detail::ChosenTarget> chosen(const TargetChoice& choice) {
-  if (choice.axes != 2 && choice.axes != 3)
-    throw std::invalid_argument("a target along " + std::to_string(choice.axes) + " axes; expected 2 or 3");
+  if (choice.axes < 1 || choice.axes > 3)
+    throw std::invalid_argument("a target along " + std::to_string(choice.axes) + " axes; expected 1, 2 or 3");
   if (choice.motions.empty() || choice.motions.size() != choice.models.size())
     throw std::invalid_argument("a target with " + std::to_string(choice.motions.size()) + " motions and " +
                                 std::to_string(choice.models.size()) + " names of them");

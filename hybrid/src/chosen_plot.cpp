@@ -17,7 +17,9 @@ void require_size(int size, int expected) {
 Plot<KnownSensor> chosen_plot(const AnyPlot& plot, int axes) {
   if (plot.sensor == AnyPlot::Sensor::none) return Plot<KnownSensor>(plot.time, plot.tag);
   require_size(plot.size, Eigen::Dynamic);
-  const KnownSensor sensor = axes == 2 ? known_sensor<2>(plot) : known_sensor<3>(plot);
+  const KnownSensor sensor = axes == 1   ? known_sensor_of_a_line(plot)
+                             : axes == 2 ? known_sensor<2>(plot)
+                                         : known_sensor<3>(plot);
   sensor.visit([&]<Sensing Sensor>(const Sensor&) { require_size(plot.size, Sensor::measurement_size); });
   MeasurementOf<KnownSensor> z;
   z.mean = Eigen::Map<const Eigen::VectorXd>(plot.z.data(), plot.size);

@@ -76,6 +76,7 @@ std::optional<StartAt<Estimates>> given(const TargetChoice& choice, Plots plots)
 
 std::optional<StartAt<Estimates>> ChosenStart::operator()(Plots plots, std::size_t starts) const {
   if (choice_.start == StartRule::given && starts == 0) return given(choice_, plots);
+  if (choice_.axes == 1) return from_points<1>(choice_, plots);
   return choice_.axes == 2 ? from_points<2>(choice_, plots) : from_points<3>(choice_, plots);
 }
 

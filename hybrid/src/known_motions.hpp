@@ -4,8 +4,12 @@
 #include <array>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include <sigmax/estimation/any_motion.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
@@ -57,12 +61,12 @@ inline constexpr auto motion_rows = std::tuple{
         "ou_velocity", no_manoeuvre,
         []<int A>(const MotionChoice& c) { return ou_velocity<A>(1.0 / c[tau], c[sigma_w]); }, sigma_w, tau),
     MotionRow(
-        "known_turn", manoeuvre,
-        []<int A>(const MotionChoice& c) { return KnownTurn<A>(c[turn_rate] * degree, c[sigma_w] * c[sigma_w]); },
+        "known_turn", manoeuvre, []<int A>(const MotionChoice& c) requires(A > 1) {
+          return KnownTurn<A>(c[turn_rate] * degree, c[sigma_w] * c[sigma_w]);
+        },
         sigma_w, turn_rate),
     MotionRow(
-        "ct", manoeuvre,
-        []<int A>(const MotionChoice& c) {
+        "ct", manoeuvre, []<int A>(const MotionChoice& c) requires(A > 1) {
           const double drift = c[turn_drift] * degree;
           return CoordinatedTurn<A>(c[sigma_w] * c[sigma_w], drift * drift);
         },
@@ -72,29 +76,54 @@ inline constexpr auto motion_rows = std::tuple{
 template <int Axes, class Row>
 using MotionOfRow = decltype(std::declval<const Row&>().make.template operator()<Axes>(MotionChoice{}));
 
+/// Whether a row makes a motion along so many axes: none turns along one.
+template <int Axes, class Row>
+inline constexpr bool goes_along = requires(const Row& row) {
+  row.make.template operator()<Axes>(MotionChoice{});
+};
+
+template <int Axes, class Row>
+struct Listed {
+  using type = std::tuple<>;
+};
+template <int Axes, class Row>
+  requires(goes_along<Axes, Row>)
+struct Listed<Axes, Row> {
+  using type = std::tuple<MotionOfRow<Axes, Row>>;
+};
+
 template <class Rows>
 struct MotionsOf;
 template <class... Rows>
 struct MotionsOf<const std::tuple<Rows...>> {
   static constexpr int components = std::max({MotionOfRow<3, Rows>::max_state_size...}) + 1;
-  using type = AnyMotion<components, MotionOfRow<2, Rows>..., MotionOfRow<3, Rows>...>;
+  template <class... Motions>
+  static auto any_of(const std::tuple<Motions...>&) -> AnyMotion<components, Motions...>;
+  using type = decltype(any_of(std::tuple_cat(std::declval<typename Listed<1, Rows>::type>()...,
+                                              std::declval<typename Listed<2, Rows>::type>()...,
+                                              std::declval<typename Listed<3, Rows>::type>()...)));
 };
 
-/// Any of the known motions, along two axes or three. A bank of them has at most three derivatives and a rate of turn.
+/// Any of the known motions, along one axis, two or three. A bank of them has at most three derivatives and a rate of
+/// turn.
 using AnyKnownMotion = typename MotionsOf<decltype(motion_rows)>::type;
 
-/// The motion of this choice along 2 or 3 axes. Throws std::invalid_argument for a name that is not known.
+/// The motion of this choice along 1, 2 or 3 axes. Throws std::invalid_argument for a name that is not known, and for a
+/// motion that does not go along so few axes.
 inline AnyKnownMotion made(const MotionChoice& choice, int axes) {
+  if (axes < choice.known().least_axes)
+    throw std::invalid_argument("motion '" + choice.name + "' turns in a plane; it does not go along one axis");
   std::optional<AnyKnownMotion> motion;
+  const auto make_along = [&]<int Axes>(const auto& row) {
+    if constexpr (goes_along<Axes, std::decay_t<decltype(row)>>)
+      if (row.name == choice.name && axes == Axes) motion.emplace(row.make.template operator()<Axes>(choice));
+  };
   const auto make = [&](const auto& row) {
-    if (row.name != choice.name) return;
-    if (axes == 2)
-      motion.emplace(row.make.template operator()<2>(choice));
-    else
-      motion.emplace(row.make.template operator()<3>(choice));
+    make_along.template operator()<1>(row);
+    make_along.template operator()<2>(row);
+    make_along.template operator()<3>(row);
   };
   std::apply([&](const auto&... row) { (make(row), ...); }, motion_rows);
-  choice.known();  // throws if there is none
   return *motion;
 }
 

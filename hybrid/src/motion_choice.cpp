@@ -21,6 +21,7 @@ constexpr std::array<KnownParameter, 4> parameters{{
 constexpr auto motions = std::apply(
     [](const auto&... row) {
       return std::array{KnownMotion{row.name, detail::MotionOfRow<2, std::decay_t<decltype(row)>>::state_size / 2,
+                                    detail::goes_along<1, std::decay_t<decltype(row)>> ? 1 : 2,
                                     LinearMotion<detail::MotionOfRow<2, std::decay_t<decltype(row)>>>, row.manoeuvres,
                                     row.has}...};
     },

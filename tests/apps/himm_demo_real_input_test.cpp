@@ -1,5 +1,6 @@
 // What recordings look like that nobody made for this program: units, tabs, clocks, sentinels, several sensors at once.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,73 @@ TEST(HimmDemoRealInput, AHeightMayBeMissing) {
                           })).estimates);
   EXPECT_GT(number(missing.back().at("sigma_z_m")), 1.05 * number(whole.back().at("sigma_z_m")));
   EXPECT_LT(number(missing.back().at("sigma_x_m")), 1.05 * number(whole.back().at("sigma_x_m")));
+}
+
+double bend(int k) { return k < 15 ? 20.0 * k : 20.0 * k + 2.0 * (k - 15) * (k - 15) + (k % 4) - 1.5; }
+
+void expect_same(const std::vector<TextRow>& rows, const std::vector<TextRow>& others,
+                 const std::vector<std::string>& columns) {
+  ASSERT_EQ(rows.size(), others.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (const auto& column : columns) {
+      const double value = number(others[k].at(column));
+      EXPECT_NEAR(number(rows[k].at(column)), value, 1e-9 * (1.0 + std::abs(value))) << column << " of row " << k;
+    }
+}
+
+TEST(HimmDemoRealInput, OneAxisIsATrackWhoseOtherAxisIsNeverSeen) {
+  const auto one = recording("time_s,x_m", [](int k) { return exact(k) + "," + exact(bend(k)); });
+  const auto blind = recording("time_s,x_m,y_m", [](int k) {  // but for the three points of the start
+    return exact(k) + "," + exact(bend(k)) + (k < 3 ? ",5" : ",");
+  });
+  // Only the envelope of the whole state is another one where there are more components.
+  for (const char* set : {"smooth=true", "filters=[imm_released,imm_most_likely,gpb1,gpb2,static_random]",
+                          "filters=[himm,himm_selected,himm_own,himm_released,himm_global,viterbi,static_fuzzy]",
+                          "filters=[imm_histories,himm_histories]"}) {
+    const std::vector<std::string> options = {"--set", set};
+    const auto found = tracked(one, options);
+    EXPECT_TRUE(says(found.output, "30 rows, 30 measurements, 1 axis")) << found.output;
+    EXPECT_TRUE(says(tracked(blind, options).output, "30 measurements (27 along some axes only), 2 axes"));
+    const auto line = rows(found.estimates);
+    expect_same(line, rows(tracked(blind, options).estimates),
+                {"x_m", "vx_mps", "sigma_x_m", "sigma_vx_mps", "nis", "weight_dwna", "weight_dwpa"});
+    EXPECT_EQ(line.back().at("y_m") + line.back().at("vy_mps") + line.back().at("sigma_y_m"), "");
+  }
+}
+
+TEST(HimmDemoRealInput, OneAxisRestartsMeetsATruthAndMakesAPage) {
+  const TemporaryDirectory directory;
+  const auto one = recording("time_s,x_m,true_x_m",
+                             [](int k) { return exact(k) + "," + exact(k < 15 ? k : 1e4 + k) + "," + exact(k); });
+  const auto found = tracked(one, {"--set", "gate_probability=0.999", "--report", directory.path() / "page.html"});
+  EXPECT_TRUE(says(found.output, "after rejections in a row: imm 1, himm 1")) << found.output;
+  EXPECT_TRUE(says(found.output, "measurement    30  7071.07 imm")) << found.output;  // every other row is 10 km off
+  const std::string page = contents(directory.path() / "page.html");
+  EXPECT_NE(page.find("Error in x"), std::string::npos);
+  EXPECT_EQ(page.find("Error in y"), std::string::npos);
+  const auto turning = program::run(SIGMAX_HIMM_DEMO,
+                                    {"track", directory.write("one.csv", one), "--set", "models=[dwna,ct]", "--quiet"});
+  EXPECT_EQ(turning.status, 2);
+  EXPECT_TRUE(says(turning.output, "the recording has one axis, and ct turns in a plane")) << turning.output;
+}
+
+TEST(HimmDemoRealInput, EachAxisOfAPositionMayBeMissing) {
+  const auto by_turns = recording("time_s,x_m,y_m", [](int k) {
+    if (k < 3) return exact(k) + "," + exact(bend(k)) + ",7";
+    return exact(k) + (k % 2 == 0 ? "," + exact(bend(k)) + "," : ",," + exact(3.0 * k));
+  });
+  const auto x_alone =
+      recording("time_s,x_m", [](int k) { return exact(k) + (k < 3 || k % 2 == 0 ? "," + exact(bend(k)) : ","); });
+  // With one model the axes know nothing of each other.
+  const std::vector<std::string> one_model = {"--set",         "filters=[imm]", "--set",
+                                              "models=[dwpa]", "--set",         "transition_probability=[[1]]"};
+  expect_same(rows(tracked(by_turns, one_model).estimates), rows(tracked(x_alone, one_model).estimates),
+              {"x_m", "vx_mps", "ax_mps2", "sigma_x_m", "sigma_vx_mps"});
+  const TemporaryDirectory directory;
+  const auto never = recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(k) + ","; });
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("never.csv", never), "--quiet"});
+  EXPECT_EQ(ending.status, 3);
+  EXPECT_TRUE(says(ending.output, "starts from whole positions; drop a column that is always empty")) << ending.output;
 }
 
 TEST(HimmDemoRealInput, ARowMaySayItsOwnAccuracy) {

@@ -176,14 +176,42 @@ TEST(AnyTarget, RefusesAChoiceThatMakesNoSense) {
   bad.motions[1].name = "warp";
   EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {"warp"}));
   bad = choice(false, Scheme::interacting);
-  bad.axes = 4;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {"4 axes"}));
+  for (const int axes : {0, 4}) {
+    bad.axes = axes;
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {std::to_string(axes) + " axes"}));
+  }
   bad = choice(false, Scheme::interacting);
   bad.models.pop_back();
   EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {"2 motions"}));
   bad = choice(false, Scheme::interacting);
   bad.start = StartRule::given;
   EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {"nine"}));
+}
+
+TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
+  for (const Scheme scheme : {Scheme::interacting, Scheme::second_order, Scheme::histories})
+    for (const bool fuzzy : {false, true}) {
+      AnyTarget target{choice(fuzzy, scheme, 1)};
+      const auto on_line = [](double time, double x) {
+        AnyPlot plot{.time = time, .sensor = AnyPlot::Sensor::position, .size = 1};
+        plot.z[0] = x;
+        plot.covariance[0] = 100.0;
+        return plot;
+      };
+      for (int k = 0; k < 6; ++k) target.take(on_line(k, 10.0 * k));
+      EXPECT_EQ(target.components(), (std::vector<std::string>{"x", "vx", "ax"}));
+      EXPECT_NEAR(target.output().mean[1], 10.0, 1e-9);
+      AnyPlot speed{.time = 6.0, .sensor = AnyPlot::Sensor::components, .size = 2, .places = {0, 1}};
+      speed.z = {60.0, 10.0};
+      speed.covariance = {100.0, 0.0, 0.0, 1.0};
+      EXPECT_EQ(target.take(speed), Verdict::accepted);
+      AnyPlot range = on_line(7.0, 70.0);
+      range.sensor = AnyPlot::Sensor::polar;
+      EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(range); }, {"one axis", "plane"}));
+    }
+  TargetChoice turning = choice(false, Scheme::interacting, 1);
+  turning.motions[1].name = "ct";
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{turning}; }, {"ct", "one axis"}));
 }
 
 TEST(MotionChoice, KnowsItsMotions) {
@@ -193,6 +221,8 @@ TEST(MotionChoice, KnowsItsMotions) {
   EXPECT_FALSE(known_motion("dwna")->has_parameter(MotionParameter::tau));
   EXPECT_FALSE(known_motion("ct")->linear);
   EXPECT_EQ(known_motion("ct")->derivatives, 2);
+  EXPECT_EQ(known_motion("ct")->least_axes, 2);
+  EXPECT_EQ(known_motion("singer")->least_axes, 1);
   EXPECT_TRUE(known_motion("ct")->manoeuvres);
   EXPECT_EQ(known_motion("ou_position")->derivatives, 1);
   EXPECT_EQ(known_motion("warp"), nullptr);

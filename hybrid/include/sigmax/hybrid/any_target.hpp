@@ -36,7 +36,7 @@ enum class MemberType { kf, ekf, ukf, ckf };
 
 /// Everything that one target's filter is made of, chosen at run time: plain data.
 struct TargetChoice {
-  int axes = 3;        ///< 2 or 3
+  int axes = 3;        ///< 1, 2 or 3; along 1 there is no radar, and no motion that turns
   bool fuzzy = false;  ///< whether the mode is fuzzy rather than random
   Scheme scheme = Scheme::interacting;
   std::vector<MotionChoice> motions;

@@ -27,6 +27,7 @@ std::span<const KnownParameter> motion_parameters();
 struct KnownMotion {
   std::string_view name;
   int derivatives;  ///< that it has of the position, itself included
+  int least_axes;   ///< 2 of one that turns
   bool linear;
   bool manoeuvres;          ///< whether it stands for a manoeuvre beside a model that does not
   std::array<bool, 4> has;  ///< which parameters
