@@ -138,7 +138,7 @@ TEST(Tune, RefusesWhatCannotBeAndWritesNothing) {
                                          {{file, "--truth=length"}, 2, "--truth=density"},
                                          {{tiny}, 3, "there is too little to fit"},
                                          {{bad}, 3, "bad.csv:3: column 'x_m'"},
-                                         {{file, three}, 3, "tune recordings of two and of three axes apart"},
+                                         {{file, three}, 3, "tune recordings of one, two and three axes apart"},
                                          {{file, "--models", "dwna+dvpa"}, 2, "did you mean 'dwpa'?"},
                                          {{file, "--keep", "noise"}, 2, "noise"},
                                          {{file, "--set", "filters=himm_possibility"}, 3, "himm_possibility"},
