@@ -90,10 +90,9 @@ Factor eliminate(std::span<const Factor> factors, Vertex vertex, std::span<const
   return result;
 }
 
-/// The factor where `vertex` has this outcome.
+/// The factor where `vertex`, which is in its scope, has this outcome.
 inline Factor restricted(const Factor& factor, Vertex vertex, std::size_t outcome, std::span<const std::size_t> sizes) {
   const auto place = std::find(factor.scope.begin(), factor.scope.end(), vertex);
-  if (place == factor.scope.end()) return factor;
   const std::size_t inner = outcomes_of({place + 1, factor.scope.end()}, sizes);
   Factor result{factor.scope, {}};
   result.scope.erase(result.scope.begin() + (place - factor.scope.begin()));
