@@ -42,6 +42,11 @@ void add_settings(CLI::App& app, SweepChoice& choice) {
   add_list(app, "--sigma-w", choice.sigma_w, "sigma_w in m/s², the two models apart")->check(number_in(1e-6, 1e6));
   add_list(app, "--lift", choice.lifts, "What stands for a component that a model lacks")
       ->check(CLI::IsMember({"zero", "borrowed_variance", "unbiased"}));
+  app.add_option("--beyond", choice.beyond,
+                 "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; "
+                 "0: only what is listed")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace sigmax::apps {
 std::optional<std::size_t> Findings::himm(std::size_t condition) const {
   std::optional<std::size_t> best;
   for (std::size_t f = 0; f < filters(); ++f)
-    if (is_himm(f) && (!best || tuned[condition][f].tuning_score < tuned[condition][*best].tuning_score)) best = f;
+    if (is_himm(f) && (!best || tuned[condition][f].best.score < tuned[condition][*best].best.score)) best = f;
   return best;
 }
 
@@ -22,7 +22,11 @@ Interval Findings::against_imm(std::size_t condition, std::size_t f) const {
 }
 
 FilterSettings Findings::settings(std::size_t condition, std::size_t f) const {
-  return world.grid(f, world.conditions()[condition])[tuned[condition][f].settings];
+  return world.settings(f, condition, tuned[condition][f].best.place);
+}
+
+bool Findings::at_the_limit(std::size_t condition, std::size_t f) const {
+  return world.lattice(f).at_the_limit(tuned[condition][f].best.place);
 }
 
 Findings findings_of(const SweepWorld& world, const CellRows& rows) {
@@ -69,13 +73,33 @@ std::string answer(const Findings& findings) {
       number_text(100.0 * most.half_width, 1), words_of(findings.world.conditions()[best]));
 }
 
-std::string edges(const Findings& findings) {
-  std::size_t at_the_edge = 0, all = 0;
+std::string searched(const Findings& findings) {
+  const SweepChoice& choice = findings.world.choice();
+  std::size_t tried = 0;
   for (const auto& tuned : findings.tuned)
-    for (std::size_t f = 0; f < tuned.size(); ++f, ++all)
-      if (findings.world.at_the_edge(f, tuned[f].settings)) ++at_the_edge;
-  return fmt::format("{} of {} tuned filters have a number at an end of its list: there may be better ones beyond.",
-                     at_the_edge, all);
+    for (const Tuned& one : tuned) tried += one.best.tried;
+  return fmt::format(
+      "{} filters, {} settings each{}; chosen by {} runs and judged by {} others, seed {}", findings.filters(),
+      findings.world.lattice(0).grid().size(),
+      choice.beyond == 0
+          ? ""
+          : fmt::format(" and on from the best to better neighbours, up to {} steps beyond a list, {} in "
+                        "the mean",
+                        choice.beyond, tried / (findings.conditions() * findings.filters())),
+      choice.tuning_runs, choice.runs, choice.seed);
+}
+
+std::string limits(const Findings& findings) {
+  std::size_t stopped = 0;
+  for (std::size_t c = 0; c < findings.conditions(); ++c)
+    for (std::size_t f = 0; f < findings.filters(); ++f)
+      if (findings.at_the_limit(c, f)) ++stopped;
+  if (stopped == 0) return "";
+  const int beyond = findings.world.choice().beyond;
+  return fmt::format(
+      "{} of {} tuned filters {}: there may be better ones beyond.", stopped,
+      findings.conditions() * findings.filters(),
+      beyond == 0 ? "have a number at an end of its list" : fmt::format("stopped {} steps beyond a list", beyond));
 }
 
 }  // namespace sigmax::apps

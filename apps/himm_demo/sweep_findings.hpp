@@ -28,6 +28,9 @@ struct Findings {
   /// The settings that were chosen.
   FilterSettings settings(std::size_t condition, std::size_t f) const;
 
+  /// Whether the search ended where it was not allowed to go on.
+  bool at_the_limit(std::size_t condition, std::size_t f) const;
+
   std::size_t conditions() const { return world.conditions().size(); }
   std::size_t filters() const { return world.filters().size(); }
 };
@@ -46,7 +49,10 @@ inline bool sure(const Interval& interval) { return interval.above_zero() || int
 /// HIMM against the tuned IMM in words.
 std::string answer(const Findings& findings);
 
-/// How many of the tuned filters stand at the edge of the grid.
-std::string edges(const Findings& findings);
+/// How many settings were tried, and by how many runs.
+std::string searched(const Findings& findings);
+
+/// How many of the tuned filters are at the limit of the search; empty if none is.
+std::string limits(const Findings& findings);
 
 }  // namespace sigmax::apps

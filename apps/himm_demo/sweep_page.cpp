@@ -20,7 +20,8 @@ std::vector<ResultColumn> filter_columns() {
           {.key = "sigma_w_dwna", .header = "dwna", .group = "σ_w, m/s²:"},
           {.key = "sigma_w_dwpa", .header = "dwpa", .group = "σ_w, m/s²:"},
           {.key = "lift", .header = "lift", .align = Align::left},
-          {.key = "at_the_edge"},
+          {.key = "at_the_limit"},
+          {.key = "settings_tried"},
           {.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"},
           {.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
           {.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true},
@@ -35,7 +36,7 @@ void add_filters(const Findings& findings, std::size_t c, const std::vector<Cell
     std::vector<Cell> cells = first;
     for (const Cell& cell : std::initializer_list<Cell>{
              settings.name, settings.transition[0][1], settings.transition[1][0], sigma_w(0), sigma_w(1),
-             name_of(settings.lift), findings.world.at_the_edge(f, tuned.settings) ? 1 : 0, tuned.tuning_score,
+             name_of(settings.lift), findings.at_the_limit(c, f) ? 1 : 0, tuned.best.tried, tuned.best.score,
              tuned.score.interval(), findings.imm ? Cell(findings.against_imm(c, f)) : Cell(),
              findings.himm(c) == f ? 1 : 0})
       cells.push_back(cell);
@@ -52,7 +53,7 @@ std::string words_of(const Findings& findings, std::size_t c, std::size_t f) {
                      number_text(score.half_width, 3), settings.name, settings.transition[0][1],
                      settings.transition[1][0], settings.motions[0][MotionParameter::sigma_w],
                      settings.motions[1][MotionParameter::sigma_w], name_of(settings.lift),
-                     findings.world.at_the_edge(f, findings.tuned[c][f].settings) ? ", at the edge of the grid" : "");
+                     findings.at_the_limit(c, f) ? ", at the limit of the search" : "");
 }
 
 /// Makes the maps; a column or a view stands for a filter, or for HIMM, which is another one in each condition.
@@ -203,12 +204,9 @@ ReportTable best_settings(const Findings& findings) {
 Report page_of(const SweepOptions& options, const Findings& findings) {
   Report page{.title = "Every filter at its best settings, against the tuned IMM", .command = options.output.command};
   if (findings.imm && findings.himm(0)) page.verdict.push_back(answer(findings));
-  page.verdict.push_back(edges(findings));
-  page.verdict.push_back(
-      fmt::format("{} settings of each filter, chosen by {} runs and judged by {} others, seed {}. The score is the "
-                  "mean over axes and phases of RMSE over that of the measurement.",
-                  findings.world.grid(0, findings.world.conditions()[0]).size(), options.choice.tuning_runs,
-                  options.choice.runs, options.choice.seed));
+  if (const std::string stopped = limits(findings); !stopped.empty()) page.verdict.push_back(stopped);
+  page.verdict.push_back(searched(findings) +
+                         ". The score is the mean over axes and phases of RMSE over that of the measurement.");
   if (findings.imm && findings.filters() > 1) {
     const Maps maps(findings);
     if (options.choice.cross) {

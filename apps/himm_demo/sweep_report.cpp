@@ -26,8 +26,8 @@ ResultTable map_for_people(const Findings& findings) {
                                findings.tuned[c][*findings.imm].score.value()};
     for (std::size_t f = 0; f < findings.filters(); ++f)
       if (f != *findings.imm) cells.emplace_back(marked(findings.against_imm(c, f)));
-    const auto himm = findings.himm(c);
-    cells.push_back(himm ? Cell(marked(findings.against_imm(c, *himm))) : Cell());
+    cells.emplace_back();
+    if (const auto himm = findings.himm(c)) cells.back() = marked(findings.against_imm(c, *himm));
     table.row(std::move(cells));
   }
   return table;
@@ -40,24 +40,22 @@ void report(const SweepOptions& options, const SweepWorld& world, const CellRows
   const Findings findings = findings_of(world, rows);
   const std::size_t width = options.output.width();
   const auto note = [&](const std::string& text) { fmt::print("{}", wrapped(text, width)); };
-  note(fmt::format("{} filters, {} settings each, chosen by {} runs and judged by {} others, seed {}",
-                   world.filters().size(), world.grid(0, world.conditions()[0]).size(), options.choice.tuning_runs,
-                   options.choice.runs, options.choice.seed));
+  note(searched(findings));
   if (findings.imm) {
     fmt::print("\n");
     map_for_people(findings).print(width);
     note(
         "(imm: mean over axes and phases of RMSE over that of the measurement. *: the 95 % interval, by paired runs "
-        "and "
-        "together for all conditions, is on one side of 0. Negative is better.)");
+        "and together for all conditions, is on one side of 0. Negative is better.)");
     fmt::print("\n");
     if (findings.himm(0)) note(answer(findings));
   }
-  note(edges(findings));
+  if (const std::string stopped = limits(findings); !stopped.empty()) note(stopped);
   if (files.wanted()) {
     files.write("tuned.csv", tuned_table(findings).csv());
     auto summary = summary_of(options.output);
     summary["campaign"] = world.campaign().description;
+    summary["searched"] = searched(findings);
     if (findings.imm && findings.himm(0)) summary["answer"] = answer(findings);
     for (std::size_t c = 0; c < findings.conditions(); ++c)
       summary["conditions"][words_of(world.conditions()[c])] = tuned_table(findings, c).json();

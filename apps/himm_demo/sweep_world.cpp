@@ -16,20 +16,8 @@ namespace {
 
 constexpr std::size_t most_sweep_batches = 25;
 constexpr std::size_t components = 9;  // by phase and axis
+constexpr std::size_t of_a_place = SweepLattice::axes + 1;
 using Squares = std::array<double, components>;
-
-/// How the list of settings of a filter is counted: the last digit is the lift.
-std::array<std::size_t, 5> radices(const SweepChoice& choice, bool fuzzy) {
-  const std::size_t off_diagonals = fuzzy ? choice.possibility.size() : choice.probability.size();
-  return {off_diagonals, off_diagonals, choice.sigma_w.size(), choice.sigma_w.size(), choice.lifts.size()};
-}
-
-std::array<std::size_t, 5> digits(const SweepChoice& choice, bool fuzzy, std::size_t number) {
-  const auto radix = radices(choice, fuzzy);
-  std::array<std::size_t, 5> digit{};
-  for (std::size_t i = digit.size(); i-- > 0; number /= radix[i]) digit[i] = number % radix[i];
-  return digit;
-}
 
 Lift lift_of(const std::string& name) {
   return name == "zero" ? Lift::zero : name == "unbiased" ? Lift::unbiased : Lift::borrowed_variance;
@@ -101,15 +89,20 @@ std::string list(const std::vector<double>& numbers) {
   return fmt::format("{}", fmt::join(texts, ","));
 }
 
+void put_in_order(std::vector<double>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 /// The command that does the same again.
 std::string command_of(const SweepChoice& choice) {
   return fmt::format(
       "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {}{} --filters {} "
-      "--probability {} --possibility {} --sigma-w {} --lift {} --tuning-runs {} --runs {} --seed {}",
+      "--probability {} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}",
       version, fmt::join(choice.scenarios, ","), list(choice.mismatch), list(choice.period), list(choice.strength),
       list(choice.length), choice.cross ? " --cross" : "", fmt::join(choice.filters, ","), list(choice.probability),
-      list(choice.possibility), list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.tuning_runs, choice.runs,
-      choice.seed);
+      list(choice.possibility), list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.beyond, choice.tuning_runs,
+      choice.runs, choice.seed);
 }
 
 }  // namespace
@@ -135,71 +128,72 @@ Scenario scenario_of(const SweepCondition& condition) {
 }
 
 SweepWorld::SweepWorld(const SweepChoice& choice) : choice_(choice), conditions_(conditions_of(choice)) {
+  for (auto* const list : {&choice_.probability, &choice_.possibility, &choice_.sigma_w}) put_in_order(*list);
   const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(choice.filters, ","))};
   filters_ = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
 }
 
-std::vector<FilterSettings> SweepWorld::grid(std::size_t filter, const SweepCondition& condition) const {
-  FilterSettings usual = filters_[filter];
-  const Polar sigma = group(1, condition.scenario).data;
-  usual.accuracy.radar = {condition.mismatch * sigma.range, condition.mismatch * sigma.azimuth,
-                          condition.mismatch * sigma.elevation};
-  std::size_t count = 1;
-  for (const std::size_t radix : radices(choice_, usual.fuzzy)) count *= radix;
-  std::vector<FilterSettings> all(count, usual);
-  const auto& off_diagonals = usual.fuzzy ? choice_.possibility : choice_.probability;
-  for (std::size_t number = 0; number < count; ++number) {
-    const auto digit = digits(choice_, usual.fuzzy, number);
-    const double leaving = off_diagonals[digit[0]], returning = off_diagonals[digit[1]];
-    FilterSettings& own = all[number];
-    own.transition = {{usual.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, usual.fuzzy ? 1.0 : 1.0 - returning}};
-    for (const std::size_t model : {0U, 1U})
-      own.motions[model][MotionParameter::sigma_w] = choice_.sigma_w[digit[2 + model]];
-    own.lift = lift_of(choice_.lifts[digit[4]]);
-  }
-  return all;
+SweepLattice SweepWorld::lattice(std::size_t filter) const {
+  const AxisRange off_diagonal =
+      filters_[filter].fuzzy ? AxisRange{choice_.possibility, 1e-12, 1.0} : AxisRange{choice_.probability, 1e-12, 0.9};
+  const AxisRange sigma_w{choice_.sigma_w, 1e-6, 1e6};
+  return {{off_diagonal, off_diagonal, sigma_w, sigma_w}, choice_.lifts.size(), choice_.beyond};
 }
 
-bool SweepWorld::at_the_edge(std::size_t filter, std::size_t settings) const {
-  const auto radix = radices(choice_, filters_[filter].fuzzy);
-  const auto digit = digits(choice_, filters_[filter].fuzzy, settings);
-  for (std::size_t i = 0; i < 4; ++i)  // a lift has no neighbours
-    if (radix[i] > 1 && (digit[i] == 0 || digit[i] + 1 == radix[i])) return true;
-  return false;
+FilterSettings SweepWorld::settings(std::size_t filter, std::size_t condition, const SweepLattice::Place& place) const {
+  const SweepLattice lattice = this->lattice(filter);
+  const double leaving = lattice.number(0, place), returning = lattice.number(1, place);
+  const double mismatch = conditions_[condition].mismatch;
+  const Polar sigma = group(1, conditions_[condition].scenario).data;
+  FilterSettings own = filters_[filter];
+  own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
+  own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
+  for (const std::size_t model : {0U, 1U})
+    own.motions[model][MotionParameter::sigma_w] = lattice.number(2 + model, place);
+  own.lift = lift_of(choice_.lifts[place[SweepLattice::axes]]);
+  return own;
+}
+
+Recording SweepWorld::recording(std::size_t condition, std::uint64_t number) const {
+  RandomStream random(choice_.seed, number);
+  return simulate(scenario_of(conditions_[condition]), group(1, conditions_[condition].scenario).data, random);
+}
+
+BestPlace SweepWorld::tune(std::size_t filter, std::size_t condition) const {
+  const Scenario scenario = scenario_of(conditions_[condition]);
+  return search(lattice(filter), [&](const std::vector<SweepLattice::Place>& places) {
+    std::vector<FilterSettings> settings;
+    for (const auto& place : places) settings.push_back(this->settings(filter, condition, place));
+    Squares measured{};
+    std::vector<Squares> squares(places.size(), Squares{});
+    for (int run = 0; run < choice_.tuning_runs; ++run) {
+      const Recording one = recording(condition, static_cast<std::uint64_t>(run));
+      add_measurement(scenario, one, measured);
+      for (std::size_t i = 0; i < places.size(); ++i) try_run(scenario, settings[i], one, squares[i]);
+    }
+    std::vector<double> scores;
+    for (const auto& own : squares) scores.push_back(score(own, measured));
+    return scores;
+  });
 }
 
 std::vector<double> SweepWorld::work(std::size_t cell) const {
-  const SweepCondition& condition = conditions_[cell / filters_.size()];
-  const auto settings = grid(cell % filters_.size(), condition);
-  const Scenario scenario = scenario_of(condition);
-  const Polar data = group(1, condition.scenario).data;
-  const auto recording = [&](std::uint64_t number) {
-    RandomStream random(choice_.seed, number);
-    return simulate(scenario, data, random);
-  };
+  const std::size_t condition = cell / filters_.size(), filter = cell % filters_.size();
+  const Scenario scenario = scenario_of(conditions_[condition]);
+  const BestPlace best = tune(filter, condition);
+  const FilterSettings tuned = settings(filter, condition, best.place);
 
-  Squares measured{};
-  std::vector<Squares> squares(settings.size(), Squares{});
-  const auto tuning_runs = static_cast<std::uint64_t>(choice_.tuning_runs);
-  for (std::uint64_t number = 0; number < tuning_runs; ++number) {
-    const Recording one = recording(number);
-    add_measurement(scenario, one, measured);
-    for (std::size_t i = 0; i < settings.size(); ++i) try_run(scenario, settings[i], one, squares[i]);
-  }
-  std::vector<double> scores;
-  for (const auto& own : squares) scores.push_back(score(own, measured));
-  const auto best = std::min_element(scores.begin(), scores.end());
-
-  std::vector<double> row = {static_cast<double>(best - scores.begin()), *best};
+  std::vector<double> row(best.place.begin(), best.place.end());
+  row.insert(row.end(), {best.score, static_cast<double>(best.tried)});
   const auto runs = static_cast<std::uint64_t>(choice_.runs);
   const std::uint64_t batches = std::min<std::uint64_t>(most_sweep_batches, runs);
   for (std::uint64_t batch = 0; batch < batches; ++batch) {
     Squares own{}, raw{};
     const std::uint64_t first = runs * batch / batches, last = runs * (batch + 1) / batches;
     for (std::uint64_t number = first; number < last; ++number) {
-      const Recording one = recording(tuning_runs + number);
+      const Recording one = recording(condition, static_cast<std::uint64_t>(choice_.tuning_runs) + number);
       add_measurement(scenario, one, raw);
-      add_run(scenario, settings[static_cast<std::size_t>(best - scores.begin())], one, own);
+      add_run(scenario, tuned, one, own);
     }
     row.push_back(static_cast<double>(last - first));
     row.insert(row.end(), raw.begin(), raw.end());
@@ -215,17 +209,23 @@ Campaign SweepWorld::campaign() const {
 
 Tuned SweepWorld::tuned(const CellRows& rows, std::size_t condition, std::size_t filter) const {
   const auto& row = rows.at(condition * filters_.size() + filter);
+  BestPlace best{};
+  std::transform(row.begin(), row.begin() + of_a_place, best.place.begin(),
+                 [](double at) { return static_cast<std::size_t>(at); });
+  best.score = row[of_a_place];
+  best.tried = static_cast<std::size_t>(row[of_a_place + 1]);
+
   constexpr std::size_t of_a_batch = 1 + 2 * components;
   const auto column = [&](std::size_t place) {
     std::vector<double> values;
-    for (std::size_t at = 2 + place; at < row.size(); at += of_a_batch) values.push_back(row[at]);
+    for (std::size_t at = of_a_place + 2 + place; at < row.size(); at += of_a_batch) values.push_back(row[at]);
     return values;
   };
   const auto runs = column(0);
   const auto rmse = [&](std::size_t place) { return sqrt(Statistic::mean(column(place), runs)); };
   Statistic sum = rmse(1 + components) / rmse(1);
   for (std::size_t i = 1; i < components; ++i) sum = sum + rmse(1 + components + i) / rmse(1 + i);
-  return {static_cast<std::size_t>(row[0]), row[1], sum * (1.0 / components)};
+  return {best, sum * (1.0 / components)};
 }
 
 }  // namespace sigmax::apps

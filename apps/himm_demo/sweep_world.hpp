@@ -7,6 +7,7 @@
 
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/scenario.hpp"
+#include "himm_demo/sweep_lattice.hpp"
 #include "support/campaign.hpp"
 #include "support/statistic.hpp"
 
@@ -26,6 +27,7 @@ struct SweepChoice {
   std::vector<double> possibility = {0.05, 0.2, 0.5};    ///< the same of Π
   std::vector<double> sigma_w = {1.0, 3.0, 9.0};         ///< of each model apart
   std::vector<std::string> lifts = {"zero", "borrowed_variance", "unbiased"};
+  int beyond = 6;  ///< steps by which the search may leave a list of numbers, at each end
   int tuning_runs = 20;
   int runs = 100;
   std::uint64_t seed = 1;
@@ -41,8 +43,7 @@ struct SweepCondition {
 
 /// What a tuned filter did on runs that it was not tuned on.
 struct Tuned {
-  std::size_t settings;  ///< the place in SweepWorld::grid of the filter
-  double tuning_score;
+  BestPlace best;   ///< on the lattice of the filter, by the tuning runs
   Statistic score;  ///< the mean over axes and phases of RMSE over that of the measurement
 };
 
@@ -56,11 +57,11 @@ class SweepWorld {
   const std::vector<SweepCondition>& conditions() const { return conditions_; }
   const std::vector<FilterSettings>& filters() const { return filters_; }
 
-  /// Every setting of a filter that is tried, in a condition.
-  std::vector<FilterSettings> grid(std::size_t filter, const SweepCondition& condition) const;
+  /// The settings that may be tried of a filter, the same in all conditions.
+  SweepLattice lattice(std::size_t filter) const;
 
-  /// Whether the settings stand at an end of a list of more than one, so that better ones may be beyond.
-  bool at_the_edge(std::size_t filter, std::size_t settings) const;
+  /// The settings of a filter at a place of its lattice, in a condition.
+  FilterSettings settings(std::size_t filter, std::size_t condition, const SweepLattice::Place& place) const;
 
   /// Tunes a filter in a condition and judges it on other runs. A cell is condition · filters + filter.
   Campaign campaign() const;
@@ -69,6 +70,8 @@ class SweepWorld {
 
  private:
   std::vector<double> work(std::size_t cell) const;
+  BestPlace tune(std::size_t filter, std::size_t condition) const;
+  Recording recording(std::size_t condition, std::uint64_t number) const;
 
   SweepChoice choice_;
   std::vector<SweepCondition> conditions_;
