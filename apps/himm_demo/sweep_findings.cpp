@@ -75,18 +75,18 @@ std::string answer(const Findings& findings) {
 
 std::string searched(const Findings& findings) {
   const SweepChoice& choice = findings.world.choice();
-  std::size_t tried = 0;
-  for (const auto& tuned : findings.tuned)
-    for (const Tuned& one : tuned) tried += one.best.tried;
-  return fmt::format(
-      "{} filters, {} settings each{}; chosen by {} runs and judged by {} others, seed {}", findings.filters(),
-      findings.world.lattice(0).grid().size(),
-      choice.beyond == 0
-          ? ""
-          : fmt::format(" and on from the best to better neighbours, up to {} steps beyond a list, {} in "
-                        "the mean",
-                        choice.beyond, tried / (findings.conditions() * findings.filters())),
-      choice.tuning_runs, choice.runs, choice.seed);
+  std::string text =
+      fmt::format("{} filters, {} settings each", findings.filters(), findings.world.lattice(0).grid().size());
+  if (choice.beyond > 0) {
+    std::size_t tried = 0;
+    for (const auto& tuned : findings.tuned)
+      for (const Tuned& one : tuned) tried += one.best.tried;
+    text +=
+        fmt::format(" and {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
+                    tried / (findings.conditions() * findings.filters()), choice.beyond);
+  }
+  return text + fmt::format("; chosen by {} runs and judged by {} others, seed {}", choice.tuning_runs, choice.runs,
+                            choice.seed);
 }
 
 std::string limits(const Findings& findings) {
@@ -95,11 +95,10 @@ std::string limits(const Findings& findings) {
     for (std::size_t f = 0; f < findings.filters(); ++f)
       if (findings.at_the_limit(c, f)) ++stopped;
   if (stopped == 0) return "";
-  const int beyond = findings.world.choice().beyond;
-  return fmt::format(
-      "{} of {} tuned filters {}: there may be better ones beyond.", stopped,
-      findings.conditions() * findings.filters(),
-      beyond == 0 ? "have a number at an end of its list" : fmt::format("stopped {} steps beyond a list", beyond));
+  return fmt::format("{} of {} tuned filters {}: there may be better ones beyond.", stopped,
+                     findings.conditions() * findings.filters(),
+                     findings.world.choice().beyond == 0 ? "have a number at an end of its list"
+                                                         : "stopped at the limit beyond a list");
 }
 
 }  // namespace sigmax::apps

@@ -15,10 +15,10 @@ constexpr std::size_t most_rows = 300;  // of a table in the page
 
 std::vector<ResultColumn> filter_columns() {
   return {{.key = "filter", .header = "filter", .align = Align::left},
-          {.key = "leaving", .header = "leaving", .sized = true},
-          {.key = "returning", .header = "returning", .sized = true},
-          {.key = "sigma_w_dwna", .header = "dwna", .group = "σ_w, m/s²:"},
-          {.key = "sigma_w_dwpa", .header = "dwpa", .group = "σ_w, m/s²:"},
+          {.key = "leaving", .header = "leaving", .digits = 3, .sized = true},
+          {.key = "returning", .header = "returning", .digits = 3, .sized = true},
+          {.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"},
+          {.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"},
           {.key = "lift", .header = "lift", .align = Align::left},
           {.key = "at_the_limit"},
           {.key = "settings_tried"},

@@ -77,7 +77,9 @@ TEST(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
                                         "--sigma-w",
                                         "1,9",
                                         "--lift",
-                                        "zero,unbiased"});
+                                        "zero,unbiased",
+                                        "--beyond",
+                                        "0"});
   double least = 1e9;
   std::vector<std::string> best;
   for (const std::string leaving : {"0.2", "0.5"})
@@ -96,7 +98,43 @@ TEST(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
           }
   const auto row = row_of(directory.path() / "sweep", "2,1,1,1,1,himm_own,");
   EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 11), best);
-  EXPECT_NEAR(std::stod(row.at(12)), least, 1e-9);
+  EXPECT_NEAR(std::stod(row.at(13)), least, 1e-9);
+}
+
+/// One condition, two filters, of which only the off-diagonals are searched.
+const Arguments off_diagonals = {"sweep",      "--scenario", "1",
+                                 "--mismatch", "1",          "--period",
+                                 "1",          "--strength", "1",
+                                 "--length",   "1",          "--tuning-runs",
+                                 "4",          "--runs",     "2",
+                                 "--sigma-w",  "3",          "--lift",
+                                 "zero",       "--filters",  "imm,himm_own_recentred"};
+
+TEST(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
+  const TemporaryDirectory directory;
+  const auto far = directory.path() / "far", longer = directory.path() / "longer";
+  const auto said = campaign(far, off_diagonals + Arguments{"--probability", "0.16,0.32", "--possibility", "0.4,0.8"});
+  EXPECT_EQ(said.find("tuned filters stopped"), std::string::npos) << said;
+  campaign(longer, off_diagonals + Arguments{"--beyond", "0", "--probability",
+                                             "0.0025,0.005,0.01,0.02,0.04,0.08,0.16,0.32,0.64,0.9", "--possibility",
+                                             "0.00625,0.0125,0.025,0.05,0.1,0.2,0.4,0.8,1"});
+  for (const std::string beginning : {"1,1,1,1,1,imm,", "1,1,1,1,1,himm_own_recentred,"}) {
+    auto found = row_of(far, beginning), best = row_of(longer, beginning);
+    EXPECT_LT(std::stod(found.at(12)), std::stod(best.at(12))) << "fewer settings were tried";
+    found.erase(found.begin() + 12);
+    best.erase(best.begin() + 12);
+    EXPECT_EQ(found, best);
+  }
+}
+
+TEST(HimmDemoSweep, ItStopsAtTheLimitAndSaysSo) {
+  const TemporaryDirectory directory;
+  const Arguments far = {"--probability", "0.16,0.32", "--possibility", "0.4,0.8"};
+  const auto said = campaign(directory.path(), off_diagonals + far + Arguments{"--beyond", "2"});
+  EXPECT_NE(said.find("2 of 2 tuned filters stopped at the limit beyond a list"), std::string::npos) << said;
+  const auto row = row_of(directory.path(), "1,1,1,1,1,imm,");
+  EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 8), (std::vector<std::string>{"0.04", "0.04"}));
+  EXPECT_EQ(row.at(11), "1");
 }
 
 TEST(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
@@ -110,9 +148,9 @@ TEST(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
     return std::stod(row_of(directory.path() / run, "2,1,1,1,1,imm,").at(column));
   };
   // Runs 5 to 10 are judged first, and are among the ten that tune then: mean squares add up.
-  EXPECT_NE(score("early", 13), score("all", 12));
-  EXPECT_NE(score("early", 13), score("all", 13));
-  EXPECT_NEAR(score("all", 12), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
+  EXPECT_NE(score("early", 14), score("all", 13));
+  EXPECT_NE(score("early", 14), score("all", 14));
+  EXPECT_NEAR(score("all", 13), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
 }
 
 TEST(HimmDemoSweep, TheNumberOfThreadsChangesNoByte) {
@@ -185,6 +223,9 @@ TEST(HimmDemoSweep, WhatCannotBeIsSaid) {
   EXPECT_NE(run({"sweep", "--shard", "3/2"}).output.find("expected I/N with I from 1 to N"), std::string::npos);
   EXPECT_EQ(run(small + Arguments{"--shard", "1/2"}).status, 2) << "there is no --out";
   EXPECT_EQ(run({"sweep", "--probability", "0"}).status, 2);
+  EXPECT_EQ(run({"sweep", "--beyond", "-1"}).status, 2);
+  EXPECT_EQ(run({"sweep", "--beyond", "far"}).status, 2);
+  EXPECT_EQ(run(small + Arguments{"--beyond", "1", "--out", out}).status, 3) << "another campaign";
   EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
   EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
 }
