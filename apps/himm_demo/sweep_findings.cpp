@@ -81,9 +81,9 @@ std::string searched(const Findings& findings) {
     std::size_t tried = 0;
     for (const auto& tuned : findings.tuned)
       for (const Tuned& one : tuned) tried += one.best.tried;
-    text +=
-        fmt::format(" and {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
-                    tried / (findings.conditions() * findings.filters()), choice.beyond);
+    text += fmt::format(
+        " and about {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
+        tried / (findings.conditions() * findings.filters()), choice.beyond);
   }
   return text + fmt::format("; chosen by {} runs and judged by {} others, seed {}", choice.tuning_runs, choice.runs,
                             choice.seed);
