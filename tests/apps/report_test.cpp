@@ -192,7 +192,7 @@ TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
       "sweep",         "--quiet", "--scenario", "2", "--filters", "imm,himm_own", "--probability", "0.05",
       "--possibility", "0.2,0.5", "--sigma-w",  "3", "--lift",    "zero",         "--mismatch",    "1,2",
       "--period",      "2",       "--strength", "1", "--length",  "0.5,1",        "--tuning-runs", "1",
-      "--runs",        "2",       "--out"};
+      "--runs",        "2",       "--beyond",   "0", "--out"};
   const auto sweep = [&](const std::string& out, const std::vector<std::string>& more) {
     auto arguments = small;
     arguments.push_back(directory.path() / out);
