@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -222,6 +223,7 @@ TEST(FilterBank, WrongTracksAndScansAreNamed) {
   impossible.covariance = -1e9 * SquareMatrix<2>::Identity();
   scan.set(5, impossible);
   EXPECT_TRUE(throws<std::domain_error>([&] { bank.step(1.0, scan); }, {"track 5", "not positive definite"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { bank.run(1.0, std::span(&scan, 1), 2); }, {"track 5"}));
 }
 
 }  // namespace
