@@ -267,11 +267,23 @@ class FilterBank {
     return track;
   }
 
+  /// Has the memory of what comes next read meanwhile.
+  static void ask_for(const Number* numbers, std::size_t size) {
+    for (std::size_t k = 0; k < size; k += Line{}.size()) __builtin_prefetch(numbers + k);
+  }
+
   void run_blocks(double dt, std::span<const Scan> scans, bool shortens, std::size_t first, std::size_t last,
                   Filter& general) {
     const unsigned all = (2U << (lanes_ - 1)) - 1;
     for (std::size_t number = first; number < last; ++number)
-      for (const Scan& scan : scans) {
+      for (std::size_t s = 0; s < scans.size(); ++s) {
+        if (s + 1 < scans.size()) {
+          ask_for(scans[s + 1].block(number), Scan::size * lanes_);
+        } else if (number + 1 < last) {
+          ask_for(scans[0].block(number + 1), Scan::size * lanes_);
+          ask_for(block(number + 1), numbers_ * lanes_);
+        }
+        const Scan& scan = scans[s];
         unsigned left = shortens ? shortcut_.step_block(block(number), scan.block(number)) : all;
         for (std::size_t lane = 0; left != 0; ++lane, left >>= 1U)
           if ((left & 1U) != 0 && lives_[number * lanes_ + lane])
