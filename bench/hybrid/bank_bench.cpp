@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -36,11 +37,12 @@ double bandwidth() {
 }
 
 /// N tracks, so many steps of them in each call. What a sensor delivers is there before. Few tracks begin again where
-/// the measurements do; many are measured at the same places in each call.
-template <Uncertainty Kind>
+/// the measurements do; many are measured at one place.
+template <Uncertainty Kind, class Number>
 void BankStep(benchmark::State& state) {
   const auto tracks = static_cast<std::size_t>(state.range(0)), steps = static_cast<std::size_t>(state.range(1));
-  FilterBank bank{std::tuple{dwna<3>(sigma_w), dwpa<3>(sigma_w)}, transition<Kind>()};
+  const std::tuple models{dwna<3>(sigma_w), dwpa<3>(sigma_w)};
+  FilterBank<std::remove_const_t<decltype(models)>, Kind, Number> bank{models, transition<Kind>()};
   const auto begin = [&] {
     for (std::size_t t = 0; t < bank.capacity(); ++t)
       if (bank.lives(t)) bank.remove(t);
@@ -51,7 +53,7 @@ void BankStep(benchmark::State& state) {
   std::vector<typename decltype(bank)::Scan> scans;
   for (std::size_t k = 0; k < (tracks < many ? 64 : steps); ++k) {
     scans.push_back(bank.scan());
-    for (std::size_t t = 0; t < tracks; ++t) scans.back().set(t, measured[k]);
+    for (std::size_t t = 0; t < tracks; ++t) scans.back().set(t, measured[tracks < many ? k : 0]);
   }
   double fastest = tracks < many ? 0.0 : std::max(bandwidth(), bandwidth());
   const auto before = std::chrono::steady_clock::now();
@@ -71,7 +73,7 @@ void BankStep(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tracks * steps));
   if (tracks < many) return;
   fastest = std::max(fastest, bandwidth());
-  const double bytes = 8.0 * n * (2.0 * numbers_of_track + static_cast<double>(steps) * numbers_of_scan);
+  const double bytes = sizeof(Number) * n * (2.0 * numbers_of_track + static_cast<double>(steps) * numbers_of_scan);
   state.counters["of_bandwidth"] = calls * bytes / seconds.count() / fastest;
 }
 
@@ -82,7 +84,9 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
       ->Args({1'000'000, 1})
       ->Args({1'000'000, 8});
 }
-BENCHMARK(BankStep<Random>)->Name("ImmBankStep")->Apply(sizes);
-BENCHMARK(BankStep<Fuzzy>)->Name("HimmBankStep")->Apply(sizes);
+BENCHMARK(BankStep<Random, double>)->Name("ImmBankStep")->Apply(sizes);
+BENCHMARK(BankStep<Fuzzy, double>)->Name("HimmBankStep")->Apply(sizes);
+BENCHMARK(BankStep<Random, float>)->Name("ImmBankStepOfFloats")->Apply(sizes);
+BENCHMARK(BankStep<Fuzzy, float>)->Name("HimmBankStepOfFloats")->Apply(sizes);
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -357,13 +358,32 @@ TEST(SparseRelation, IsTransformedAsItsTable) {
 TEST(SparseRelation, SharesRowsThatATransformSeesOnce) {
   // Nothing reaches the odd outcomes: their rows of the inverse are uninformative and stored once.
   const RandomVariable x{"x", 6};
-  const Relation<Random, Random> even{
+  const Relation<Random, Random> sparse{
       x, x, SparseRows{{{0, 1.0}}, {{0, 1.0}}, {{2, 1.0}}, {{2, 1.0}}, {{4, 1.0}}, {{4, 1.0}}}};
-  const auto inverse = invert(even, uninformative(x));
-  EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{1, 3, 5}));
-  const Relation possible = to_possibility(inverse.relation, DuboisPradeSandri{});
-  for (const std::size_t row : inverse.unreachable)
-    for (std::size_t to = 0; to < x.size(); ++to) EXPECT_EQ(possible(row, to), 1.0);
+  const Relation<Random, Random> banded{
+      x, x, BandedRows{{0, {1.0}}, {0, {1.0}}, {2, {1.0}}, {2, {1.0}}, {4, {1.0}}, {4, {1.0}}}};
+  for (const auto& even : {sparse, banded}) {
+    const auto inverse = invert(even, uninformative(x));
+    EXPECT_TRUE(is_stored_as<SparseRows>(inverse.relation));
+    EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{1, 3, 5}));
+    EXPECT_EQ(inverse.relation(1, 4), 1.0 / 6.0);
+    EXPECT_EQ(inverse.relation(2, 3), 0.5);
+    const Relation possible = to_possibility(inverse.relation, DuboisPradeSandri{});
+    for (const std::size_t row : inverse.unreachable)
+      for (std::size_t to = 0; to < x.size(); ++to) EXPECT_EQ(possible(row, to), 1.0);
+  }
+}
+
+TEST(SparseRelation, IsWrittenALinePerRow) {
+  std::ostringstream out;
+  out << sparse_step() << Relation{cell, mood, {{0.75, 0.25, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}};
+  EXPECT_EQ(out.str(),
+            "cell given cell = a: a 0.75, d 0.25\n"
+            "cell given cell = b: b 1\n"
+            "cell given cell = c: a 0.5, c 0.5\n"
+            "cell given cell = d: d 1\n"
+            "cell given mood = calm: a 0.75, b 0.25, c 0, d 0\n"
+            "cell given mood = wild: a 0, b 0, c 0, d 1\n");
 }
 
 TEST(SparseRelation, OfAMillionOutcomesIsTransformedWithoutATable) {

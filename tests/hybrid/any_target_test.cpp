@@ -57,6 +57,27 @@ TEST(AnyTarget, StartsFromThreePointsAndTellsTheTagOfEveryStep) {
   EXPECT_FALSE(point.nis);
 }
 
+TEST(AnyTarget, ACopyGoesOnByItself) {
+  AnyTarget target{choice(true, Scheme::interacting)};
+  for (int k = 0; k < 4; ++k) target.take(at(k, 100.0 * k, 0.0), {});
+  AnyTarget copy = target, other{choice(false, Scheme::interacting)};
+  copy.take(at(4.0, 400.0, 50.0), {});
+  EXPECT_EQ(target.time(), 3.0);
+  EXPECT_EQ(copy.time(), 4.0);
+  target.take(at(4.0, 400.0, 50.0), {});
+  EXPECT_EQ(target.output().mean, copy.output().mean);
+  other = copy;
+  EXPECT_EQ(other.output().mean, copy.output().mean);
+  EXPECT_EQ(other.starts(), 1U);
+  EXPECT_EQ(other.rejected(), 0U);
+  const double turn[] = {0, 1, 0, -1, 0, 0, 0, 0, 1}, shift[] = {0, 0, 7};
+  EXPECT_TRUE(other.transform(turn, shift));
+  EXPECT_NEAR(other.output().mean[0], copy.output().mean[1], 1e-9);
+  EXPECT_NEAR(other.output().mean[1], -copy.output().mean[0], 1e-9);
+  EXPECT_NEAR(other.output().mean[2], copy.output().mean[2] + 7.0, 1e-9);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { other.transform(shift, shift); }, {"3 axes"}));
+}
+
 TEST(AnyTarget, AGivenStartWaitsForTheSecondPlotAndTakesBoth) {
   TargetChoice given = choice(true, Scheme::interacting);
   given.start = StartRule::given;

@@ -192,6 +192,27 @@ TEST(HistoryFilter, OneModelIsTheKalmanFilterAndTheIdentityNeverBranches) {
   keeps_the_laws<Random>();
 }
 
+template <Uncertainty Kind>
+void leaves_a_mode_that_nothing_reaches() {
+  HistoryFilter<VectorBank, Kind> filter{VectorBank{calm(1.0), calm(5.0)},
+                                         transition_by<Kind>({{1.0, 0.0}, {1.0, 0.0}}),
+                                         std::vector<State>{starts()[0], starts()[0]}};
+  Alone alone{calm(1.0), starts()[0]};
+  for (const Scan& scan : manoeuvring_target(30)) {
+    support::step(filter, scan);
+    alone.step(scan);
+    ASSERT_EQ(filter.belief().log(1), log_zero);
+    ASSERT_EQ(filter.most_likely_mode(), 0U);
+    ASSERT_PRED_FORMAT3(near_matrix, filter.estimate().mean, alone.state.mean, 1e-12);
+    ASSERT_PRED_FORMAT3(near_matrix, filter.estimate().covariance, alone.state.covariance, 1e-12);
+  }
+}
+
+TEST(HistoryFilter, AModeThatNothingReachesHasNoWeight) {
+  leaves_a_mode_that_nothing_reaches<Fuzzy>();
+  leaves_a_mode_that_nothing_reaches<Random>();
+}
+
 /// Measures the position in millimetres: every Λ is 10⁻⁶ times as great.
 struct Millimetres {
   static constexpr int measurement_size = 2;

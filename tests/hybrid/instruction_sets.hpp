@@ -10,7 +10,7 @@ namespace sigmax::support {
 template <class Action>
 void under_each_instruction_set(const Action& action) {
   for (const auto* kernels : detail::kinematic::available()) {
-    SCOPED_TRACE(testing::Message() << "by vectors of " << kernels->lanes << " numbers");
+    SCOPED_TRACE(testing::Message() << "by vectors of " << kernels->lane_bytes << " bytes");
     detail::kinematic::choose(*kernels);
     action();
   }

@@ -1,10 +1,12 @@
 // The code of docs/multiple_models.md.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
@@ -53,6 +55,26 @@ TEST(MultipleModelsWalk, SmoothsAndFollowsATarget) {
   Target target{filter, 0.0, one_point_start, rules};
   const Verdict verdict = target.take(0.2, z);  // accepted, rejected, restarted; take(time) is missed
   EXPECT_EQ(verdict, Verdict::accepted);
+}
+
+TEST(MultipleModelsWalk, StepsManyTracksAtOnce) {
+  const RandomVariable mode{"mode", {"dwna", "dwpa"}};
+  const Relation transition{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}};
+  const Gaussian<9> start{Vector<9>::Zero(), 100.0 * SquareMatrix<9>::Identity()};
+  const Gaussian<3> z{Vector<3>(1.0, 2.0, 3.0), 25.0 * SquareMatrix<3>::Identity()};
+  FilterBank bank{std::tuple{dwna<3>(3.0), dwpa<3>(3.0)}, transition};
+  const std::size_t track = bank.add(start);  // a number, which `bank.remove(track)` gives back
+  auto scan = bank.scan();
+  scan.set(track, z);
+  bank.step(0.2, scan);  // a track without a measurement misses
+  const Gaussian position = bank.estimate(track);
+  using Models = std::tuple<IndependentAxes<3, DiscreteWhiteNoise<2>>, IndependentAxes<3, DiscreteWhiteNoise<3>>>;
+  FilterBank<Models, Random, float> single{{dwna<3>(3.0), dwpa<3>(3.0)}, transition};
+  single.add(start);
+  auto same = single.scan();
+  same.set(0, z);
+  single.step(0.2, same);
+  EXPECT_NEAR(single.estimate(0).mean(0), position.mean(0), 1e-5);
 }
 
 }  // namespace

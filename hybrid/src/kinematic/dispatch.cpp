@@ -44,10 +44,13 @@ void output(const Plan& plan, bool selects, const Track& track, double* mean, do
   kernels().output[plan.axes - 1][selects](plan, track, mean, covariance);
 }
 
-int lanes() { return kernels().lanes; }
+std::size_t lane_bytes() { return kernels().lane_bytes; }
 
 unsigned step_block(const Plan& plan, bool selects, double* block, const double* measurements) {
   return kernels().step_block[plan.axes - 1][selects](plan, block, measurements);
+}
+unsigned step_block(const Plan& plan, bool selects, float* block, const float* measurements) {
+  return kernels().step_block_of_floats[plan.axes - 1][selects](plan, block, measurements);
 }
 
 }  // namespace sigmax::detail::kinematic

@@ -117,7 +117,7 @@ void output_one(const Plan& plan, const Track& track, double* mean, double* cova
 /// covariance's lower blocks, of diagonal ones from the diagonal down; then the weights of the modes.
 template <class V, int A>
 struct Block {
-  double* at;
+  typename LaneOf<V>::Real* at;
 
   SIGMAX_INLINE void operator()(V& lanes, bool reads) {
     if (reads)
@@ -144,15 +144,14 @@ struct Block {
 
 /// One step of a block of tracks, in place. `measurements` is for each lane z, the columns of R, and one where there is
 /// a measurement. A bit for each track that must take the general step, and is as it was.
-template <int A, bool selects>
-unsigned step_block(const Plan& plan, double* block, const double* measurements) {
-  using V = Doubles;
+template <class V, int A, bool selects, class Number = typename LaneOf<V>::Real>
+unsigned step_block(const Plan& plan, Number* block, const Number* measurements) {
   using C = Axes<V, A>;
   Estimate<C, A> before[max_modes], after[max_modes];
   V weight[max_modes], most_likely{};
   Block<V, A>{block}.pass(plan, before, weight, most_likely, true);
   Measured<C, A> measured;
-  Block<V, A> reader{const_cast<double*>(measurements)};  // it only reads
+  Block<V, A> reader{const_cast<Number*>(measurements)};  // it only reads
   for (int i = 0; i < A; ++i) reader(measured.z[i], true);
   for (int k = 0; k < A; ++k)
     for (int i = 0; i < A; ++i) reader(measured.R[k][i], true);
@@ -187,10 +186,13 @@ const Kernels& SIGMAX_INSTRUCTIONS() {
                                    {{output_one<1, false>, output_one<1, true>},
                                     {output_one<2, false>, output_one<2, true>},
                                     {output_one<3, false>, output_one<3, true>}},
-                                   {{step_block<1, false>, step_block<1, true>},
-                                    {step_block<2, false>, step_block<2, true>},
-                                    {step_block<3, false>, step_block<3, true>}},
-                                   LaneOf<Doubles>::count};
+                                   {{step_block<Doubles, 1, false>, step_block<Doubles, 1, true>},
+                                    {step_block<Doubles, 2, false>, step_block<Doubles, 2, true>},
+                                    {step_block<Doubles, 3, false>, step_block<Doubles, 3, true>}},
+                                   {{step_block<Floats, 1, false>, step_block<Floats, 1, true>},
+                                    {step_block<Floats, 2, false>, step_block<Floats, 2, true>},
+                                    {step_block<Floats, 3, false>, step_block<Floats, 3, true>}},
+                                   SIGMAX_LANE_BYTES};
   return kernels;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <sigmax/hybrid/kinematic_plan.hpp>
@@ -11,7 +12,8 @@ struct Kernels {
   bool (*step[max_axes][2])(const Plan&, const Track& now, const double* z, const double* R, Track& next, Told&);
   void (*output[max_axes][2])(const Plan&, const Track&, double* mean, double* covariance);
   unsigned (*step_block[max_axes][2])(const Plan&, double* block, const double* measurements);
-  int lanes;
+  unsigned (*step_block_of_floats[max_axes][2])(const Plan&, float* block, const float* measurements);
+  std::size_t lane_bytes;
 };
 
 const Kernels& baseline();

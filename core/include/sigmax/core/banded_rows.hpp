@@ -36,14 +36,6 @@ class BandedRows {
   /// Appends `size` equal numbers.
   void append(std::size_t first, std::size_t size, double value) { append(first, std::vector<double>(size, value)); }
 
-  /// Makes rows share one further row of equal numbers in every column: what is stored grows by one row only.
-  void fill_rows(std::span<const std::size_t> rows, double value) {
-    if (rows.empty()) return;
-    const std::size_t offset = values_.size();
-    values_.resize(offset + columns_, value);
-    for (const std::size_t row : rows) rows_[row] = {0, offset, columns_};
-  }
-
   std::size_t rows() const { return rows_.size(); }
   std::size_t columns() const { return columns_; }
   std::size_t stored() const { return values_.size(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -128,9 +129,11 @@ void invert_into(const Relation<To, From>& relation, const Prior& prior, AnyRows
   kernels::transpose(relation.rows(), result);
   unreachable.clear();
   std::visit(
-      [&](auto& rows) {
-        for (std::size_t to = 0; to < rows.rows(); ++to) weigh(prior, rows.entries(to), rows.values(to));
-        condition_rows<AlgebraOf<From>>(rows, unreachable);
+      [&]<class Rows>(Rows& rows) {
+        if constexpr (!std::same_as<Rows, BandedRows>) {  // which columns never are
+          for (std::size_t to = 0; to < rows.rows(); ++to) weigh(prior, rows.entries(to), rows.values(to));
+          condition_rows<AlgebraOf<From>>(rows, unreachable);
+        }
       },
       result);
 }

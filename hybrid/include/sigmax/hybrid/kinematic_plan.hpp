@@ -71,13 +71,16 @@ bool step(const Plan& plan, bool selects, const Track& now, const double* z, con
 /// The output, (64)–(68), in the components of the largest model; the covariance a whole matrix.
 void output(const Plan& plan, bool selects, const Track& track, double* mean, double* covariance);
 
-/// How many tracks a block has: the numbers of a vector of this processor.
-int lanes();
+/// How many bytes a vector of this processor has; a block has as many tracks as it has numbers.
+std::size_t lane_bytes();
 
-/// One step of a block of tracks, in place; each of its numbers is lanes() of them, in this order: for each model the
+/// @{
+/// One step of a block of tracks, in place; each of its numbers is that of all lanes, in this order: for each model the
 /// mean, and the columns of the covariance's blocks on and below the diagonal, of diagonal blocks from the diagonal
 /// down; the linear weights of the modes; and the most likely one. Measurements are z, the columns of R, and whether
 /// there is one (one or zero). Returns a bit for each track that must take the general step, and is as it was.
 unsigned step_block(const Plan& plan, bool selects, double* block, const double* measurements);
+unsigned step_block(const Plan& plan, bool selects, float* block, const float* measurements);
+/// @}
 
 }  // namespace sigmax::detail::kinematic

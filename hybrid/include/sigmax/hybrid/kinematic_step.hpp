@@ -146,7 +146,8 @@ class Shortcut {
   }
 
   /// One step of a block of tracks; see the function of this name.
-  unsigned step_block(double* block, const double* measurements) const {
+  template <class Number>
+  unsigned step_block(Number* block, const Number* measurements) const {
     return kinematic::step_block(plan_, SelectiveAlgebra<AlgebraOf<Kind>>, block, measurements);
   }
 
