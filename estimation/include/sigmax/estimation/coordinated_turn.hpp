@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -30,9 +31,9 @@ class CoordinatedTurn {
 
   /// Throws std::invalid_argument unless q and q_ω are finite and not negative.
   CoordinatedTurn(double q, double q_omega)
-      : noise_(cwna<Axes>(motion_parameter(q, "q", name()))), q_omega_(motion_parameter(q_omega, "q_omega", name())) {}
+      : noise_(motion_parameter(q, "q", name())), q_omega_(motion_parameter(q_omega, "q_omega", name())) {}
 
-  double q() const { return noise_.law().q(); }
+  double q() const { return noise_.q(); }
   double q_omega() const { return q_omega_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return "coordinated_turn"; }
@@ -55,15 +56,14 @@ class CoordinatedTurn {
     return result;
   }
   Matrix transition_jacobian(const State& x, double dt) const {
-    const double omega = x(2 * Axes);
-    const double theta = omega * dt;
+    const double theta = x(2 * Axes) * dt;
     const Turn<double> turn(theta);
-    const double half = sinc(0.5 * theta);
-    const double along = sinc_derivative(theta);
-    const double across = 0.5 * half * half + 0.5 * theta * half * sinc_derivative(0.5 * theta);
+    const double half = 0.5 * theta, ratio = sinc(half), slope = sinc_derivative(half);
+    const double along = 0.5 * (slope * std::cos(half) - ratio * std::sin(half));  // derivatives by θ
+    const double across = 0.5 * ratio * (ratio + theta * slope);
     const double vx = x(Axes), vy = x(Axes + 1);
     Matrix F = Matrix::Identity();
-    F.template topLeftCorner<2 * Axes, 2 * Axes>() = turn_transition<Axes>(omega, dt);
+    F.template topLeftCorner<2 * Axes, 2 * Axes>() = turn_transition<Axes>(turn, dt);
     F(0, 2 * Axes) = dt * dt * (along * vx - across * vy);
     F(1, 2 * Axes) = dt * dt * (across * vx + along * vy);
     F(Axes, 2 * Axes) = -dt * (turn.sine * vx + turn.cosine * vy);
@@ -72,13 +72,16 @@ class CoordinatedTurn {
   }
   Matrix process_covariance(double dt) const {
     Matrix Q = Matrix::Zero();
-    Q.template topLeftCorner<2 * Axes, 2 * Axes>() = noise_.process_covariance(dt);
+    const SquareMatrix<2> along_axis = noise_.process_covariance(dt);
+    for (Eigen::Index a = 0; a < 2; ++a)
+      for (Eigen::Index b = 0; b < 2; ++b)
+        Q.template block<Axes, Axes>(a * Axes, b * Axes).diagonal().setConstant(along_axis(a, b));
     Q(2 * Axes, 2 * Axes) = q_omega_ * dt;
     return Q;
   }
 
  private:
-  IndependentAxes<Axes, WhiteNoise<2>> noise_;
+  WhiteNoise<2> noise_;
   double q_omega_;
 };
 

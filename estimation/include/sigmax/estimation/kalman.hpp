@@ -47,8 +47,10 @@ template <class Transition, class Noise, int N, int MaxN>
 void predict_covariance(const Transition& F, const Noise& Q, const SquareMatrix<N, MaxN>& prior,
                         SquareMatrix<N, MaxN>& result) {
   const Vector<N, MaxN> terms = F.cwiseAbs2() * prior.diagonal();
-  const SquareMatrix<N, MaxN> FP = F * prior;
-  result.noalias() = FP * F.transpose();
+  SquareMatrix<N, MaxN> FP(prior.rows(), prior.cols());  // column by column, which makes for longer vectors
+  for (Eigen::Index j = 0; j < prior.cols(); ++j) FP.col(j) = F.lazyProduct(prior.col(j));
+  result.resizeLike(prior);
+  for (Eigen::Index j = 0; j < prior.cols(); ++j) result.col(j) = FP.lazyProduct(F.row(j).transpose());
   result += Q;
   result.diagonal() += rounding * terms;
   mirror_lower(result);
@@ -111,14 +113,25 @@ SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& mea
 }
 
 /// Stands for H = [I 0].
-struct LeadingComponents {};
+template <int M>
+struct LeadingComponents {
+  static constexpr int ColsAtCompileTime = M;
+  static constexpr int MaxColsAtCompileTime = M;
+  static constexpr Eigen::Index cols() { return M; }
+};
 
-/// Joseph's update with the matrix of a linear sensor, or the Jacobian of another.
+/// Joseph's update with the matrix [H 0] of a linear sensor, or the Jacobian of another, of which only H is given.
 template <class MeasurementMatrix, int N, int max_N, int M, int MaxM>
 Innovation<M, MaxM> update_by(std::string_view model, const MeasurementMatrix& H, const Vector<M, MaxM>& residual,
                               const Gaussian<N, max_N>& prior, const Gaussian<M, MaxM>& measurement,
                               Gaussian<N, max_N>& posterior) {
-  constexpr bool leading = std::is_same_v<MeasurementMatrix, LeadingComponents>;
+  constexpr bool leading = std::is_same_v<MeasurementMatrix, LeadingComponents<M>>;
+  constexpr int K = MeasurementMatrix::ColsAtCompileTime;
+  constexpr int max_K = MeasurementMatrix::MaxColsAtCompileTime;
+  constexpr int rest_size = N == Eigen::Dynamic ? N : N - K;
+  constexpr int max_rest_size = N == Eigen::Dynamic ? max_N : N - K;
+  const auto seen = extent<K>(H.cols());
+  const auto rest = extent<rest_size>(prior.size() - H.cols());
   using Gain = RectangularMatrix<N, M, max_N, MaxM>;
   const auto& P = prior.covariance;
   const auto& R = measurement.covariance;
@@ -127,41 +140,43 @@ Innovation<M, MaxM> update_by(std::string_view model, const MeasurementMatrix& H
   innovation.residual = residual;
   Gain PHt;
   if constexpr (leading) {
-    PHt = P.template leftCols<M>();
-    innovation.covariance = P.template topLeftCorner<M, M>() + R;
+    PHt = P.leftCols(seen);
+    innovation.covariance = P.topLeftCorner(seen, seen) + R;
   } else {
-    PHt = P * H.transpose();
-    innovation.covariance = H * PHt + R;
+    PHt = P.leftCols(seen).lazyProduct(H.transpose());
+    innovation.covariance = R;
+    innovation.covariance += H.lazyProduct(PHt.topRows(seen));
   }
   const SquareMatrix<M, MaxM> S_inverse = score(model, measurement, innovation);
   const Gain W = PHt.lazyProduct(S_inverse);
 
-  SquareMatrix<N, max_N> result;
-  Vector<N, max_N> terms(prior.size());  // of the variances in (I − WH) P (I − WH)ᵀ, before they cancel
+  // I − W [H 0] = [A 0; −B I], so that the zeros and ones cost nothing; if H is I, A is R S⁻¹, which does not cancel.
+  SquareMatrix<K, max_K> A;
+  const auto B = [&] {
+    if constexpr (leading)
+      return W.bottomRows(rest);
+    else
+      return RectangularMatrix<rest_size, K, max_rest_size, max_K>(W.bottomRows(rest).lazyProduct(H));
+  }();
   if constexpr (leading) {
-    // I − WH = [R S⁻¹ 0; −W₂ I], so that the zeros and ones cost nothing, and I − W₁ does not cancel.
-    constexpr int rest_size = N == Eigen::Dynamic ? N : N - M;
-    const auto rest = extent<rest_size>(prior.size() - M);
-    const SquareMatrix<M> A = R * S_inverse;
-    const auto W2 = W.bottomRows(rest);
-    SquareMatrix<N, max_N> AP(prior.size(), prior.size());
-    AP.template topRows<M>() = A.lazyProduct(P.template topRows<M>());
-    AP.bottomRows(rest) = P.bottomRows(rest);
-    AP.bottomRows(rest) -= W2.lazyProduct(P.template topRows<M>());
-    terms.template head<M>() = A.cwiseAbs2() * P.diagonal().template head<M>();
-    terms.tail(rest) = P.diagonal().tail(rest) + W2.cwiseAbs2() * P.diagonal().template head<M>();
-    result.resizeLike(P);
-    result.template leftCols<M>() = AP.template leftCols<M>().lazyProduct(A.transpose());
-    result.rightCols(rest) = AP.rightCols(rest);
-    result.rightCols(rest) -= AP.template leftCols<M>().lazyProduct(W2.transpose());
+    A = R.lazyProduct(S_inverse);
   } else {
-    const SquareMatrix<N, max_N> A = SquareMatrix<N, max_N>::Identity(prior.size(), prior.size()) - W * H;
-    const SquareMatrix<N, max_N> AP = A * P;
-    result.noalias() = AP * A.transpose();
-    terms = A.cwiseAbs2() * P.diagonal();
+    A = SquareMatrix<K, max_K>::Identity(H.cols(), H.cols());
+    A -= W.topRows(seen).lazyProduct(H);
   }
+  SquareMatrix<N, max_N> AP(prior.size(), prior.size());
+  AP.topRows(seen) = A.lazyProduct(P.topRows(seen));
+  AP.bottomRows(rest) = P.bottomRows(rest);
+  AP.bottomRows(rest) -= B.lazyProduct(P.topRows(seen));
+  SquareMatrix<N, max_N> result(prior.size(), prior.size());
+  result.leftCols(seen) = AP.leftCols(seen).lazyProduct(A.transpose());
+  result.rightCols(rest) = AP.rightCols(rest);
+  result.bottomRightCorner(rest, rest) -= AP.bottomLeftCorner(rest, seen).lazyProduct(B.transpose());  // mirrored
   const Gain WR = W.lazyProduct(R);
   result += WR.lazyProduct(W.transpose());
+  Vector<N, max_N> terms(prior.size());  // of the variances in (I − WH) P (I − WH)ᵀ, before they cancel
+  terms.head(seen) = A.cwiseAbs2() * P.diagonal().head(seen);
+  terms.tail(rest) = P.diagonal().tail(rest) + B.cwiseAbs2() * P.diagonal().head(seen);
   result.diagonal() += rounding * terms;
   mirror_lower(result);
 
@@ -185,13 +200,13 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
     constexpr int M = Sensor::measurement_size;
     detail::require_seen<Sensor>(model);
     const Vector<M> residual = measurement.mean - prior.mean.template head<M>();
-    return detail::update_by(model.name(), detail::LeadingComponents{}, residual, prior, measurement, posterior);
+    return detail::update_by(model.name(), detail::LeadingComponents<M>{}, residual, prior, measurement, posterior);
   } else if constexpr (LinearSensorOf<Sensor, Model>) {
     const auto& H = measurement_matrix(model, sensor);
     const MeasuredOf<Sensor> residual = measurement.mean - H * prior.mean;
     return detail::update_by(model.name(), H, residual, prior, measurement, posterior);
   } else {
-    const auto H = measurement_jacobian(model, sensor, prior.mean);
+    const auto H = detail::jacobian_of_seen(model, sensor, prior.mean);
     const auto residual =
         measurement_difference(sensor, measurement.mean, predicted_measurement(model, sensor, prior.mean));
     return detail::update_by(model.name(), H, residual, prior, measurement, posterior);

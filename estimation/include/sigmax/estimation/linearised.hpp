@@ -109,7 +109,7 @@ struct SigmaPointRegression {
     typename SigmaPoints<Filter>::template Columns<A, MaxA> even = deviations;
     even.middleCols(points.size() - 2 * n, n) = 0.5 * (up + down);
     even.rightCols(n) = 0.5 * (up + down);
-    rest = points.covariance(even, even);
+    rest = points.covariance(even);
   }
 };
 
@@ -158,13 +158,7 @@ LinearisedMeasurementOf<Filter, Sensor> linearised_measurement(const Filter& mem
     constexpr int M = Sensor::measurement_size;
     constexpr int max_M = detail::max_measurement_size_of<Sensor>;
     const SigmaPoints<Filter> points(member, predicted);
-    typename SigmaPoints<Filter>::template Columns<M, max_M> seen(z.size(), points.size());
-    const auto see = [&](Eigen::Index i) {
-      seen.col(i) =
-          predicted_measurement(member.motion(), sensor, StateOf<Filter>(predicted.mean + points.offsets().col(i)));
-    };
-    see(0);  // silences a warning of g++ 12: there is always a first point
-    for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
+    auto seen = detail::seen_points(member, points, predicted.mean, sensor, z.size());
     const MeasuredOf<Sensor> mean = measurement_mean(sensor, seen, points.mean_weights());
     for (Eigen::Index i = 0; i < points.size(); ++i)
       seen.col(i) = measurement_difference(sensor, MeasuredOf<Sensor>(seen.col(i)), mean);

@@ -232,6 +232,21 @@ MeasurementMatrixOf<Sensor, Model> measurement_jacobian(const Model& model, cons
   return detail::require_finite(jacobian_at(), "the Jacobian of h", model, x);
 }
 
+namespace detail {
+
+/// ∂h/∂x over the leading components that a sensor sees, by which alone h changes, or over all. Throws
+/// std::domain_error unless it is finite.
+template <StateModel Model, SensorOf<Model> Sensor>
+auto jacobian_of_seen(const Model& model, const Sensor& sensor, const StateOf<Model>& x) {
+  if constexpr (SeesLeading<Sensor> && !LinearSensorOf<Sensor, Model>)
+    return require_finite(asked<Sensor>(model, x, [&](const auto& seen) { return leading_jacobian(sensor, seen); }),
+                          "the Jacobian of h", model, x);
+  else
+    return measurement_jacobian(model, sensor, x);
+}
+
+}  // namespace detail
+
 /// z − predicted, by the sensor's own difference if it has one.
 template <Sensing Sensor>
 MeasuredOf<Sensor> measurement_difference(const Sensor& sensor, const MeasuredOf<Sensor>& z,

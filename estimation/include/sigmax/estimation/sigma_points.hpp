@@ -57,6 +57,19 @@ class SigmaPoints {
   const Columns<N, max_N>& offsets() const { return offsets_; }
   const Vector<count, max_count>& mean_weights() const { return mean_weights_; }
 
+  /// Σ wᵢ aᵢ aᵢᵀ over deviations from a mean.
+  template <int A, int MaxA>
+  SquareMatrix<A, MaxA> covariance(const Columns<A, MaxA>& a) const {
+    const RectangularMatrix<count, A, max_count, MaxA> rows = a.transpose();  // sums run along memory
+    const RectangularMatrix<count, A, max_count, MaxA> weighted = covariance_weights_.asDiagonal() * rows;
+    SquareMatrix<A, MaxA> result(a.rows(), a.rows());
+    for (Eigen::Index column = 0; column < a.rows(); ++column)
+      for (Eigen::Index row = column; row < a.rows(); ++row)
+        result(row, column) = weighted.col(row).dot(rows.col(column));
+    mirror_lower(result);
+    return result;
+  }
+
   /// Σ wᵢ aᵢ bᵢᵀ over deviations from two means.
   template <int A, int MaxA, int B, int MaxB>
   RectangularMatrix<A, B, MaxA, MaxB> covariance(const Columns<A, MaxA>& a, const Columns<B, MaxB>& b) const {
@@ -91,6 +104,30 @@ struct Propagated {
   }
 };
 
+/// h of the points about a mean, a column each. Points that the sensor cannot tell from the mean share one evaluation.
+template <SigmaPointMember Filter, SensorOf<Filter> Sensor>
+auto seen_points(const Filter& member, const SigmaPoints<Filter>& points, const StateOf<Filter>& mean,
+                 const Sensor& sensor, Eigen::Index measured) {
+  const auto as_the_mean = [&](Eigen::Index i) {
+    if constexpr (SeesLeading<Sensor>)
+      return points.offsets().col(i).template head<Sensor::seen_size>().isZero(0.0);
+    else
+      return points.offsets().col(i).isZero(0.0);
+  };
+  typename SigmaPoints<Filter>::template Columns<Sensor::measurement_size, max_measurement_size_of<Sensor>> seen;
+  seen.resize(measured, points.size());
+  Eigen::Index at_mean = -1;  // the first that is seen there
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    if (at_mean >= 0 && as_the_mean(i)) {
+      seen.col(i) = seen.col(at_mean);
+      continue;
+    }
+    seen.col(i) = predicted_measurement(member.motion(), sensor, StateOf<Filter>(mean + points.offsets().col(i)));
+    if (at_mean < 0 && as_the_mean(i)) at_mean = i;
+  }
+  return seen;
+}
+
 /// Returns a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
 /// if it did.
 template <SigmaPointMember Filter>
@@ -115,7 +152,7 @@ void predict(const Filter& member, const EstimateOf<Filter>& prior, double dt, E
     const SigmaPoints<Filter> points(member, prior);
     const detail::Propagated<Filter> images(member, points, prior.mean, dt);
     result.covariance = detail::proved_semidefinite(
-        member, points.covariance(images.deviations, images.deviations) + member.motion().process_covariance(dt));
+        member, points.covariance(images.deviations) + member.motion().process_covariance(dt));
     result.mean = images.mean;
   }
 }
@@ -152,20 +189,14 @@ InnovationOf<Sensor> update(const Filter& member, const EstimateOf<Filter>& prio
     using Gain = RectangularMatrix<N, M, max_N, max_M>;
     const SigmaPoints<Filter> points(member, prior);
 
-    typename SigmaPoints<Filter>::template Columns<M, max_M> seen(measurement.size(), points.size());
-    const auto see = [&](Eigen::Index i) {
-      seen.col(i) =
-          predicted_measurement(member.motion(), sensor, StateOf<Filter>(prior.mean + points.offsets().col(i)));
-    };
-    see(0);  // silences a warning of g++ 12: there is always a first point
-    for (Eigen::Index i = 1; i < points.size(); ++i) see(i);
+    auto seen = detail::seen_points(member, points, prior.mean, sensor, measurement.size());
     const MeasuredOf<Sensor> predicted = measurement_mean(sensor, seen, points.mean_weights());
     for (Eigen::Index i = 0; i < points.size(); ++i)
       seen.col(i) = measurement_difference(sensor, MeasuredOf<Sensor>(seen.col(i)), predicted);
 
     InnovationOf<Sensor> innovation;
     innovation.residual = measurement_difference(sensor, measurement.mean, predicted);
-    innovation.covariance = points.covariance(seen, seen);
+    innovation.covariance = points.covariance(seen);
     innovation.covariance += measurement.covariance;
     mirror_lower(innovation.covariance);
     const SquareMatrix<M, max_M> S_inverse = detail::score(member.name(), measurement, innovation);
@@ -173,8 +204,7 @@ InnovationOf<Sensor> update(const Filter& member, const EstimateOf<Filter>& prio
 
     const typename SigmaPoints<Filter>::template Columns<N, max_N> rest = points.offsets() - W.lazyProduct(seen);
     const Gain WR = W.lazyProduct(measurement.covariance);
-    posterior.covariance =
-        detail::proved_semidefinite(member, points.covariance(rest, rest) + WR.lazyProduct(W.transpose()));
+    posterior.covariance = detail::proved_semidefinite(member, points.covariance(rest) + WR.lazyProduct(W.transpose()));
     posterior.mean = prior.mean + W * innovation.residual;
     return innovation;
   }

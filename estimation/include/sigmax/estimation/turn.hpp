@@ -47,24 +47,28 @@ struct Turn {
 
   explicit Turn(const Scalar& theta) {
     using std::cos, std::sin;
-    const Scalar half = theta / 2.0;
-    along = sinc(theta);
-    across = Scalar(sin(half) * sinc(half));
-    cosine = Scalar(cos(theta));
-    sine = Scalar(sin(theta));
+    const Scalar half = theta / 2.0;  // by which one sine and one cosine are enough
+    const Scalar half_sine = sin(half), half_cosine = cos(half), ratio = sinc(half);
+    along = Scalar(ratio * half_cosine);
+    across = Scalar(ratio * half_sine);
+    cosine = Scalar(1.0 - 2.0 * half_sine * half_sine);
+    sine = Scalar(2.0 * half_sine * half_cosine);
   }
 };
 
-/// F of a turn at a known rate, over x, y, vx, vy or x, y, z, vx, vy, vz; z moves uniformly.
+/// F of a turn at a known rate for dt seconds, over x, y, vx, vy or x, y, z, vx, vy, vz; z moves uniformly.
 template <int Axes>
-SquareMatrix<2 * Axes> turn_transition(double omega, double dt) {
-  const Turn<double> turn(omega * dt);
+SquareMatrix<2 * Axes> turn_transition(const Turn<double>& turn, double dt) {
   SquareMatrix<2 * Axes> F = SquareMatrix<2 * Axes>::Identity();
   const Eigen::Matrix2d position{{turn.along, -turn.across}, {turn.across, turn.along}};
   F.template block<2, 2>(0, Axes) = dt * position;
   F.template block<2, 2>(Axes, Axes) << turn.cosine, -turn.sine, turn.sine, turn.cosine;
   if constexpr (Axes == 3) F(2, 5) = dt;
   return F;
+}
+template <int Axes>
+SquareMatrix<2 * Axes> turn_transition(double omega, double dt) {
+  return turn_transition<Axes>(Turn<double>(omega * dt), dt);
 }
 
 }  // namespace sigmax
