@@ -230,7 +230,7 @@ struct ImmOfScales final : Runner {
   static Gaussian<N> moments(const std::vector<double>& weights, const std::vector<Gaussian<N>>& parts) {
     Gaussian<N> result;
     const auto weight = [&](std::size_t l) { return weights[l]; };
-    match_moments(EstimateMixture<Gaussian<N>>{parts}, weight, weight, result);
+    detail::match_moments(EstimateMixture<Gaussian<N>>{parts}, weight, weight, result);
     return result;
   }
 

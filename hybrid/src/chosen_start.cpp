@@ -36,7 +36,7 @@ template <int Axes>
 std::optional<StartAt<Estimates>> from_points(const TargetChoice& choice, Plots plots) {
   std::vector<TimedMeasurement<Axes>> points;
   for (const auto& plot : plots) {
-    const auto position = position_told<Axes>(plot);
+    const auto position = detail::position_told<Axes>(plot);
     if (!position) continue;
     if (!points.empty() && points.back().time == plot.time)
       points.back().measurement = *position;

@@ -20,7 +20,7 @@ class ChosenStart {
 
   std::optional<StartAt<Estimates>> operator()(Plots plots, std::size_t starts) const;
 
-  /// Of every model an estimate of its size, of no account: what a filter holds before it starts.
+  /// An estimate of its size for every model, without meaning: what a filter holds before it starts.
   Estimates nowhere() const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace sigmax::detail {
 
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
   const Variable<Kind> mode{"mode", choice.models};
   if (choice.scheme == Scheme::independent) return identity(mode);
@@ -21,7 +21,7 @@ ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
   return Relation<Kind, Kind>{mode, mode, choice.transition};
 }
 
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   Interaction<Kind> interaction;
   interaction.lift = choice.lift;
@@ -36,7 +36,7 @@ Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   return interaction;
 }
 
-/// The filter of a choice; what it holds before it starts is of no account.
+/// The filter of a choice; what it holds before it starts means nothing.
 template <class Filter>
 Filter chosen_filter(const TargetChoice& choice) {
   using Kind = typename Filter::kind;

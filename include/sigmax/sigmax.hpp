@@ -42,6 +42,8 @@
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
+#include <sigmax/hybrid/fit.hpp>
+#include <sigmax/hybrid/fit_target.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/fixed_lag_smoother.hpp>
 #include <sigmax/hybrid/history_filter.hpp>

@@ -15,7 +15,7 @@ using support::near;
 
 template <ScalingAlgebra A>
 double combined(const std::vector<double>& log_weights, const std::vector<double>& factors) {
-  return log_combine<A>(
+  return detail::log_combine<A>(
       log_weights.size(), [&](std::size_t i) { return log_weights[i]; }, [&](std::size_t i) { return factors[i]; });
 }
 

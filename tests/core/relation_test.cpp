@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <concepts>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,27 @@ TEST(Relation, HasARowForEveryOutcomeOfItsCondition) {
   EXPECT_EQ(relation.row(1)[1], 0.6);
   EXPECT_EQ(relation.given("young")["calm"], 0.3);
   EXPECT_EQ(relation.given(2)["wild"], 0.2);
+}
+
+TEST(Relation, IsMadeOfCounts) {
+  const std::vector<std::vector<int>> counts{{17, 3}, {2, 8}};
+  const Relation by_sum = normalized(speed, mood, counts);
+  static_assert(std::same_as<decltype(by_sum), const Relation<Random, Fuzzy>>);
+  EXPECT_PRED_FORMAT3(near, by_sum.table().values(), (std::vector{0.85, 0.15, 0.2, 0.8}), 1e-15);
+  const Relation by_maximum = normalized(mood, speed, counts);
+  EXPECT_PRED_FORMAT3(near, by_maximum.table().values(), (std::vector{1.0, 3.0 / 17, 0.25, 1.0}), 1e-15);
+  const std::vector<std::vector<float>> floats{{0.5F, 1.5F}, {0.0F, 3.0F}};
+  EXPECT_PRED_FORMAT3(near, normalized(speed, mood, floats).table().values(), (std::vector{0.25, 0.75, 0.0, 1.0}), 0.0);
+}
+
+TEST(Relation, OfCountsRefusesRowsWithoutProportion) {
+  const auto refused = [](const std::vector<std::vector<int>>& counts, std::initializer_list<std::string_view> words) {
+    return throws<std::invalid_argument>([&] { normalized(speed, mood, counts); }, words);
+  };
+  EXPECT_TRUE(refused({{1, 2}, {0, 0}}, {"'speed'", "mood = 'wild'", "zero"}));
+  EXPECT_TRUE(refused({{1, -2}, {3, 4}}, {"'speed'", "mood = 'calm'", "'fast'", "-2"}));
+  EXPECT_TRUE(refused({{1, 2}, {3}}, {"'speed'", "mood = 'wild'", "1 values"}));
+  EXPECT_TRUE(refused({{1, 2}}, {"'mood'", "but 1 were"}));
 }
 
 TEST(Relation, GivesDistributionsOfItsOwnKind) {

@@ -23,10 +23,10 @@ TEST(Tie, TheFirstThatTiesIsFound) {
 }
 
 TEST(Tie, OfNumbersIsEqualityButForRounding) {
-  EXPECT_TRUE(numbers_tie(0.3, 0.1 + 0.2));
-  EXPECT_TRUE(numbers_tie(0.0, 0.0));
-  EXPECT_FALSE(numbers_tie(0.0, 1e-300));
-  EXPECT_FALSE(numbers_tie(0.3, 0.3 + 1e-8));
+  EXPECT_TRUE(detail::numbers_tie(0.3, 0.1 + 0.2));
+  EXPECT_TRUE(detail::numbers_tie(0.0, 0.0));
+  EXPECT_FALSE(detail::numbers_tie(0.0, 1e-300));
+  EXPECT_FALSE(detail::numbers_tie(0.3, 0.3 + 1e-8));
 }
 
 }  // namespace

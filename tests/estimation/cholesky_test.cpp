@@ -24,12 +24,12 @@ template <int N, int MaxN = N>
 void is_eigens(Eigen::Index n) {
   const auto S = positive<N, MaxN>(n);
   const Eigen::MatrixXd expected = Eigen::MatrixXd(S).llt().matrixL();
-  const auto L = cholesky_factor(S);
+  const auto L = detail::cholesky_factor(S);
   ASSERT_TRUE(L);
   EXPECT_LE((*L - expected).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_LE((lower_inverse(*L) * expected - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LE((detail::lower_inverse(*L) * expected - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-13);
   const Vector<N, MaxN> z = S.col(0);
-  EXPECT_LE((expected * lower_solve(*L, z) - z).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LE((expected * detail::lower_solve(*L, z) - z).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 TEST(Cholesky, FactorInverseAndSolutionAreEigens) {
@@ -41,13 +41,13 @@ TEST(Cholesky, FactorInverseAndSolutionAreEigens) {
 }
 
 TEST(Cholesky, OfWhatIsNotPositiveDefiniteIsNothing) {
-  EXPECT_FALSE(cholesky_factor(SquareMatrix<2>{{1.0, 2.0}, {2.0, 1.0}}));
-  EXPECT_FALSE(cholesky_factor(SquareMatrix<2>{{1.0, 1.0}, {1.0, 1.0}}));
-  EXPECT_FALSE(cholesky_factor(SquareMatrix<1>(0.0)));
+  EXPECT_FALSE(detail::cholesky_factor(SquareMatrix<2>{{1.0, 2.0}, {2.0, 1.0}}));
+  EXPECT_FALSE(detail::cholesky_factor(SquareMatrix<2>{{1.0, 1.0}, {1.0, 1.0}}));
+  EXPECT_FALSE(detail::cholesky_factor(SquareMatrix<1>(0.0)));
 }
 
 TEST(Cholesky, OfNaNIsNaN) {
-  const auto L = cholesky_factor(SquareMatrix<1>(std::numeric_limits<double>::quiet_NaN()));
+  const auto L = detail::cholesky_factor(SquareMatrix<1>(std::numeric_limits<double>::quiet_NaN()));
   ASSERT_TRUE(L);
   EXPECT_TRUE(std::isnan((*L)(0, 0)));
 }

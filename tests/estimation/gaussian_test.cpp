@@ -18,15 +18,15 @@ TEST(Gaussian, IsAsLargeAsItsMean) {
 
 TEST(Gaussian, IsFiniteOnlyIfEveryEntryIs) {
   const Gaussian<2> finite{Vector<2>{1.0, -2.0}, SquareMatrix<2>::Identity()};
-  EXPECT_TRUE(all_finite(finite));
+  EXPECT_TRUE(detail::all_finite(finite));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()}) {
     Gaussian<2> in_mean = finite;
     in_mean.mean(1) = bad;
-    EXPECT_FALSE(all_finite(in_mean));
+    EXPECT_FALSE(detail::all_finite(in_mean));
     Gaussian<2> in_covariance = finite;
     in_covariance.covariance(0, 1) = bad;
-    EXPECT_FALSE(all_finite(in_covariance));
+    EXPECT_FALSE(detail::all_finite(in_covariance));
   }
 }
 
@@ -39,7 +39,7 @@ TEST(Gaussian, MirroringKeepsTheLowerTriangle) {
   expected << 1, 4, 7,  //
       4, 5, 8,          //
       7, 8, 9;
-  mirror_lower(matrix);
+  detail::mirror_lower(matrix);
   EXPECT_EQ(matrix, expected);
 }
 

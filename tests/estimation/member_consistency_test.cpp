@@ -24,7 +24,7 @@ template <int N>
 Vector<N> drawn(const SquareMatrix<N>& covariance, std::mt19937_64& generator) {
   std::normal_distribution<double> normal;
   const Vector<N> w = Vector<N>::NullaryExpr([&] { return normal(generator); });
-  return covariance_root(covariance, "noise") * w;
+  return detail::covariance_root(covariance, "noise") * w;
 }
 
 struct Consistency {

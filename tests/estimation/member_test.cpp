@@ -176,7 +176,7 @@ TEST(Member, OfANonLinearModelIsInvariantUnderTriangularStateChanges) {
     const auto compare = [&](const auto& here, const auto& there) {
       const auto& change = there.motion().T;
       Gaussian<5> x, y, y0{change * start.mean, change * start.covariance * change.transpose()};
-      mirror_lower(y0.covariance);
+      detail::mirror_lower(y0.covariance);
       predict(here, start, 0.5, x);
       predict(there, y0, 0.5, y);
       const auto innovation = update(here, x, z, radar, x);

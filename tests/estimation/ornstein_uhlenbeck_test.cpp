@@ -43,8 +43,8 @@ TEST(OrnsteinUhlenbeck, ATailIsTheSumOfItsPowersOnBothSidesOfOne) {
       term *= -static_cast<long double>(u) / (n + 1);
     }
     if (u > 15.0) continue;  // the alternating sum itself cancels
-    EXPECT_PRED_FORMAT3(near, exponential_tail(u, 2, 0, 0, 1), static_cast<double>(second), 1e-13) << u;
-    EXPECT_PRED_FORMAT3(near, exponential_tail(u, 5, -1, 4, 0), static_cast<double>(fifth), 1e-13) << u;
+    EXPECT_PRED_FORMAT3(near, detail::exponential_tail(u, 2, 0, 0, 1), static_cast<double>(second), 1e-13) << u;
+    EXPECT_PRED_FORMAT3(near, detail::exponential_tail(u, 5, -1, 4, 0), static_cast<double>(fifth), 1e-13) << u;
   }
 }
 

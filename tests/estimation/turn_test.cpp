@@ -18,12 +18,12 @@ using support::number_between;
 using support::require_near;
 
 TEST(Turn, TheSincIsSmoothAtZero) {
-  EXPECT_EQ(sinc(0.0), 1.0);
-  EXPECT_PRED_FORMAT3(near, sinc(std::numbers::pi / 2.0), 2.0 / std::numbers::pi, 1e-15);
+  EXPECT_EQ(detail::sinc(0.0), 1.0);
+  EXPECT_PRED_FORMAT3(near, detail::sinc(std::numbers::pi / 2.0), 2.0 / std::numbers::pi, 1e-15);
   for (const double x : {1e-9, 1e-4, 0.0099999, 0.0100001, 0.1, 1.0})
     for (const double signed_x : {x, -x}) {
       const auto exact = std::sin(static_cast<long double>(signed_x)) / static_cast<long double>(signed_x);
-      EXPECT_PRED_FORMAT3(near, sinc(signed_x), static_cast<double>(exact), 1e-15);
+      EXPECT_PRED_FORMAT3(near, detail::sinc(signed_x), static_cast<double>(exact), 1e-15);
     }
 }
 
@@ -31,9 +31,9 @@ TEST(Turn, DerivativesAreThoseOfAutomaticDifferentiation) {
   holds([] {
     const double x = std::pow(10.0, number_between(-6.0, 1.0)) * (number_between(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
     const auto derivative = jacobian<1, 1, 1, 1>(
-        [](const DifferentiableVector<1>& v) { return DifferentiableVector<1>(sinc(v(0))); }, Vector<1>(x));
-    require_near(sinc_derivative(x), derivative(0), 1e-11);
-    require_near(sinc_derivative(x),
+        [](const DifferentiableVector<1>& v) { return DifferentiableVector<1>(detail::sinc(v(0))); }, Vector<1>(x));
+    require_near(detail::sinc_derivative(x), derivative(0), 1e-11);
+    require_near(detail::sinc_derivative(x),
                  static_cast<double>((std::cos(static_cast<long double>(x)) -
                                       std::sin(static_cast<long double>(x)) / static_cast<long double>(x)) /
                                      static_cast<long double>(x)),
@@ -42,10 +42,10 @@ TEST(Turn, DerivativesAreThoseOfAutomaticDifferentiation) {
 }
 
 TEST(Turn, TheCubicRemainderDoesNotCancel) {
-  EXPECT_EQ(cubic_remainder_of_sine(0.0), 1.0 / 6.0);
+  EXPECT_EQ(detail::cubic_remainder_of_sine(0.0), 1.0 / 6.0);
   for (const double x : {0.01, 0.3, 0.999, 1.001, 3.0, -2.0, -0.5}) {
     const long double exact_x = x;
-    EXPECT_PRED_FORMAT3(near, cubic_remainder_of_sine(x),
+    EXPECT_PRED_FORMAT3(near, detail::cubic_remainder_of_sine(x),
                         static_cast<double>((exact_x - std::sin(exact_x)) / (exact_x * exact_x * exact_x)), 1e-14);
   }
 }
@@ -53,12 +53,13 @@ TEST(Turn, TheCubicRemainderDoesNotCancel) {
 TEST(Turn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
   const double omega = std::numbers::pi / 2.0, radius = 200.0, speed = radius * omega;
   const Vector<6> start(0.0, 0.0, 10.0, speed, 0.0, 5.0);  // the centre is at (0, 200)
-  const Vector<6> there = turn_transition<3>(omega, 1.0) * start;
+  const Vector<6> there = detail::turn_transition<3>(omega, 1.0) * start;
   EXPECT_PRED_FORMAT3(near_matrix, there, (Vector<6>{radius, radius, 15.0, 0.0, speed, 5.0}), 1e-12);
 }
 
 TEST(Turn, WithoutARateItIsStraight) {
-  EXPECT_EQ(turn_transition<2>(0.0, 2.0), (SquareMatrix<4>{{1, 0, 2, 0}, {0, 1, 0, 2}, {0, 0, 1, 0}, {0, 0, 0, 1}}));
+  EXPECT_EQ(detail::turn_transition<2>(0.0, 2.0),
+            (SquareMatrix<4>{{1, 0, 2, 0}, {0, 1, 0, 2}, {0, 0, 1, 0}, {0, 0, 0, 1}}));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Relation<Kind, Kind> transition() {
 
 template <class Models>
 auto starts_of(const Models& models) {
-  auto starts = estimates_for(models);
+  auto starts = detail::estimates_for(models);
   for_each_mode(models, [&](auto j) {
     auto& start = mode(starts, j);
     const auto n = mode(models, j).size();

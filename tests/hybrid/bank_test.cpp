@@ -50,10 +50,11 @@ TEST(Bank, GivesTheEntryOfEachMode) {
 }
 
 TEST(Bank, MakesRoomForOneEstimateOfEachModel) {
-  static_assert(std::is_same_v<decltype(estimates_for(std::declval<const std::tuple<Dwna, Dwpa>&>())),
+  static_assert(std::is_same_v<decltype(detail::estimates_for(std::declval<const std::tuple<Dwna, Dwpa>&>())),
                                std::tuple<Gaussian<6>, Gaussian<9>>>);
-  EXPECT_EQ(estimates_for(std::vector<RunTime>{Extended<Moves>{dwna<3>(1.0)}, Extended<Moves>{dwpa<3>(1.0)}}).size(),
-            2U);
+  EXPECT_EQ(
+      detail::estimates_for(std::vector<RunTime>{Extended<Moves>{dwna<3>(1.0)}, Extended<Moves>{dwpa<3>(1.0)}}).size(),
+      2U);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ struct Mixture {
 Gaussian<1> scalar(double mean, double variance) { return {Vector<1>{mean}, SquareMatrix<1>{variance}}; }
 
 std::size_t selected(const std::vector<double>& logs, std::size_t current, Tie tie) {
-  return select(
+  return detail::select(
       logs.size(), [&](std::size_t i) { return logs[i]; }, current, tie);
 }
 

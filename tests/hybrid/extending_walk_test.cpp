@@ -9,6 +9,7 @@
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
+#include "known_motions.hpp"
 #include "support/matrices.hpp"
 
 namespace sigmax {
@@ -39,6 +40,16 @@ TEST(ExtendingWalk, ALawOfMotion) {
   EXPECT_EQ(x.mean, (Vector<2>(1.0, 2.0)));
   EXPECT_NEAR(x.covariance(0, 0), 3.0, 1e-12);
   EXPECT_EQ(x.covariance(0, 1), 0.0);
+}
+
+TEST(ExtendingWalk, ARowOfTheMotionsThatHaveNames) {
+  using namespace detail;
+  constexpr auto row = MotionRow(
+      "drift", no_manoeuvre, []<int A>(const MotionChoice& c) { return IndependentAxes<A, Drift>{Drift{c[sigma_w]}}; },
+      sigma_w);
+  const MotionOfRow<2, decltype(row)> drift = row.make.operator()<2>(MotionChoice{});
+  EXPECT_EQ(drift.law().q, MotionChoice{}[MotionParameter::sigma_w]);
+  EXPECT_TRUE(row.has[static_cast<std::size_t>(MotionParameter::sigma_w)]);
 }
 
 TEST(ExtendingWalk, SensorsThatTakeTurns) {

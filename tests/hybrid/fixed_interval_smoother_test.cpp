@@ -96,7 +96,7 @@ void ends_as_filtered_and_stays_normalized() {
     double total = AlgebraOf<Kind>::zero();
     for (const double log : state.belief.logs()) total = AlgebraOf<Kind>::plus(total, std::exp(log));
     ASSERT_PRED_FORMAT3(near, total, 1.0, 1e-14);
-    ASSERT_TRUE(all_finite(filter.estimate(state)));
+    ASSERT_TRUE(detail::all_finite(filter.estimate(state)));
   }
 }
 

@@ -5,6 +5,11 @@
 #include <tuple>
 
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/hybrid/filter_bank.hpp>
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
 
 #include "support/throws.hpp"
 
@@ -15,6 +20,20 @@ using support::throws;
 
 const FuzzyVariable mode_now{"mode", {"straight", "turn"}};
 const Relation persistent{mode_now, mode_now, {{1.0, 0.5}, {0.5, 1.0}}};
+
+using Models = std::tuple<IndependentAxes<3, DiscreteWhiteNoise<2>>>;
+
+template <class Kind>
+concept CanBeAMode = requires {
+  typename InteractingMultipleModel<Models, Kind>;
+}
+|| requires { typename SecondOrderMultipleModel<Models, Kind>; }
+|| requires { typename HistoryFilter<Models, Kind>; }
+|| requires { typename FilterBank<Models, Kind>; }
+|| requires { typename FixedIntervalSmoother<Models, Kind>; }
+|| requires { typename JumpMarkovSystem<Models, Kind>; };
+static_assert(CanBeAMode<Random> && CanBeAMode<Fuzzy>);
+static_assert(!CanBeAMode<Ordinal>, "weights of modes are divided: refused by the constraint, not inside");
 
 TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
   const JumpMarkovSystem system{std::tuple{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};

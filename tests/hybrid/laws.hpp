@@ -214,7 +214,7 @@ void survives_an_outlier() {
     return a.covariance(0, 0) < b.covariance(0, 0);
   });
   EXPECT_EQ(filter.most_likely_mode(), static_cast<std::size_t>(widest - innovations.begin()));
-  EXPECT_TRUE(all_finite(filter.estimate()));
+  EXPECT_TRUE(detail::all_finite(filter.estimate()));
   EXPECT_TRUE(std::isfinite(filter.nis()));
 
   spared.step(1.0);

@@ -24,18 +24,18 @@ TEST(Plot, IsAMeasurementOrTheNewsThatThereWasNone) {
 }
 
 TEST(Plot, TellsAPositionIfItsSensorCan) {
-  EXPECT_EQ(position_told<2>(Plot<PositionSensor<2>>(0.0, z))->mean, z.mean);
+  EXPECT_EQ(detail::position_told<2>(Plot<PositionSensor<2>>(0.0, z))->mean, z.mean);
   const PolarSensor<2> radar{Vector<2>(100.0, 200.0)};
-  const auto found = position_told<2>(Plot<PolarSensor<2>>(0.0, z, radar));
+  const auto found = detail::position_told<2>(Plot<PolarSensor<2>>(0.0, z, radar));
   EXPECT_EQ(found->mean, radar.position(z).mean);
   EXPECT_EQ(found->covariance, radar.position(z).covariance);
-  EXPECT_FALSE(position_told<2>(Plot<PositionSensor<2>>(0.0)).has_value());
-  EXPECT_FALSE(position_told<2>(Plot<BearingSensor>(0.0, {Vector<1>(0.1), SquareMatrix<1>(1.0)})).has_value());
+  EXPECT_FALSE(detail::position_told<2>(Plot<PositionSensor<2>>(0.0)).has_value());
+  EXPECT_FALSE(detail::position_told<2>(Plot<BearingSensor>(0.0, {Vector<1>(0.1), SquareMatrix<1>(1.0)})).has_value());
 
   using Any = AnySensor<PositionSensor<2>, PolarSensor<2>, BearingSensor>;
   const MeasurementOf<Any> same{z.mean, z.covariance}, bearing{Vector<1>(0.1), SquareMatrix<1>(1.0)};
-  EXPECT_EQ(position_told<2>(Plot<Any>(0.0, same, radar))->mean, radar.position(z).mean);
-  EXPECT_FALSE(position_told<2>(Plot<Any>(0.0, bearing, BearingSensor{})).has_value());
+  EXPECT_EQ(detail::position_told<2>(Plot<Any>(0.0, same, radar))->mean, radar.position(z).mean);
+  EXPECT_FALSE(detail::position_told<2>(Plot<Any>(0.0, bearing, BearingSensor{})).has_value());
 }
 
 }  // namespace

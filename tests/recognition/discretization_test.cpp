@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <sigmax/recognition/discretization.hpp>
@@ -24,6 +25,13 @@ using support::throws;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Discretization, ARangeForOverATemporarysCutsSeesThem) {
+  Numbers seen;
+  for (const double cut : Discretization{{2.5, 4.0}}.cuts()) seen.push_back(cut);
+  EXPECT_EQ(seen, (Numbers{2.5, 4.0}));
+  static_assert(std::is_same_v<decltype(Discretization{{1.0}}.cuts()), Numbers>);
+}
 
 TEST(Discretization, PutsACutIntoTheBinAboveIt) {
   const Discretization bins{{2.5, 4.0}};

@@ -44,13 +44,13 @@ const Relation emitter_given_platform{emitter, platform, {{1.0, 0.5, 0.0}, {0.0,
 const Relation reading_given_emitter{reading, emitter, {{0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
 
 TEST(RecognitionWalk, Sigma) {
-  const auto [manoeuvre_given_type, unreachable] = invert(type_given_manoeuvre, uninformative(manoeuvre));
-  EXPECT_TRUE(unreachable.empty());
-  EXPECT_PRED_FORMAT3(near, manoeuvre_given_type.row(0), (Numbers{1, 0, 0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, manoeuvre_given_type.row(1), (Numbers{0.4, 0.6, 0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, manoeuvre_given_type.row(2), (Numbers{2.0 / 11, 3.0 / 11, 6.0 / 11}), 1e-15);
+  const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
+  EXPECT_TRUE(inverse.unreachable.empty());
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(0), (Numbers{1, 0, 0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(1), (Numbers{0.4, 0.6, 0}), 1e-15);
+  EXPECT_PRED_FORMAT3(near, inverse.relation.row(2), (Numbers{2.0 / 11, 3.0 / 11, 6.0 / 11}), 1e-15);
 
-  Classifier classifier{uninformative(type), manoeuvre_given_type};
+  Classifier classifier{uninformative(type), inverse};
   classifier.observe(Likelihood{manoeuvre, {0.7, 0.2, 0.1}});
   const Distribution belief = classifier.belief();
   // (42): 0.7; 0.28 + 0.12; (1.4 + 0.6 + 0.6)/11
@@ -62,15 +62,15 @@ TEST(RecognitionWalk, Sigma) {
 }
 
 TEST(RecognitionWalk, Max) {
-  const Relation possible_manoeuvre = invert(fuzzy_type_given_manoeuvre, uninformative(fuzzy_manoeuvre)).relation;
-  EXPECT_PRED_FORMAT3(near, possible_manoeuvre.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
+  const auto inverse = invert(fuzzy_type_given_manoeuvre, uninformative(fuzzy_manoeuvre));
+  EXPECT_PRED_FORMAT3(near, inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
 
-  Classifier classifier{uninformative(fuzzy_type), possible_manoeuvre};
+  Classifier classifier{uninformative(fuzzy_type), inverse};
   classifier.observe(Likelihood{fuzzy_manoeuvre, {0.2, 1.0, 0.5}});
   static_assert(std::same_as<decltype(classifier.belief()), Distribution<Fuzzy>>);
   EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.2, 1.0, 1.0}), 1e-15);
 
-  const auto never = dominated_patterns(possible_manoeuvre);
+  const auto never = dominated_patterns(classifier);
   ASSERT_EQ(never.size(), 2U);
   EXPECT_EQ(type.label(never[0].pattern), "airliner");
   EXPECT_EQ(type.label(never[0].dominator), "fighter");
@@ -100,7 +100,8 @@ TEST(RecognitionWalk, SigmaMax) {
 
 TEST(RecognitionWalk, TheOtherMixture) {
   const FuzzyVariable look{"look", {"small", "large"}};
-  const Relation manoeuvre_given_type = invert(type_given_manoeuvre, uninformative(manoeuvre)).relation;
+  const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
+  const Relation manoeuvre_given_type = inverse.relation;
   const Relation look_given_manoeuvre{look, manoeuvre, {{0.2, 1.0}, {1.0, 0.8}, {1.0, 0.1}}};
 
   Classifier classifier{uninformative(type), std::vector{FeatureModel{manoeuvre_given_type, look_given_manoeuvre}}};
@@ -118,7 +119,7 @@ TEST(RecognitionWalk, TheOtherMixture) {
 
 TEST(RecognitionWalk, APredictionForEveryStep) {
   const Distribution prediction{manoeuvre, {0.6, 0.3, 0.1}};
-  Classifier classifier{compose(type_given_manoeuvre, prediction), invert(type_given_manoeuvre, prediction).relation};
+  Classifier classifier{compose(type_given_manoeuvre, prediction), invert(type_given_manoeuvre, prediction)};
   const Likelihood report{manoeuvre, {0.1, 0.3, 0.6}};
   classifier.observe_predicted(report, type_given_manoeuvre, prediction);
   EXPECT_PRED_FORMAT3(near, classifier.belief().values(),

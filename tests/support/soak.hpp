@@ -132,7 +132,7 @@ class SoakDraws {
       root(i, i) = sigma * log_uniform(1.0, 10.0);
     }
     SquareMatrix<Axes> R = root * root.transpose();
-    mirror_lower(R);
+    detail::mirror_lower(R);
     return R;
   }
 

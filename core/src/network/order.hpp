@@ -35,9 +35,9 @@ struct Order {
 /// Whether variables of different kinds are eliminated or kept.
 bool of_two_kinds(const OrderProblem& problem);
 
-/// For every variable, whether it is eliminated and all outside it that are joined to it, be it through what is within
-/// it, are of its kind and can be last as well. All that can and are of one kind can be kept to the last together,
-/// docs/networks.md.
+/// Whether each variable can be eliminated last: it is eliminated, and every variable outside it that is joined to it,
+/// also by way of those within it, has its kind and can be last too. All that can and are of one kind can be kept to
+/// the last together, docs/networks.md.
 std::vector<bool> can_be_last(const OrderProblem& problem);
 
 /// An order of elimination that provably gives the value of the reverse order of declaration; by the least fill.

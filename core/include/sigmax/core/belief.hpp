@@ -76,7 +76,7 @@ class Belief {
     using A = AlgebraOf<Kind>;
     if constexpr (SelectiveAlgebra<A>) return 0.0;
     if constexpr (std::same_as<A, Sigma>) return std::log(kernels::sum_of_exponentials(logs));
-    return log_combine<A>(
+    return detail::log_combine<A>(
         logs.size(), [logs](std::size_t i) { return logs[i]; }, [](std::size_t) { return 1.0; });
   }
 

@@ -115,7 +115,7 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
   const auto assign_from = [&](const auto& columns) {
     result.assign([&](std::size_t to) {
       const auto column = columns.entries(to);
-      return log_combine<AlgebraOf<Kind>>(
+      return detail::log_combine<AlgebraOf<Kind>>(
           column.size(), [&](std::size_t k) { return right.log(column.index(k)); },
           [&](std::size_t k) { return column.value(k); });
     });

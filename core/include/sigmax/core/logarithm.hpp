@@ -11,6 +11,8 @@ namespace sigmax {
 /// The logarithm of nothing: the weight of an outcome that is excluded.
 inline constexpr double log_zero = -std::numeric_limits<double>::infinity();
 
+namespace detail {
+
 /// log ⊕_i factor(i) ⊗ exp(log_weight(i)), without underflow or overflow: everything is scaled by the greatest weight
 /// that a positive factor meets. `log_zero` if there is none.
 template <ScalingAlgebra A, class LogWeight, class Factor>
@@ -24,5 +26,7 @@ double log_combine(std::size_t n, const LogWeight& log_weight, const Factor& fac
     if (factor(i) > 0.0) sum = A::plus(sum, A::times(factor(i), std::exp(log_weight(i) - greatest)));
   return greatest + std::log(sum);
 }
+
+}  // namespace detail
 
 }  // namespace sigmax

@@ -19,7 +19,11 @@ inline std::size_t first_of_tied(std::span<const double> logs) {
   return static_cast<std::size_t>(first - logs.begin());
 }
 
+namespace detail {
+
 /// The same of numbers: whether one is equal to a greater one but for rounding.
 inline bool numbers_tie(double number, double greater) { return number >= greater * (1.0 - tie_tolerance); }
+
+}  // namespace detail
 
 }  // namespace sigmax

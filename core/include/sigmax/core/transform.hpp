@@ -85,7 +85,7 @@ std::vector<double> sum_over_levels(std::span<const double> values, const Step& 
   double sum = 0.0, below = 0.0;
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const double value = values[order[first]];
-    while (last < order.size() && numbers_tie(value, values[order[last]])) ++last;
+    while (last < order.size() && detail::numbers_tie(value, values[order[last]])) ++last;
     sum += step(Level{value, value - below, last - first, order.size() - first});
     for (std::size_t k = first; k < last; ++k) result[order[k]] = sum;
     below = value;

@@ -43,9 +43,14 @@ struct Ordinal {
   static constexpr std::string_view total = "maximum";
 };
 
+/// A kind measured on a ratio scale, whose numbers may be divided: all but `Ordinal`. Beliefs, classifiers and filters
+/// need one.
+template <class Kind>
+concept ScalableUncertainty = Uncertainty<Kind> && ScalingAlgebra<AlgebraOf<Kind>>;
+
 /// Kinds that may meet in one relation: the same, or both measured on a ratio scale. So `Ordinal` meets only itself.
 template <class A, class B>
 concept Mixable = Uncertainty<A> && Uncertainty<B> &&
-    (std::same_as<A, B> || (ScalingAlgebra<AlgebraOf<A>> && ScalingAlgebra<AlgebraOf<B>>));
+    (std::same_as<A, B> || (ScalableUncertainty<A> && ScalableUncertainty<B>));
 
 }  // namespace sigmax

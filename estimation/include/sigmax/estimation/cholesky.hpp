@@ -5,7 +5,7 @@
 
 #include <sigmax/estimation/gaussian.hpp>
 
-namespace sigmax {
+namespace sigmax::detail {
 
 /// Cholesky's factor: the lower triangular L with L Lᵀ = S, or nothing if S is not positive definite. NaN gives NaN.
 /// For matrices of a few rows, in plain loops: Eigen's LLT is made for large ones and takes seconds to compile.
@@ -48,4 +48,4 @@ SquareMatrix<N, MaxN> lower_inverse(const SquareMatrix<N, MaxN>& L) {
   return inverse;
 }
 
-}  // namespace sigmax
+}  // namespace sigmax::detail

@@ -75,7 +75,7 @@ inline Gaussian<3> to_cartesian(const Polar& measured, const Polar& sigma, Conve
     result.mean = standard.mean - l.cwiseProduct(mean - standard.mean);
     result.covariance = detail::position_covariance(measured, sigma, 2) - C1.cwiseProduct(l * l.transpose());
   }
-  mirror_lower(result.covariance);
+  detail::mirror_lower(result.covariance);
   return result;
 }
 

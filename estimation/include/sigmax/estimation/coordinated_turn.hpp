@@ -31,21 +31,22 @@ class CoordinatedTurn {
 
   /// Throws std::invalid_argument unless q and q_ω are finite and not negative.
   CoordinatedTurn(double q, double q_omega)
-      : noise_(motion_parameter(q, "q", name())), q_omega_(motion_parameter(q_omega, "q_omega", name())) {}
+      : noise_(detail::motion_parameter(q, "q", name())),
+        q_omega_(detail::motion_parameter(q_omega, "q_omega", name())) {}
 
   double q() const { return noise_.q(); }
   double q_omega() const { return q_omega_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return "coordinated_turn"; }
   std::vector<std::string> components() const {
-    auto names = motion_components(Axes, 2);
+    auto names = detail::motion_components(Axes, 2);
     names.push_back("omega");
     return names;
   }
 
   template <class Scalar>
   Eigen::Matrix<Scalar, state_size, 1> propagate(const Eigen::Matrix<Scalar, state_size, 1>& x, double dt) const {
-    const Turn<Scalar> turn(Scalar(x(2 * Axes) * dt));
+    const detail::Turn<Scalar> turn(Scalar(x(2 * Axes) * dt));
     const Scalar &vx = x(Axes), &vy = x(Axes + 1);
     Eigen::Matrix<Scalar, state_size, 1> result = x;
     result(0) += dt * (turn.along * vx - turn.across * vy);
@@ -57,13 +58,13 @@ class CoordinatedTurn {
   }
   Matrix transition_jacobian(const State& x, double dt) const {
     const double theta = x(2 * Axes) * dt;
-    const Turn<double> turn(theta);
-    const double half = 0.5 * theta, ratio = sinc(half), slope = sinc_derivative(half);
+    const detail::Turn<double> turn(theta);
+    const double half = 0.5 * theta, ratio = detail::sinc(half), slope = detail::sinc_derivative(half);
     const double along = 0.5 * (slope * std::cos(half) - ratio * std::sin(half));  // derivatives by θ
     const double across = 0.5 * ratio * (ratio + theta * slope);
     const double vx = x(Axes), vy = x(Axes + 1);
     Matrix F = Matrix::Identity();
-    F.template topLeftCorner<2 * Axes, 2 * Axes>() = turn_transition<Axes>(turn, dt);
+    F.template topLeftCorner<2 * Axes, 2 * Axes>() = detail::turn_transition<Axes>(turn, dt);
     F(0, 2 * Axes) = dt * dt * (along * vx - across * vy);
     F(1, 2 * Axes) = dt * dt * (across * vx + along * vy);
     F(Axes, 2 * Axes) = -dt * (turn.sine * vx + turn.cosine * vy);

@@ -8,7 +8,7 @@
 
 #include <sigmax/estimation/gaussian.hpp>
 
-namespace sigmax {
+namespace sigmax::detail {
 
 /// The lower triangular L with L Lᵀ = P by Cholesky's algorithm, for semi-definite P too: a pivot that is zero to
 /// rounding gives a column of zeros. Only the lower triangle of P is read.
@@ -16,7 +16,7 @@ namespace sigmax {
 template <int N, int MaxN>
 SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN, MaxN>& P, std::string_view model) {
   const Eigen::Index n = P.rows();
-  const double rounding = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  const double negligible = 4.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   constexpr double accumulated = 1e-10;  // of earlier rounding, relative to the variance
   const auto refuse = [&](Eigen::Index k) {
     throw std::domain_error("the covariance of model '" + std::string(model) +
@@ -27,7 +27,7 @@ SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN,
     double pivot = P(k, k);
     for (Eigen::Index j = 0; j < k; ++j) pivot -= L(k, j) * L(k, j);
     if (!(pivot >= -accumulated * P(k, k) && pivot < std::numeric_limits<double>::infinity())) refuse(k);
-    const bool zero = pivot <= rounding * P(k, k);
+    const bool zero = pivot <= negligible * P(k, k);
     if (!zero) L(k, k) = std::sqrt(pivot);
     for (Eigen::Index i = k + 1; i < n; ++i) {
       double entry = P(i, k);
@@ -41,4 +41,4 @@ SquareMatrix<N, MaxN> covariance_root(const Eigen::Matrix<double, N, N, 0, MaxN,
   return L;
 }
 
-}  // namespace sigmax
+}  // namespace sigmax::detail

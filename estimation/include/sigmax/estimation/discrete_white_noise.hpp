@@ -21,7 +21,7 @@ class DiscreteWhiteNoise {
   static constexpr int order = Order;
 
   /// Throws std::invalid_argument unless σ_w is finite and not negative.
-  explicit DiscreteWhiteNoise(double sigma_w) : sigma_w_(motion_parameter(sigma_w, "sigma_w", name())) {}
+  explicit DiscreteWhiteNoise(double sigma_w) : sigma_w_(detail::motion_parameter(sigma_w, "sigma_w", name())) {}
 
   double sigma_w() const { return sigma_w_; }
   std::string_view name() const { return Order == 2 ? "dwna" : "dwpa"; }

@@ -14,7 +14,7 @@ using Vector = Eigen::Matrix<double, N, 1, 0, MaxN, 1>;
 template <int N, int MaxN = N>
 using SquareMatrix = Eigen::Matrix<double, N, N, 0, MaxN, MaxN>;
 
-/// A matrix of any shape; Eigen wants a single row to be stored as one.
+/// A matrix of any shape; Eigen requires RowMajor for a single row.
 template <int Rows, int Columns, int MaxRows = Rows, int MaxColumns = Columns>
 using RectangularMatrix =
     Eigen::Matrix<double, Rows, Columns, MaxRows == 1 && MaxColumns != 1 ? Eigen::RowMajor : Eigen::ColMajor, MaxRows,
@@ -32,6 +32,8 @@ struct Gaussian {
   Eigen::Index size() const { return mean.size(); }
 };
 
+namespace detail {
+
 /// Whether no entry is infinite or not a number.
 template <int N, int MaxN>
 bool all_finite(const Gaussian<N, MaxN>& gaussian) {
@@ -45,6 +47,8 @@ void mirror_lower(Eigen::MatrixBase<Derived>& covariance) {
     for (Eigen::Index row = 0; row < column; ++row) covariance(row, column) = covariance(column, row);
 }
 
+}  // namespace detail
+
 /// Tells an estimate in other coordinates: p → A p + b of the position along at most three axes, which leads the state,
 /// and A p of its derivatives, which follow; what is left over, such as a rate of turn, stays.
 template <int N, int MaxN>
@@ -56,7 +60,7 @@ void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dyn
   estimate.mean = (all * estimate.mean).eval();
   estimate.mean.head(axes) += b;
   estimate.covariance = (all * estimate.covariance * all.transpose()).eval();
-  mirror_lower(estimate.covariance);
+  detail::mirror_lower(estimate.covariance);
 }
 
 /// A size that the compiler knows if N is fixed, else n: for blocks of matrices that may be either.

@@ -47,7 +47,7 @@ class IndependentAxes {
   const Vector<Axes>& input() const { return input_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return law_.name(); }
-  std::vector<std::string> components() const { return motion_components(Axes, order); }
+  std::vector<std::string> components() const { return detail::motion_components(Axes, order); }
 
   Matrix transition(double dt) const { return for_all_axes(law_.transition(dt)); }
   Matrix process_covariance(double dt) const { return for_all_axes(law_.process_covariance(dt)); }
@@ -110,7 +110,7 @@ void predict_axes(const SquareMatrix<Order>& f, const SquareMatrix<Order>& q, co
     for (Eigen::Index b = 0; b < Order; ++b) P(i, i % Axes + b * Axes) += q(i / Axes, b);
     P(i, i) += rounding * terms(i);
   }
-  mirror_lower(P);
+  detail::mirror_lower(P);
 }
 
 }  // namespace detail

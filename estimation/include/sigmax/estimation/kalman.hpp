@@ -53,7 +53,7 @@ void predict_covariance(const Transition& F, const Noise& Q, const SquareMatrix<
   for (Eigen::Index j = 0; j < prior.cols(); ++j) result.col(j) = FP.lazyProduct(F.row(j).transpose());
   result += Q;
   result.diagonal() += rounding * terms;
-  mirror_lower(result);
+  detail::mirror_lower(result);
 }
 
 }  // namespace detail
@@ -79,12 +79,12 @@ namespace detail {
 /// as the measurement, is lifted above it.
 template <int M, int MaxM>
 std::optional<SquareMatrix<M, MaxM>> factorised(SquareMatrix<M, MaxM>& S) {
-  auto L = cholesky_factor(S);
+  auto L = detail::cholesky_factor(S);
   bool drowned = !L;
   for (Eigen::Index k = 0; !drowned && k < S.rows(); ++k) drowned = !((*L)(k, k) * (*L)(k, k) >= rounding * S(k, k));
   if (!drowned) return L;
   S.diagonal() *= 1.0 + rounding;
-  return cholesky_factor(S);
+  return detail::cholesky_factor(S);
 }
 
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
@@ -95,13 +95,13 @@ SquareMatrix<M, MaxM> score(std::string_view model, const Gaussian<M, MaxM>& mea
   const auto L = factorised(innovation.covariance);
   if (!L)
     throw std::domain_error("the innovation covariance of model '" + std::string(model) + "' is not positive definite");
-  const SquareMatrix<M, MaxM> L_inverse = lower_inverse(*L);  // S⁻¹ = L⁻ᵀ L⁻¹
+  const SquareMatrix<M, MaxM> L_inverse = detail::lower_inverse(*L);  // S⁻¹ = L⁻ᵀ L⁻¹
   const Vector<M, MaxM> whitened = L_inverse * innovation.residual;
   innovation.squared_distance = whitened.squaredNorm();
   innovation.log_likelihood = -0.5 * innovation.squared_distance - L->diagonal().array().log().sum() -
                               0.5 * static_cast<double>(measurement.size()) * std::log(2.0 * std::numbers::pi);
   if (!std::isfinite(innovation.squared_distance)) {  // infinite also for a finite measurement that is too far off
-    if (!all_finite(measurement))
+    if (!detail::all_finite(measurement))
       throw std::invalid_argument("a measurement of model '" + std::string(model) +
                                   "', or its covariance, is not finite");
     if (!innovation.residual.allFinite() || !innovation.covariance.allFinite())
@@ -178,7 +178,7 @@ Innovation<M, MaxM> update_by(std::string_view model, const MeasurementMatrix& H
   terms.head(seen) = A.cwiseAbs2() * P.diagonal().head(seen);
   terms.tail(rest) = P.diagonal().tail(rest) + B.cwiseAbs2() * P.diagonal().head(seen);
   result.diagonal() += rounding * terms;
-  mirror_lower(result);
+  detail::mirror_lower(result);
 
   posterior.mean = prior.mean + W * innovation.residual;
   posterior.covariance = result;

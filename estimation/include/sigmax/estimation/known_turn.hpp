@@ -34,7 +34,7 @@ class KnownTurn {
   using Matrix = SquareMatrix<state_size>;
 
   /// Throws std::invalid_argument unless ω is finite, and q finite and not negative.
-  KnownTurn(double omega, double q) : omega_(omega), q_(motion_parameter(q, "q", name())) {
+  KnownTurn(double omega, double q) : omega_(omega), q_(detail::motion_parameter(q, "q", name())) {
     if (!std::isfinite(omega))
       throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) +
                                   "; expected a finite one");
@@ -44,13 +44,13 @@ class KnownTurn {
   double q() const { return q_; }
   Eigen::Index size() const { return state_size; }
   std::string_view name() const { return "known_turn"; }
-  std::vector<std::string> components() const { return motion_components(Axes, 2); }
+  std::vector<std::string> components() const { return detail::motion_components(Axes, 2); }
 
-  Matrix transition(double dt) const { return turn_transition<Axes>(omega_, dt); }
+  Matrix transition(double dt) const { return detail::turn_transition<Axes>(omega_, dt); }
   Matrix process_covariance(double dt) const {
     const double theta = omega_ * dt;
-    const double s = cubic_remainder_of_sine(theta);
-    const double c = 0.5 * sinc(0.5 * theta) * sinc(0.5 * theta);
+    const double s = detail::cubic_remainder_of_sine(theta);
+    const double c = 0.5 * detail::sinc(0.5 * theta) * detail::sinc(0.5 * theta);
     Matrix Q = Matrix::Zero();
     for (Eigen::Index a = 0; a < Axes; ++a) {
       const bool turns = a < 2;

@@ -91,8 +91,8 @@ LinearisedStepOf<Moves> linearised_step(const Extended<Moves>& member, const Est
 
 namespace detail {
 
-/// What sigma points over N(m, L Lᵀ) make of a function, as a linear one: `slope` L⁻¹ (x − m), and the covariance of
-/// what that leaves unexplained. `deviations` are the function's, a column for each point.
+/// Fits a linear function to the values at the sigma points of N(m, L Lᵀ): `slope` L⁻¹ (x − m), and the covariance of
+/// the remainder. `deviations` are the function's, a column for each point.
 template <SigmaPointMember Filter, int A, int MaxA>
 struct SigmaPointRegression {
   RectangularMatrix<A, Filter::state_size, MaxA, Filter::max_state_size> slope;
@@ -126,7 +126,7 @@ LinearisedStepOf<Filter> linearised_step(const Filter& member, const EstimateOf<
     const SigmaPoints<Filter> points(member, start);
     const detail::Propagated<Filter> images(member, points, start.mean, dt);
     const detail::SigmaPointRegression<Filter, Filter::state_size, Filter::max_state_size> linear(
-        member, points, images.deviations, covariance_root(start.covariance, member.name()));
+        member, points, images.deviations, detail::covariance_root(start.covariance, member.name()));
     return {images.mean, linear.slope, linear.rest + member.motion().process_covariance(dt)};
   }
 }
@@ -162,8 +162,8 @@ LinearisedMeasurementOf<Filter, Sensor> linearised_measurement(const Filter& mem
     const MeasuredOf<Sensor> mean = measurement_mean(sensor, seen, points.mean_weights());
     for (Eigen::Index i = 0; i < points.size(); ++i)
       seen.col(i) = measurement_difference(sensor, MeasuredOf<Sensor>(seen.col(i)), mean);
-    const detail::SigmaPointRegression<Filter, M, max_M> linear(member, points, seen,
-                                                                covariance_root(predicted.covariance, member.name()));
+    const detail::SigmaPointRegression<Filter, M, max_M> linear(
+        member, points, seen, detail::covariance_root(predicted.covariance, member.name()));
     return {measurement_difference(sensor, z.mean, mean), linear.slope, linear.rest + z.covariance};
   }
 }

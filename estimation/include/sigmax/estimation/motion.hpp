@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sigmax {
+namespace sigmax::detail {
 
 /// The names of the components of a motion, ordered by derivative: x, y, z, vx, vy, vz, ax, ay, az, cut to the axes and
 /// to the number of derivatives, position included. Models that use them can be mixed.
@@ -27,4 +27,4 @@ inline double motion_parameter(double value, std::string_view parameter, std::st
                               std::to_string(least));
 }
 
-}  // namespace sigmax
+}  // namespace sigmax::detail

@@ -9,6 +9,8 @@
 
 namespace sigmax {
 
+namespace detail {
+
 /// Σ_{n ≥ k} (−1)ⁿ uⁿ⁻ᵏ/n! (a 2ⁿ + b n + c): what is left of a e⁻²ᵘ − b u e⁻ᵘ + c e⁻ᵘ after its first k powers, over
 /// uᵏ. Summed as a series for small u, so that nothing cancels and u = 0 is a number like another.
 inline double exponential_tail(double u, int k, double a, double b, double c) {
@@ -30,6 +32,8 @@ inline double exponential_tail(double u, int k, double a, double b, double c) {
   return tail;
 }
 
+}  // namespace detail
+
 /// The highest derivative is an Ornstein–Uhlenbeck process, that is first-order Gauss–Markov: it has the stationary
 /// standard deviation σ and forgets at the rate θ (1/s), d = −θ (d − m) dt + √(2θ) σ dW. Order 1: the position wanders
 /// about a point (σ in m). Order 2: the velocity (σ in m/s) does, as of ships (Millefiori et al. 2016). Order 3: the
@@ -47,7 +51,8 @@ class OrnsteinUhlenbeck {
 
   /// Throws std::invalid_argument unless θ and σ are finite and not negative.
   OrnsteinUhlenbeck(double theta, double sigma)
-      : theta_(motion_parameter(theta, "the rate", name())), sigma_(motion_parameter(sigma, "sigma", name())) {}
+      : theta_(detail::motion_parameter(theta, "the rate", name())),
+        sigma_(detail::motion_parameter(sigma, "sigma", name())) {}
 
   double theta() const { return theta_; }
   double sigma() const { return sigma_; }
@@ -59,7 +64,7 @@ class OrnsteinUhlenbeck {
     for (Eigen::Index a = 0; a + 1 < Order; ++a)
       for (Eigen::Index b = a + 1; b + 1 < Order; ++b) F(a, b) = dt;
     for (int p = 0; p < Order; ++p)
-      F(Order - 1 - p, Order - 1) = std::pow(-dt, p) * exponential_tail(u, p, 0.0, 0.0, 1.0);
+      F(Order - 1 - p, Order - 1) = std::pow(-dt, p) * detail::exponential_tail(u, p, 0.0, 0.0, 1.0);
     return F;
   }
   SquareMatrix<Order> process_covariance(double dt) const {
@@ -76,7 +81,7 @@ class OrnsteinUhlenbeck {
         const int index = p * (p + 1) / 2 + r;
         const auto& [a, b, c] = table[static_cast<std::size_t>(index)];
         Q(Order - 1 - p, Order - 1 - r) = Q(Order - 1 - r, Order - 1 - p) =
-            sigma_ * sigma_ * std::pow(dt, p + r) * u * exponential_tail(u, p + r + 1, a, b, c);
+            sigma_ * sigma_ * std::pow(dt, p + r) * u * detail::exponential_tail(u, p + r + 1, a, b, c);
       }
     return Q;
   }
@@ -84,7 +89,7 @@ class OrnsteinUhlenbeck {
     const double u = theta_ * dt;
     Vector<Order> gain;
     for (int p = 0; p < Order; ++p)
-      gain(Order - 1 - p) = -std::pow(-dt, p) * u * exponential_tail(u, p + 1, 0.0, 0.0, 1.0);
+      gain(Order - 1 - p) = -std::pow(-dt, p) * u * detail::exponential_tail(u, p + 1, 0.0, 0.0, 1.0);
     return gain;
   }
 

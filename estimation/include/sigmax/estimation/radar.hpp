@@ -49,7 +49,7 @@ inline Gaussian<3> to_cartesian(const Polar& measured, const Polar& sigma) {
   J.col(1) *= sigma.azimuth;
   J.col(2) *= sigma.elevation;
   SquareMatrix<3> R = J * J.transpose();
-  mirror_lower(R);
+  detail::mirror_lower(R);
   return {to_cartesian(measured), R};
 }
 

@@ -15,9 +15,11 @@ namespace sigmax {
 /// What one step of a filter left, for smoothing: its duration in s and what it knew then.
 template <class State>
 struct FilteredStep {
-  double dt;  ///< since the step before; of the first it is of no account
+  double dt;  ///< since the step before; ignored for the first
   State state;
 };
+
+namespace detail {
 
 /// The estimate of x given all of what is known of y later, where y was predicted from x and smoothed since:
 ///
@@ -43,6 +45,8 @@ void step_back(const Gaussian<N, MaxN>& filtered, const RectangularMatrix<N, M, 
   mirror_lower(result.covariance);
 }
 
+}  // namespace detail
+
 /// One step back of the smoother of Rauch, Tung and Striebel (1965): from what was known at k to what is known of k at
 /// the end, where the next step took `dt` seconds and `next` is smoothed already. Works on every model and member that
 /// has `predict` and `prediction_covariance`. `result` may be `filtered` or `next`.
@@ -53,7 +57,7 @@ void smooth_step(const Model& model, const EstimateOf<Model>& filtered, double d
   predict(model, filtered, dt, predicted);
   const RectangularMatrix<Model::state_size, Model::state_size, Model::max_state_size, Model::max_state_size> cross =
       prediction_covariance(model, filtered, dt);
-  step_back(filtered, cross, predicted, next, model.name(), result);
+  detail::step_back(filtered, cross, predicted, next, model.name(), result);
 }
 
 /// The smoothed estimates of a whole interval, one for each filtered one; the last is itself.

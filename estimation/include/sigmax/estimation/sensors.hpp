@@ -168,7 +168,7 @@ class PolarSensor {
     return {converted.mean.head<Axes>() + origin_, converted.covariance.topLeftCorner<Axes, Axes>()};
   }
 
-  /// What a radar with these standard deviations measured; with two axes the elevation is of no account.
+  /// What a radar with these standard deviations measured; with two axes the elevation is ignored.
   static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
     const Vector<3> z(measured.range, measured.azimuth, measured.elevation);
     const Vector<3> deviations(sigma.range, sigma.azimuth, sigma.elevation);

@@ -42,7 +42,8 @@ class SigmaPoints {
     const Eigen::Index n = estimate.size();
     const SigmaPointWeights weights = member.weights();
     offsets_.setZero(n, 2 * n + centre);
-    offsets_.middleCols(centre, n) = std::sqrt(weights.spread) * covariance_root(estimate.covariance, member.name());
+    offsets_.middleCols(centre, n) =
+        std::sqrt(weights.spread) * detail::covariance_root(estimate.covariance, member.name());
     offsets_.rightCols(n) = -offsets_.middleCols(centre, n);
     mean_weights_.setConstant(2 * n + centre, 0.5 / weights.spread);
     covariance_weights_ = mean_weights_;
@@ -66,7 +67,7 @@ class SigmaPoints {
     for (Eigen::Index column = 0; column < a.rows(); ++column)
       for (Eigen::Index row = column; row < a.rows(); ++row)
         result(row, column) = weighted.col(row).dot(rows.col(column));
-    mirror_lower(result);
+    detail::mirror_lower(result);
     return result;
   }
 
@@ -132,8 +133,8 @@ auto seen_points(const Filter& member, const SigmaPoints<Filter>& points, const 
 /// if it did.
 template <SigmaPointMember Filter>
 auto proved_semidefinite(const Filter& member, StateMatrixOf<Filter> covariance) {
-  mirror_lower(covariance);
-  if (member.weights().centre_of_covariance < 0.0) covariance_root(covariance, member.name());
+  detail::mirror_lower(covariance);
+  if (member.weights().centre_of_covariance < 0.0) detail::covariance_root(covariance, member.name());
   return covariance;
 }
 
@@ -198,7 +199,7 @@ InnovationOf<Sensor> update(const Filter& member, const EstimateOf<Filter>& prio
     innovation.residual = measurement_difference(sensor, measurement.mean, predicted);
     innovation.covariance = points.covariance(seen);
     innovation.covariance += measurement.covariance;
-    mirror_lower(innovation.covariance);
+    detail::mirror_lower(innovation.covariance);
     const SquareMatrix<M, max_M> S_inverse = detail::score(member.name(), measurement, innovation);
     const Gain W = points.covariance(points.offsets(), seen).lazyProduct(S_inverse);
 

@@ -31,7 +31,7 @@ Gaussian<M * Orders> start_from_points(const Eigen::Matrix<double, Orders, stati
         start.covariance.template block<M, M>(a * M, b * M) += weights(a, i) * weights(b, i) * point.covariance;
     }
   }
-  mirror_lower(start.covariance);
+  detail::mirror_lower(start.covariance);
   return start;
 }
 

@@ -4,7 +4,7 @@
 
 #include <sigmax/estimation/gaussian.hpp>
 
-namespace sigmax {
+namespace sigmax::detail {
 
 /// sin x / x for any scalar type; smooth at 0, also for automatic differentiation.
 template <class Scalar>
@@ -71,4 +71,4 @@ SquareMatrix<2 * Axes> turn_transition(double omega, double dt) {
   return turn_transition<Axes>(Turn<double>(omega * dt), dt);
 }
 
-}  // namespace sigmax
+}  // namespace sigmax::detail

@@ -23,7 +23,7 @@ class WhiteNoise {
   static constexpr int order = Order;
 
   /// Throws std::invalid_argument unless q is finite and not negative.
-  explicit WhiteNoise(double q) : q_(motion_parameter(q, "q", name())) {}
+  explicit WhiteNoise(double q) : q_(detail::motion_parameter(q, "q", name())) {}
 
   double q() const { return q_; }
   std::string_view name() const { return Order == 2 ? "cwna" : "cwpa"; }

@@ -83,6 +83,8 @@ void for_each_mode(const std::vector<T>& modes, const Visit& visit) {
   for (std::size_t index = 0; index < modes.size(); ++index) visit(index);
 }
 
+namespace detail {
+
 /// Room for one estimate of each model.
 template <class... Models>
 auto estimates_for(const std::tuple<Models...>&) {
@@ -108,5 +110,7 @@ auto pairs_for(const std::vector<Estimate>& estimates) {
   for (const Estimate& each : estimates) pairs.emplace_back(estimates.size(), each);
   return pairs;
 }
+
+}  // namespace detail
 
 }  // namespace sigmax

@@ -19,6 +19,8 @@ enum class Tie {
   last    ///< the highest index
 };
 
+namespace detail {
+
 /// Index of the greatest weight, given as logarithms. `current` is the mode that `Tie::stay` favours.
 template <class LogWeight>
 std::size_t select(std::size_t modes, const LogWeight& log_weight, std::size_t current, Tie tie) {
@@ -34,6 +36,8 @@ std::size_t select(std::size_t modes, const LogWeight& log_weight, std::size_t c
     }
   return winner;
 }
+
+}  // namespace detail
 
 /// Reading of the covariance (57) of a mixed start, with l the selected mode and j the receiving one.
 enum class MixedCovariance {
@@ -70,9 +74,11 @@ struct MomentMatching {
   OutputSpread output_spread = OutputSpread::included;
 };
 
-/// How mixtures over a mode of this kind collapse: the only place where IMM and HIMM part.
-template <Uncertainty Kind>
+/// How mixtures over a mode of this kind collapse. It is here that IMM and HIMM part.
+template <ScalableUncertainty Kind>
 using Collapse = std::conditional_t<SelectiveAlgebra<AlgebraOf<Kind>>, Selection, MomentMatching>;
+
+namespace detail {
 
 /// The mean of the mixture Σ weight(l) N(l).
 template <class Mixture, class Weight, int N, int MaxN>
@@ -98,6 +104,8 @@ void match_moments(const Mixture& mixture, const Weight& weight, const Covarianc
   mirror_lower(result.covariance);
 }
 
+}  // namespace detail
+
 /// One Gaussian for a mixture of Gaussians. `mixture.visit_all(visit)` calls visit(l, part) for every part and
 /// `mixture.visit(l, visit)` for one; a part has mean() and add_covariance(weight, covariance). `weight(l)` is the
 /// part's weight, `winner` the one selected by it. `result` has its size already.
@@ -105,7 +113,7 @@ template <class Mixture, class Weight, int N, int MaxN>
 void collapse(const Selection& rule, const Mixture& mixture, const Weight& weight, std::size_t winner,
               Gaussian<N, MaxN>& result) {
   if (rule.mixed_covariance == MixedCovariance::envelope) {
-    match_envelope(mixture, weight, result);
+    detail::match_envelope(mixture, weight, result);
     return;
   }
   result.covariance.setZero();
@@ -117,8 +125,8 @@ void collapse(const Selection& rule, const Mixture& mixture, const Weight& weigh
 template <class Mixture, class Weight, int N, int MaxN>
 void collapse(const MomentMatching& rule, const Mixture& mixture, const Weight& weight, std::size_t,
               Gaussian<N, MaxN>& result) {
-  if (rule.output_spread == OutputSpread::included) return match_moments(mixture, weight, weight, result);
-  average_means(mixture, weight, result.mean);
+  if (rule.output_spread == OutputSpread::included) return detail::match_moments(mixture, weight, weight, result);
+  detail::average_means(mixture, weight, result.mean);
   result.covariance.setZero();
   mixture.visit_all([&](std::size_t l, const auto& part) { part.add_covariance(weight(l), result.covariance); });
 }
@@ -130,10 +138,10 @@ template <class Mixture, class Weight, class Transposed, int N, int MaxN>
 void mix(const Selection& rule, const Mixture& mixture, const Weight& weight, const Transposed&, std::size_t modes,
          std::size_t favoured, const Gaussian<N, MaxN>& own, Gaussian<N, MaxN>& result) {
   if (rule.mixed_covariance == MixedCovariance::envelope) {
-    match_envelope(mixture, weight, result);
+    detail::match_envelope(mixture, weight, result);
     return;
   }
-  const std::size_t l = select(
+  const std::size_t l = detail::select(
       modes, [&](std::size_t i) { return std::log(weight(i)); }, favoured, rule.mixing_tie);
   collapse(rule, mixture, weight, l, result);
   if (rule.mixed_covariance == MixedCovariance::selected) return;
@@ -148,9 +156,9 @@ template <class Mixture, class Weight, class Transposed, int N, int MaxN>
 void mix(const MomentMatching& rule, const Mixture& mixture, const Weight& weight, const Transposed& transposed,
          std::size_t, std::size_t, const Gaussian<N, MaxN>&, Gaussian<N, MaxN>& result) {
   if (rule.mixing_weights == MixingWeights::correct)
-    match_moments(mixture, weight, weight, result);
+    detail::match_moments(mixture, weight, weight, result);
   else
-    match_moments(mixture, weight, transposed, result);
+    detail::match_moments(mixture, weight, transposed, result);
 }
 
 }  // namespace sigmax

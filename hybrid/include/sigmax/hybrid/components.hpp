@@ -50,8 +50,8 @@ class Components {
   /// Where all components stand in each model.
   const Correspondence* of_all() const { return output_.data(); }
 
-  /// For every component the value of the one model among those that have it, and the covariances within that model:
-  /// what a lift of the output borrows. `choose(has)` gives the model, where has(l) says whether model l has it.
+  /// Each component, with its covariances, from one of the models that have it: what a lift of the output borrows.
+  /// `choose(has)` picks the model, where has(l) says whether model l has the component.
   template <class Choose>
   Estimate carried(const Estimates& estimates, const Choose& choose) const {
     const auto n = static_cast<Eigen::Index>(names_.size());
@@ -103,7 +103,7 @@ class Components {
   }
   template <int N, int MaxN>
   Estimates shares(const Models& models, const Gaussian<N, MaxN>& start) const {
-    Estimates result = estimates_for(models);
+    Estimates result = detail::estimates_for(models);
     for_each_mode(models, [&](auto j) {
       const auto n = mode(models, j).size();
       mode(result, j).mean.setZero(n);

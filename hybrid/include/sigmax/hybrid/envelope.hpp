@@ -17,9 +17,8 @@ namespace sigmax {
 /// overlap, and parts that are equal, come out exactly; between them β is right to about 1 % of itself in one or two
 /// components, 2 % in nine.
 ///
-/// A part may have components without variance, as Lift::zero gives, and even none that has one. It is then singular to
-/// parts whose varying components are others, and counts beside them in full. The others' covariance is positive
-/// definite.
+/// A part may have no variance in some components, as Lift::zero gives, or in all. It then does not overlap parts that
+/// vary in others, and its weight counts in full. The covariance of the components that vary is positive definite.
 class Envelope {
  public:
   /// One whose memory the calling thread keeps.
@@ -69,6 +68,8 @@ class Envelope {
   Column apart_;
 };
 
+namespace detail {
+
 /// One Gaussian with the moments of the envelope of a mixture, as `collapse` takes it; gives β.
 template <class Mixture, class Weight, int N, int MaxN>
 double match_envelope(const Mixture& mixture, const Weight& weight, Gaussian<N, MaxN>& result) {
@@ -81,5 +82,7 @@ double match_envelope(const Mixture& mixture, const Weight& weight, Gaussian<N, 
   });
   return envelope.match(result.mean, result.covariance);
 }
+
+}  // namespace detail
 
 }  // namespace sigmax

@@ -36,7 +36,7 @@ namespace sigmax {
 /// A `FilterBank<Models, Kind, float>` holds and computes numbers of single precision, which takes half the memory and
 /// half the time. A position then has 24 bits: of tracks 100 km from the origin, it is known to a centimetre. Modes
 /// that are almost equally likely may be decided otherwise.
-template <class Models, Uncertainty Kind, std::floating_point Number = double>
+template <class Models, ScalableUncertainty Kind, std::floating_point Number = double>
 class FilterBank {
   using Shortcut = detail::kinematic::Shortcut<Models, Kind>;
   static_assert(Shortcut::possible, "a FilterBank is for up to four models of motion along independent axes");
@@ -66,7 +66,7 @@ class FilterBank {
         to[static_cast<std::size_t>(axes + i) * lanes_] = static_cast<Number>(z.covariance.data()[i]);
       to[(size - 1) * lanes_] = 1;
     }
-    /// No measurement of a track, and of none.
+    /// Removes the measurement of one track, or of all.
     void miss(std::size_t track) {
       numbers_[track / lanes_ * lanes_ * size + (size - 1) * lanes_ + track % lanes_] = 0;
     }
@@ -141,9 +141,9 @@ class FilterBank {
   Scan scan() const { return {blocks(), lanes_}; }
 
   /// One step of all tracks, and one for each scan, `dt` seconds apart; blocks of tracks are shared among the threads,
-  /// and the result does not depend on how many there are. What allocates is only a thread.
+  /// and the result does not depend on how many there are. Only starting threads allocates.
   /// Throws std::invalid_argument if dt or the size of a scan is wrong, and what the filter's step throws, with the
-  /// number of the track; that one is then left where it was, and others of its thread may be.
+  /// number of the track; it keeps its state, and later tracks of the same thread may not have been stepped.
   void step(double dt, const Scan& scan) { run(dt, std::span(&scan, 1)); }
   void run(double dt, std::span<const Scan> scans, std::size_t threads = 1) {
     if (!(dt >= 0.0 && std::isfinite(dt)))
@@ -157,7 +157,7 @@ class FilterBank {
     threads = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks(), 1));
     if (threads == 1) return run_blocks(dt, scans, shortens, 0, blocks(), general_);
     std::vector<std::exception_ptr> errors(threads);
-    std::vector<std::thread> team;
+    std::vector<std::jthread> team;
     for (std::size_t t = 0; t < threads; ++t)
       team.emplace_back([&, t] {
         try {
@@ -167,7 +167,7 @@ class FilterBank {
           errors[t] = std::current_exception();
         }
       });
-    for (std::thread& each : team) each.join();
+    team.clear();  // joins
     for (const std::exception_ptr& error : errors)
       if (error) std::rethrow_exception(error);
   }
@@ -181,7 +181,7 @@ class FilterBank {
   }
   Estimate estimate(std::size_t track) const { return general_.estimate(state(track)); }
 
-  /// One of the filters that the bank stands for; its state is of no account.
+  /// One of the filters that the bank stands for; its state means nothing.
   const Filter& filter() const { return general_; }
 
  private:
@@ -194,7 +194,7 @@ class FilterBank {
   }
 
   static Estimates anywhere(const Models& models) {
-    Estimates starts = estimates_for(models);
+    Estimates starts = detail::estimates_for(models);
     for_each_mode(models, [&](auto j) {
       mode(starts, j).mean.setZero(mode(models, j).size());
       mode(starts, j).covariance.setIdentity(mode(models, j).size(), mode(models, j).size());
@@ -233,7 +233,7 @@ class FilterBank {
   void read(std::size_t track, State& state) const {
     const Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates,
                                        [](Number stored, double& known) { known = stored; });
-    for_each_mode(state.estimates, [&](auto j) { mirror_lower(mode(state.estimates, j).covariance); });
+    for_each_mode(state.estimates, [&](auto j) { detail::mirror_lower(mode(state.estimates, j).covariance); });
     state.belief.assign([&](std::size_t j) { return std::log(static_cast<double>(at[j * lanes_])); });
     state.most_likely_mode = static_cast<std::size_t>(at[state.belief.size() * lanes_]);
   }
@@ -315,13 +315,13 @@ class FilterBank {
   std::vector<std::size_t> free_;
 };
 
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 FilterBank(Models, Relation<Kind, Kind>) -> FilterBank<Models, Kind>;
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 FilterBank(Models, Relation<Kind, Kind>, Interaction<Kind>) -> FilterBank<Models, Kind>;
 template <class Models, class Transition>
 FilterBank(Models, Transition) -> FilterBank<Models, typename Transition::kind>;
-template <class Models, class Transition, Uncertainty Kind>
+template <class Models, class Transition, ScalableUncertainty Kind>
 FilterBank(Models, Transition, Interaction<Kind>) -> FilterBank<Models, Kind>;
 
 }  // namespace sigmax

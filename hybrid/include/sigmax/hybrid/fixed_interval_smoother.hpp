@@ -32,7 +32,9 @@ namespace sigmax {
 ///     FixedIntervalSmoother smoother(filter);
 ///     smoother.begin(record.back());
 ///     for (std::size_t k = record.size() - 1; k-- > 0;) smoother.step(record[k]);   // smoother.state() is of k
-template <class Models, Uncertainty Kind>
+///
+/// The reference that `state` returns lives as long as the smoother, and shows what the last step left.
+template <class Models, ScalableUncertainty Kind>
 class FixedIntervalSmoother {
  public:
   using State = HybridEstimate<Models, Kind>;
@@ -44,7 +46,7 @@ class FixedIntervalSmoother {
         system_(filter.system()),
         state_(filter.state()),
         starts_(filter.estimates()),
-        pairs_(pairs_for(filter.estimates())),
+        pairs_(detail::pairs_for(filter.estimates())),
         evidence_(modes()),
         parts_(modes(), std::vector<Evidence>(modes())),
         means_(modes()),
@@ -104,12 +106,12 @@ class FixedIntervalSmoother {
   /// log ⊕ exp over the modes, by the mode's own ⊕.
   template <class LogWeight>
   double total(const LogWeight& log_weight) const {
-    return log_combine<AlgebraOf<Kind>>(modes(), log_weight, [](std::size_t) { return 1.0; });
+    return detail::log_combine<AlgebraOf<Kind>>(modes(), log_weight, [](std::size_t) { return 1.0; });
   }
 
   template <class I>
   void roots_of(I i, const State& filtered) {
-    roots_[i] = covariance_root(mode(filtered.estimates, i).covariance, mode(system_.models(), i).name());
+    roots_[i] = detail::covariance_root(mode(filtered.estimates, i).covariance, mode(system_.models(), i).name());
   }
 
   /// The estimate of mode i given mode j next and all that came to be known in j, and what that tells of i; returns the
@@ -134,7 +136,7 @@ class FixedIntervalSmoother {
       for (Eigen::Index a = 0; a < n; ++a)
         if (!root.col(a).isZero(0.0)) A.col(noises++) = root.col(a);
     };
-    add_noise(covariance_root(linear.Q, model.name()));
+    add_noise(detail::covariance_root(linear.Q, model.name()));
     bool all = true;
     for (Eigen::Index b = 0; b < n; ++b) {
       const Eigen::Index in_i = from_i[static_cast<std::size_t>(b)];
@@ -149,7 +151,7 @@ class FixedIntervalSmoother {
           start.covariance.row(b).setZero();
           start.covariance.col(b).setZero();
         }
-      add_noise(linear.F * covariance_root(start.covariance, model.name()));
+      add_noise(linear.F * detail::covariance_root(start.covariance, model.name()));
     }
     A.conservativeResize(n, noises);
     auto& part = parts_[i][j];
@@ -175,7 +177,7 @@ class FixedIntervalSmoother {
       }
       const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
       const auto weight = [&](std::size_t j) { return std::exp(log_weight(j)); };
-      const std::size_t best = select(modes(), log_weight, i, Tie::stay);
+      const std::size_t best = detail::select(modes(), log_weight, i, Tie::stay);
       collapse(Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)}, weight, best,
                result);
       Evidence seen;
@@ -188,7 +190,7 @@ class FixedIntervalSmoother {
         collapse_(parts_[i], weight, roots_[i], seen, evidence_[i]);
       }
     });
-    state_.most_likely_mode = select(
+    state_.most_likely_mode = detail::select(
         modes(), [&](std::size_t i) { return state_.belief.log(i); }, state_.most_likely_mode,
         filter_.interaction().output_tie);
   }
@@ -217,7 +219,7 @@ class FixedIntervalSmoother {
 ///       record.push_back(filter.recorded(dt, z));
 ///     }
 ///     const auto smoothed = smooth(filter, record);
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 std::vector<HybridEstimate<Models, Kind>> smooth(const MultipleModelFilter<Models, Kind>& filter,
                                                  const std::vector<RecordedStep<Models, Kind>>& record) {
   FixedIntervalSmoother<Models, Kind> smoother(filter);

@@ -18,7 +18,7 @@ namespace sigmax {
 ///       if (const auto* state = smoother.take(filter.recorded(dt, z))) …   // of the tenth step before this
 ///     }
 ///     for (const auto& state : smoother.rest()) …                          // of the last ten
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class FixedLagSmoother {
  public:
   using State = HybridEstimate<Models, Kind>;

@@ -150,7 +150,7 @@ struct FutureEvidence {
     T.transpose().solveInPlace(root);
     estimate.mean += root.transpose().lazyProduct(work.col(n).head(n));
     estimate.covariance = root.transpose().lazyProduct(root);
-    mirror_lower(estimate.covariance);
+    detail::mirror_lower(estimate.covariance);
     return -triangle.log_determinant() - 0.5 * work.col(n).tail(R.rows()).squaredNorm();
   }
 

@@ -20,7 +20,7 @@
 namespace sigmax {
 
 /// What a HistoryFilter keeps and shows.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 struct HistoryRules {
   std::size_t histories = 24;     ///< so many at most, and at least one of each mode
   double least_log_weight = -12;  ///< beside the best; what is below is dropped, but for the last one of a mode
@@ -43,7 +43,7 @@ struct HistoryRules {
 ///
 /// `belief()` is the ⊕ over the histories of each mode, `estimates()` their collapse by the mode's kind, as of the
 /// other filters; docs/histories.md derives it.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class HistoryFilter : public MultipleModelFilter<Models, Kind> {
   using Filter = MultipleModelFilter<Models, Kind>;
 
@@ -170,7 +170,7 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
     for (std::size_t h = 0; h < set.size(); ++h) total += in_cut(h);
     Estimate result = receiver;
     const auto weight = [&](std::size_t h) { return in_cut(h) / total; };
-    match_moments(OutputMixture{*this, receiver}, weight, weight, result);
+    detail::match_moments(OutputMixture{*this, receiver}, weight, weight, result);
     return result;
   }
   /// That of another state by modes, say a smoothed one: as of the other filters.
@@ -192,12 +192,12 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
         innovation_of_, [&](std::size_t h) { return h < size ? std::exp(log_prior_[h]) : 0.0; }, best));
   }
   double log_evidence() const {
-    return log_combine<AlgebraOf<Kind>>(
+    return detail::log_combine<AlgebraOf<Kind>>(
         state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; },
         Filter::unit);
   }
   double log_score() const {
-    return log_evidence() - log_combine<Sigma>(
+    return log_evidence() - detail::log_combine<Sigma>(
                                 state().size(), [this](std::size_t h) { return log_prior_[h]; }, Filter::unit);
   }
   /// @}
@@ -366,7 +366,7 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
   }
 
   void normalize(State& set) const {
-    const double total = log_combine<AlgebraOf<Kind>>(
+    const double total = detail::log_combine<AlgebraOf<Kind>>(
         set.size(), [&](std::size_t h) { return set[h].log_weight; }, [](std::size_t) { return 1.0; });
     if (total == log_zero) check::excluded(system_.mode_variable());
     for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
@@ -380,7 +380,7 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
   /// The histories by modes: what the other filters have.
   void summarize(const State& set) {
     for (std::size_t j = 0; j < modes(); ++j)
-      log_of_mode_[j] = log_combine<AlgebraOf<Kind>>(
+      log_of_mode_[j] = detail::log_combine<AlgebraOf<Kind>>(
           set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; },
           [](std::size_t) { return 1.0; });
     for (std::size_t h = 0; h < set.size(); ++h) {
@@ -438,18 +438,18 @@ class HistoryFilter : public MultipleModelFilter<Models, Kind> {
   State predicted_;
 };
 
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 HistoryFilter(Models, Relation<Kind, Kind>, Start) -> HistoryFilter<Models, Kind>;
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 HistoryFilter(Models, Relation<Kind, Kind>, Start, HistoryRules<Kind>) -> HistoryFilter<Models, Kind>;
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 HistoryFilter(Models, Relation<Kind, Kind>, Start, HistoryRules<Kind>, Interaction<Kind>)
     -> HistoryFilter<Models, Kind>;
 template <class Models, class Transition, class Start>
 HistoryFilter(Models, Transition, Start) -> HistoryFilter<Models, typename Transition::kind>;
-template <class Models, class Transition, class Start, Uncertainty Kind>
+template <class Models, class Transition, class Start, ScalableUncertainty Kind>
 HistoryFilter(Models, Transition, Start, HistoryRules<Kind>) -> HistoryFilter<Models, Kind>;
-template <class Models, class Transition, class Start, Uncertainty Kind>
+template <class Models, class Transition, class Start, ScalableUncertainty Kind>
 HistoryFilter(Models, Transition, Start, HistoryRules<Kind>, Interaction<Kind>) -> HistoryFilter<Models, Kind>;
 
 }  // namespace sigmax

@@ -33,7 +33,7 @@ class HistorySet {
   using Estimates = typename Bank<Models>::Estimates;
 
   /// Room for so many histories; it starts with one for each mode.
-  HistorySet(const Estimates& starts, std::size_t room) : histories_(room), estimates_(pairs_for(starts)) {
+  HistorySet(const Estimates& starts, std::size_t room) : histories_(room), estimates_(detail::pairs_for(starts)) {
     for_each_mode(starts, [&](auto j) { mode(estimates_, j).resize(room, mode(starts, j)); });
     resize(mode_count(starts));
   }
@@ -74,7 +74,7 @@ class HistorySet {
     return links;
   }
 
-  /// Of mode j, the estimates at the places of the histories that end in it; the others are of no account.
+  /// Of mode j, the estimates at the places of the histories that end in it; the others mean nothing.
   template <class Index>
   auto& estimates(Index j) {
     return mode(estimates_, j);

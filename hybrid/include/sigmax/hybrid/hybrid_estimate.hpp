@@ -11,7 +11,7 @@ namespace sigmax {
 
 /// What is known of a jump Markov system at one time: for each mode the estimate of the state if it is that mode, and
 /// what is believed of the mode.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 struct HybridEstimate {
   typename Bank<Models>::Estimates estimates;
   Belief<Kind> belief;
@@ -19,7 +19,7 @@ struct HybridEstimate {
 };
 
 /// What one step of a multiple-model filter left, for smoothing.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 struct RecordedStep {
   double dt;  ///< since the step before, in s; ignored in the first record
   HybridEstimate<Models, Kind> state;

@@ -21,7 +21,7 @@ namespace sigmax {
 /// The predecessors of a mode collapse *before* the measurement, into one start for each model: M predictions and
 /// updates. SecondOrderMultipleModel lets them collapse after it. With `MixedStart::common` it is the GPB1 filter, with
 /// the transition `identity(mode)` a static bank. `step` allocates nothing.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   using Filter = MultipleModelFilter<Models, Kind>;
 
@@ -163,14 +163,14 @@ class InteractingMultipleModel : public MultipleModelFilter<Models, Kind> {
   Likelihood<Kind> likelihood_;
 };
 
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 InteractingMultipleModel(Models, Relation<Kind, Kind>, Start) -> InteractingMultipleModel<Models, Kind>;
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 InteractingMultipleModel(Models, Relation<Kind, Kind>, Start, Interaction<Kind>)
     -> InteractingMultipleModel<Models, Kind>;
 template <class Models, class Transition, class Start>
 InteractingMultipleModel(Models, Transition, Start) -> InteractingMultipleModel<Models, typename Transition::kind>;
-template <class Models, class Transition, class Start, Uncertainty Kind>
+template <class Models, class Transition, class Start, ScalableUncertainty Kind>
 InteractingMultipleModel(Models, Transition, Start, Interaction<Kind>) -> InteractingMultipleModel<Models, Kind>;
 
 }  // namespace sigmax

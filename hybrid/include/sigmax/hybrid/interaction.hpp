@@ -18,7 +18,7 @@ enum class LikelihoodForm {
 };
 
 /// The choices that the paper leaves open; the defaults are argued in docs/readings.md.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 struct Interaction {
   Lift lift = Lift::borrowed_variance;
   Collapse<Kind> collapse = {};

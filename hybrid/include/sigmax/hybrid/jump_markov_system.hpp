@@ -18,7 +18,7 @@ concept TransitionOverTime = requires(const Function& transition, double dt) {
 };
 
 /// How a mode moves on in one step: by one relation whatever the time between two scans, or by a function of that time.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 class ModeTransition {
  public:
   using kind = Kind;
@@ -45,7 +45,7 @@ class ModeTransition {
     return relation_;
   }
 
-  /// The relation asked for last; of a function at first that for a step of no time.
+  /// The relation computed last. Before the first step of a function: that of dt = 0.
   const Relation<Kind, Kind>& last() const { return relation_; }
 
  private:
@@ -56,7 +56,7 @@ class ModeTransition {
 
 /// A system whose model jumps with its mode r_k, (47), (48): random with a transition probability (49), or fuzzy with a
 /// transition possibility (50). Which of both it is, is the kind of the mode.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class JumpMarkovSystem {
  public:
   /// Throws std::invalid_argument unless the transition leads from a mode variable to itself and has one outcome for
@@ -83,14 +83,14 @@ class JumpMarkovSystem {
   ModeTransition<Kind> transition_;
 };
 
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 JumpMarkovSystem(Models, Relation<Kind, Kind>) -> JumpMarkovSystem<Models, Kind>;
 template <class Models, class Transition>
 JumpMarkovSystem(Models, Transition) -> JumpMarkovSystem<Models, typename Transition::kind>;
 
 /// The transition of a mode that never changes: with it a multiple-model filter is a static (autonomous) bank, whose
 /// models run alone and are compared by all that they predicted.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
 Relation<Kind, Kind> identity(const Variable<Kind>& mode) {
   Table table(mode.size(), mode.size());
   for (std::size_t i = 0; i < mode.size(); ++i) table(i, i) = AlgebraOf<Kind>::one();

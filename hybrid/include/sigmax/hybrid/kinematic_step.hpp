@@ -86,7 +86,7 @@ template <class Model>
 inline constexpr bool may_all_be<std::vector<Model>> = may_be<Model>;
 
 /// The short step and output of a bank, where it has them.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class Shortcut {
  public:
   static constexpr bool possible = may_all_be<Models>;

@@ -46,7 +46,7 @@ inline Rates rates_of_sojourns(const std::vector<double>& mean_sojourns) {
 ///
 /// P is found by uniformisation: no number is subtracted, so none is negative, and j is possible after i whenever some
 /// chain of jumps leads there.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
   requires ScalingAlgebra<AlgebraOf<Kind>>
 class TimedTransition {
  public:
@@ -148,7 +148,7 @@ class TimedTransition {
 /// staying is always fully possible, π_ii(t) = 1, cannot decrease with t; of M modes the best chain has at most M − 1
 /// jumps, so Π(t) = Π(t/M)^M = Π(t/M)^2M = Π(2t), hence Π is one constant. Two modes with a unit diagonal are their own
 /// closure. Throws std::invalid_argument if a possibility on the diagonal is not one.
-template <Uncertainty Kind>
+template <ScalableUncertainty Kind>
   requires SelectiveAlgebra<AlgebraOf<Kind>> Relation<Kind, Kind> closure(Relation<Kind, Kind> transition) {
     check::same(transition.from(), transition.to(), "closure");
     const std::size_t n = transition.to().size();

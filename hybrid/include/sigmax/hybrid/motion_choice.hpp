@@ -40,7 +40,7 @@ std::span<const KnownMotion> known_motions();
 /// The motion of this name, or null.
 const KnownMotion* known_motion(std::string_view name);
 
-/// A motion by its name with its parameters; those that it does not have are of no account.
+/// A motion by its name with its parameters; those that it does not have are ignored.
 struct MotionChoice {
   std::string name = "dwna";
   std::array<double, 4> parameters{3.0, 10.0, 3.0, 0.2};

@@ -31,7 +31,8 @@ inline constexpr double no_gate = std::numeric_limits<double>::infinity();
 /// What the multiple-model filters share: models and mode, the estimates, and the output. They differ in their `step`.
 ///
 /// `Models` is a std::tuple of models or a std::vector of one run-time model type. Mode weights are kept as logarithms.
-template <class Models, Uncertainty Kind>
+/// References to estimates, innovations and states live as long as the filter, and show what the last step left.
+template <class Models, ScalableUncertainty Kind>
 class MultipleModelFilter {
  public:
   using ModelsType = Models;
@@ -79,7 +80,7 @@ class MultipleModelFilter {
   }
   template <int N, int MaxN>
   void restart(const Gaussian<N, MaxN>& start) {
-    if (!all_finite(start)) throw std::invalid_argument("the start is not finite");
+    if (!detail::all_finite(start)) throw std::invalid_argument("the start is not finite");
     components_.shares(start, states_[current_].estimates);
     forget_mode();
   }
@@ -117,7 +118,7 @@ class MultipleModelFilter {
   double beta() const requires SelectiveAlgebra<AlgebraOf<Kind>> {
     Estimate result = output_receiver(state());
     const Estimate receiver = result;
-    return match_envelope(
+    return detail::match_envelope(
         mixture(receiver, components_.of_all(), estimates()), [this](std::size_t j) { return belief()[j]; }, result);
   }
 
@@ -148,7 +149,7 @@ class MultipleModelFilter {
   /// log-likelihood. With a fuzzy mode it is the maximum, which is no density of z: it only grows with the weights, and
   /// so is never better than where all is possible. Of value after a step with a measurement, taken or not.
   double log_evidence() const {
-    return log_combine<AlgebraOf<Kind>>(
+    return detail::log_combine<AlgebraOf<Kind>>(
         modes(), [this](std::size_t j) { return prior_.log(j) + innovations_[j].log_likelihood; }, unit);
   }
 
@@ -156,7 +157,7 @@ class MultipleModelFilter {
   /// kind of mode. Minus this is the length of a code for z, in nats: with a random mode that of the mixture; with a
   /// fuzzy mode that of a code which names a mode and then z in it, at most log(modes) longer than the mixture of the
   /// same weights. Its exponential integrates over z to one, or to less.
-  double log_score() const { return log_evidence() - log_combine<Sigma>(modes(), logs_of(prior_), unit); }
+  double log_score() const { return log_evidence() - detail::log_combine<Sigma>(modes(), logs_of(prior_), unit); }
 
   /// How far the last measurement lay from all that was thought possible, −2 log ⊕ⱼ w_j ⊗ exp(−d_j²/2) with the weights
   /// before it and each model's squared distance: what a gate compares with a quantile of χ². With one model it is the
@@ -203,7 +204,7 @@ class MultipleModelFilter {
   void predict_mode(double dt) {
     measured_ = false;
     compose(system_.transition(dt), belief(), prior_);
-    predicted_mode_ = select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+    predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
   }
 
   /// The estimates, or others, as a mixture in the components of `receiver`.
@@ -255,7 +256,7 @@ class MultipleModelFilter {
       return true;
     };
     if (!take(z ? z->mean.data() : nullptr, z ? z->covariance.data() : nullptr)) return false;
-    predicted_mode_ = select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+    predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
     bool taken = z != nullptr;
     if (z) {
       for (std::size_t j = 0; j < modes(); ++j) assign(told, j, innovations_[j]);
@@ -297,7 +298,7 @@ class MultipleModelFilter {
       const auto log_weight_if_it_has_it = [&](std::size_t l) {
         return has(l) ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
       };
-      return select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
+      return detail::select(modes(), log_weight_if_it_has_it, state.most_likely_mode, interaction_.output_tie);
     });
   }
 
@@ -306,7 +307,8 @@ class MultipleModelFilter {
 
   /// The next state becomes the state; its most likely mode is (64).
   void conclude(bool measured) {
-    next().most_likely_mode = select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
+    next().most_likely_mode =
+        detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
     current_ = 1 - current_;
     measured_ = measured;
     ++steps_;
@@ -325,8 +327,8 @@ class MultipleModelFilter {
   }
   /// Its mean in its own standard deviations; infinite if the covariance is not positive definite.
   static decltype(Predicted::mean) normalized(const Predicted& innovation) {
-    const auto L = cholesky_factor(innovation.covariance);
-    if (L) return lower_solve(*L, innovation.mean);
+    const auto L = detail::cholesky_factor(innovation.covariance);
+    if (L) return detail::lower_solve(*L, innovation.mean);
     return decltype(innovation.mean)::Constant(innovation.mean.size(), std::numeric_limits<double>::infinity());
   }
 
@@ -371,14 +373,14 @@ class MultipleModelFilter {
   template <int M, int MaxM>
   void require(double dt, const Gaussian<M, MaxM>& z) const {
     require(dt);
-    if (!all_finite(z))
+    if (!detail::all_finite(z))
       throw std::invalid_argument(this_step(dt) + ": the measurement, or its covariance, is not finite");
   }
 
  private:
   void forget_mode() {
     states_[current_].belief = Belief{uninformative(system_.mode_variable())};
-    states_[current_].most_likely_mode = select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+    states_[current_].most_likely_mode = detail::select(modes(), logs_of(belief()), 0, interaction_.output_tie);
     measured_ = false;
   }
 
@@ -391,7 +393,7 @@ class MultipleModelFilter {
   /// −2 log ⊕ of the hypotheses' weights and how well they fit.
   template <class LogFit>
   static double distance_of(std::size_t hypotheses, const LogFit& log_fit) {
-    return -2.0 * log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
+    return -2.0 * detail::log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, unit);
   }
 
   template <class Rule>

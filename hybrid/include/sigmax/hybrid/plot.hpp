@@ -29,6 +29,8 @@ struct Plot {
       : Plot(t, z, Sensor{}, number) {}
 };
 
+namespace detail {
+
 /// The position that a measurement tells by itself, `sensor.position(z)`, if the sensor has one to tell: what a start
 /// is made of.
 template <int Axes, Sensing Sensor>
@@ -40,6 +42,8 @@ std::optional<Gaussian<Axes>> position_told(const Plot<Sensor>& plot) {
   }
   return std::nullopt;
 }
+
+}  // namespace detail
 
 /// Where a target starts: estimates, of all models together or one each, and their time. `from_plots` says that the
 /// plots that waited are in them; otherwise those are taken as measurements after the start.

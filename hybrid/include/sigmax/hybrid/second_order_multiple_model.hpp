@@ -21,7 +21,7 @@ namespace sigmax {
 /// *after* the measurement, by their weights π(j|l) ⊗ b(l) ⊗ Λ_lj. There is no mixed start: of `Interaction`, its
 /// readings (`mixed_start`, `mixed_covariance`, `mixing_weights`) do not concern that collapse,
 /// `MixedCovariance::envelope` only the output; `mixing_tie` is the tie among predecessors. `step` allocates nothing.
-template <class Models, Uncertainty Kind>
+template <class Models, ScalableUncertainty Kind>
 class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   using Filter = MultipleModelFilter<Models, Kind>;
 
@@ -36,7 +36,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   SecondOrderMultipleModel(Models models, ModeTransition<Kind> transition, Estimates start,
                            Interaction<Kind> interaction = {})
       : Filter(std::move(models), std::move(transition), std::move(start), interaction),
-        predicted_(pairs_for(estimates())),
+        predicted_(detail::pairs_for(estimates())),
         pairs_(predicted_),
         pair_innovations_(modes()),
         log_fit_(modes() * modes()),
@@ -150,7 +150,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   /// that it had before the measurement, and one that nothing reaches is its own predecessor.
   void weigh(std::size_t j) {
     const auto log = [&](std::size_t l) { return joint_(j, l); };
-    log_weight_[j] = log_combine<AlgebraOf<Kind>>(modes(), log, [](std::size_t) { return 1.0; });
+    log_weight_[j] = detail::log_combine<AlgebraOf<Kind>>(modes(), log, [](std::size_t) { return 1.0; });
     for (std::size_t l = 0; l < modes(); ++l)
       if (log_weight_[j] != log_zero)
         predecessor_(j, l) = std::exp(log(l) - log_weight_[j]);
@@ -166,7 +166,7 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   std::size_t best(std::size_t j) const {
     Tie tie = Tie::stay;
     if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = interaction_.collapse.mixing_tie;
-    return select(
+    return detail::select(
         modes(), [&](std::size_t l) { return std::log(predecessor_(j, l)); }, j, tie);
   }
 
@@ -195,14 +195,14 @@ class SecondOrderMultipleModel : public MultipleModelFilter<Models, Kind> {
   Table predecessor_;  ///< the same, given j
 };
 
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 SecondOrderMultipleModel(Models, Relation<Kind, Kind>, Start) -> SecondOrderMultipleModel<Models, Kind>;
-template <class Models, Uncertainty Kind, class Start>
+template <class Models, ScalableUncertainty Kind, class Start>
 SecondOrderMultipleModel(Models, Relation<Kind, Kind>, Start, Interaction<Kind>)
     -> SecondOrderMultipleModel<Models, Kind>;
 template <class Models, class Transition, class Start>
 SecondOrderMultipleModel(Models, Transition, Start) -> SecondOrderMultipleModel<Models, typename Transition::kind>;
-template <class Models, class Transition, class Start, Uncertainty Kind>
+template <class Models, class Transition, class Start, ScalableUncertainty Kind>
 SecondOrderMultipleModel(Models, Transition, Start, Interaction<Kind>) -> SecondOrderMultipleModel<Models, Kind>;
 
 }  // namespace sigmax

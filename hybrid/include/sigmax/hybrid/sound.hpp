@@ -25,7 +25,7 @@ void starts(const Models& models, const typename Bank<Models>::Estimates& starts
       throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' has " +
                                   std::to_string(start.mean.size()) + " components; expected " +
                                   std::to_string(model.size()));
-    if (!all_finite(start))
+    if (!detail::all_finite(start))
       throw std::invalid_argument("the start of model '" + std::string(model.name()) + "' is not finite");
   });
 }

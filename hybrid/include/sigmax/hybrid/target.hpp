@@ -38,7 +38,8 @@ concept KeepsHistories = requires(const Filter& filter) {
 /// asked with the plots that wait, the newest last, and how often it has started before, `start(std::span<const
 /// Plot<Sensor>>, std::size_t)`, and gives an optional StartAt: nothing if it wants more of them. A late plot is
 /// retrodicted exactly: the buffer is rolled back and what came after is taken again, so that the result is to the bit
-/// that of the right order. `take` allocates nothing, if `start` does not and nothing is recorded.
+/// that of the right order. `take` allocates nothing, if `start` does not and nothing is recorded. References that are
+/// returned live as long as the target.
 template <class Filter, class Start, Sensing Sensor = PositionSensor<Filter::axes>>
 class Target {
  public:
@@ -46,7 +47,7 @@ class Target {
   using PlotType = Plot<Sensor>;
   using State = typename Filter::State;
 
-  /// Waits for its start; what the filter was started with is of no account. Throws std::invalid_argument if a rule
+  /// Waits for its start; what the filter was started with does not count. Throws std::invalid_argument if a rule
   /// makes no sense.
   Target(Filter filter, Start start, const TargetRules& rules = {})
       : filter_(std::move(filter)), start_(std::move(start)), rules_(rules) {
@@ -284,7 +285,7 @@ Verdict Target<Filter, Start, Sensor>::try_to_start(const PlotType& plot, const 
     return again ? Verdict::restarted : Verdict::started;
   };
   if constexpr (std::invocable<const Start&, const Measurement&>) {
-    const auto position = position_told<Filter::axes>(plot);
+    const auto position = detail::position_told<Filter::axes>(plot);
     if (position) return begin_at(StartAt<decltype(start_(*position))>{plot.time, start_(*position)}, true);
   } else {
     const std::span<const PlotType> waiting = life_.waiting;

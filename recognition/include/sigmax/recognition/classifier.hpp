@@ -19,10 +19,6 @@
 
 namespace sigmax {
 
-/// A kind whose evidence can be accumulated: its ⊗ can be undone. `Ordinal` is none.
-template <class Kind>
-concept ScalableUncertainty = Uncertainty<Kind> && ScalingAlgebra<AlgebraOf<Kind>>;
-
 /// Sequential pattern recognition from reports on one or several features: sigma inference (41)–(43) if patterns and
 /// features are random, max inference (44)–(46) if they are fuzzy, sigma-max inference (17) and (19) if a random sensor
 /// reads a fuzzy feature, (18) and (20) if a fuzzy one reads a random feature; nothing else changes.

@@ -21,7 +21,9 @@ class Discretization {
   explicit Discretization(std::vector<double> cuts);
 
   std::size_t size() const { return cuts_.size() + 1; }
-  std::span<const double> cuts() const { return cuts_; }
+  /// A view that lives as long as the bins; of a temporary, a copy.
+  std::span<const double> cuts() const& { return cuts_; }
+  std::vector<double> cuts() && { return std::move(cuts_); }
 
   /// The bin of a value; `missing` for NaN.
   std::size_t bin(double value) const;

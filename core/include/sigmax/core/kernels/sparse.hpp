@@ -44,7 +44,7 @@ class AscendingSet {
   }
 
  private:
-  /// The place of the lowest bit; of none any, so that the compiler need not branch.
+  /// The place of the lowest set bit; unspecified if none is set, so that the compiler need not branch.
   static std::uint32_t lowest(std::uint64_t bits) {
     return static_cast<std::uint32_t>(std::countr_zero(bits | std::uint64_t{1} << 63));
   }
@@ -129,7 +129,7 @@ std::size_t expected_terms(const Left& left, const Right& right) {
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
-/// last bit; where ⊕ adds, that of a dense result from a kernel for large tables is to rounding. `winners` is
+/// last bit. Sums may differ by rounding from those of the tiled kernel for large tables. `winners` is
 /// FirstWinners or NoWinners; `result` is neither of the parts, and its memory is used again.
 template <Algebra A, class Left, class Right, class Winners>
 void sparse_composition(const Left& left, const Right& right, SparseRows& result, Winners& winners) {

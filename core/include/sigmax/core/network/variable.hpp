@@ -35,7 +35,7 @@ class NetworkVariable {
   template <NetworkKind Kind>
   NetworkVariable(Variable<Kind> variable) : variable_(std::move(variable)) {}
 
-  /// Calls `action` with the Variable<Kind> that it is: the one place where a network asks for a kind.
+  /// Calls `action` with the Variable<Kind> that it is.
   template <class Action>
   decltype(auto) visit(const Action& action) const {
     return std::visit(action, variable_);
