@@ -260,7 +260,8 @@ bool has_prior(const FilterSettings& filter) { return filter.lift == Lift::prior
 bool keeps_histories(const FilterSettings& filter) { return filter.scheme == Scheme::histories; }
 bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
 
-std::vector<FilterKey> made_filter_keys() {
+/// Models, how the mode moves on, and how mixtures over it collapse.
+std::vector<FilterKey> mode_keys() {
   using F = FilterSettings;
   return {
       choice("scheme", "When several modes become one Gaussian.", &F::scheme, schemes),
@@ -297,7 +298,13 @@ std::vector<FilterKey> made_filter_keys() {
            choice("output_spread",
                   "Whether the output's covariance (68) has the spread of the means, or omits it as printed. For a "
                   "random mode.",
-                  &F::output_spread, spreads)),
+                  &F::output_spread, spreads))};
+}
+
+/// Likelihoods, what a model lacks, histories, and the output.
+std::vector<FilterKey> estimate_keys() {
+  using F = FilterSettings;
+  return {
       choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
              &F::likelihood, likelihoods),
       choice("lift", "What stands for a component that a model lacks.", &F::lift, lifts),
@@ -323,7 +330,13 @@ std::vector<FilterKey> made_filter_keys() {
            number<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
                      &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
       choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output, outputs),
-      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties)};
+}
+
+/// Start, gate, restart; smoothing, and how radar measurements are taken.
+std::vector<FilterKey> life_keys() {
+  using F = FilterSettings;
+  return {
       choice("start",
              "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
              "given.",
@@ -366,6 +379,12 @@ std::vector<FilterKey> made_filter_keys() {
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
              "own space.",
              &F::radar_measurement, radar_forms)};
+}
+
+std::vector<FilterKey> made_filter_keys() {
+  std::vector<FilterKey> result = mode_keys();
+  for (const auto& part : {estimate_keys(), life_keys()}) result.insert(result.end(), part.begin(), part.end());
+  return result;
 }
 
 std::vector<Key<Accuracy>> made_accuracy_keys() {

@@ -152,6 +152,34 @@ std::string as_toml(const std::vector<Key<Owner>>& keys, const Owner& owner) {
   return text;
 }
 
+/// A string of TOML. Control characters are escaped, so that a terminal shows them, too.
+std::string toml_string(std::string_view text) {
+  std::string quoted = "\"";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F
+      quoted += fmt::format("\\u{:04X}", next);
+      ++i;
+    } else if (code < 0x20U || code == 0x7FU) {
+      quoted += fmt::format("\\u{:04X}", code);
+    } else {
+      if (text[i] == '"' || text[i] == '\\') quoted += '\\';
+      quoted += text[i];
+    }
+  }
+  return quoted + "\"";
+}
+
+/// A key of TOML, in quotes where it needs them.
+std::string toml_key(const std::string& name) {
+  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
+           letter == '_' || letter == '-';
+  });
+  return bare ? name : toml_string(name);
+}
+
 }  // namespace
 
 FilterDefaults FilterDefaults::of(Preset preset) {
@@ -221,13 +249,14 @@ std::vector<std::string> model_names(const std::vector<FilterSettings>& filters)
 
 std::string as_toml(const std::vector<FilterSettings>& filters) {
   std::vector<std::string> names;
-  for (const auto& filter : filters) names.push_back("\"" + filter.name + "\"");
+  for (const auto& filter : filters) names.push_back(toml_string(filter.name));
   std::string text = fmt::format("filters = [{}]\n", fmt::join(names, ", "));
   for (const auto& filter : filters) {
-    text += fmt::format("\n[filter.{}]\nkind = \"{}\"\n", filter.name, filter.fuzzy ? "fuzzy" : "random");
+    text += fmt::format("\n[filter.{}]\nkind = \"{}\"\n", toml_key(filter.name), filter.fuzzy ? "fuzzy" : "random");
     text += as_toml(filter_keys(), filter) + as_toml(accuracy_keys(), filter.accuracy);
     for (const auto& [sensor, accuracy] : filter.sensors)
-      text += fmt::format("\n[filter.{}.sensor.\"{}\"]\n{}", filter.name, sensor, as_toml(accuracy_keys(), accuracy));
+      text += fmt::format("\n[filter.{}.sensor.{}]\n{}", toml_key(filter.name), toml_string(sensor),
+                          as_toml(accuracy_keys(), accuracy));
   }
   return text;
 }

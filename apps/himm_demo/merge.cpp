@@ -14,6 +14,7 @@
 #include "himm_demo/sweep.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
+#include "support/result_files.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -61,6 +62,9 @@ std::vector<std::string> command_of(const std::string& campaign) {
 }
 
 void merge(const MergeOptions& options) {
+  std::vector<std::string> journals;
+  for (const std::filesystem::path part : options.parts) journals.push_back(part / journal_name);
+  refuse_to_overwrite(options.output, journals);
   const ReadJournal all = joined(options.parts);
   std::vector<std::string> arguments = command_of(all.campaign);
   {

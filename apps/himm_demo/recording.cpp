@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,19 +18,21 @@ namespace {
 /// No measurement of this world, in m or degrees, but what a device writes where it has none.
 constexpr double beyond_sense = 1e30;
 
-CsvReader open(const std::string& file) {
-  return file == "-" ? CsvReader{std::cin, "standard input"} : CsvReader{std::filesystem::path{file}};
-}
+constexpr double day_s = 86400.0;
 
 }  // namespace
 
 RecordingReader::RecordingReader(const RecordingOptions& options)
-    : csv_(open(options.file)),
+    : csv_(open_csv(options.file)),
+      mapping_(mapping_of(options.columns)),
       from_north_(options.azimuth_from_north.value_or(false)),
-      skip_bad_times_(options.skip_bad_times) {
+      skip_bad_times_(options.skip_bad_times),
+      takes_velocity_(options.velocity && !options.simulated),
+      simulated_(options.simulated),
+      takes_range_rate_(options.range_rate) {
   find_columns(options);
-  if (options.azimuth_from_north && !polar())
-    throw UsageError("--azimuth-from is for radar input, but " + csv_.file() + " has no azimuth_deg");
+  if (options.azimuth_from_north && !azimuth_)
+    throw UsageError("--azimuth-from is for radar input and bearings, but " + csv_.file() + " has no azimuth_deg");
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
   for (const auto& select : options.select) {
     const auto equals = select.find('=');
@@ -48,43 +49,43 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   }
 }
 
+std::optional<std::size_t> RecordingReader::find(std::string_view name) const {
+  const auto mapped = mapping_.find(name);
+  return mapped == mapping_.end() ? csv_.find(name) : csv_.column(mapped->second);
+}
+
+std::optional<RecordingReader::Column> RecordingReader::find(const Quantity& quantity) const {
+  std::optional<Column> column;
+  for_each_header(quantity, [&](const std::string& header, const Unit& unit) {
+    if (column) return;
+    if (const auto index = find(header)) column = {*index, &quantity, &unit};
+  });
+  return column;
+}
+
+RecordingReader::Columns RecordingReader::find(const std::array<Quantity, 3>& quantities) const {
+  return {find(quantities[0]), find(quantities[1]), find(quantities[2])};
+}
+
 void RecordingReader::find_columns(const RecordingOptions& options) {
-  const auto mapping = mapping_of(options.columns);
-  const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
-    const auto mapped = mapping.find(name);
-    return mapped == mapping.end() ? csv_.find(name) : csv_.column(mapped->second);
-  };
-  const auto find_quantity = [&](Headers candidates) -> std::optional<Column> {
-    for (const auto& header : candidates)
-      if (const auto index = find(header.name)) return Column{*index, header.unit, header.taken_for};
-    return std::nullopt;
-  };
   const auto time = find("time_s");
-  const Columns cartesian = {find_quantity(headers::x), find_quantity(headers::y), find_quantity(headers::z)};
-  const Columns geodetic = {find_quantity(headers::latitude), find_quantity(headers::longitude),
-                            find_quantity(headers::altitude)};
-  polar_ = {find_quantity(headers::range), find_quantity(headers::azimuth), find_quantity(headers::elevation)};
-  for (const auto& header : headers::azimuth)
-    if (header.from_north && find(header.name) == (polar_[1] ? std::optional(polar_[1]->index) : std::nullopt) &&
-        find(header.name)) {
-      if (options.azimuth_from_north == false)
-        throw UsageError(fmt::format("--azimuth-from east contradicts the column {}", header.name));
-      from_north_ = true;
-    }
-  const auto find_plain = [&](std::string_view name) -> std::optional<Column> {
-    const auto index = find(name);
-    return index ? std::optional(Column{*index, 1.0, "m"}) : std::nullopt;
-  };
-  truth_ = {find_plain("true_x_m"), find_plain("true_y_m"), find_plain("true_z_m")};
-  sigma_position_ = {find_plain("sigma_x_m"), find_plain("sigma_y_m"), find_plain("sigma_z_m")};
-  sigma_polar_ = {find_plain("sigma_range_m"), find_plain("sigma_azimuth_deg"), find_plain("sigma_elevation_deg")};
-  if (options.velocity) {
-    velocity_ = {find_quantity(headers::velocity_x), find_quantity(headers::velocity_y),
-                 find_quantity(headers::velocity_z)};
-    course_ = {find_quantity(headers::speed), find_quantity(headers::course)};
+  const Columns cartesian = find(headers::position);
+  const Columns geodetic = find(headers::place);
+  polar_ = find(headers::polar);
+  azimuth_ = polar_[1];
+  if (azimuth_ && azimuth_->unit->from_north) {
+    if (options.azimuth_from_north == false)
+      throw UsageError(fmt::format("--azimuth-from east contradicts the column azimuth_{}", azimuth_->unit->suffix));
+    from_north_ = true;
+  }
+  truth_ = find(headers::truth);
+  sigma_position_ = find(headers::sigma_position);
+  sigma_polar_ = find(headers::sigma_polar);
+  if (takes_velocity_) {
+    velocity_ = find(headers::velocity);
+    course_ = {find(headers::course[0]), find(headers::course[1])};
     if (!course_[0] || !course_[1] || velocity_[0] || velocity_[1]) course_ = {};
   }
-  if (options.range_rate) range_rate_ = find_quantity(headers::range_rate);
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
 
@@ -93,14 +94,18 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   if (!are_there(polar_)) polar_ = {};
   const bool along_one = cartesian[0] && !cartesian[1] && !cartesian[2] && !geodetic_ && !polar();
   const bool is_cartesian = are_there(cartesian) || along_one;
+  if (along_one || (geodetic_ && !polar())) azimuth_.reset();
   refuse_other_kinds(is_cartesian, time.has_value());
   time_ = *time;
   position_ = geodetic_ ? geodetic : is_cartesian ? cartesian : Columns{};
+  if (polar() && takes_range_rate_) range_rate_ = find(headers::range_rate[0]);
+  if (!position_[0]) sigma_position_ = {};
+  if (!polar()) sigma_polar_ = {std::nullopt, azimuth_ ? sigma_polar_[1] : std::nullopt, std::nullopt};
 
   const auto axes_of = [](const Columns& columns) {
     return static_cast<int>(std::find(columns.begin(), columns.end(), std::nullopt) - columns.begin());
   };
-  axes_ = axes_of(polar() ? polar_ : position_);
+  axes_ = polar() ? axes_of(polar_) : position_[0] ? axes_of(position_) : 2;
   if (polar() && is_cartesian && axes_of(position_) != axes_)
     throw InputError(message({.where = csv_.file() + ":1",
                               .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
@@ -115,11 +120,13 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const {
   std::string what;
   std::string remedy = "map other headers with --columns, as in --columns time_s=t,x_m=east";
+  const bool bearings_alone = azimuth_ && !cartesian && !geodetic_ && !polar();
   if (!time_known) {
     if (csv_.names().size() == 1) csv_.column("time_s");  // says what may be wrong with the separators
     what = "there is no column time_s";
-  } else if (!cartesian && !geodetic_ && !polar()) {
+  } else if (!cartesian && !geodetic_ && !polar() && (!bearings_alone || without_unit())) {
     what = "its columns are of no kind";
+    remedy = without_unit().value_or(remedy);
   } else if (geodetic_ && (cartesian || polar())) {
     what = "there are columns of several kinds";
     remedy = "rename those that do not count";
@@ -138,6 +145,16 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const 
                             .remedy = remedy}));
 }
 
+/// The first column that may be a coordinate, but for its unit.
+std::optional<std::string> RecordingReader::without_unit() const {
+  for (const std::string& name : csv_.names())
+    for (const auto& quantities : {headers::position, headers::place, headers::polar})
+      for (const Quantity& quantity : quantities)
+        if (const Quantity* const like = without_known_unit(name); like && like->stems == quantity.stems)
+          return fmt::format("column {}: {}", in_quotes(name), advice(*like));
+  return std::nullopt;
+}
+
 bool RecordingReader::next(Fix& fix) {
   do {
     if (!csv_.next(row_)) return false;
@@ -152,7 +169,10 @@ bool RecordingReader::next(Fix& fix) {
     return true;
   }
   const auto position = numbers(position_, &fix.missing);
-  if (!position) take_bearing(fix);
+  if (!position && !take_bearing(fix)) {
+    if (senseless_++ == 0) first_senseless_line_ = fix.line;
+    return true;
+  }
   const auto seen = fix.bearing ? std::nullopt : numbers(polar_);
   if (position && seen)
     throw row_.error(polar_[0]->index, "an empty cell, since the row has a position",
@@ -163,16 +183,26 @@ bool RecordingReader::next(Fix& fix) {
   if (position) take_sigmas(fix, sigma_position_, 1.0);
   if (seen || fix.bearing) take_sigmas(fix, sigma_polar_, degree);
   if (seen && range_rate_)
-    if (const auto cell = row_.optional_number(range_rate_->index)) fix.range_rate = *cell * range_rate_->unit;
-  if (!seen && !fix.bearing) take_velocity(fix);
+    if (const auto cell = row_.optional_number(range_rate_->index)) fix.range_rate = *cell * range_rate_->unit->value;
+  if (seen || fix.bearing) {
+    Fix other;
+    take_velocity(other);
+    if (other.moving()) ++unused_velocities_;
+  } else {
+    take_velocity(fix);
+  }
   return true;
 }
 
-/// The azimuth alone, where a radar's row has no range and no elevation.
-void RecordingReader::take_bearing(Fix& fix) const {
-  if (!polar() || row_.optional_number(polar_[0]->index) || (polar_[2] && row_.optional_number(polar_[2]->index)))
-    return;
-  if (const auto azimuth = row_.optional_number(polar_[1]->index)) fix.bearing = azimuth_of(*azimuth * polar_[1]->unit);
+/// The azimuth alone, where the row has no range and no elevation; false if it is a number that stands for none.
+bool RecordingReader::take_bearing(Fix& fix) const {
+  const auto filled = [&](const auto& column) { return column && row_.optional_number(column->index); };
+  if (!azimuth_ || filled(polar_[0]) || filled(polar_[2])) return true;
+  const auto azimuth = row_.optional_number(azimuth_->index);
+  if (!azimuth) return true;
+  if (std::abs(*azimuth) >= beyond_sense) return false;
+  fix.bearing = azimuth_of(*azimuth * azimuth_->unit->value);
+  return true;
 }
 
 /// The components of the velocity that the row has, or those that its speed and course make.
@@ -180,20 +210,20 @@ void RecordingReader::take_velocity(Fix& fix) const {
   for (std::size_t i = 0; i < velocity_.size(); ++i)
     if (const auto& column = velocity_[i])
       if (const auto cell = row_.optional_number(column->index); cell && std::abs(*cell) < beyond_sense)
-        fix.velocity[i] = *cell * column->unit;
+        fix.velocity[i] = *cell * column->unit->value;
   if (!course_[0]) return;
   const auto speed = row_.optional_number(course_[0]->index);
   const auto course = row_.optional_number(course_[1]->index);
   if (!speed || !course || !(std::abs(*speed) < beyond_sense)) return;
   if (!(std::abs(*course) <= 360.0))
     throw row_.error(course_[1]->index, "degrees from −360 to 360", "correct the cell");
-  fix.velocity[0] = *speed * course_[0]->unit * std::sin(*course * degree);
-  fix.velocity[1] = *speed * course_[0]->unit * std::cos(*course * degree);
+  fix.velocity[0] = *speed * course_[0]->unit->value * std::sin(*course * degree);
+  fix.velocity[1] = *speed * course_[0]->unit->value * std::cos(*course * degree);
 }
 
 /// In rad counter-clockwise from east.
 double RecordingReader::azimuth_of(double degrees) const {
-  if (!(std::abs(degrees) <= 360.0)) throw row_.error(polar_[1]->index, "degrees from −360 to 360", "correct the cell");
+  if (!(std::abs(degrees) <= 360.0)) throw row_.error(azimuth_->index, "degrees from −360 to 360", "correct the cell");
   return (from_north_ ? 90.0 - degrees : degrees) * degree;
 }
 
@@ -211,8 +241,13 @@ bool RecordingReader::take_time(Fix& fix) {
   if (!time)
     throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
                      "correct the cell or drop the row");
-  fix.time_s = *time;
-  if (!refused_time(fix)) return true;
+  const bool of_day = is_time_of_day(row_[time_]);
+  fix.time_s = of_day ? on_its_day(fix, *time) : *time;
+  if (!refused_time(fix)) {
+    last_.find(fix.track)->second.of_day = of_day;
+    if (of_day) latest_of_day_ = fix.time_s;
+    return true;
+  }
   if (!skip_bad_times_)
     throw row_.error(
         time_, fmt::format("a time after that of the row before, {}", shortest(last_.find(fix.track)->second.time)),
@@ -220,6 +255,20 @@ bool RecordingReader::take_time(Fix& fix) {
                 : "sort the rows by time and drop repeated ones, or give --on-bad-time skip");
   ++skipped_;
   return false;
+}
+
+/// The time of day with the days since the first. Where it falls by more than half a day within a track, that is the
+/// next day; a track that begins does so on the day of the row before, or on the day before that if it is then nearer.
+double RecordingReader::on_its_day(const Fix& fix, double time_of_day) {
+  const auto last = last_.find(fix.track);
+  const bool first = last == last_.end();
+  if (first ? !latest_of_day_ : !last->second.of_day) return time_of_day;
+  const double before = first ? *latest_of_day_ : last->second.time;
+  const double time = std::floor(before / day_s) * day_s + time_of_day;
+  if (first) return time >= day_s && time - before > day_s / 2.0 ? time - day_s : time;
+  if (before - time <= day_s / 2.0) return time;
+  if (midnights_++ == 0) first_midnight_line_ = fix.line;
+  return time + day_s;
 }
 
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.
@@ -253,7 +302,7 @@ void RecordingReader::take_sigmas(Fix& fix, const Columns& columns, double angle
     if (!sigma) continue;
     if (!(*sigma > 0.0))
       throw row_.error(columns[i]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
-    fix.sigma[i] = *sigma * (i == 0 ? 1.0 : angle);
+    fix.sigma[i] = *sigma * columns[i]->unit->value * (i == 0 ? 1.0 : angle);
   }
 }
 
@@ -269,7 +318,7 @@ std::optional<std::array<double, 3>> RecordingReader::numbers(const Columns& col
     const auto cell = row_.optional_number(columns[i]->index);
     empty[i] = !cell;
     if (!cell) continue;
-    result[i] = *cell * columns[i]->unit;
+    result[i] = *cell * columns[i]->unit->value;
     ++filled;
   }
   if (filled == 0) return std::nullopt;
@@ -300,21 +349,89 @@ Polar RecordingReader::polar(const std::array<double, 3>& cells) const {
 
 std::string RecordingReader::taken() const {
   std::vector<std::string> parts = {fmt::format("{} in s", csv_.names()[time_])};
-  const auto add = [&](const Columns& columns, std::string_view azimuth) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i])
-        parts.push_back(
-            fmt::format("{} in {}{}", csv_.names()[columns[i]->index], columns[i]->taken_for, i == 1 ? azimuth : ""));
+  const auto add = [&](const std::optional<Column>& column, std::string_view more = {}) {
+    if (column)
+      parts.push_back(
+          fmt::format("{} in {}{}{}", csv_.names()[column->index], column->unit->words, column->quantity->note, more));
   };
-  add(position_, "");
-  add(polar_, from_north_ ? " clockwise from north" : " counter-clockwise from east");
-  add(velocity_, "");
-  for (const auto& column : {course_[0], course_[1], range_rate_}) add({column}, "");
-  add(truth_, "");
-  for (const auto& columns : {position_[0] ? sigma_position_ : Columns{}, polar_[0] ? sigma_polar_ : Columns{}})
-    for (const auto& column : columns)
-      if (column) parts.push_back(fmt::format("{} for the row's accuracy", csv_.names()[column->index]));
+  for (const auto& column : position_) add(column);
+  add(polar_[0]);
+  add(azimuth_, fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
+                            position_[0] && bearings() ? " in rows without a position" : ""));
+  add(polar_[2]);
+  for (const auto& column : velocity_) add(column);
+  for (const auto& column : {course_[0], course_[1], range_rate_}) add(column);
+  for (const auto& column : truth_) add(column);
+  for (const auto& columns : {sigma_position_, sigma_polar_})
+    for (const auto& column : columns) add(column, " for the row's accuracy");
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// The columns of quantities that count.
+std::vector<std::optional<RecordingReader::Column>> RecordingReader::used() const {
+  std::vector<std::optional<Column>> columns = {azimuth_, course_[0], course_[1], range_rate_};
+  for (const auto& three : {position_, polar_, velocity_, truth_, sigma_position_, sigma_polar_})
+    columns.insert(columns.end(), three.begin(), three.end());
+  return columns;
+}
+
+/// Whether a column counts in any way.
+bool RecordingReader::uses(std::size_t index) const {
+  const auto columns = used();
+  return index == time_ || index == sensor_ || index == track_ || index == roll_ ||
+         std::any_of(columns.begin(), columns.end(),
+                     [&](const auto& column) { return column && column->index == index; });
+}
+
+std::string RecordingReader::why_unused(const Quantity& quantity) const {
+  const auto is_of = [&](const auto& quantities) {
+    return std::any_of(quantities.begin(), quantities.end(), [&](const auto& one) { return &one == &quantity; });
+  };
+  for (const auto& column : used())
+    if (column && column->quantity == &quantity) return csv_.names()[column->index] + " says it";
+  if (!takes_velocity_ && (is_of(headers::velocity) || is_of(headers::course)))
+    return simulated_ ? "--radar measures no velocity" : "give --set sigma_velocity_mps=…";
+  if (!takes_range_rate_ && polar() && is_of(headers::range_rate)) return "give --set sigma_range_rate_mps=…";
+  return "does not go with the others";
+}
+
+std::string RecordingReader::unused() const {
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  const auto add = [&](std::size_t index, const std::string& reason) {
+    const auto same =
+        std::find_if(reasons.begin(), reasons.end(), [&](const auto& other) { return other.first == reason; });
+    auto& names =
+        same == reasons.end() ? reasons.emplace_back(reason, std::vector<std::string>{}).second : same->second;
+    names.push_back(csv_.names()[index]);
+  };
+  for (const auto& quantities : headers::all)
+    for (const Quantity& quantity : quantities) {
+      bool named = false;
+      for_each_header(quantity, [&](const std::string& header, const Unit&) {
+        const auto index = find(header);
+        named |= index.has_value();
+        if (index && !uses(*index)) add(*index, why_unused(quantity));
+      });
+      for (std::size_t index = 0; index < csv_.names().size() && !named; ++index)
+        if (!uses(index) && without_known_unit(csv_.names()[index]) == &quantity) add(index, advice(quantity));
+    }
+  std::vector<std::string> parts;
+  for (const auto& [reason, names] : reasons) parts.push_back(fmt::format("{} ({})", fmt::join(names, ", "), reason));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> RecordingReader::notes() const {
+  std::vector<std::string> sentences;
+  if (const std::string columns = unused(); !columns.empty()) sentences.push_back("Not used: " + columns);
+  if (unused_velocities_ > 0)
+    sentences.push_back(
+        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_));
+  if (midnights_ > 0)
+    sentences.push_back(
+        fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more than 12 h, and days "
+                    "are counted from the first",
+                    midnights_ == 1 ? "once" : fmt::format("{} times", midnights_), first_midnight_line_));
+  return sentences;
 }
 
 }  // namespace sigmax::apps

@@ -13,6 +13,7 @@
 #include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/radar.hpp>
 
+#include "himm_demo/recording_headers.hpp"
 #include "support/csv.hpp"
 #include "support/geodesy.hpp"
 
@@ -29,6 +30,7 @@ struct RecordingOptions {
   bool skip_bad_times = false;                  ///< rather than refuse them
   bool velocity = false;                        ///< whether velocities count, or a speed and a course
   bool range_rate = false;                      ///< whether a radar's range rates count
+  bool simulated = false;                       ///< whether a simulated radar measures: so no velocity counts
 };
 
 /// One row of a recording. A missed measurement has nothing of what is `measured`.
@@ -70,8 +72,8 @@ struct Fix {
   }
 };
 
-/// Reads a headed CSV recording row by row: Cartesian, geodetic or a radar's, or Cartesian and radar's rows mixed, as
-/// its columns say.
+/// Reads a headed CSV recording row by row: Cartesian, geodetic, a radar's or of bearings, or Cartesian rows mixed with
+/// a radar's or with bearings, as its columns say.
 class RecordingReader {
  public:
   /// Throws InputError for a file that is of no kind, UsageError for options that mean nothing for it.
@@ -83,6 +85,8 @@ class RecordingReader {
 
   bool geodetic() const { return geodetic_; }
   bool polar() const { return polar_[0].has_value(); }
+  /// Whether azimuths stand without a range.
+  bool bearings() const { return azimuth_ && !polar(); }
   int axes() const { return axes_; }
   bool has_sensors() const { return sensor_.has_value(); }
   bool has_tracks() const { return track_.has_value(); }
@@ -96,30 +100,46 @@ class RecordingReader {
   /// What the columns were taken to be.
   std::string taken() const;
 
+  /// Sentences on what was read so far: which columns of names that are known, or seem to be, do not count, and why; in
+  /// how many rows a velocity does not, since they are a radar's or a bearing; where times of day passed midnight.
+  std::vector<std::string> notes() const;
+
   /// Rows whose measurement is beyond all numbers of this world, and so counts as missed, and the line of the first.
   std::size_t senseless() const { return senseless_; }
   std::size_t first_senseless_line() const { return first_senseless_line_; }
+
+  /// Whether there were times of day.
+  bool times_of_day() const { return latest_of_day_.has_value(); }
 
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
  private:
-  /// Where a quantity stands, and what its numbers must be multiplied with.
+  /// Where a quantity stands, and in which unit.
   struct Column {
     std::size_t index;
-    double unit = 1.0;  ///< in m, or in degrees
-    std::string_view taken_for = {};
+    const Quantity* quantity;
+    const Unit* unit;
   };
   using Columns = std::array<std::optional<Column>, 3>;
 
+  std::optional<std::size_t> find(std::string_view name) const;
+  std::optional<Column> find(const Quantity& quantity) const;
+  Columns find(const std::array<Quantity, 3>& quantities) const;
   void find_columns(const RecordingOptions& options);
   void refuse_other_kinds(bool cartesian, bool time_known) const;
+  std::optional<std::string> without_unit() const;
+  std::vector<std::optional<Column>> used() const;
+  bool uses(std::size_t index) const;
+  std::string why_unused(const Quantity& quantity) const;
+  std::string unused() const;
   bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);
+  double on_its_day(const Fix& fix, double time_of_day);
   std::optional<std::array<double, 3>> numbers(const Columns& columns, std::array<bool, 3>* missing = nullptr) const;
   void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
-  void take_bearing(Fix& fix) const;
+  bool take_bearing(Fix& fix) const;
   void take_velocity(Fix& fix) const;
   double azimuth_of(double degrees) const;
   Geodetic place(const std::array<double, 3>& cells) const;
@@ -128,9 +148,11 @@ class RecordingReader {
 
   CsvReader csv_;
   CsvRow row_;
+  std::map<std::string, std::string, std::less<>> mapping_;  // of headers, as the options say
   std::size_t time_ = 0;
   Columns position_;  // Cartesian, or geodetic
   Columns polar_;
+  std::optional<Column> azimuth_;  // also where there is no range
   Columns velocity_;
   std::array<std::optional<Column>, 2> course_;  // speed and course
   std::optional<Column> range_rate_;
@@ -142,17 +164,25 @@ class RecordingReader {
   bool geodetic_ = false;
   bool from_north_ = false;
   bool skip_bad_times_ = false;
+  bool takes_velocity_ = false;
+  bool simulated_ = false;
+  bool takes_range_rate_ = false;
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   /// The time of a track's last row, and the sensors that spoke then.
   struct Last {
     double time;
     std::vector<std::string> sensors;
+    bool of_day = false;  ///< whether it was a time of day
   };
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t skipped_ = 0;
   std::size_t senseless_ = 0;
   std::size_t first_senseless_line_ = 0;
+  std::size_t unused_velocities_ = 0;
+  std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight
+  std::size_t midnights_ = 0;            // that tracks passed
+  std::size_t first_midnight_line_ = 0;
 };
 
 }  // namespace sigmax::apps

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -10,51 +11,88 @@
 
 namespace sigmax::apps {
 
-/// A header that names a quantity with its unit.
-struct Header {
-  std::string_view name;
-  double unit;  ///< in m, m/s or degrees; numbers are multiplied with it
-  std::string_view taken_for;
+/// How a header says the unit of its numbers: `range_nmi`.
+struct Unit {
+  std::string_view suffix;
+  double value;  ///< in m, m/s or degrees; numbers are multiplied with it
+  std::string_view words;
   bool from_north = false;  ///< of an azimuth: clockwise from north
 };
-using Headers = std::span<const Header>;
 
-/// The headers of what a row may say, those that come first winning.
-namespace headers {
+namespace units {
 
 inline constexpr double foot = 0.3048;
-inline constexpr double knot = 1852.0 / 3600.0;
+inline constexpr double nautical_mile = 1852.0;
+inline constexpr double mile = 1609.344;
+inline constexpr double hour = 3600.0;
 
-inline constexpr Header x[] = {{"x_m", 1.0, "m"}, {"x_km", 1e3, "km"}};
-inline constexpr Header y[] = {{"y_m", 1.0, "m"}, {"y_km", 1e3, "km"}};
-inline constexpr Header z[] = {{"z_m", 1.0, "m"}, {"z_km", 1e3, "km"}, {"z_ft", foot, "ft"}};
-inline constexpr Header latitude[] = {{"latitude_deg", 1.0, "° north"}};
-inline constexpr Header longitude[] = {{"longitude_deg", 1.0, "° east"}};
-inline constexpr Header altitude[] = {{"altitude_m", 1.0, "m above the ellipsoid"},
-                                      {"altitude_gnss_ft", foot, "ft above the ellipsoid"},
-                                      {"altitude_ft", foot, "ft above the ellipsoid"}};
-inline constexpr Header range[] = {
-    {"range_m", 1.0, "m"}, {"range_km", 1e3, "km"}, {"range_nmi", 1852.0, "nautical miles"}, {"range_ft", foot, "ft"}};
-inline constexpr Header azimuth[] = {{"azimuth_deg", 1.0, "°"},
-                                     {"azimuth_rad", 1.0 / degree, "rad"},
-                                     {"azimuth_deg_north", 1.0, "°", true},
-                                     {"azimuth_rad_north", 1.0 / degree, "rad", true}};
-inline constexpr Header elevation[] = {{"elevation_deg", 1.0, "° above the horizon"},
-                                       {"elevation_rad", 1.0 / degree, "rad above the horizon"}};
-inline constexpr Header range_rate[] = {{"range_rate_mps", 1.0, "m/s"}, {"range_rate_kt", knot, "kt"}};
-inline constexpr Header velocity_x[] = {{"vx_mps", 1.0, "m/s"}};
-inline constexpr Header velocity_y[] = {{"vy_mps", 1.0, "m/s"}};
-inline constexpr Header velocity_z[] = {{"vz_mps", 1.0, "m/s"},
-                                        {"vertical_rate_mps", 1.0, "m/s upwards"},
-                                        {"vertical_rate_fpm", foot / 60.0, "ft/min upwards"}};
-inline constexpr Header speed[] = {{"groundspeed_mps", 1.0, "m/s"},
-                                   {"groundspeed_kt", knot, "kt"},
-                                   {"speed_mps", 1.0, "m/s"},
-                                   {"speed_kt", knot, "kt"}};
-inline constexpr Header course[] = {{"track_deg", 1.0, "° clockwise from north"},
-                                    {"course_deg", 1.0, "° clockwise from north"}};
+inline constexpr Unit lengths[] = {{"m", 1.0, "m"},
+                                   {"km", 1e3, "km"},
+                                   {"ft", foot, "ft"},
+                                   {"nmi", nautical_mile, "nautical miles"},
+                                   {"mi", mile, "miles"}};
+inline constexpr Unit speeds[] = {
+    {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
+    {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
+inline constexpr Unit degrees[] = {{"deg", 1.0, "°"}};
+inline constexpr Unit angles[] = {{"deg", 1.0, "°"}, {"rad", 1.0 / degree, "rad"}};
+inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
+                                    {"rad", 1.0 / degree, "rad"},
+                                    {"deg_north", 1.0, "°", true},
+                                    {"rad_north", 1.0 / degree, "rad", true}};
+
+}  // namespace units
+
+/// What a row may say: its headers are a stem and a unit, those that come first winning.
+struct Quantity {
+  std::array<std::string_view, 2> stems;  ///< the second may be empty
+  std::span<const Unit> units;
+  std::string_view note = {};  ///< what the unit alone does not say
+};
+
+/// The quantities of a row.
+namespace headers {
+
+inline constexpr std::array<Quantity, 3> position = {
+    {{{"x"}, units::lengths}, {{"y"}, units::lengths}, {{"z"}, units::lengths}}};
+inline constexpr std::array<Quantity, 3> place = {
+    {{{"latitude"}, units::degrees, " north"},
+     {{"longitude"}, units::degrees, " east"},
+     {{"altitude_gnss", "altitude"}, units::lengths, " above the ellipsoid"}}};
+inline constexpr std::array<Quantity, 3> polar = {{{{"range"}, units::lengths},
+                                                   {{"azimuth"}, units::azimuths},
+                                                   {{"elevation"}, units::angles, " above the horizon"}}};
+inline constexpr std::array<Quantity, 3> velocity = {
+    {{{"vx"}, units::speeds}, {{"vy"}, units::speeds}, {{"vz", "vertical_rate"}, units::speeds, " upwards"}}};
+inline constexpr std::array<Quantity, 2> course = {
+    {{{"groundspeed", "speed"}, units::speeds}, {{"track", "course"}, units::degrees, " clockwise from north"}}};
+inline constexpr std::array<Quantity, 1> range_rate = {{{{"range_rate"}, units::speeds}}};
+inline constexpr std::array<Quantity, 3> truth = {
+    {{{"true_x"}, units::lengths}, {{"true_y"}, units::lengths}, {{"true_z"}, units::lengths}}};
+inline constexpr std::array<Quantity, 3> sigma_position = {
+    {{{"sigma_x"}, units::lengths}, {{"sigma_y"}, units::lengths}, {{"sigma_z"}, units::lengths}}};
+inline constexpr std::array<Quantity, 3> sigma_polar = {
+    {{{"sigma_range"}, units::lengths}, {{"sigma_azimuth"}, units::angles}, {{"sigma_elevation"}, units::angles}}};
+
+/// All of them.
+inline constexpr std::array<std::span<const Quantity>, 9> all = {position,   place, polar,          velocity,   course,
+                                                                 range_rate, truth, sigma_position, sigma_polar};
 
 }  // namespace headers
+
+/// Calls `use(header, unit)` for each header of a quantity, in order.
+template <class Use>
+void for_each_header(const Quantity& quantity, const Use& use) {
+  for (const std::string_view stem : quantity.stems)
+    for (const Unit& unit : quantity.units)
+      if (!stem.empty()) use(std::string(stem).append("_").append(unit.suffix), unit);
+}
+
+/// The quantity that a header seems to name without a unit that is read, as `range_furlong` or `x`; or null.
+const Quantity* without_known_unit(std::string_view header);
+
+/// "name its unit: _m, _km or _ft"
+std::string advice(const Quantity& quantity);
 
 /// What `--columns` maps: from the names above, and those that have no unit to choose, to the headers of a file. Throws
 /// UsageError for what it does not know.

@@ -26,6 +26,7 @@ void simulate_and_report(const SimulateOptions& options) {
     fmt::print("{}", as_toml(filters));
     return;
   }
+  refuse_to_overwrite(options.output, {options.config}, {"filters.csv", "rmse.csv", "weights.csv"});
   ResultFiles files(options.output);
 
   const bool released = options.preset == Preset::released;

@@ -2,9 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -25,29 +23,13 @@ namespace {
 
 void refuse_what_means_nothing(const TrackOptions& options, const RecordingReader& recording) {
   const std::string& file = recording.csv().file();
-  if (options.radar_at && !options.radar && !recording.polar())
-    throw UsageError("--radar-at is for --radar and for radar input, but " + file + " has no range_m");
+  if (options.radar_at && !options.radar && !recording.polar() && !recording.bearings())
+    throw UsageError("--radar-at is for --radar, for radar input and for bearings, but " + file +
+                     " has no range_m and no azimuth_deg");
   if (!options.radar) return;
   if (recording.polar()) throw UsageError("--radar measures positions, but " + file + " holds a radar's measurements");
   if (recording.has_truth()) throw UsageError("--radar takes positions as the truth, but " + file + " has true_x_m");
   if (recording.axes() != 3) throw UsageError("--radar needs three axes, but " + file + " has fewer");
-}
-
-/// What is read must not be written over.
-void refuse_to_overwrite(const TrackOptions& options) {
-  const auto refuse = [&](const std::string& option, const std::string& given, const std::filesystem::path& file) {
-    for (const auto& input : {options.recording.file, options.config}) {
-      std::error_code none;
-      if (std::filesystem::equivalent(file, input, none))
-        throw UsageError(message({.what = fmt::format("{} {} would write over the input {}", option, given, input),
-                                  .remedy = "choose another place"}));
-    }
-  };
-  const auto& [out, report] = std::tie(options.output.out, options.output.report);
-  if (!out.empty())
-    for (const char* name : {"estimates.csv", "summary.json", report_data_name, report_name})
-      refuse("--out", out, std::filesystem::path(out) / name);
-  if (!report.empty()) refuse("--report", report, report);
 }
 
 Report page_of(const TrackOptions& options, const std::vector<FilterSettings>& filters, const TrackReport& found,
@@ -81,9 +63,10 @@ void track_and_report(const TrackOptions& options, TrackShares& shares) {
   if (!shares.alone()) refuse_what_ranks_cannot_share(options);
   RecordingOptions what = options.recording;
   take_what_filters_know(filters, what);
+  what.simulated = options.radar.has_value();
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
-  refuse_to_overwrite(options);
+  refuse_to_overwrite(options.output, {options.recording.file, options.config}, {"estimates.csv"});
   const EstimateLines lines(filters, recording, options.iso_times);
   TrackSinks sinks{.lines = options.output.out.empty() ? nullptr : &lines};
   if (!shares.first()) {
@@ -126,8 +109,10 @@ void add_track(CLI::App& program, const std::string& command) {
       "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
       "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
       "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
-      "Other units: x_km, z_ft, range_km, range_nmi, range_ft, azimuth_rad,\n"
-      "azimuth_deg_north (clockwise from north), elevation_rad. Beside them may stand\n"
+      "  time_s,azimuth_deg                                 bearings\n"
+      "Lengths may be in m, km, ft, nmi or mi, as range_nmi; speeds in mps, kmh, kt,\n"
+      "mph, fps or fpm; angles in deg or rad; azimuth_deg_north is clockwise from\n"
+      "north. What is not used of them is said, and why. Beside them may stand\n"
       "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
       "accuracy of the row. Times are seconds, dates and times as\n"
       "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
@@ -154,7 +139,8 @@ void add_track(CLI::App& program, const std::string& command) {
          },
          "A time up to which each target is predicted after its last row")
       ->type_name("TIME");
-  app.add_flag("--iso-times", options->iso_times, "Also write times as dates, 2016-01-12T13:02:11.218Z");
+  app.add_flag("--iso-times", options->iso_times,
+               "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);

@@ -1,5 +1,6 @@
 #include "himm_demo/track_ledger.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <sigmax/estimation/chi_square.hpp>
@@ -33,7 +34,16 @@ void TrackLedger::read(const Fix& fix, bool has_sensors) {
   ++outcome.rows;
   if (fix.measured()) ++outcome.measurements;
   if (fix.partly()) ++outcome.partial;
-  if (has_sensors) ++outcome.sensors[fix.sensor];
+  if (fix.bearing) ++outcome.bearings;
+  if (!has_sensors) return;
+  ++outcome.sensors[fix.sensor];
+  const auto known = [&](std::optional<double> Accuracy::*sigma) {
+    return std::any_of(filters_.begin(), filters_.end(), [&](const FilterSettings& filter) {
+      return (filter.accuracy_of(fix.sensor).*sigma).has_value();
+    });
+  };
+  if (fix.moving() && !known(&Accuracy::velocity_mps)) ++outcome.velocity_unknown[fix.sensor];
+  if (fix.range_rate && !known(&Accuracy::range_rate_mps)) ++outcome.range_rate_unknown[fix.sensor];
 }
 
 void TrackLedger::measured(const Fix& fix, const std::optional<Vector<3>>& position,
@@ -76,10 +86,11 @@ void TrackLedger::stepped(const Fix& fix, const std::vector<Tally>& before, cons
   if (least) outcome.outliers.add(fix.line, *least);
 }
 
-void TrackLedger::ended(const std::string& track, const std::vector<Tally>& tallies) {
+void TrackLedger::ended(const std::string& track, const std::vector<Tally>& tallies, std::size_t measurements) {
   bool started = true;
   for (std::size_t f = 0; f < filters_.size(); ++f) {
     outcome.filters[f].rejected += tallies[f].rejected;
+    outcome.refusals.add(track, filters_[f], tallies[f].rejected, measurements);
     outcome.filters[f].restarts += tallies[f].starts > 0 ? tallies[f].starts - 1 : 0;
     started = started && tallies[f].starts > 0;
   }

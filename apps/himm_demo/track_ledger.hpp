@@ -30,8 +30,8 @@ class TrackLedger {
   void stepped(const Fix& fix, const std::vector<Tally>& before, const std::vector<Tally>& after,
                std::optional<double> least);
 
-  /// The end of a track.
-  void ended(const std::string& track, const std::vector<Tally>& tallies);
+  /// The end of a track, which had so many measurements.
+  void ended(const std::string& track, const std::vector<Tally>& tallies, std::size_t measurements);
   void history(const std::string& track, std::size_t filter, std::vector<ModeStay> stays);
 
   TrackOutcome outcome;

@@ -36,6 +36,12 @@ class Reporter {
   /// A sentence, in lines of the width asked for.
   void say(std::string_view sentence) { text_ += wrapped(sentence, options_.output.width()); }
 
+  void say_by_sensor(std::string_view what, const std::map<std::string, std::size_t>& counts) {
+    std::vector<std::string> parts;
+    for (const auto& [sensor, count] : counts) parts.push_back(fmt::format("{} {}", sensor, count));
+    if (!parts.empty()) say(fmt::format("{}: {}", what, fmt::join(parts, ", ")));
+  }
+
   void describe_run() {
     summary_ = {{"version", version}, {"command", options_.output.command}, {"file", file_}};
     summary_["seed"] = options_.seed;
@@ -44,7 +50,7 @@ class Reporter {
                            {"sigma_azimuth_deg", (*options_.radar)[1]},
                            {"sigma_elevation_deg", (*options_.radar)[2]}};
     }
-    if (options_.radar || recording_.polar()) summary_["radar"]["at_m"] = radar_at();
+    if (options_.radar || recording_.polar() || recording_.bearings()) summary_["radar"]["at_m"] = radar_at();
     if (const auto& origin = outcome_.origin) {
       summary_["origin"] = {{"latitude_deg", origin->latitude_deg},
                             {"longitude_deg", origin->longitude_deg},
@@ -53,6 +59,7 @@ class Reporter {
     summary_["rows"] = outcome_.rows;
     summary_["measurements"] = outcome_.measurements;
     if (outcome_.partial > 0) summary_["partial_measurements"] = outcome_.partial;
+    if (outcome_.bearings > 0) summary_["bearings"] = outcome_.bearings;
     summary_["skipped"] = recording_.skipped();
     if (recording_.has_sensors()) summary_["sensors"] = outcome_.sensors;
     if (recording_.has_tracks())
@@ -65,26 +72,34 @@ class Reporter {
       return filter.radar_measurement == RadarForm::polar;
     });
     say(fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file_, outcome_.rows, outcome_.measurements,
-                    outcome_.partial > 0 ? fmt::format(" ({} along some axes only)", outcome_.partial) : "",
-                    recording_.axes(), recording_.axes() == 1 ? "axis" : "axes",
+                    parts_of_measurements(), recording_.axes(), recording_.axes() == 1 ? "axis" : "axes",
                     recording_.geodetic() ? ", geodetic to local east-north-up" : "",
                     !recording_.polar() ? ""
                     : converted         ? ", a radar's measurements converted"
                                         : ", a radar's measurements"));
     say(fmt::format("Taken for: {}", recording_.taken()));
-    if (recording_.has_sensors()) {
-      std::vector<std::string> counts;
-      for (const auto& [sensor, count] : outcome_.sensors) counts.push_back(fmt::format("{} {}", sensor, count));
-      say(fmt::format("Rows by sensor: {}", fmt::join(counts, ", ")));
-    }
+    for (const std::string& note : recording_.notes()) say(note);
+    if (recording_.has_sensors()) say_by_sensor("Rows by sensor", outcome_.sensors);
+    say_by_sensor("Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps",
+                  outcome_.velocity_unknown);
+    say_by_sensor("Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps",
+                  outcome_.range_rate_unknown);
     if (recording_.has_tracks()) {
-      text_ += fmt::format("{} tracks by {}", outcome_.tracks, options_.recording.track_id);
-      if (!outcome_.never_started.empty())
-        text_ += fmt::format(", {} of them too short for every filter to start", outcome_.never_started.size());
-      text_ += "\n";
+      const std::size_t short_ones = outcome_.never_started.size();
+      say(fmt::format(
+          "{} tracks by {}{}", outcome_.tracks, options_.recording.track_id,
+          short_ones > 0 ? fmt::format(", {} of them too short for every filter to start", short_ones) : ""));
     }
     if (recording_.skipped() > 0)
-      text_ += fmt::format("Skipped {} rows whose time was not after that of the row before\n", recording_.skipped());
+      say(fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
+  }
+
+  /// How many of them are not positions along all axes.
+  std::string parts_of_measurements() const {
+    std::vector<std::string> parts;
+    if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
+    if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));
+    return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
   }
 
   void describe_starts() {
@@ -99,8 +114,8 @@ class Reporter {
     };
     by_filter("rejected", "Measurements that the gate turned away", &FilterOutcome::rejected);
     if (outcome_.refused_by_all > 0)
-      text_ += fmt::format("Turned away by every filter: {}, the first on line {}\n", outcome_.refused_by_all,
-                           outcome_.first_refused_line);
+      say(fmt::format("Turned away by every filter: {}, the first on line {}", outcome_.refused_by_all,
+                      outcome_.first_refused_line));
     by_filter("restarts", "Starts after a gap, or after rejections in a row", &FilterOutcome::restarts);
     if (!options_.radar) return;
     const auto& sigma = *options_.radar;
@@ -116,12 +131,13 @@ class Reporter {
     if (outcome_.validity.broken()) warnings_.push_back(outcome_.validity.warning(file_));
     if (outcome_.outliers.any())
       warnings_.push_back(outcome_.outliers.warning(file_, outcome_.measurements, options_.recording.track_id.empty()));
+    if (outcome_.refusals.any()) warnings_.push_back(outcome_.refusals.warning(file_));
     if (recording_.senseless() > 0)
       warnings_.push_back(fmt::format(
           "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
           file_, recording_.first_senseless_line(), recording_.senseless(),
           recording_.senseless() == 1 ? "row counts" : "rows count"));
-    warn_of_low_nis();
+    if (!outcome_.refusals.any()) warn_of_low_nis();  // what the gate lets pass has a low one
     for (const auto& filter : filters_)
       for (const auto& [sensor, accuracy] : filter.sensors)
         if (!outcome_.sensors.contains(sensor))
@@ -220,12 +236,10 @@ class Reporter {
           if (told.size() < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stay.since)));
         }
         summary_["histories"][filters_[f].name][track] = all;
-        text_ +=
-            "\n" +
-            wrapped(fmt::format("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
-                                fmt::join(told, ", "),
-                                stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""),
-                    options_.output.width());
+        text_ += "\n";
+        say(fmt::format("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
+                        fmt::join(told, ", "),
+                        stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""));
       }
   }
 

@@ -59,6 +59,7 @@ struct Target {
   bool keeps_all;        // rows, if a filter is to be smoothed; else two: a start may wait for the row after it
   std::deque<Fix> rows;  // whose tags are their numbers
   std::size_t taken = 0;
+  std::size_t measurements = 0;  // of them
 
   const Fix& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
 };
@@ -116,6 +117,7 @@ class TrackRun {
   }
 
   void take(Fix fix) {
+    if (options_.iso_times && recording_.times_of_day()) refuse_dates(fix);
     ledger_.read(fix, recording_.has_sensors());
     Target<Axes>& target = target_of(fix.track);
     if (fix.place) place(target, fix);
@@ -183,6 +185,7 @@ class TrackRun {
     target.before = fix.time_s;
     target.rows.push_back(fix);
     ++target.taken;
+    if (fix.measured()) ++target.measurements;
     if (!target.keeps_all && target.rows.size() > 2) target.rows.pop_front();
     const auto step = shares_.by<Step>(target.rank, [&] { return followed(target, fix, again); });
     if (!step) return;
@@ -224,7 +227,7 @@ class TrackRun {
       ledger_.history(name, f, std::move(words->history));
     }
     target.rows.clear();
-    ledger_.ended(name, target.tallies);
+    ledger_.ended(name, target.tallies, target.measurements);
   }
 
   /// The steps as smoothing sees them, and when the modes changed.
@@ -243,7 +246,8 @@ class TrackRun {
   /// What a row measures, in the frame of the filter and with the covariances that it believes.
   std::optional<Reading<Axes>> reading(const Fix& fix, const Target<Axes>& target, std::size_t f) const {
     const Tracker<Axes>& tracker = target.trackers[f];
-    if (!tracker.running() && !fix.whole()) return std::nullopt;
+    const bool starts_from_it = filters_[f].start != StartRule::given || target.anchor;
+    if (!tracker.running() && starts_from_it && !fix.whole()) return std::nullopt;
     if (!target.anchor) return reading_of<Axes>(fix, filters_[f], radar_at_);
     return reading_of<Axes>(localized(fix, target.segments[f].back().frame, tracker), filters_[f], radar_at_);
   }
@@ -304,6 +308,12 @@ class TrackRun {
          .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
   }
 
+  [[noreturn]] void refuse_dates(const Fix& fix) const {
+    throw InputError(message({.where = fmt::format("{}:{}", file(), fix.line),
+                              .what = "--iso-times writes dates, and a time of day has none",
+                              .remedy = "leave out --iso-times, or write the date before the times of the recording"}));
+  }
+
   [[noreturn]] void refuse_nothing() const {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
       throw InputError(message({.where = file(),
@@ -315,8 +325,11 @@ class TrackRun {
                                      : "there is too little for every filter to start",
          .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
          .expected = "at least three measurements (two rows if the start is given)",
-         .remedy = outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
-                                        : "give more rows, or start = \"given\" with start_time_s"}));
+         .remedy = outcome_.bearings == outcome_.measurements && outcome_.bearings > 0
+                       ? "bearings do not tell where a target starts; give start = \"given\" with start_mean, "
+                         "start_covariance_diagonal and start_time_s"
+                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
+                                          : "give more rows, or start = \"given\" with start_time_s"}));
   }
 
   const TrackOptions& options_;

@@ -58,15 +58,19 @@ struct TrackOutcome {
   std::size_t rows = 0;
   std::size_t measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
+  std::size_t bearings = 0;
   std::size_t tracks = 0;
-  std::vector<std::string> never_started;      ///< tracks that are too short for a filter
-  std::map<std::string, std::size_t> sensors;  ///< the rows of each
-  std::size_t refused_by_all = 0;              ///< measurements that every filter's gate turned away
-  std::size_t first_refused_line = 0;          ///< of the first of them
-  std::size_t predicted = 0;                   ///< tracks, up to the time that was asked for
+  std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;             ///< the rows of each
+  std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
+  std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
+  std::size_t refused_by_all = 0;                         ///< measurements that every filter's gate turned away
+  std::size_t first_refused_line = 0;                     ///< of the first of them
+  std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Validity validity;
   Outliers outliers;
+  Refusals refusals;
 };
 
 /// Where a run puts what it finds row by row; null where nobody wants it.

@@ -9,6 +9,7 @@ namespace sigmax::apps {
 namespace {
 constexpr double validity_limit = 0.4;
 constexpr double nis_limit = 30.0;
+constexpr std::size_t fewest_refused = 5;
 }  // namespace
 
 void Validity::add(const Fix& fix, const Polar& seen, const std::vector<FilterSettings>& filters) {
@@ -37,6 +38,29 @@ std::string Validity::warning(const std::string& file) const {
       "the error of the conversion, or radar_measurement=polar, which converts only for the start",
       file, first_line_, first_value_, first_range_, validity_limit, outside_, measurements_,
       std::ceil(sigma_range_needed_ / unit) * unit);
+}
+
+void Refusals::add(const std::string& track, const FilterSettings& filter, std::size_t rejected,
+                   std::size_t measurements) {
+  if (rejected < fewest_refused || 5 * rejected <= measurements) return;
+  ++many_;
+  if (rejected * worst_measurements_ <= worst_rejected_ * measurements) return;
+  worst_track_ = track;
+  worst_filter_ = filter.name;
+  worst_gate_ = filter.gate_probability;
+  worst_rejected_ = rejected;
+  worst_measurements_ = measurements;
+}
+
+std::string Refusals::warning(const std::string& file) const {
+  return fmt::format(
+      "{}: the gate of filter '{}' turned {} of {} measurements{} away{}, where {:.2g} are expected: the filter does "
+      "not "
+      "follow, or there are several targets or many outliers; raise sigma_w, the sensor's sigmas or gate_probability",
+      file, worst_filter_, worst_rejected_, worst_measurements_,
+      worst_track_.empty() ? "" : fmt::format(" of track '{}'", worst_track_),
+      many_ > 1 ? fmt::format(" (and of {} other filters or tracks too many)", many_ - 1) : "",
+      (1.0 - worst_gate_) * static_cast<double>(worst_measurements_));
 }
 
 void Outliers::add(std::size_t line, double nis) {

@@ -26,6 +26,23 @@ class Validity {
   double sigma_range_needed_ = 0.0;
 };
 
+/// Tracks of which a filter's gate turned many measurements away: a fifth, and at least five.
+class Refusals {
+ public:
+  void add(const std::string& track, const FilterSettings& filter, std::size_t rejected, std::size_t measurements);
+
+  bool any() const { return many_ > 0; }
+  std::string warning(const std::string& file) const;
+
+ private:
+  std::size_t many_ = 0;  // filters on tracks
+  std::string worst_track_;
+  std::string worst_filter_;
+  double worst_gate_ = 1.0;
+  std::size_t worst_rejected_ = 0;
+  std::size_t worst_measurements_ = 1;
+};
+
 /// Measurements that no filter expects: an NIS above 30 is beyond the 0.999998 quantile of χ² with three degrees of
 /// freedom.
 class Outliers {

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "himm_demo/tune_page.hpp"
 #include "himm_demo/tune_report.hpp"
 #include "himm_demo/tune_search.hpp"
+#include "support/error.hpp"
 #include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
@@ -30,18 +30,12 @@ bool TuneOptions::fits(const std::string& what) const {
 namespace {
 
 /// What is read must not be written over.
-void refuse_to_overwrite(const TuneOptions& options) {
+void refuse_inputs(const TuneOptions& options) {
   auto inputs = options.files;
   inputs.push_back(options.config);
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"--out", options.out}, {"--summary", options.summary}, {"--report", options.page.report}};
-  for (const auto& [option, output] : outputs)
-    for (const auto& input : inputs) {
-      std::error_code none;
-      if (std::filesystem::equivalent(output, input, none))
-        throw UsageError(message(
-            {.what = fmt::format("{} {} would write over an input", option, output), .remedy = "choose another name"}));
-    }
+  refuse_to_overwrite("--out", options.out, inputs);
+  refuse_to_overwrite("--summary", options.summary, inputs);
+  refuse_to_overwrite(options.page, inputs);
 }
 
 void refuse_without_search() {
@@ -75,7 +69,7 @@ std::string heading(const TuneData& data, const TuneOptions& options) {
 TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
                              std::vector<FilterSettings>& written) {
   Diagnosis before = diagnose(data, filter, options.objective);
-  fmt::print("\nfilter {}: before\n\n{}\n", filter.name, text_of(before, options.width()));
+  fmt::print("\nfilter {}: before\n\n{}\n", printable(filter.name), text_of(before, options.width()));
   Progress progress(filter.name, work_of(filter, data, options), options.quiet);
   TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
   progress.finish();
@@ -85,7 +79,7 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
   std::optional<Diagnosis> after;
   if (tuned.best > 0) {
     after = diagnose(data, best.settings, options.objective);
-    fmt::print("\nfilter {}: with the best settings\n\n{}", filter.name, text_of(*after, options.width()));
+    fmt::print("\nfilter {}: with the best settings\n\n{}", printable(filter.name), text_of(*after, options.width()));
     if (before.rmse_m && after->rmse_m)
       fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
   }
@@ -119,13 +113,14 @@ void tune_and_write(TuneOptions options) {
     for (const auto& models : model_sets(filter, options)) with_models(filter, models);  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);
-  refuse_to_overwrite(options);
+  refuse_inputs(options);
   std::optional<AtomicFile> file, summary;  // made first, so that a bad name is known before the work
   if (!options.out.empty()) file.emplace(options.out);
   if (!options.summary.empty()) summary.emplace(options.summary);
   ResultFiles page(options.page);
   const TuneData data = read_tune_data(options);
-  for (const auto& line : lines_of(heading(data, options), terminal_width)) fmt::print("{}\n", line);
+  fmt::print("{}", wrapped(heading(data, options)));
+  for (const std::string& note : data.notes) fmt::print("{}", wrapped(note));
   std::vector<FilterSettings> written;
   std::vector<TuneFindings> found;
   for (const auto& filter : filters) found.push_back(tune_and_report(filter, data, options, written));
@@ -135,11 +130,11 @@ void tune_and_write(TuneOptions options) {
   page.commit();
   if (summary) {
     summary->commit();
-    fmt::print("\nWrote {}\n", options.summary);
+    fmt::print("\nWrote {}\n", printable(options.summary));
   }
   if (!file) return;
   file->commit();
-  fmt::print("\nWrote {}, which track --config takes\n", options.out);
+  fmt::print("\nWrote {}, which track --config takes\n", printable(options.out));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ class TuneReader {
   void read(const std::string& file) {
     RecordingOptions of_file = options_.recording;
     of_file.file = file;
+    of_file.simulated = options_.radar.has_value();
     RecordingReader recording(of_file);
     refuse_other_kind(recording);
     std::map<std::string, Open, std::less<>> open;
@@ -59,6 +60,7 @@ class TuneReader {
       data_.has_truth |= fix.truth.has_value();
       rows.push_back(std::move(fix));
     }
+    for (const std::string& note : recording.notes()) data_.notes.push_back(fmt::format("{}: {}", file, note));
   }
 
  private:

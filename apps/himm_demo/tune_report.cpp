@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "himm_demo/filter_keys.hpp"
+#include "support/error.hpp"
 #include "support/table.hpp"
 
 namespace sigmax::apps {
@@ -45,7 +46,8 @@ std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
   for (const auto& mode : diagnosis.modes) add_part(modes, mode, "", true);
   std::string text = sensors.text(width) + "\n" + modes.text(width);
   for (const auto& sentence : diagnosis.advice())
-    for (std::size_t line = 0; const auto& each : lines_of(sentence, width == any_width ? any_width : width - 2))
+    for (std::size_t line = 0;
+         const auto& each : lines_of(printable(sentence), width == any_width ? any_width : width - 2))
       text += (line++ == 0 ? "- " : "  ") + each + "\n";
   return text;
 }

@@ -370,6 +370,7 @@ Report page_of(const ClassifyOptions& options, const LearnedModel& model, const 
 }
 
 void run_classify(const ClassifyOptions& options) {
+  refuse_to_overwrite(options.output, {options.model, options.file}, {"predictions.csv"});
   ResultFiles files(options.output);
   const ModelFile model_file = read_model(options.model);
   const LearnedModel& model = model_file.model;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -220,10 +219,6 @@ bool MissingWords::among_numbers(std::string_view cell) const {
   if (operator()(cell)) return true;
   const std::string text = lower_case(trimmed(cell));
   return std::find(words.begin(), words.end(), text) != words.end();
-}
-
-CsvReader open_csv(const std::string& file) {
-  return file == "-" ? CsvReader{std::cin, "standard input"} : CsvReader{std::filesystem::path{file}};
 }
 
 DataTable read_data(const std::string& file, const DataOptions& options, bool quiet) {

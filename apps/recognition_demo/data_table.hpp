@@ -150,9 +150,6 @@ class MissingWords {
   std::vector<std::string> more_;
 };
 
-/// Opens a file, or the standard input for "-".
-CsvReader open_csv(const std::string& file);
-
 /// Reads a headed CSV file. A column is numeric if all its cells are numbers, else categorical. A cell without a value
 /// is missing. Throws InputError with file, line, column and value for a row without a class, a column that is nearly
 /// all numbers, columns that have the same value everywhere or none at all, and data of a single class.

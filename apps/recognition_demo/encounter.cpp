@@ -244,6 +244,7 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
 }
 
 void run_encounter(const EncounterOptions& options) {
+  refuse_to_overwrite(options.draws.output, {options.file, options.track}, {"curves.csv", "reports.csv"});
   ResultFiles files(options.draws.output);
   const EncounterData data = read_encounter(options.file);
   print_counts(options, data.counts);
@@ -259,7 +260,8 @@ void add_encounter(CLI::App& program, const std::string& command) {
   options->draws.runs = 50000;
   CLI::App& app = *program.add_subcommand(
       "encounter", "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
-  app.add_option("counts", options->file, "Counts by class and feature: class,feature,bin,lower,upper,count")
+  app.add_option("counts", options->file,
+                 "Counts by class and feature: class,feature,bin,lower,upper,count; or - for the standard input")
       ->required()
       ->type_name("COUNTS.csv");
   app.add_option("--reports", options->reports, "Reports in a drawn run")

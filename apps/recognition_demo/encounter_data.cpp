@@ -32,8 +32,8 @@ std::size_t column_of(const CsvReader& reader, std::initializer_list<std::string
 
 }  // namespace
 
-EncounterData read_encounter(const std::filesystem::path& path) {
-  CsvReader reader{path};
+EncounterData read_encounter(const std::string& file) {
+  CsvReader reader = open_csv(file);
   const std::size_t klass = reader.column("class"), feature = reader.column("feature");
   const std::size_t lower = reader.column("lower"), upper = reader.column("upper"), count = reader.column("count");
   std::vector<std::string> classes;
@@ -84,10 +84,10 @@ EncounterData read_encounter(const std::filesystem::path& path) {
   return {std::move(counts), std::move(bins), lowest};
 }
 
-TrackReports read_track(const std::filesystem::path& path, const EncounterData& data, double every_s,
+TrackReports read_track(const std::string& file, const EncounterData& data, double every_s,
                         std::optional<double> ground_ft) {
   constexpr double longest_step_s = 15.0;
-  CsvReader reader{path};
+  CsvReader reader = open_csv(file);
   const std::size_t time = reader.column("time_s");
   const std::size_t altitude = column_of(reader, {"altitude_ft", "altitude_gnss_ft"});
   const std::size_t speed = column_of(reader, {"tas_kt", "groundspeed_kt"});

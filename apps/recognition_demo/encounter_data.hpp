@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +22,7 @@ struct EncounterData {
 
 /// Reads class,feature,bin,lower,upper,count; other features are ignored. Throws InputError with file, line, column and
 /// value where bins leave a gap, and for a class or a feature without counts.
-EncounterData read_encounter(const std::filesystem::path& path);
+EncounterData read_encounter(const std::string& file);
 
 /// One report of a recording.
 struct TrackReport {
@@ -40,7 +39,7 @@ struct TrackReports {
 
 /// Reads a recording and reports every so many seconds while it flies; the turn rate is that between the row and the
 /// one before, if that is at most 15 s earlier. Throws InputError with file, line, column and value.
-TrackReports read_track(const std::filesystem::path& path, const EncounterData& data, double every_s,
+TrackReports read_track(const std::string& file, const EncounterData& data, double every_s,
                         std::optional<double> ground_ft);
 
 }  // namespace sigmax::apps

@@ -405,6 +405,7 @@ Report page_of(const DataTable& data, const Results& results, const EvaluateOpti
 }
 
 void run_evaluate(const EvaluateOptions& options) {
+  refuse_to_overwrite(options.output, {options.file}, {"predictions.csv", "confusion.csv"});
   ResultFiles files(options.output);
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);

@@ -213,6 +213,7 @@ Report page_of(const PerformanceOptions& options, const PerformanceData& data, c
 
 void run_performance(const PerformanceOptions& options) {
   const DrawOptions& draws = options.draws;
+  refuse_to_overwrite(draws.output, {options.file}, {"curves.csv"});
   ResultFiles files(draws.output);
   const PerformanceData data = read_performance(options.file);
   const World world = world_of(data, options);
@@ -246,11 +247,13 @@ void run_performance(const PerformanceOptions& options) {
 void add_performance(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<PerformanceOptions>();
   options->draws.output.command = command;
-  options->draws.runs = 10000;
+  options->draws.runs = 60000;  // intervals below a tenth of the differences
   CLI::App& app = *program.add_subcommand(
       "performance", "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
-  app.add_option("data", options->file,
-                 "A CSV file with type, variable, optimum, minimum, maximum, model and parameters")
+  app.add_option(
+         "data", options->file,
+         "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard "
+         "input")
       ->required()
       ->type_name("PERFORMANCE.csv");
   app.add_option("--draws", options->drawn_from, "What the quantities are drawn from")

@@ -89,8 +89,8 @@ double FittedDensity::quantile(double u) const {
          scale_ * std::visit([u](const auto& standard) { return boost::math::quantile(standard, u); }, standard_);
 }
 
-PerformanceData read_performance(const std::filesystem::path& path) {
-  CsvReader reader{path};
+PerformanceData read_performance(const std::string& file) {
+  CsvReader reader = open_csv(file);
   const std::size_t type = reader.column("type"), variable = reader.column("variable");
   const std::size_t optimum = reader.column("optimum"), minimum = reader.column("minimum"),
                     maximum = reader.column("maximum");

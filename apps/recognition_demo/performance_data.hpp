@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,6 +53,6 @@ struct PerformanceData {
 
 /// Reads type,variable,optimum,minimum,maximum,model,parameters; other columns are ignored. Throws InputError with
 /// file, line, column and value for what cannot be, and for a quantity that a type lacks.
-PerformanceData read_performance(const std::filesystem::path& path);
+PerformanceData read_performance(const std::string& file);
 
 }  // namespace sigmax::apps

@@ -7,6 +7,7 @@
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/result_files.hpp"
 #include "support/result_table.hpp"
 
 namespace sigmax::apps {
@@ -39,6 +40,7 @@ ResultTable features_table(const LearnedModel& model) {
 }
 
 void run_train(const TrainOptions& options) {
+  refuse_to_overwrite("--model", options.model, {options.file});
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);
   LearnedModel model = learn(data, options.learning);

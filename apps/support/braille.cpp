@@ -14,6 +14,7 @@
 
 #include <fmt/core.h>
 
+#include "support/error.hpp"
 #include "support/table.hpp"
 
 namespace sigmax::apps {
@@ -93,6 +94,22 @@ std::vector<std::string> colours_of(const LineChart& chart, bool colour) {
   return colours;
 }
 
+/// The names of the curves, in as many lines as they take.
+std::string legend(const LineChart& chart, const std::vector<std::string>& colours, std::size_t indent,
+                   std::size_t width) {
+  std::string text;
+  std::size_t used = width;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const std::string name = printable(chart.curves[i].name);
+    const bool fits = used + 2 + display_width(name) <= width;
+    if (i > 0) text += fits ? "  " : "\n";
+    if (!fits) text.append(indent, ' ');
+    used = (fits ? used + 2 : indent) + display_width(name);
+    text += colours[i] + name + (colours[i].empty() ? "" : "\x1B[0m");
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string braille(const LineChart& chart, std::size_t width, std::size_t height, bool colour) {
@@ -131,15 +148,12 @@ std::string braille(const LineChart& chart, std::size_t width, std::size_t heigh
   }
 
   const auto colours = colours_of(chart, colour);
-  std::string text = chart.title + ": " + chart.y_label + "\n";
+  std::string text = wrapped(printable(chart.title + ": " + chart.y_label), width);
   for (std::size_t y = 0; y < height; ++y)
     text += padded(y == 0 ? top : y + 1 == height ? bottom : "", margin) + " " + canvas.row(y, colours) + "\n";
   const std::string first = number_text(across.least, 0), last = number_text(across.greatest, 0) + " " + chart.x_label;
   text += std::string(margin + 1, ' ') + first + padded(last, width - margin - 1 - first.size()) + "\n";
-  std::string names;
-  for (std::size_t i = 0; i < chart.curves.size(); ++i)
-    names += (i ? "  " : "") + colours[i] + chart.curves[i].name + (colours[i].empty() ? "" : "\x1B[0m");
-  return text + std::string(margin + 1, ' ') + names + "\n";
+  return text + legend(chart, colours, margin + 1, width);
 }
 
 bool charts_on_terminal(const OutputOptions& options) {

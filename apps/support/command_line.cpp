@@ -95,7 +95,7 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
 
 void print_text(const OutputOptions& options, std::string_view text) {
   constexpr std::size_t wide_text = 120;  // longer lines are hard to read
-  std::fputs(wrapped(printable(text, true), options.wide ? wide_text : terminal_width).c_str(), stdout);
+  std::fputs(wrapped(text, options.wide ? wide_text : terminal_width).c_str(), stdout);
 }
 
 void add_quiet(CLI::App& app, bool& quiet) { app.add_flag("--quiet", quiet, "No progress bar"); }

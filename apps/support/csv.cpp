@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cerrno>
 #include <fstream>
-#include <istream>
+#include <iostream>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -57,6 +57,10 @@ std::string csv_field(std::string_view text) {
   std::string field = "\"";
   for (const char byte : text) field.append(byte == '"' ? 2 : 1, byte);
   return field += '"';
+}
+
+CsvReader open_csv(const std::string& file) {
+  return file == "-" ? CsvReader{std::cin, "standard input"} : CsvReader{std::filesystem::path{file}};
 }
 
 CsvReader::CsvReader(const std::filesystem::path& path)

@@ -112,6 +112,9 @@ class CsvReader {
   bool ended_ = false;  // the last record ran into the end of the file
 };
 
+/// Opens a file, or the standard input for "-".
+CsvReader open_csv(const std::string& file);
+
 /// Text as one field of a CSV file: in quotes where it needs them.
 std::string csv_field(std::string_view text);
 

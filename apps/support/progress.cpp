@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "support/error.hpp"
 #include "support/table.hpp"
 
 namespace sigmax::apps {
@@ -30,8 +31,8 @@ std::string remaining(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string label, std::uint64_t total, bool quiet, int terminal)
-    : label_(std::move(label)),
+Progress::Progress(std::string_view label, std::uint64_t total, bool quiet, int terminal)
+    : label_(printable(label)),
       total_(total),
       terminal_(terminal),
       silent_(quiet || ::isatty(terminal) == 0),

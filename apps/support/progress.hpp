@@ -16,7 +16,7 @@ namespace sigmax::apps {
 /// the end. Silent when asked, and where the output is no terminal.
 class Progress {
  public:
-  Progress(std::string label, std::uint64_t total, bool quiet, int terminal = STDERR_FILENO);
+  Progress(std::string_view label, std::uint64_t total, bool quiet, int terminal = STDERR_FILENO);
 
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -1,5 +1,8 @@
 #include "support/result_files.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +11,36 @@
 #include "version.hpp"
 
 namespace sigmax::apps {
+namespace {
+
+void refuse_input(const std::string& option, const std::string& given, const std::filesystem::path& file,
+                  const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, input == "-" ? "/dev/stdin" : input, ignored))
+      throw UsageError(message({.what = fmt::format("{} {} would write over the input {}", option, given, input),
+                                .remedy = "choose another place"}));
+  }
+}
+
+}  // namespace
+
+void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {
+  refuse_input(option, file, file, inputs);
+}
+
+void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
+                         std::vector<std::string> names) {
+  names.insert(names.end(), {"summary.json", report_data_name, report_name});
+  if (!options.out.empty())
+    for (const std::string& name : names)
+      refuse_input("--out", options.out, std::filesystem::path(options.out) / name, inputs);
+  refuse_to_overwrite("--report", options.report, inputs);
+  std::error_code ignored;
+  for (const auto& chart : std::filesystem::directory_iterator(options.plots, ignored))
+    if (chart.path().extension() == ".svg" || chart.path().extension() == ".pdf")
+      refuse_input("--plots", options.plots, chart.path(), inputs);
+}
 
 ResultFiles::ResultFiles(const OutputOptions& options) {
   if (!options.report.empty() && !has_reports())
@@ -66,7 +99,7 @@ void ResultFiles::commit() {
   if (report_) written.push_back(report_->path().native());
   if (plots_)
     written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_->path().native()));
-  fmt::print("\nWrote {}\n", fmt::join(written, ", and "));
+  fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
 }
 
 nlohmann::ordered_json summary_of(const OutputOptions& options) {

@@ -62,6 +62,14 @@ class ResultFiles {
   std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
 };
 
+/// Throws UsageError if the file that an option names is an input, by whatever name; "-" is the standard input.
+void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs);
+
+/// The same of all that ResultFiles writes: these files beside summary and report in the directory, the report, and the
+/// charts, whose names are known late, so that no SVG or PDF file among them may be an input.
+void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
+                         std::vector<std::string> names = {});
+
 /// What every summary begins with: the version and the command.
 nlohmann::ordered_json summary_of(const OutputOptions& options);
 

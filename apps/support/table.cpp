@@ -269,7 +269,7 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
 std::string wrapped(std::string_view text, std::size_t width) {
   std::string result;
   if (text.ends_with('\n')) text.remove_suffix(1);
-  for (const std::string& line : lines_of(text, width)) result += line + "\n";
+  for (const std::string& line : lines_of(printable(text, true), width)) result += line + "\n";
   return result;
 }
 

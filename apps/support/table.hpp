@@ -57,7 +57,8 @@ std::size_t display_width(std::string_view text);
 /// "± 95" or "− sigma's" stays with what follows it. Line breaks in the text are kept.
 std::vector<std::string> lines_of(std::string_view text, std::size_t width);
 
-/// The same as one text; each line ends with a line break. `any_width` changes nothing but that.
+/// The same as one text that no terminal takes for commands, see `printable`; each line ends with a line break.
+/// `any_width` breaks none.
 std::string wrapped(std::string_view text, std::size_t width = terminal_width);
 
 }  // namespace sigmax::apps

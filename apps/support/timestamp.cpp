@@ -124,6 +124,8 @@ std::optional<double> parse_timestamp(std::string_view text) {
   return parse_date_and_time(text);
 }
 
+bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }
+
 std::string iso_time(double seconds) {
   using namespace std::chrono;
   if (!(seconds >= -62167219200.0 && seconds < 253402300799.0)) throw std::out_of_range("iso_time: no year 0 to 9999");

@@ -14,6 +14,9 @@ namespace sigmax::apps {
 /// around it are allowed and nothing else.
 std::optional<double> parse_timestamp(std::string_view text);
 
+/// Whether that is a time of day, which tells no date.
+bool is_time_of_day(std::string_view text);
+
 /// Seconds since 1970-01-01 UTC as a date and time, 2016-01-12T13:02:11.218Z, to the microsecond. Years 0 to 9999;
 /// others throw std::out_of_range.
 std::string iso_time(double seconds);

@@ -62,6 +62,30 @@ TEST(Braille, NamesTheCurvesInTheirColours) {
   EXPECT_NE(text.find("\x1B[36mimm\x1B[0m"), std::string::npos) << text;
 }
 
+TEST(Braille, BreaksWhatIsWiderThanTheChart) {
+  LineChart made = chart({1.0, 2.0});
+  made.curves.clear();
+  for (int i = 0; i < 20; ++i)
+    made.curves.push_back({"σ of " + std::to_string(i), "x" + std::to_string(i), {1.0, 2.0}});
+  const auto lines = lines_in(braille(made, 40, 2, false));
+  std::string names;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_LE(display_width(lines[i]), 40U) << lines[i];
+    if (i >= 4) names += lines[i] + "\n";
+  }
+  EXPECT_EQ(names.substr(0, names.find('\n')), "     σ of 0  σ of 1  σ of 2  σ of 3");
+  for (const Curve& curve : made.curves) EXPECT_NE(names.find(curve.name), std::string::npos) << names;
+}
+
+TEST(Braille, NamesDoNotCommandTheTerminal) {
+  LineChart made = chart({1.0, 2.0});
+  made.title += "\x1B[2J";
+  made.curves.front().name += "\x1B[2J";
+  const std::string text = braille(made, 40, 2, false);
+  EXPECT_EQ(text.find('\x1B'), std::string::npos);
+  EXPECT_NE(text.find("imm\\x1B[2J"), std::string::npos);
+}
+
 /// Runs in a terminal of so many columns, by `script`, which gives the program one.
 program::Ending in_terminal(int columns, const std::string& command) {
   return program::run("/usr/bin/script",

@@ -56,6 +56,67 @@ TEST(HimmDemoRealInput, HeadersMayNameOtherUnits) {
   EXPECT_TRUE(says(tracked(metres).output, "range_m in m, azimuth_deg in ° counter-clockwise from east"));
 }
 
+/// The numbers of x, y, and a speed along x, in other units than m and m/s.
+std::string in_units(const std::string& length, double metres, const std::string& speed, double metres_per_second) {
+  return recording("time_s,x_" + length + ",y_" + length + ",speed_" + speed + ",course_deg,true_x_" + length +
+                       ",true_y_" + length + ",sigma_x_" + length + ",sigma_y_" + length,
+                   [&](int k) {
+                     const auto in_length = [&](double value) { return "," + exact(value / metres); };
+                     return exact(k) + in_length(500.0 + 20.0 * k + k % 3) + in_length(7.0 * (k % 4)) + "," +
+                            exact((20.0 + k % 2) / metres_per_second) + ",90" + in_length(500.0 + 20.0 * k) +
+                            in_length(3.0) + in_length(4.0) + in_length(5.0);
+                   });
+}
+
+TEST(HimmDemoRealInput, AllLengthsAndSpeedsMayBeInAllUnits) {
+  const std::vector<std::string> options = {"--set", "sigma_velocity_mps=1"};
+  const auto expected = rows(tracked(in_units("m", 1.0, "mps", 1.0), options).estimates);
+  const std::vector<std::pair<std::string, double>> lengths = {
+      {"km", 1000.0}, {"ft", 0.3048}, {"nmi", 1852.0}, {"mi", 1609.344}, {"m", 1.0}};
+  const std::vector<std::pair<std::string, double>> speeds = {
+      {"kmh", 1.0 / 3.6}, {"kt", 1852.0 / 3600.0}, {"mph", 0.44704}, {"fps", 0.3048}, {"fpm", 0.00508}};
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    SCOPED_TRACE(lengths[i].first + ", " + speeds[i].first);
+    const auto found = rows(
+        tracked(in_units(lengths[i].first, lengths[i].second, speeds[i].first, speeds[i].second), options).estimates);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k)
+      for (const char* column : {"x_m", "vx_mps", "sigma_y_m", "nis"})
+        EXPECT_NEAR(number(found[k].at(column)), number(expected[k].at(column)), 1e-6) << column;
+  }
+}
+
+TEST(HimmDemoRealInput, SaysWhichColumnsItDoesNotUse) {
+  const auto extra = recording("time_s,x_m,y_m,x_km,vx_mps,vy_mps,range_rate_mps,altitude,colour",
+                               [](int k) { return exact(k) + "," + exact(10 * k) + ",7,0,10,0,1,200,red"; });
+  const std::string plain = tracked(extra).output;
+  EXPECT_TRUE(says(plain,
+                   "Not used: x_km (x_m says it), altitude (name its unit: _m, _km, _ft, _nmi or _mi), vx_mps, vy_mps "
+                   "(give --set sigma_velocity_mps=…), range_rate_mps (does not go with the others)"))
+      << plain;
+  EXPECT_FALSE(says(tracked(extra, {"--set", "sigma_velocity_mps=1"}).output, "vx_mps, vy_mps (give"));
+  const auto radar = recording("time_s,range_m,azimuth_deg,range_rate_mps,vx_mps,vy_mps",
+                               [](int k) { return exact(k) + "," + exact(9000 + k) + ",5,1,2,3"; });
+  EXPECT_TRUE(says(tracked(radar).output, "range_rate_mps (give --set sigma_range_rate_mps=…)"));
+  const auto moving = tracked(radar, {"--set", "sigma_velocity_mps=1", "--set", "sigma_range_rate_mps=1"});
+  EXPECT_FALSE(says(moving.output, "Not used"));
+  EXPECT_TRUE(says(moving.output, "Velocities do not count in rows of a radar or with a bearing: 30 rows"));
+  const auto two = recording("time_s,sensor,x_m,y_m,vx_mps,vy_mps",
+                             [](int k) { return exact(k) + (k % 3 == 0 ? ",a," : ",b,") + exact(10 * k) + ",7,10,0"; });
+  EXPECT_TRUE(says(tracked(two, {"--set", "sensor.a.sigma_velocity_mps=1"}).output,
+                   "velocity does not count, for want of sensor.NAME.sigma_velocity_mps: b 20"));
+  EXPECT_FALSE(says(tracked(two, {"--set", "sigma_velocity_mps=1"}).output, "for want of"));
+  const auto truth = recording("time_s,x_m,y_m,z_m,vx_mps,vy_mps",
+                               [](int k) { return exact(k) + "," + exact(5000 + k) + ",7,9,1,0"; });
+  EXPECT_TRUE(says(tracked(truth, {"--radar", "50,0.1,0.1", "--set", "sigma_velocity_mps=1"}).output,
+                   "Not used: vx_mps, vy_mps (--radar measures no velocity)"));
+  const auto place = recording("time_s,latitude_deg,longitude_deg,azimuth_deg",
+                               [](int k) { return exact(k) + ",50," + exact(1e-4 * k) + ",5"; });
+  EXPECT_TRUE(says(tracked(place).output, "Not used: azimuth_deg (does not go with the others)"));
+  const auto none = recording("time_s,x_m,y_m,colour", [](int k) { return exact(k) + "," + exact(k) + ",7,red"; });
+  EXPECT_FALSE(says(tracked(none).output, "Not used"));
+}
+
 TEST(HimmDemoRealInput, ANisFarTooLowIsWarnedOf) {
   const auto as_metres =
       recording("time_s,range_m,azimuth_deg", [](int k) { return exact(k) + "," + exact(10.0 + 0.001 * k) + ",45"; });
@@ -235,6 +296,104 @@ TEST(HimmDemoRealInput, WhatEveryGateTurnsAwayIsNamed) {
       "time_s,x_m,y_m", [](int k) { return exact(k) + "," + (k == 20 ? std::string("90000") : exact(10 * k)) + ",7"; });
   EXPECT_TRUE(says(tracked(outlier, {"--set", "gate_probability=0.999"}).output,
                    "Turned away by every filter: 1, the first on line 22"));
+}
+
+TEST(HimmDemoRealInput, AGateThatTurnsAwayMuchIsWarnedOf) {
+  const auto jumping = [](int every) {
+    return recording("time_s,ship,x_m,y_m", [=](int k) {
+      return exact(k) + ",quiet," + exact(10 * k) + ",7\n" + exact(k) + ",loud," +
+             exact(10 * k + (k % every == every - 1 ? 3000 : 0)) + ",7";
+    });
+  };
+  const std::vector<std::string> options = {"--track-id", "ship",          "--set", "gate_probability=0.99",
+                                            "--set",      "filters=[imm]", "--set", "restart_after_rejections=0"};
+  const auto much = tracked(jumping(4), options).output;  // 7 of 30
+  EXPECT_TRUE(says(much,
+                   "the gate of filter 'imm' turned 7 of 30 measurements of track 'loud' away, where 0.3 are "
+                   "expected"))
+      << much;
+  EXPECT_FALSE(says(much, "the mean NIS is")) << much;
+  EXPECT_TRUE(says(much, "raise sigma_w, the sensor's sigmas or gate_probability")) << much;
+  const auto little = tracked(jumping(5), options).output;  // 6 of 30 are no more than a fifth
+  EXPECT_TRUE(says(little, "Measurements that the gate turned away: imm 6")) << little;
+  EXPECT_FALSE(says(little, "the gate of filter")) << little;
+}
+
+std::string clock(int seconds) {
+  const auto two = [](int value) { return std::string(value < 10 ? "0" : "") + std::to_string(value); };
+  seconds %= 86400;
+  return two(seconds / 3600) + ":" + two(seconds / 60 % 60) + ":" + two(seconds % 60);
+}
+
+TEST(HimmDemoRealInput, TimesOfDayGoOnAfterMidnight) {
+  // Every two hours past two midnights; a track that begins after the first, and one before the second that comes last.
+  const auto with = [](const auto& time) {
+    std::string text = "time_s,ship,x_m,y_m\n";
+    for (int k = 0; k < 17; ++k) {
+      text += time(72000 + 7200 * k) + ",a," + exact(10 * k) + ",7\n";
+      if (k >= 2) text += time(72001 + 7200 * k) + ",b," + exact(5 * k) + ",9\n";
+    }
+    for (int k = 0; k < 6; ++k) text += time(171000 + 600 * k) + ",c," + exact(k) + ",1\n";
+    return text;
+  };
+  const std::vector<std::string> options = {"--track-id", "ship"};
+  const auto seconds = tracked(with([](int time) { return std::to_string(time); }), options);
+  const auto clocks = tracked(with(clock), options);
+  EXPECT_EQ(clocks.estimates, seconds.estimates);
+  EXPECT_TRUE(says(clocks.output, "Times of day pass midnight 4 times, first on line 4;")) << clocks.output;
+  EXPECT_FALSE(says(seconds.output, "midnight"));
+}
+
+TEST(HimmDemoRealInput, TimesOfDayThatFallALittleAreWrongAndHaveNoDates) {
+  const TemporaryDirectory directory;
+  const auto run = [&](const std::string& last, const std::vector<std::string>& more) {
+    std::string text = "time_s,x_m,y_m\n";
+    for (int k = 0; k < 5; ++k) text += clock(43200 + k) + "," + exact(k) + ",7\n";
+    std::vector<std::string> arguments = {"track", directory.write("real.csv", text + last), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return program::run(SIGMAX_HIMM_DEMO, arguments);
+  };
+  EXPECT_EQ(run("", {}).status, 0);
+  const auto fallen = run("00:00:05,5,7\n", {});
+  EXPECT_EQ(fallen.status, 3);
+  EXPECT_TRUE(says(fallen.output, "real.csv:7: column 'time_s': found '00:00:05', expected a time after"))
+      << fallen.output;
+  const auto dates = run("", {"--iso-times"});
+  EXPECT_EQ(dates.status, 3);
+  EXPECT_TRUE(says(dates.output, "real.csv:2: --iso-times writes dates, and a time of day has none")) << dates.output;
+}
+
+TEST(HimmDemoRealInput, NoNameCommandsTheTerminal) {
+  const TemporaryDirectory directory;
+  const std::string clear = "\x1B[2J\xC2\x9B\x31m";
+  const auto hostile = recording("time_s,sensor,ship,x" + clear + ",y_m", [&](int k) {
+    return exact(k) + ",radar" + clear + ",ship" + clear + "," + exact(k == 20 ? 1e5 : k) + ",7";
+  });
+  const std::string file = directory.write("real" + clear + ".csv", hostile);
+  const std::vector<std::string> columns = {"--columns", "x_m=x" + clear};
+  const std::string key = R"(sensor."radar\u001B[2J\u009B1m".sigma_position_m)";
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"track", file, "--columns", "x_m=x" + clear});
+    const auto ending = program::run(SIGMAX_HIMM_DEMO, more);
+    EXPECT_EQ(ending.output.find('\x1B'), std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find("\xC2\x9B"), std::string::npos) << ending.output;
+    return ending;
+  };
+  const auto whole = run({"--track-id", "ship", "--out", directory.path() / ("out" + clear), "--set", key + "=3",
+                          "--set", "filters=[himm_histories]", "--set", "explain=true"});
+  EXPECT_EQ(whole.status, 0) << whole.output;
+  for (const char* words : {R"(radar\x1B[2J\x9B1m 30)", R"(x\x1B[2J\x9B1m in m)", R"(of ship\x1B[2J\x9B1m)", R"(to )",
+                            R"(out\x1B[2J\x9B1m)", R"(real\x1B[2J\x9B1m.csv:23: no filter)"})
+    EXPECT_TRUE(says(whole.output, words)) << words << "\n" << whole.output;
+  // Files keep the bytes.
+  EXPECT_NE(contents(directory.path() / ("out" + clear) / "estimates.csv").find(",ship" + clear + ","),
+            std::string::npos);
+  EXPECT_EQ(run({"--set", "a" + clear + "=3"}).status, 3);
+  EXPECT_EQ(run({"--track-id", "none" + clear}).status, 3);
+  EXPECT_EQ(run({"--set", key + "=-3"}).status, 3);
+  const auto settings = run({"--set", key + "=3", "--set", R"(filters=["imm a","himm\u0007"])", "--print-config"});
+  EXPECT_EQ(settings.status, 0) << settings.output;
+  EXPECT_EQ(run({"--config", directory.write("same.toml", settings.output), "--print-config"}).output, settings.output);
 }
 
 }  // namespace

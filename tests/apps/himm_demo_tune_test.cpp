@@ -120,6 +120,20 @@ TEST(Tune, KeepsWhatItIsTold) {
   EXPECT_NE(ending.output.find("No setting changes"), std::string::npos) << ending.output;
 }
 
+TEST(Tune, SaysWhichColumnsDoNotCount) {
+  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  const TemporaryDirectory directory;
+  std::istringstream lines(recording(60, false));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) text += line + (text.empty() ? ",vx_mps\n" : ",80\n");
+  const auto file = directory.write("flight.csv", text);
+  auto ending = tune(quickly(file, {"--keep", "models,sensors"}));
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  std::replace(ending.output.begin(), ending.output.end(), '\n', ' ');
+  EXPECT_NE(ending.output.find("flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)"), std::string::npos)
+      << ending.output;
+}
+
 struct Refusal {
   std::vector<std::string> arguments;
   int status;
@@ -155,7 +169,7 @@ TEST(Tune, RefusesWhatCannotBeAndWritesNothing) {
   }
   const auto over = tune({file, "--out", file});
   EXPECT_EQ(over.status, 2);
-  EXPECT_NE(over.output.find("would write over an input"), std::string::npos) << over.output;
+  EXPECT_NE(over.output.find("would write over the input"), std::string::npos) << over.output;
 }
 
 TEST(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {

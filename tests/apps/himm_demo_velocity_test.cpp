@@ -94,7 +94,8 @@ Quantity component(std::size_t i, double value, double sigma) {
   return {value, sigma, [i](const auto& x) { return x[i]; }};
 }
 
-void expect_filtered(const Recording& recording, std::vector<std::string> more, double tolerance) {
+void expect_filtered(const Recording& recording, std::vector<std::string> more, double tolerance,
+                     const std::vector<std::string>& options = {}) {
   const TemporaryDirectory directory;
   std::vector<std::string> arguments = {"track", directory.write("input.csv", recording.text),
                                         "--out", directory.path() / "out",
@@ -107,6 +108,7 @@ void expect_filtered(const Recording& recording, std::vector<std::string> more, 
                                         "--set", "start_time_s=0",
                                         "--set", "sigma_position_m=12"};
   for (const auto& setting : more) arguments.insert(arguments.end(), {"--set", setting});
+  arguments.insert(arguments.end(), options.begin(), options.end());
   const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
   ASSERT_EQ(ending.status, 0) << ending.output;
   const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
@@ -192,6 +194,34 @@ TEST(HimmDemoVelocity, AlongTheBeamIsMeasuredByARadarAndABearingByACamera) {
                   {"sensor.radar.sigma_range_m=20", "sensor.radar.sigma_azimuth_deg=0.3",
                    "sensor.radar.sigma_range_rate_mps=0.2", "sensor.camera.sigma_azimuth_deg=0.01"},
                   1e-5);
+}
+
+/// Bearings of a target, alone or between positions.
+Recording bearings(bool alone) {
+  std::mt19937_64 engine(6);
+  std::normal_distribution<double> noise;
+  Recording recording{alone ? "time_s,azimuth_deg_north\n" : "time_s,x_m,y_m,azimuth_deg_north\n", {}};
+  const auto azimuth = [](const auto& x) { return std::atan2(x[1] + 400.0, x[0] - 300.0); };
+  for (int k = 0; k < 40; ++k) {
+    auto x = truth(k);
+    auto& row = recording.rows.emplace_back();
+    if (alone || k % 3 == 1) {
+      const double alpha = azimuth(x) + 0.05 * degree * noise(engine);
+      row.push_back({alpha, 0.05 * degree, azimuth, true});
+      recording.text += exact(k + 1) + (alone ? "," : ",,,") + exact(90.0 - alpha / degree) + "\n";
+      continue;
+    }
+    for (std::size_t i = 0; i < 2; ++i) row.push_back(component(i, x[i] += 12.0 * noise(engine), 12.0));
+    recording.text += exact(k + 1) + "," + exact(x[0]) + "," + exact(x[1]) + (k % 2 == 0 ? ",\n" : ",77\n");
+  }
+  return recording;
+}
+
+TEST(HimmDemoVelocity, BearingsCountBetweenPositionsAndAlone) {
+  for (const bool alone : {false, true}) {
+    SCOPED_TRACE(alone);
+    expect_filtered(bearings(alone), {"sigma_azimuth_deg=0.05"}, 1e-5, {"--radar-at", "300,-400,0"});
+  }
 }
 
 /// An aircraft that flies east round the pole, far from where its frame began: its east is that where it is.

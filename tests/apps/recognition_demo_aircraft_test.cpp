@@ -3,6 +3,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
@@ -33,6 +34,24 @@ std::string counts_csv() {
         text << (c == 0 ? "slow" : "fast") << ',' << feature << ',' << b + 1 << ',' << bounds.at(feature)[b] << ','
              << bounds.at(feature)[b + 1] << ',' << table[c][b] << '\n';
   return text.str();
+}
+
+/// What a subcommand says of a file, by its name and as the standard input.
+std::pair<std::string, std::string> said_of(const std::string& subcommand, const std::filesystem::path& file) {
+  const auto run = [&](const std::string& name) {
+    const auto ending = program::run("/bin/sh", {"-c", "exec \"$0\" \"$1\" \"$2\" --runs 20 --quiet <\"$3\"",
+                                                 program::chosen(SIGMAX_RECOGNITION_DEMO), subcommand, name, file});
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    const std::string words = ending.on_one_line();
+    return words.substr(words.find("seed"));  // the name of the file comes before
+  };
+  return {run(file), run("-")};
+}
+
+TEST(RecognitionDemoEncounter, ReadsTheStandardInput) {
+  const TemporaryDirectory directory;
+  const auto [named, piped] = said_of("encounter", directory.write("counts.csv", counts_csv()));
+  EXPECT_EQ(named, piped);
 }
 
 TEST(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoopsDo) {
@@ -100,6 +119,15 @@ double triangle(const Type& type, std::size_t q, double x) {
   if (x <= type.minimum[q] || x >= type.maximum[q]) return 0.0;
   if (x < type.optimum[q]) return (x - type.minimum[q]) / (type.optimum[q] - type.minimum[q]);
   return (type.maximum[q] - x) / (type.maximum[q] - type.optimum[q]);
+}
+
+TEST(RecognitionDemoPerformance, ReadsTheStandardInput) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("performance.csv",
+                                    "type,variable,optimum,minimum,maximum,model,parameters\n"
+                                    "a,speed,2,1,3,norm,2|0.5\nb,speed,3,2,4,norm,3|0.5\n");
+  const auto [named, piped] = said_of("performance", file);
+  EXPECT_EQ(named, piped);
 }
 
 TEST(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheSameDraws) {

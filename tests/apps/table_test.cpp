@@ -148,6 +148,7 @@ TEST(Wrapped, BreaksAtBlanksAndKeepsIndents) {
   EXPECT_EQ(wrapped("incomprehensible words", 5), "incomprehensible\nwords\n");
   EXPECT_EQ(wrapped("differences ± 95 % − sigma's", 12), "differences ± 95\n% − sigma's\n");
   EXPECT_EQ(wrapped("", 5), "\n");
+  EXPECT_EQ(wrapped("a\x1B[2Jb\nc", any_width), "a\\x1B[2Jb\nc\n");
 }
 
 TEST(DisplayWidth, CountsColumnsNotBytes) {

@@ -45,6 +45,8 @@ TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {
 TEST(Timestamp, ATimeOfDayIsSecondsSinceMidnight) {
   EXPECT_EQ(parse_timestamp("00:00:00"), 0.0);
   EXPECT_EQ(parse_timestamp(" 10:15:08.5 "), 36908.5);
+  EXPECT_TRUE(is_time_of_day(" 10:15:08.5 "));
+  for (const char* text : {"36908.5", "2016-01-12T10:15:08Z", "24:00:00"}) EXPECT_FALSE(is_time_of_day(text)) << text;
   EXPECT_FALSE(parse_timestamp("24:00:00"));
   EXPECT_FALSE(parse_timestamp("10:15"));
   EXPECT_FALSE(parse_timestamp("10:15:08Z"));
