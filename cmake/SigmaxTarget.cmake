@@ -1,5 +1,5 @@
-#The warning set is private to this build : nothing here reaches a consumer.
-#(- Wrestrict of g ++ 12 warns of its own std::string, bug 105651.)
+# The warning set is private to this build: nothing here reaches a consumer.
+# (-Wrestrict of g++ 12 warns of its own std::string, bug 105651.)
 function(sigmax_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
@@ -9,8 +9,8 @@ function(sigmax_warnings target)
 endfunction()
 option(SIGMAX_WERROR "Treat warnings as errors (CI does)" OFF)
 
-#sigmax_room(NAME[SOURCES …][DEPENDS …]) : the library sigmax::NAME of one room, with its own include root.All
-#headers below it are the room's file set: they are installed, and each must compile alone.
+# sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
+# headers below it are the room's file set: they are installed, and each must compile alone.
 function(sigmax_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   set(target sigmax_${name})
