@@ -18,11 +18,7 @@ std::unique_ptr<detail::ChosenTarget> chosen(const TargetChoice& choice) {
   if (choice.start == StartRule::given &&
       (choice.start_mean.size() != 9 || choice.start_covariance_diagonal.size() != 9))
     throw std::invalid_argument("a given start has nine numbers and nine variances: x, y, z, vx, vy, vz, ax, ay, az");
-  if (choice.scheme == Scheme::histories)
-    return choice.fuzzy ? detail::chosen_himm_histories(choice) : detail::chosen_imm_histories(choice);
-  if (choice.scheme == Scheme::second_order)
-    return choice.fuzzy ? detail::chosen_viterbi(choice) : detail::chosen_gpb2(choice);
-  return choice.fuzzy ? detail::chosen_himm(choice) : detail::chosen_imm(choice);
+  return detail::chosen_target(choice);
 }
 
 }  // namespace

@@ -26,8 +26,7 @@ class ChosenTarget {
   virtual std::vector<ModeStay> explained() const = 0;
 };
 
-/// The target of a choice whose order and kind are those of the function: each is compiled in a file of its own.
-using Choose = std::unique_ptr<ChosenTarget>(const TargetChoice&);
-Choose chosen_imm, chosen_himm, chosen_gpb2, chosen_viterbi, chosen_imm_histories, chosen_himm_histories;
+/// The target of a choice that AnyTarget has checked.
+std::unique_ptr<ChosenTarget> chosen_target(const TargetChoice& choice);
 
 }  // namespace sigmax::detail

@@ -5,7 +5,7 @@
 #include <sigmax/estimation/any_member.hpp>
 #include <sigmax/estimation/linearised.hpp>
 #include <sigmax/hybrid/any_target.hpp>
-#include <sigmax/hybrid/future_evidence.hpp>
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
 
 #include "known_motions.hpp"
 #include "known_sensors.hpp"
@@ -37,5 +37,7 @@ extern template LinearisedMeasurementOf<detail::KnownModel, detail::KnownSensor>
     const detail::KnownSensor&);
 extern template struct FutureEvidence<detail::KnownModel::max_state_size>;
 extern template class EvidenceCollapse<detail::KnownModel::max_state_size>;
+extern template class FixedIntervalSmoother<detail::KnownBank, Random>;
+extern template class FixedIntervalSmoother<detail::KnownBank, Fuzzy>;
 
 }  // namespace sigmax

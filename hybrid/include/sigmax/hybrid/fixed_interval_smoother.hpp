@@ -41,52 +41,14 @@ class FixedIntervalSmoother {
   using Step = RecordedStep<Models, Kind>;
 
   /// For what this filter records; its models and rules are taken over.
-  explicit FixedIntervalSmoother(const MultipleModelFilter<Models, Kind>& filter)
-      : filter_(filter),
-        system_(filter.system()),
-        state_(filter.state()),
-        starts_(filter.estimates()),
-        pairs_(detail::pairs_for(filter.estimates())),
-        evidence_(modes()),
-        parts_(modes(), std::vector<Evidence>(modes())),
-        means_(modes()),
-        collapse_(modes()),
-        log_weight_(modes()),
-        joint_(modes(), modes()) {}
+  explicit FixedIntervalSmoother(const MultipleModelFilter<Models, Kind>& filter);
 
   /// Begins at the last step: its smoothed state is the filtered one.
-  void begin(const Step& last) {
-    state_ = last.state;
-    for_each_mode(last.state.estimates, [&](auto j) {
-      evidence_[j].clear(mode(last.state.estimates, j).size());
-      if (!last.seen.empty()) evidence_[j].add(last.seen[j].R, last.seen[j].r);
-      means_[j] = mode(last.state.estimates, j).mean;
-    });
-    dt_ = last.dt;
-  }
+  void begin(const Step& last);
 
   /// One step back, to the step before the last that it saw. Allocates nothing.
   /// Throws std::domain_error, naming the model, if a covariance is not positive semi-definite.
-  void step(const Step& before) {
-    const State& filtered = before.state;
-    const auto& transition = system_.transition(dt_);
-    for_each_mode(filtered.estimates, [&](auto i) { roots_of(i, filtered); });
-    for_each_mode(state_.estimates, [&](auto j) {
-      const auto pair = [&](std::size_t i) { return joint_(i, j); };
-      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
-      if (total(pair) == log_zero || state_.belief.log(j) == log_zero) {
-        for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
-        return;
-      }
-      for_each_mode(filtered.estimates, [&](auto i) {
-        if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j);
-      });
-      const double log_total = total(pair);
-      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += state_.belief.log(j) - log_total;
-    });
-    merge(before);
-    dt_ = before.dt;
-  }
+  void step(const Step& before);
 
   /// The smoothed state of the last step that it saw.
   const State& state() const { return state_; }
@@ -163,37 +125,7 @@ class FixedIntervalSmoother {
   }
 
   /// The belief of k, and for each of its modes one estimate; a mode that leads nowhere keeps its own.
-  void merge(const Step& before) {
-    const State& filtered = before.state;
-    for (std::size_t i = 0; i < modes(); ++i) log_weight_[i] = total([&](std::size_t j) { return joint_(i, j); });
-    state_.belief.assign([&](std::size_t i) { return log_weight_[i]; });
-    for_each_mode(filtered.estimates, [&](auto i) {
-      auto& result = mode(state_.estimates, i);
-      means_[i] = mode(filtered.estimates, i).mean;
-      evidence_[i].clear(means_[i].size());
-      if (log_weight_[i] == log_zero) {
-        result = mode(filtered.estimates, i);
-        return;
-      }
-      const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
-      const auto weight = [&](std::size_t j) { return std::exp(log_weight(j)); };
-      const std::size_t best = detail::select(modes(), log_weight, i, Tie::stay);
-      collapse(Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)}, weight, best,
-               result);
-      Evidence seen;
-      seen.clear(means_[i].size());
-      if (!before.seen.empty()) seen = before.seen[i];
-      if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
-        evidence_[i] = parts_[i][best];
-        evidence_[i].add(seen.R, seen.r);
-      } else {
-        collapse_(parts_[i], weight, roots_[i], seen, evidence_[i]);
-      }
-    });
-    state_.most_likely_mode = detail::select(
-        modes(), [&](std::size_t i) { return state_.belief.log(i); }, state_.most_likely_mode,
-        filter_.interaction().output_tie);
-  }
+  void merge(const Step& before);
 
   MultipleModelFilter<Models, Kind> filter_;
   JumpMarkovSystem<Models, Kind> system_;
@@ -206,9 +138,91 @@ class FixedIntervalSmoother {
   std::vector<Matrix> roots_ = std::vector<Matrix>(modes());
   EvidenceCollapse<max_size> collapse_;
   std::vector<double> log_weight_;  ///< of each i
+  std::vector<double> weights_;     ///< of the parts of the i at hand
   Table joint_;                     ///< log w(i, j)
   double dt_ = 0.0;                 ///< from the step before to the last that it saw
 };
+
+template <class Models, ScalableUncertainty Kind>
+FixedIntervalSmoother<Models, Kind>::FixedIntervalSmoother(const MultipleModelFilter<Models, Kind>& filter)
+    : filter_(filter),
+      system_(filter.system()),
+      state_(filter.state()),
+      starts_(filter.estimates()),
+      pairs_(detail::pairs_for(filter.estimates())),
+      evidence_(modes()),
+      parts_(modes(), std::vector<Evidence>(modes())),
+      means_(modes()),
+      collapse_(modes()),
+      log_weight_(modes()),
+      weights_(modes()),
+      joint_(modes(), modes()) {}
+
+template <class Models, ScalableUncertainty Kind>
+void FixedIntervalSmoother<Models, Kind>::begin(const Step& last) {
+  state_ = last.state;
+  for_each_mode(last.state.estimates, [&](auto j) {
+    evidence_[j].clear(mode(last.state.estimates, j).size());
+    if (!last.seen.empty()) evidence_[j].add(last.seen[j].R, last.seen[j].r);
+    means_[j] = mode(last.state.estimates, j).mean;
+  });
+  dt_ = last.dt;
+}
+
+template <class Models, ScalableUncertainty Kind>
+void FixedIntervalSmoother<Models, Kind>::step(const Step& before) {
+  const State& filtered = before.state;
+  const auto& transition = system_.transition(dt_);
+  for_each_mode(filtered.estimates, [&](auto i) { roots_of(i, filtered); });
+  for_each_mode(state_.estimates, [&](auto j) {
+    const auto pair = [&](std::size_t i) { return joint_(i, j); };
+    for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
+    if (total(pair) == log_zero || state_.belief.log(j) == log_zero) {
+      for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
+      return;
+    }
+    for_each_mode(filtered.estimates, [&](auto i) {
+      if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j);
+    });
+    const double log_total = total(pair);
+    for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += state_.belief.log(j) - log_total;
+  });
+  merge(before);
+  dt_ = before.dt;
+}
+
+template <class Models, ScalableUncertainty Kind>
+void FixedIntervalSmoother<Models, Kind>::merge(const Step& before) {
+  const State& filtered = before.state;
+  for (std::size_t i = 0; i < modes(); ++i) log_weight_[i] = total([&](std::size_t j) { return joint_(i, j); });
+  state_.belief.assign([&](std::size_t i) { return log_weight_[i]; });
+  for_each_mode(filtered.estimates, [&](auto i) {
+    auto& result = mode(state_.estimates, i);
+    means_[i] = mode(filtered.estimates, i).mean;
+    evidence_[i].clear(means_[i].size());
+    if (log_weight_[i] == log_zero) {
+      result = mode(filtered.estimates, i);
+      return;
+    }
+    const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
+    const auto weight = [&](std::size_t j) { return std::exp(log_weight(j)); };
+    const std::size_t best = detail::select(modes(), log_weight, i, Tie::stay);
+    collapse(Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)}, weight, best, result);
+    Evidence seen;
+    seen.clear(means_[i].size());
+    if (!before.seen.empty()) seen = before.seen[i];
+    if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
+      evidence_[i] = parts_[i][best];
+      evidence_[i].add(seen.R, seen.r);
+    } else {
+      for (std::size_t j = 0; j < modes(); ++j) weights_[j] = weight(j);
+      collapse_(parts_[i], weights_, roots_[i], seen, evidence_[i]);
+    }
+  });
+  state_.most_likely_mode = detail::select(
+      modes(), [&](std::size_t i) { return state_.belief.log(i); }, state_.most_likely_mode,
+      filter_.interaction().output_tie);
+}
 
 /// The smoothed states of a whole interval, one for each record; the last is the filtered one. The record grows with
 /// the interval. `filter.estimate(state)` gives the output of a smoothed state.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -19,39 +20,18 @@ namespace detail {
 
 /// Turns the first `columns` columns of a matrix into an upper triangle by reflections of its rows, in place. The
 /// greatest entry of each column leads, so that rows of very different size keep their digits (Cox, Higham 1998).
-template <class Matrix, int MaxColumns>
+template <int MaxColumns>
 class Triangle {
  public:
-  Triangle(Matrix& rows, Eigen::Index columns) : rows_(rows), columns_(std::min(columns, rows.rows())) {
-    for (Eigen::Index c = 0; c < columns_; ++c) {
-      auto& [lead, v0, scale] = reflections_[static_cast<std::size_t>(c)];
-      const Eigen::Index below = rows.rows() - c - 1;
-      rows.col(c).tail(below + 1).cwiseAbs().maxCoeff(&lead);
-      lead += c;
-      if (lead != c) rows.row(c).swap(rows.row(lead));
-      const double first = rows(c, c);
-      const double diagonal = std::copysign(rows.col(c).tail(below + 1).stableNorm(), -first);
-      v0 = first - diagonal;  // 1 − scale (v0, v)(v0, v)ᵀ, with v left below the diagonal
-      scale = diagonal == 0.0 ? 0.0 : -1.0 / (diagonal * v0);
-      for (Eigen::Index other = c + 1; other < rows.cols(); ++other) reflect(rows_, c, other);
-      rows(c, c) = diagonal;
-    }
-  }
+  using Rows = Eigen::Ref<Eigen::MatrixXd>;
+
+  Triangle(Rows rows, Eigen::Index columns);
 
   /// The sum of the logarithms of the diagonal's sizes.
   double log_determinant() const { return rows_.diagonal().head(columns_).array().abs().log().sum(); }
 
   /// The first columns of the orthogonal Q with rows = Q · triangle.
-  template <class Result>
-  void orthogonal(Result& Q) const {
-    Q.setIdentity();
-    for (Eigen::Index c = columns_; c-- > 0;)
-      for (Eigen::Index other = c; other < Q.cols(); ++other) reflect(Q, c, other);
-    for (Eigen::Index c = columns_; c-- > 0;) {  // all last, as every exchange of rows moved the earlier v, too
-      const Eigen::Index lead = reflections_[static_cast<std::size_t>(c)].lead;
-      if (lead != c) Q.row(c).swap(Q.row(lead));
-    }
-  }
+  void orthogonal(Rows Q) const;
 
  private:
   struct Reflection {
@@ -59,21 +39,52 @@ class Triangle {
     double v0, scale;
   };
 
-  template <class Target>
-  void reflect(Target& target, Eigen::Index c, Eigen::Index column) const {
-    const auto& [lead, v0, scale] = reflections_[static_cast<std::size_t>(c)];
-    const Eigen::Index below = rows_.rows() - c - 1;
-    const auto v = rows_.col(c).tail(below);
-    auto rest = target.col(column).tail(below);
-    const double product = scale * (v0 * target(c, column) + v.dot(rest));
-    target(c, column) -= product * v0;
-    rest -= product * v;
-  }
+  void reflect(Rows& target, Eigen::Index c, Eigen::Index column) const;
 
-  Matrix& rows_;
+  Rows rows_;
   Eigen::Index columns_;
   std::array<Reflection, static_cast<std::size_t>(MaxColumns)> reflections_;
 };
+
+template <int MaxColumns>
+Triangle<MaxColumns>::Triangle(Rows rows, Eigen::Index columns)
+    : rows_(rows), columns_(std::min(columns, rows.rows())) {
+  for (Eigen::Index c = 0; c < columns_; ++c) {
+    auto& [lead, v0, scale] = reflections_[static_cast<std::size_t>(c)];
+    const Eigen::Index below = rows.rows() - c - 1;
+    rows.col(c).tail(below + 1).cwiseAbs().maxCoeff(&lead);
+    lead += c;
+    if (lead != c) rows.row(c).swap(rows.row(lead));
+    const double first = rows(c, c);
+    const double diagonal = std::copysign(rows.col(c).tail(below + 1).stableNorm(), -first);
+    v0 = first - diagonal;  // 1 − scale (v0, v)(v0, v)ᵀ, with v left below the diagonal
+    scale = diagonal == 0.0 ? 0.0 : -1.0 / (diagonal * v0);
+    for (Eigen::Index other = c + 1; other < rows.cols(); ++other) reflect(rows_, c, other);
+    rows(c, c) = diagonal;
+  }
+}
+
+template <int MaxColumns>
+void Triangle<MaxColumns>::orthogonal(Rows Q) const {
+  Q.setIdentity();
+  for (Eigen::Index c = columns_; c-- > 0;)
+    for (Eigen::Index other = c; other < Q.cols(); ++other) reflect(Q, c, other);
+  for (Eigen::Index c = columns_; c-- > 0;) {  // all last, as every exchange of rows moved the earlier v, too
+    const Eigen::Index lead = reflections_[static_cast<std::size_t>(c)].lead;
+    if (lead != c) Q.row(c).swap(Q.row(lead));
+  }
+}
+
+template <int MaxColumns>
+void Triangle<MaxColumns>::reflect(Rows& target, Eigen::Index c, Eigen::Index column) const {
+  const auto& [lead, v0, scale] = reflections_[static_cast<std::size_t>(c)];
+  const Eigen::Index below = rows_.rows() - c - 1;
+  const auto v = rows_.col(c).tail(below);
+  auto rest = target.col(column).tail(below);
+  const double product = scale * (v0 * target(c, column) + v.dot(rest));
+  target(c, column) -= product * v0;
+  rest -= product * v;
+}
 
 }  // namespace detail
 
@@ -85,6 +96,7 @@ struct FutureEvidence {
   static constexpr int dynamic = Eigen::Dynamic;
   using Rows = RectangularMatrix<dynamic, dynamic, MaxN, MaxN>;
   using State = Vector<dynamic, MaxN>;
+  using Noise = RectangularMatrix<dynamic, dynamic, MaxN, 2 * MaxN>;
 
   Rows R;
   State r;
@@ -102,65 +114,73 @@ struct FutureEvidence {
     const Eigen::Index n = R.cols();
     Eigen::Matrix<double, dynamic, dynamic, 0, MaxN + MaxRows, MaxN + 1> stack(R.rows() + other_R.rows(), n + 1);
     stack << R, r, other_R, other_r;
-    const detail::Triangle<decltype(stack), MaxN> triangle(stack, n);
+    const detail::Triangle<2 * MaxN> triangle(stack, n);
     take(stack, std::min(n, stack.rows()), n);
   }
 
   /// Tells it in other coordinates of the state, as `transform` does an estimate: A of the position and its
   /// derivatives.
-  void transform(const SquareMatrix<dynamic, 3>& A) {
-    const SquareMatrix<dynamic, 3> inverse = A.inverse();
-    for (Eigen::Index d = 0; d + A.rows() <= R.cols(); d += A.rows())
-      R.middleCols(d, A.rows()) = (R.middleCols(d, A.rows()) * inverse).eval();
-  }
+  void transform(const SquareMatrix<dynamic, 3>& A);
 
   /// The evidence of a state x of which this state was made, u = offset + B x + A η with η ~ N(0, 1); returns the
   /// logarithm of the factor that η leaves.
-  template <class Noise>
-  double carry_back(const State& offset, const Rows& B, const Noise& A, FutureEvidence& result) const {
-    const Eigen::Index q = A.cols();
-    const Eigen::Index n = B.cols();
-    if (R.rows() == 0) {
-      result.clear(n);
-      return 0.0;
-    }
-    Eigen::Matrix<double, dynamic, dynamic, 0, 3 * MaxN, 3 * MaxN + 1> work(R.rows() + q, q + n + 1);
-    work.topLeftCorner(R.rows(), q) = R.lazyProduct(A);
-    work.block(0, q, R.rows(), n) = R.lazyProduct(B);
-    work.col(q + n).head(R.rows()) = r - R.lazyProduct(offset);
-    work.bottomRows(q).setIdentity();
-    work.bottomRows(q).rightCols(n + 1).setZero();
-    const detail::Triangle<decltype(work), 2 * MaxN> triangle(work, q);
-    result.R = work.block(q, q, R.rows(), n);
-    result.r = work.col(q + n).tail(R.rows());
-    return -triangle.log_determinant();
-  }
+  double carry_back(const State& offset, const Rows& B, const Noise& A, FutureEvidence& result) const;
 
   /// The estimate m + L ξ, ξ ~ N(0, 1), meets the evidence about m; returns the logarithm of how well.
-  double meet(const SquareMatrix<dynamic, MaxN>& L, Gaussian<dynamic, MaxN>& estimate) const {
-    const Eigen::Index n = estimate.size();
-    Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN + 1> work(R.rows() + n, n + 1);
-    work.topLeftCorner(R.rows(), n) = R.lazyProduct(L);
-    work.col(n).head(R.rows()) = r;
-    work.bottomRows(n).setIdentity();
-    work.col(n).tail(n).setZero();
-    const detail::Triangle<decltype(work), MaxN> triangle(work, n);
-    const auto T = work.topLeftCorner(n, n).template triangularView<Eigen::Upper>();
-    SquareMatrix<dynamic, MaxN> root = L.transpose();  // T⁻ᵀ Lᵀ, whose columns are those of (L T⁻¹)ᵀ
-    T.transpose().solveInPlace(root);
-    estimate.mean += root.transpose().lazyProduct(work.col(n).head(n));
-    estimate.covariance = root.transpose().lazyProduct(root);
-    detail::mirror_lower(estimate.covariance);
-    return -triangle.log_determinant() - 0.5 * work.col(n).tail(R.rows()).squaredNorm();
-  }
+  double meet(const SquareMatrix<dynamic, MaxN>& L, Gaussian<dynamic, MaxN>& estimate) const;
 
   /// Takes the triangle of n columns on top of a matrix, and the column beside it.
-  template <class Matrix>
-  void take(const Matrix& matrix, Eigen::Index rows, Eigen::Index n) {
+  void take(const Eigen::Ref<const Eigen::MatrixXd>& matrix, Eigen::Index rows, Eigen::Index n) {
     R = matrix.topLeftCorner(rows, n).template triangularView<Eigen::Upper>();
     r = matrix.col(n).head(rows);
   }
 };
+
+template <int MaxN>
+void FutureEvidence<MaxN>::transform(const SquareMatrix<dynamic, 3>& A) {
+  const SquareMatrix<dynamic, 3> inverse = A.inverse();
+  for (Eigen::Index d = 0; d + A.rows() <= R.cols(); d += A.rows())
+    R.middleCols(d, A.rows()) = (R.middleCols(d, A.rows()) * inverse).eval();
+}
+
+template <int MaxN>
+double FutureEvidence<MaxN>::carry_back(const State& offset, const Rows& B, const Noise& A,
+                                        FutureEvidence& result) const {
+  const Eigen::Index q = A.cols();
+  const Eigen::Index n = B.cols();
+  if (R.rows() == 0) {
+    result.clear(n);
+    return 0.0;
+  }
+  Eigen::Matrix<double, dynamic, dynamic, 0, 3 * MaxN, 3 * MaxN + 1> work(R.rows() + q, q + n + 1);
+  work.topLeftCorner(R.rows(), q) = R.lazyProduct(A);
+  work.block(0, q, R.rows(), n) = R.lazyProduct(B);
+  work.col(q + n).head(R.rows()) = r - R.lazyProduct(offset);
+  work.bottomRows(q).setIdentity();
+  work.bottomRows(q).rightCols(n + 1).setZero();
+  const detail::Triangle<2 * MaxN> triangle(work, q);
+  result.R = work.block(q, q, R.rows(), n);
+  result.r = work.col(q + n).tail(R.rows());
+  return -triangle.log_determinant();
+}
+
+template <int MaxN>
+double FutureEvidence<MaxN>::meet(const SquareMatrix<dynamic, MaxN>& L, Gaussian<dynamic, MaxN>& estimate) const {
+  const Eigen::Index n = estimate.size();
+  Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN + 1> work(R.rows() + n, n + 1);
+  work.topLeftCorner(R.rows(), n) = R.lazyProduct(L);
+  work.col(n).head(R.rows()) = r;
+  work.bottomRows(n).setIdentity();
+  work.col(n).tail(n).setZero();
+  const detail::Triangle<2 * MaxN> triangle(work, n);
+  const auto T = work.topLeftCorner(n, n).template triangularView<Eigen::Upper>();
+  SquareMatrix<dynamic, MaxN> root = L.transpose();  // T⁻ᵀ Lᵀ, whose columns are those of (L T⁻¹)ᵀ
+  T.transpose().solveInPlace(root);
+  estimate.mean += root.transpose().lazyProduct(work.col(n).head(n));
+  estimate.covariance = root.transpose().lazyProduct(root);
+  detail::mirror_lower(estimate.covariance);
+  return -triangle.log_determinant() - 0.5 * work.col(n).tail(R.rows()).squaredNorm();
+}
 
 /// One evidence for a mixture of parts that an estimate m + L ξ meets: what makes of N(m, LLᵀ) the Gaussian with the
 /// moments of the mixture.
@@ -185,128 +205,139 @@ class EvidenceCollapse {
   explicit EvidenceCollapse(std::size_t parts)
       : rows_((parts + 1) * MaxN * (MaxN + 1)), orthogonal_((parts + 1) * MaxN * MaxN) {}
 
-  /// `weight(j)` is the weight of part j, zero if it does not count; `seen` is more evidence of the same state, of the
-  /// same point. The result is both together. In a direction in which the mixture is so wide that the result had no
-  /// information, it says nothing.
-  template <class Weight>
-  void operator()(const std::vector<Evidence>& parts, const Weight& weight, const Matrix& L, const Evidence& seen,
-                  Evidence& result) {
-    const Eigen::Index n = L.rows();
-    Eigen::Index count = 0;
-    for (std::size_t j = 0; j < parts.size(); ++j)
-      if (weight(j) > 0.0) count += parts[j].R.rows();
-    Stack stack(rows_.data(), std::max(count, n), n);
-    stack.setZero();
-    Eigen::Index row = 0;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      if (!(weight(j) > 0.0)) continue;
-      stack.middleRows(row, parts[j].R.rows()) = std::sqrt(weight(j)) * parts[j].R;
-      row += parts[j].R.rows();
-    }
-    Stack U(orthogonal_.data(), stack.rows(), n);
-    const detail::Triangle<Stack, MaxN> triangle(stack, n);
-    triangle.orthogonal(U);
-    const Matrix G = stack.topRows(n).template triangularView<Eigen::Upper>();
-    const Matrix H = known(G, L);
-    const Matrix empty = U.bottomRows(stack.rows() - count).transpose() * U.bottomRows(stack.rows() - count);
-
-    Matrix X = Matrix::Zero(n, n);
-    Matrix squares = Matrix::Zero(n, n);
-    State q = State::Zero(n);
-    const auto for_each_part = [&](const auto& visit) {
-      Eigen::Index first = 0;
-      for (std::size_t j = 0; j < parts.size(); ++j) {
-        const double w = weight(j);
-        if (!(w > 0.0)) continue;
-        const Matrix E =
-            empty + U.middleRows(first, parts[j].R.rows()).transpose() * U.middleRows(first, parts[j].R.rows()) / w;
-        const Matrix N = Matrix::Identity(n, n) - E;
-        const Eigen::PartialPivLU<Matrix> factor(Matrix::Identity(n, n) - N * H);
-        const State e = U.middleRows(first, parts[j].R.rows()).transpose() * parts[j].r / std::sqrt(w);
-        visit(w, N, factor, State(factor.solve(e)));
-        first += parts[j].R.rows();
-      }
-    };
-    for_each_part([&](double w, const Matrix& N, const auto& factor, const State& q_j) {
-      X += w * factor.solve(N);
-      q += w * q_j;
-    });
-    for_each_part([&](double w, const Matrix&, const auto&, const State& q_j) {
-      squares += w * (q_j - q) * (q_j - q).transpose();
-    });
-    X += squares;
-    X = (0.5 * (X + X.transpose())).eval();
-    const Eigen::PartialPivLU<Matrix> factor(Matrix::Identity(n, n) + X * H);
-    const Matrix Xi = factor.solve(X);
-    Matrix Z = Matrix::Identity(n, n) - 0.5 * (Xi + Xi.transpose());
-    State y = q - Xi * (H * q);
-    finish(G, Z, y, seen, result);
-  }
+  /// A part of weight zero does not count; `seen` is more evidence of the same state, of the same point. The result is
+  /// both together. In a direction in which the mixture is so wide that the result had no information, it says nothing.
+  void operator()(const std::vector<Evidence>& parts, std::span<const double> weights, const Matrix& L,
+                  const Evidence& seen, Evidence& result);
 
  private:
   /// G (P⁻¹ + GᵀG)⁻¹ Gᵀ with P = L Lᵀ.
-  static Matrix known(const Matrix& G, const Matrix& L) {
-    const Eigen::Index n = L.rows();
-    const Matrix K = G * L;
-    Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> work(2 * n, n);
-    work << K, Matrix::Identity(n, n);
-    const detail::Triangle<decltype(work), MaxN> triangle(work, n);
-    Matrix half = K.transpose();
-    work.topRows(n).template triangularView<Eigen::Upper>().transpose().solveInPlace(half);
-    return half.transpose() * half;
-  }
+  static Matrix known(const Matrix& G, const Matrix& L);
 
   /// The evidence with the information GᵀZG and the vector Gᵀy, with what was seen.
-  static void finish(const Matrix& G, Matrix& Z, State& y, const Evidence& seen, Evidence& result) {
-    const Eigen::Index n = G.rows();
-    Matrix triangle = G;
-    if (seen.R.rows() > 0) {
-      Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> stack(n + seen.R.rows(), n);
-      stack << G, seen.R;
-      const detail::Triangle<decltype(stack), MaxN> both(stack, n);
-      Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> U(stack.rows(), n);
-      both.orthogonal(U);
-      const auto of_G = U.topRows(n);
-      const auto of_seen = U.bottomRows(seen.R.rows());
-      Z = (of_G.transpose() * Z * of_G + of_seen.transpose() * of_seen).eval();
-      y = (of_G.transpose() * y + of_seen.transpose() * seen.r).eval();
-      triangle = stack.topRows(n).template triangularView<Eigen::Upper>();
-    }
-    constexpr double least = 1e-8;
-    const Eigen::LLT<Matrix> factor(Z);
-    if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > std::sqrt(least)) {
-      result.R = factor.matrixU() * triangle;
-      result.r = factor.matrixL().solve(y);
-      return;
-    }
-    // Along its axes, within what the triangle can reach: beyond that Z has no meaning.
-    const State scale = triangle.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
-    Eigen::ColPivHouseholderQR<Matrix> reached(triangle * scale.asDiagonal());
-    reached.setThreshold(1e-12);
-    if (reached.rank() == 0) {  // nothing was told
-      result.clear(n);
-      return;
-    }
-    const Matrix basis = reached.matrixQ();
-    const auto range = basis.leftCols(reached.rank());
-    const Matrix within = range.transpose() * Z * range;
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(within);
-    Eigen::Index kept = 0;
-    result.R.resize(n, n);
-    result.r.resize(n);
-    for (Eigen::Index a = 0; a < reached.rank(); ++a) {
-      const double value = axes.eigenvalues()(a);
-      if (!(value > least)) continue;
-      const State axis = range * axes.eigenvectors().col(a);
-      result.R.row(kept) = std::sqrt(value) * axis.transpose() * triangle;
-      result.r(kept) = axis.dot(y) / std::sqrt(value);
-      ++kept;
-    }
-    result.R.conservativeResize(kept, n);
-    result.r.conservativeResize(kept);
-  }
+  static void finish(const Matrix& G, Matrix& Z, State& y, const Evidence& seen, Evidence& result);
 
   std::vector<double> rows_, orthogonal_;
 };
+
+template <int MaxN>
+void EvidenceCollapse<MaxN>::operator()(const std::vector<Evidence>& parts, std::span<const double> weights,
+                                        const Matrix& L, const Evidence& seen, Evidence& result) {
+  const Eigen::Index n = L.rows();
+  Eigen::Index count = 0;
+  for (std::size_t j = 0; j < parts.size(); ++j)
+    if (weights[j] > 0.0) count += parts[j].R.rows();
+  Stack stack(rows_.data(), std::max(count, n), n);
+  stack.setZero();
+  Eigen::Index row = 0;
+  for (std::size_t j = 0; j < parts.size(); ++j) {
+    if (!(weights[j] > 0.0)) continue;
+    stack.middleRows(row, parts[j].R.rows()) = std::sqrt(weights[j]) * parts[j].R;
+    row += parts[j].R.rows();
+  }
+  Stack U(orthogonal_.data(), stack.rows(), n);
+  const detail::Triangle<2 * MaxN> triangle(stack, n);
+  triangle.orthogonal(U);
+  const Matrix G = stack.topRows(n).template triangularView<Eigen::Upper>();
+  const Matrix H = known(G, L);
+  const Matrix empty = U.bottomRows(stack.rows() - count).transpose() * U.bottomRows(stack.rows() - count);
+
+  Matrix X = Matrix::Zero(n, n);
+  Matrix squares = Matrix::Zero(n, n);
+  State q = State::Zero(n);
+  const auto for_each_part = [&](const auto& visit) {
+    Eigen::Index first = 0;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const double w = weights[j];
+      if (!(w > 0.0)) continue;
+      const Matrix E =
+          empty + U.middleRows(first, parts[j].R.rows()).transpose() * U.middleRows(first, parts[j].R.rows()) / w;
+      const Matrix N = Matrix::Identity(n, n) - E;
+      const Matrix rest = Matrix::Identity(n, n) - N * H;
+      const Eigen::PartialPivLU<Matrix> factor(rest);
+      const State e = U.middleRows(first, parts[j].R.rows()).transpose() * parts[j].r / std::sqrt(w);
+      visit(w, N, factor, State(factor.solve(e)));
+      first += parts[j].R.rows();
+    }
+  };
+  for_each_part([&](double w, const Matrix& N, const auto& factor, const State& q_j) {
+    X += w * factor.solve(N);
+    q += w * q_j;
+  });
+  for_each_part([&](double w, const Matrix&, const auto&, const State& q_j) {
+    squares += w * (q_j - q) * (q_j - q).transpose();
+  });
+  X += squares;
+  X = (0.5 * (X + X.transpose())).eval();
+  const Matrix whole = Matrix::Identity(n, n) + X * H;
+  const Eigen::PartialPivLU<Matrix> factor(whole);
+  const Matrix Xi = factor.solve(X);
+  Matrix Z = Matrix::Identity(n, n) - 0.5 * (Xi + Xi.transpose());
+  State y = q - Xi * (H * q);
+  finish(G, Z, y, seen, result);
+}
+
+template <int MaxN>
+auto EvidenceCollapse<MaxN>::known(const Matrix& G, const Matrix& L) -> Matrix {
+  const Eigen::Index n = L.rows();
+  const Matrix K = G * L;
+  Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> work(2 * n, n);
+  work << K, Matrix::Identity(n, n);
+  const detail::Triangle<2 * MaxN> triangle(work, n);
+  Matrix half = K.transpose();
+  work.topRows(n).template triangularView<Eigen::Upper>().transpose().solveInPlace(half);
+  return half.transpose() * half;
+}
+
+template <int MaxN>
+void EvidenceCollapse<MaxN>::finish(const Matrix& G, Matrix& Z, State& y, const Evidence& seen, Evidence& result) {
+  const Eigen::Index n = G.rows();
+  Matrix triangle = G;
+  if (seen.R.rows() > 0) {
+    Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> stack(n + seen.R.rows(), n);
+    stack << G, seen.R;
+    const detail::Triangle<2 * MaxN> both(stack, n);
+    Eigen::Matrix<double, dynamic, dynamic, 0, 2 * MaxN, MaxN> U(stack.rows(), n);
+    both.orthogonal(U);
+    const auto of_G = U.topRows(n);
+    const auto of_seen = U.bottomRows(seen.R.rows());
+    Z = (of_G.transpose() * Z * of_G + of_seen.transpose() * of_seen).eval();
+    y = (of_G.transpose() * y + of_seen.transpose() * seen.r).eval();
+    triangle = stack.topRows(n).template triangularView<Eigen::Upper>();
+  }
+  constexpr double least = 1e-8;
+  const Eigen::LLT<Matrix> factor(Z);
+  if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > std::sqrt(least)) {
+    result.R = factor.matrixU() * triangle;
+    result.r = factor.matrixL().solve(y);
+    return;
+  }
+  // Along its axes, within what the triangle can reach: beyond that Z has no meaning.
+  const State scale = triangle.colwise().norm().cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+  const Matrix scaled = triangle * scale.asDiagonal();
+  Eigen::ColPivHouseholderQR<Matrix> reached(scaled);
+  reached.setThreshold(1e-12);
+  if (reached.rank() == 0) {  // nothing was told
+    result.clear(n);
+    return;
+  }
+  const Matrix basis = reached.matrixQ();
+  const auto range = basis.leftCols(reached.rank());
+  const Matrix within = range.transpose() * Z * range;
+  const Eigen::SelfAdjointEigenSolver<Matrix> axes(within);
+  Eigen::Index kept = 0;
+  result.R.resize(n, n);
+  result.r.resize(n);
+  for (Eigen::Index a = 0; a < reached.rank(); ++a) {
+    const double value = axes.eigenvalues()(a);
+    if (!(value > least)) continue;
+    const State axis = range * axes.eigenvectors().col(a);
+    result.R.row(kept) = std::sqrt(value) * axis.transpose() * triangle;
+    result.r(kept) = axis.dot(y) / std::sqrt(value);
+    ++kept;
+  }
+  result.R.conservativeResize(kept, n);
+  result.r.conservativeResize(kept);
+}
 
 }  // namespace sigmax

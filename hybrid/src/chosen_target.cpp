@@ -1,17 +1,20 @@
-#pragma once
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
+#include <sigmax/hybrid/history_filter.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/target.hpp>
 
 #include "chosen_start.hpp"
 #include "chosen_target.hpp"
 
+// All schemes and both kinds of mode in one file: what they share is most of what they take to compile.
 namespace sigmax::detail {
+namespace {
 
 template <ScalableUncertainty Kind>
 ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
@@ -55,8 +58,25 @@ Filter chosen_filter(const TargetChoice& choice) {
   }
 }
 
+void require_size(int size, int expected) {
+  if (size < 1 || size > 6 || (expected != Eigen::Dynamic && size != expected))
+    throw std::invalid_argument("a plot has " + std::to_string(size) + " measured quantities; expected " +
+                                (expected == Eigen::Dynamic ? "1 to 6" : std::to_string(expected)));
+}
+
 /// The plot in the types of the target. Throws std::invalid_argument if its numbers do not fit its sensor.
-Plot<KnownSensor> chosen_plot(const AnyPlot& plot, int axes);
+Plot<KnownSensor> chosen_plot(const AnyPlot& plot, int axes) {
+  if (plot.sensor == AnyPlot::Sensor::none) return Plot<KnownSensor>(plot.time, plot.tag);
+  require_size(plot.size, Eigen::Dynamic);
+  const KnownSensor sensor = axes == 1   ? known_sensor_of_a_line(plot)
+                             : axes == 2 ? known_sensor<2>(plot)
+                                         : known_sensor<3>(plot);
+  sensor.visit([&]<Sensing Sensor>(const Sensor&) { require_size(plot.size, Sensor::measurement_size); });
+  MeasurementOf<KnownSensor> z;
+  z.mean = Eigen::Map<const Eigen::VectorXd>(plot.z.data(), plot.size);
+  z.covariance = Eigen::Map<const Eigen::MatrixXd>(plot.covariance.data(), plot.size, plot.size);
+  return {plot.time, z, sensor, plot.tag};
+}
 
 /// The Target of a scheme and a kind of mode.
 template <class Filter>
@@ -150,5 +170,31 @@ class ChosenTargetOf final : public ChosenTarget {
   bool most_likely_output_;
   bool compared_ = false;  ///< whether the last step had a measurement, taken or not
 };
+
+template <class Filter>
+std::unique_ptr<ChosenTarget> target_of(const TargetChoice& choice) {
+  return std::make_unique<ChosenTargetOf<Filter>>(choice);
+}
+
+template <ScalableUncertainty Kind>
+std::unique_ptr<ChosenTarget> target_of_scheme(const TargetChoice& choice) {
+  switch (choice.scheme) {
+    case Scheme::histories:
+      return target_of<HistoryFilter<KnownBank, Kind>>(choice);
+    case Scheme::second_order:
+      return target_of<SecondOrderMultipleModel<KnownBank, Kind>>(choice);
+    case Scheme::interacting:
+    case Scheme::common_start:
+    case Scheme::independent:
+      break;
+  }
+  return target_of<InteractingMultipleModel<KnownBank, Kind>>(choice);
+}
+
+}  // namespace
+
+std::unique_ptr<ChosenTarget> chosen_target(const TargetChoice& choice) {
+  return choice.fuzzy ? target_of_scheme<Fuzzy>(choice) : target_of_scheme<Random>(choice);
+}
 
 }  // namespace sigmax::detail
