@@ -18,7 +18,13 @@ namespace {
 /// No measurement of this world, in m or degrees, but what a device writes where it has none.
 constexpr double beyond_sense = 1e30;
 
-constexpr double day_s = 86400.0;
+constexpr std::string_view name_endings[] = {"_id", "_name", "_no", "_number", "_type"};
+
+/// Whether a header is that of names rather than numbers: track_id.
+bool is_a_name(std::string_view header) {
+  return std::any_of(std::begin(name_endings), std::end(name_endings),
+                     [&](std::string_view ending) { return header.ends_with(ending); });
+}
 
 }  // namespace
 
@@ -30,9 +36,11 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
       takes_velocity_(options.velocity && !options.simulated),
       simulated_(options.simulated),
       takes_range_rate_(options.range_rate) {
+  for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
   find_columns(options);
   if (options.azimuth_from_north && !azimuth_)
-    throw UsageError("--azimuth-from is for radar input and bearings, but " + csv_.file() + " has no azimuth_deg");
+    throw UsageError("--azimuth-from is for radar input and bearings, but " + csv_.file() +
+                     " has no azimuth that counts");
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
   for (const auto& select : options.select) {
     const auto equals = select.find('=');
@@ -55,12 +63,13 @@ std::optional<std::size_t> RecordingReader::find(std::string_view name) const {
 }
 
 std::optional<RecordingReader::Column> RecordingReader::find(const Quantity& quantity) const {
-  std::optional<Column> column;
+  std::optional<Column> column, mapped;  // what --columns names goes before what the file does
   for_each_header(quantity, [&](const std::string& header, const Unit& unit) {
-    if (column) return;
-    if (const auto index = find(header)) column = {*index, &quantity, &unit};
+    const auto index = find(header);
+    if (index && !column) column = {*index, &quantity, &unit};
+    if (index && !mapped && mapping_.contains(header)) mapped = {*index, &quantity, &unit};
   });
-  return column;
+  return mapped ? mapped : column;
 }
 
 RecordingReader::Columns RecordingReader::find(const std::array<Quantity, 3>& quantities) const {
@@ -94,7 +103,7 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   if (!are_there(polar_)) polar_ = {};
   const bool along_one = cartesian[0] && !cartesian[1] && !cartesian[2] && !geodetic_ && !polar();
   const bool is_cartesian = are_there(cartesian) || along_one;
-  if (along_one || (geodetic_ && !polar())) azimuth_.reset();
+  if (along_one || ((geodetic_ || simulated_) && !polar())) azimuth_.reset();
   refuse_other_kinds(is_cartesian, time.has_value());
   time_ = *time;
   position_ = geodetic_ ? geodetic : is_cartesian ? cartesian : Columns{};
@@ -180,28 +189,32 @@ bool RecordingReader::next(Fix& fix) {
   if (position && geodetic_) fix.place = place(*position);
   if (position && !geodetic_) fix.position = Vector<3>(position->data());
   if (seen) fix.seen = polar(*seen);
+  if (position && bearings() && !is_blank(*azimuth_)) ++unused_azimuths_;
   if (position) take_sigmas(fix, sigma_position_, 1.0);
   if (seen || fix.bearing) take_sigmas(fix, sigma_polar_, degree);
   if (seen && range_rate_)
     if (const auto cell = row_.optional_number(range_rate_->index)) fix.range_rate = *cell * range_rate_->unit->value;
-  if (seen || fix.bearing) {
-    Fix other;
-    take_velocity(other);
-    if (other.moving()) ++unused_velocities_;
-  } else {
+  const auto blank = [&](const auto& column) { return !column || is_blank(*column); };
+  if (!seen && !fix.bearing)
     take_velocity(fix);
-  }
+  else if (!std::all_of(velocity_.begin(), velocity_.end(), blank) ||
+           !std::all_of(course_.begin(), course_.end(), blank))
+    ++unused_velocities_;
   return true;
 }
 
+/// Whether the row's cell in a column is empty.
+bool RecordingReader::is_blank(const Column& column) const { return trimmed(row_[column.index]).empty(); }
+
 /// The azimuth alone, where the row has no range and no elevation; false if it is a number that stands for none.
-bool RecordingReader::take_bearing(Fix& fix) const {
+bool RecordingReader::take_bearing(Fix& fix) {
   const auto filled = [&](const auto& column) { return column && row_.optional_number(column->index); };
   if (!azimuth_ || filled(polar_[0]) || filled(polar_[2])) return true;
   const auto azimuth = row_.optional_number(azimuth_->index);
   if (!azimuth) return true;
   if (std::abs(*azimuth) >= beyond_sense) return false;
   fix.bearing = azimuth_of(*azimuth * azimuth_->unit->value);
+  ++bearings_;
   return true;
 }
 
@@ -258,15 +271,16 @@ bool RecordingReader::take_time(Fix& fix) {
 }
 
 /// The time of day with the days since the first. Where it falls by more than half a day within a track, that is the
-/// next day; a track that begins does so on the day of the row before, or on the day before that if it is then nearer.
+/// next day. Where it would rise by more than half a day, it is of the day before: a late row of a track, or the first
+/// row of one that begins.
 double RecordingReader::on_its_day(const Fix& fix, double time_of_day) {
   const auto last = last_.find(fix.track);
   const bool first = last == last_.end();
   if (first ? !latest_of_day_ : !last->second.of_day) return time_of_day;
   const double before = first ? *latest_of_day_ : last->second.time;
   const double time = std::floor(before / day_s) * day_s + time_of_day;
-  if (first) return time >= day_s && time - before > day_s / 2.0 ? time - day_s : time;
-  if (before - time <= day_s / 2.0) return time;
+  if (time >= day_s && time - before > day_s / 2.0) return time - day_s;
+  if (first || before - time <= day_s / 2.0) return time;
   if (midnights_++ == 0) first_midnight_line_ = fix.line;
   return time + day_s;
 }
@@ -379,6 +393,7 @@ std::vector<std::optional<RecordingReader::Column>> RecordingReader::used() cons
 bool RecordingReader::uses(std::size_t index) const {
   const auto columns = used();
   return index == time_ || index == sensor_ || index == track_ || index == roll_ ||
+         std::any_of(select_.begin(), select_.end(), [&](const auto& wanted) { return wanted.first == index; }) ||
          std::any_of(columns.begin(), columns.end(),
                      [&](const auto& column) { return column && column->index == index; });
 }
@@ -391,6 +406,7 @@ std::string RecordingReader::why_unused(const Quantity& quantity) const {
     if (column && column->quantity == &quantity) return csv_.names()[column->index] + " says it";
   if (!takes_velocity_ && (is_of(headers::velocity) || is_of(headers::course)))
     return simulated_ ? "--radar measures no velocity" : "give --set sigma_velocity_mps=…";
+  if (simulated_ && is_of(headers::polar)) return "--radar measures positions";
   if (!takes_range_rate_ && polar() && is_of(headers::range_rate)) return "give --set sigma_range_rate_mps=…";
   return "does not go with the others";
 }
@@ -413,7 +429,8 @@ std::string RecordingReader::unused() const {
         if (index && !uses(*index)) add(*index, why_unused(quantity));
       });
       for (std::size_t index = 0; index < csv_.names().size() && !named; ++index)
-        if (!uses(index) && without_known_unit(csv_.names()[index]) == &quantity) add(index, advice(quantity));
+        if (!uses(index) && !is_a_name(csv_.names()[index]) && without_known_unit(csv_.names()[index]) == &quantity)
+          add(index, advice(quantity));
     }
   std::vector<std::string> parts;
   for (const auto& [reason, names] : reasons) parts.push_back(fmt::format("{} ({})", fmt::join(names, ", "), reason));
@@ -426,6 +443,8 @@ std::vector<std::string> RecordingReader::notes() const {
   if (unused_velocities_ > 0)
     sentences.push_back(
         fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_));
+  if (bearings_ > 0 && unused_azimuths_ > 0)
+    sentences.push_back(fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_));
   if (midnights_ > 0)
     sentences.push_back(
         fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more than 12 h, and days "

@@ -19,6 +19,8 @@
 
 namespace sigmax::apps {
 
+inline constexpr double day_s = 86400.0;
+
 /// Where a recording is, what its columns mean, and which of its rows count.
 struct RecordingOptions {
   std::string file;                             ///< "-" is the standard input
@@ -50,6 +52,7 @@ struct Fix {
   std::array<std::optional<double>, 3> sigma;
   std::optional<Vector<3>> truth;
   std::optional<double> roll_deg;
+  bool predicted = false;  ///< no row, but the time of --predict-to
 
   bool located() const { return position || place || seen; }
   bool partly() const { return missing[0] || missing[1] || missing[2]; }
@@ -87,6 +90,8 @@ class RecordingReader {
   bool polar() const { return polar_[0].has_value(); }
   /// Whether azimuths stand without a range.
   bool bearings() const { return azimuth_ && !polar(); }
+  /// Whether there are positions.
+  bool located() const { return position_[0].has_value(); }
   int axes() const { return axes_; }
   bool has_sensors() const { return sensor_.has_value(); }
   bool has_tracks() const { return track_.has_value(); }
@@ -133,13 +138,14 @@ class RecordingReader {
   bool uses(std::size_t index) const;
   std::string why_unused(const Quantity& quantity) const;
   std::string unused() const;
+  bool is_blank(const Column& column) const;
   bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);
   double on_its_day(const Fix& fix, double time_of_day);
   std::optional<std::array<double, 3>> numbers(const Columns& columns, std::array<bool, 3>* missing = nullptr) const;
   void take_sigmas(Fix& fix, const Columns& columns, double angle) const;
-  bool take_bearing(Fix& fix) const;
+  bool take_bearing(Fix& fix);
   void take_velocity(Fix& fix) const;
   double azimuth_of(double degrees) const;
   Geodetic place(const std::array<double, 3>& cells) const;
@@ -180,6 +186,8 @@ class RecordingReader {
   std::size_t senseless_ = 0;
   std::size_t first_senseless_line_ = 0;
   std::size_t unused_velocities_ = 0;
+  std::size_t bearings_ = 0;             // that count
+  std::size_t unused_azimuths_ = 0;      // beside a position
   std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight
   std::size_t midnights_ = 0;            // that tracks passed
   std::size_t first_midnight_line_ = 0;

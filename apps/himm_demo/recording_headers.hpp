@@ -43,7 +43,8 @@ inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
 
 }  // namespace units
 
-/// What a row may say: its headers are a stem and a unit, those that come first winning.
+/// What a row may say: its headers are a stem and a unit. The unit that comes first wins, then the stem: altitude_m
+/// before altitude_gnss_ft, that before altitude_ft.
 struct Quantity {
   std::array<std::string_view, 2> stems;  ///< the second may be empty
   std::span<const Unit> units;
@@ -83,8 +84,8 @@ inline constexpr std::array<std::span<const Quantity>, 9> all = {position,   pla
 /// Calls `use(header, unit)` for each header of a quantity, in order.
 template <class Use>
 void for_each_header(const Quantity& quantity, const Use& use) {
-  for (const std::string_view stem : quantity.stems)
-    for (const Unit& unit : quantity.units)
+  for (const Unit& unit : quantity.units)
+    for (const std::string_view stem : quantity.stems)
       if (!stem.empty()) use(std::string(stem).append("_").append(unit.suffix), unit);
 }
 

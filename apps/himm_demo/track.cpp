@@ -133,6 +133,7 @@ void add_track(CLI::App& program, const std::string& command) {
          "--predict-to",
          [options](const std::string& text) {
            options->predict_to = parse_timestamp(text);
+           options->predict_to_time_of_day = is_time_of_day(text);
            if (!options->predict_to)
              throw UsageError(
                  message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));

@@ -20,8 +20,9 @@ struct TrackOptions {
   std::string config;
   std::vector<std::string> sets;
   bool print_config = false;
-  std::optional<double> predict_to;  ///< a time, up to which targets that ended before are predicted
-  bool iso_times = false;            ///< a column with dates and times beside the seconds
+  std::optional<double> predict_to;     ///< a time, up to which targets that ended before are predicted
+  bool predict_to_time_of_day = false;  ///< whether that is one, so of the last day
+  bool iso_times = false;               ///< a column with dates and times beside the seconds
   OutputOptions output;
 };
 

@@ -60,7 +60,7 @@ void TrackLedger::measured(const Fix& fix, const std::optional<Vector<3>>& posit
 void TrackLedger::said(const Fix& fix, const Said& said) {
   if (sinks_.estimates) sinks_.estimates->write(said.line);
   if (sinks_.page) sinks_.page->estimated(fix, said);
-  if (options_.predict_to && !fix.measured() && fix.time_s == *options_.predict_to) return;
+  if (fix.predicted) return;
   const int quantities = measured_quantities(fix, filters_[said.filter].accuracy_of(fix.sensor), axes_);
   add_by_part(outcome.filters[said.filter].sums, fix.roll_deg, [&](Sums& sums) {
     ++sums.count;

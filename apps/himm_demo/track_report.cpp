@@ -159,11 +159,12 @@ class Reporter {
       if (sums.nis.count() < 10) return;
       greatest = std::max(greatest, sums.nis.mean());
     }
-    if (greatest >= 0.1 * recording_.axes()) return;
+    const int expected = recording_.bearings() && !recording_.located() ? 1 : recording_.axes();
+    if (greatest >= 0.1 * expected) return;
     warnings_.push_back(fmt::format(
         "{}: the mean NIS is {:.2g} at most, where {} is expected: the measurements are far better than the sensor's "
         "sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, altitude_ft",
-        file_, greatest, recording_.axes()));
+        file_, greatest, expected));
   }
 
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.

@@ -1,6 +1,7 @@
 #include "himm_demo/track_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <iterator>
 #include <limits>
@@ -109,11 +110,19 @@ class TrackRun {
       Fix fix;
       fix.line = target.rows.back().line;
       fix.track = name;
-      fix.time_s = *options_.predict_to;
+      fix.time_s = predict_to(target.before);
+      fix.predicted = true;
       if (fix.time_s <= target.before) continue;
       step(target, fix);
       ++outcome_.predicted;
     }
+  }
+
+  /// The time asked for; of a time of day the next after a target's last row, within half a day.
+  double predict_to(double before) const {
+    if (!options_.predict_to_time_of_day || !recording_.times_of_day()) return *options_.predict_to;
+    const double time = std::floor(before / day_s) * day_s + *options_.predict_to;
+    return before - time > day_s / 2.0 ? time + day_s : time;
   }
 
   void take(Fix fix) {

@@ -36,6 +36,7 @@ class TuneReader {
     of_file.simulated = options_.radar.has_value();
     RecordingReader recording(of_file);
     refuse_other_kind(recording);
+    data_.geodetic |= recording.geodetic();
     std::map<std::string, Open, std::less<>> open;
     std::optional<Geodetic> first;
     const bool one_frame = options_.radar || recording.has_truth();

@@ -31,6 +31,7 @@ struct TuneSensor {
 struct TuneData {
   int axes = 3;
   bool has_truth = false;
+  bool geodetic = false;  ///< whether positions were places
   Vector<3> radar_at = Vector<3>::Zero();
   std::vector<TuneTrack> tracks;  ///< those long enough to be followed
   std::size_t too_short = 0;      ///< tracks that are not

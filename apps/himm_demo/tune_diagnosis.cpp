@@ -105,6 +105,15 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
                  .what = fmt::format("filter '{}' on the track that begins here: {}", settings.name, error.what()),
                  .remedy = "begin with settings that track takes, see --config and --set"}));
   }
+  const bool any = std::any_of(diagnosis.losses.begin(), diagnosis.losses.end(), [](const auto& of_track) {
+    return std::any_of(of_track.begin(), of_track.end(), [](double loss) { return !std::isnan(loss); });
+  });
+  if (!any)
+    throw InputError(
+        message({.where = data.tracks.front().file,
+                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start wants positions",
+                                     settings.name),
+                 .remedy = "give bearings a start of their own, --set start=given; see himm_demo tune --help"}));
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally, 0.0});
   if (judged > 0) diagnosis.rmse_m = std::sqrt(squares / static_cast<double>(judged));

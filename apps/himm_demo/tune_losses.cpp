@@ -21,6 +21,12 @@ double measurement_loss(double log_score, const FilterSettings& settings, double
   return -(greater + std::log1p(std::exp(std::min(target, stray) - greater)));
 }
 
+/// In which a stray measurement of a row's kind lies anywhere.
+double volume_for(const Fix& fix, const TuneData& data) {
+  if (fix.seen) return data.radar_volume;
+  return fix.bearing ? 2.0 * std::numbers::pi : data.volume;
+}
+
 /// Of the true position, by the estimate's leading components.
 double truth_loss(const TargetPoint& now, const Vector<3>& truth, int axes, Objective objective) {
   const auto n = static_cast<Eigen::Index>(now.mean.size());
@@ -50,6 +56,7 @@ TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings)
 
 Losses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look) {
   const TargetChoice choice = judged_choice(data, settings);
+  const bool starts_anywhere = settings.start == StartRule::given && !data.geodetic;  // as `track` does
   Losses result;
   TargetPoint now;
   for (std::size_t t = 0; t < data.tracks.size(); ++t) {
@@ -61,14 +68,14 @@ Losses losses(const TuneData& data, const FilterSettings& settings, Objective ob
       target.output(now);
       const Fix& fix = track.rows[row];
       if (objective == Objective::prequential && now.log_score)
-        lost[row] = measurement_loss(*now.log_score, settings, fix.seen ? data.radar_volume : data.volume);
+        lost[row] = measurement_loss(*now.log_score, settings, volume_for(fix, data));
       if (objective != Objective::prequential && fix.truth)
         lost[row] = truth_loss(now, *fix.truth, data.axes, objective);
       if (look) look(t, row, now);
     };
     for (const AnyPlot& plot : data.plots(track, settings)) {
       const Fix& fix = track.rows[plot.tag];
-      if (target.running() || fix.whole()) target.take(plot, stepped);
+      if (target.running() || fix.whole() || starts_anywhere) target.take(plot, stepped);
     }
   }
   return result;

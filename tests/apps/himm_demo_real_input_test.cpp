@@ -363,6 +363,85 @@ TEST(HimmDemoRealInput, TimesOfDayThatFallALittleAreWrongAndHaveNoDates) {
   EXPECT_TRUE(says(dates.output, "real.csv:2: --iso-times writes dates, and a time of day has none")) << dates.output;
 }
 
+TEST(HimmDemoRealInput, ALateRowAfterMidnightGoesBack) {
+  const auto times = [](const std::string& late) {
+    std::string text = "time_s,x_m,y_m\n";
+    for (int k = 0; k < 5; ++k) text += clock(86395 + k) + "," + exact(10 * k) + ",7\n";
+    text += "00:00:01,60,7\n" + late;
+    for (int k = 7; k < 12; ++k) text += clock(k - 5) + "," + exact(10 * k) + ",7\n";
+    return text;
+  };
+  const TemporaryDirectory directory;
+  const auto refused = program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("a.csv", times("23:59:59,41,7\n"))});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_TRUE(says(refused.output, "a.csv:8: column 'time_s': found '23:59:59', expected a time after"))
+      << refused.output;
+  const std::vector<std::string> skip = {"--on-bad-time", "skip"};
+  EXPECT_EQ(tracked(times("23:59:59,41,7\n"), skip).estimates.size(), tracked(times(""), skip).estimates.size());
+  EXPECT_EQ(rows(tracked(times("23:59:59,41,7\n"), skip).estimates).back().at("time_s"), "86406");
+}
+
+TEST(HimmDemoRealInput, ATimeOfDayToPredictToIsOfTheLastDay) {
+  const auto straight = [](int first) {
+    return recording("time_s,x_m,y_m", [&](int k) { return clock(first + k) + "," + exact(10 * k) + ",7"; });
+  };
+  const auto after = rows(tracked(straight(86390), {"--predict-to", "00:01:00"}).estimates);
+  EXPECT_EQ(after.back().at("time_s"), "86460");
+  EXPECT_NEAR(number(after.back().at("x_m")), 700.0, 1e-6);
+  EXPECT_EQ(rows(tracked(straight(86350), {"--predict-to", "00:01:00"}).estimates).back().at("time_s"), "86460");
+  const auto earlier = tracked(straight(86350), {"--predict-to", "23:59:00"});
+  EXPECT_TRUE(says(earlier.output, "nothing was predicted")) << earlier.output;
+}
+
+TEST(HimmDemoRealInput, AHeadingIsNoBearingOfASimulatedRadar) {
+  const auto flight = [](bool heading) {
+    return recording(std::string("time_s,x_m,y_m,z_m") + (heading ? ",azimuth_deg" : ""), [&](int k) {
+      const std::string place = k > 3 && k % 4 == 0 ? ",,," : "," + exact(10000 + 50 * k) + ",5000,1000";
+      return exact(k) + place + (heading ? ",90" : "");
+    });
+  };
+  const std::vector<std::string> radar = {"--radar", "50,0.1,0.1"};
+  const auto with = tracked(flight(true), radar);
+  EXPECT_EQ(with.estimates, tracked(flight(false), radar).estimates);
+  EXPECT_TRUE(says(with.output, "Not used: azimuth_deg (--radar measures positions)")) << with.output;
+  EXPECT_TRUE(says(tracked(flight(true)).output, "Azimuths do not count in rows with a position: 23 rows"));
+}
+
+TEST(HimmDemoRealInput, MetresGoBeforeFeetAndWhatIsMappedBeforeBoth) {
+  const auto high = recording("time_s,latitude_deg,longitude_deg,altitude_m,altitude_gnss_ft,altitude_ft",
+                              [](int k) { return exact(k) + ",50,10,100,2000,3000"; });
+  EXPECT_TRUE(says(tracked(high).output, "altitude_m in m above the ellipsoid"));
+  const auto feet = recording("time_s,latitude_deg,longitude_deg,altitude_ft,altitude_gnss_ft",
+                              [](int k) { return exact(k) + ",50,10,3000,2000"; });
+  EXPECT_TRUE(says(tracked(feet).output, "altitude_gnss_ft in ft above the ellipsoid"));
+  const auto two = recording("time_s,x_m,y_m,east", [](int k) { return exact(k) + ",9,7," + exact(0.01 * k); });
+  const auto mapped = tracked(two, {"--columns", "x_km=east"});
+  EXPECT_NEAR(number(rows(mapped.estimates).back().at("x_m")), 290.0, 1.0);
+  EXPECT_TRUE(says(mapped.output, "Not used: x_m (east says it)")) << mapped.output;
+  const TemporaryDirectory directory;
+  const auto none = program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("a.csv", two), "--columns", "vx_mps=no"});
+  EXPECT_EQ(none.status, 3);
+  EXPECT_TRUE(says(none.output, "no column 'no'")) << none.output;
+}
+
+TEST(HimmDemoRealInput, IdentifiersAreNoQuantities) {
+  const auto two =
+      recording("time_s,x_m,y_m,track_id,speed_type", [](int k) { return exact(k) + "," + exact(10 * k) + ",7,A,B"; });
+  EXPECT_FALSE(says(tracked(two).output, "Not used"));
+  const auto chosen = recording("time_s,x_m,y_m,track", [](int k) { return exact(k) + "," + exact(10 * k) + ",7,1"; });
+  EXPECT_TRUE(says(tracked(chosen).output, "Not used: track (name its unit: _deg)"));
+  EXPECT_FALSE(says(tracked(chosen, {"--select", "track=1"}).output, "Not used"));
+}
+
+TEST(HimmDemoRealInput, ACellThatDoesNotCountRefusesNothing) {
+  const auto two = recording("time_s,x_m,y_m,range_m,azimuth_deg,sensor,course_deg,speed_kt", [](int k) {
+    return exact(k) +
+           (k % 5 == 4 ? ",,," + exact(5000 + 10 * k) + ",0,r,511,1" : "," + exact(5000 + 10 * k) + ",0,,,a,90,19.4");
+  });
+  EXPECT_TRUE(says(tracked(two, {"--set", "sigma_velocity_mps=1"}).output,
+                   "Velocities do not count in rows of a radar or with a bearing: 6 rows"));
+}
+
 TEST(HimmDemoRealInput, NoNameCommandsTheTerminal) {
   const TemporaryDirectory directory;
   const std::string clear = "\x1B[2J\xC2\x9B\x31m";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
@@ -186,6 +187,30 @@ TEST(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {
   EXPECT_NEAR(value_in(lidar, "sigma_position_m"), 0.15, 0.03) << toml;
   EXPECT_NEAR(value_in(radar, "sigma_range_m"), 0.3, 0.06) << toml;
   EXPECT_NEAR(value_in(radar, "sigma_azimuth_deg"), 1.72, 0.4) << toml;
+}
+
+TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
+  if (cannot_tune()) GTEST_SKIP() << "built without an optimiser";
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> noise(0.0, 0.1);
+  std::ostringstream text;
+  text.precision(10);
+  text << "time_s,azimuth_deg\n";
+  for (int k = 0; k < 60; ++k)
+    text << k << "," << std::atan2(5000.0 - 20.0 * k, 1000.0 + 50.0 * k) * 180.0 / std::numbers::pi + noise(generator)
+         << "\n";
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("bearings.csv", text.str());
+  const auto without = tune(quickly(file));
+  EXPECT_EQ(without.status, 3);
+  EXPECT_NE(without.output.find("its start wants positions"), std::string::npos) << without.output;
+  const auto given =
+      tune(quickly(file, {"--set", "start=given", "--set", "start_mean=[1000,5000,0,50,-20,0,0,0,0]", "--set",
+                          "start_covariance_diagonal=[10000,10000,1,25,25,1,1,1,1]", "--set", "start_time_s=-1",
+                          "--set", "sigma_azimuth_deg=0.5", "--out", directory.path() / "best.toml"}));
+  EXPECT_EQ(given.status, 0) << given.output;
+  EXPECT_EQ(given.output.find("nan"), std::string::npos) << given.output;
+  EXPECT_NEAR(value_in(contents(directory.path() / "best.toml"), "sigma_azimuth_deg"), 0.1, 0.03);
 }
 
 }  // namespace
