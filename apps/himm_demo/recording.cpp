@@ -189,12 +189,12 @@ bool RecordingReader::next(Fix& fix) {
   if (position && geodetic_) fix.place = place(*position);
   if (position && !geodetic_) fix.position = Vector<3>(position->data());
   if (seen) fix.seen = polar(*seen);
-  if (position && bearings() && !is_blank(*azimuth_)) ++unused_azimuths_;
+  if (position && bearings() && !row_.blank(azimuth_->index)) ++unused_azimuths_;
   if (position) take_sigmas(fix, sigma_position_, 1.0);
   if (seen || fix.bearing) take_sigmas(fix, sigma_polar_, degree);
   if (seen && range_rate_)
     if (const auto cell = row_.optional_number(range_rate_->index)) fix.range_rate = *cell * range_rate_->unit->value;
-  const auto blank = [&](const auto& column) { return !column || is_blank(*column); };
+  const auto blank = [&](const auto& column) { return !column || row_.blank(column->index); };
   if (!seen && !fix.bearing)
     take_velocity(fix);
   else if (!std::all_of(velocity_.begin(), velocity_.end(), blank) ||
@@ -202,9 +202,6 @@ bool RecordingReader::next(Fix& fix) {
     ++unused_velocities_;
   return true;
 }
-
-/// Whether the row's cell in a column is empty.
-bool RecordingReader::is_blank(const Column& column) const { return trimmed(row_[column.index]).empty(); }
 
 /// The azimuth alone, where the row has no range and no elevation; false if it is a number that stands for none.
 bool RecordingReader::take_bearing(Fix& fix) {
@@ -278,11 +275,11 @@ double RecordingReader::on_its_day(const Fix& fix, double time_of_day) {
   const bool first = last == last_.end();
   if (first ? !latest_of_day_ : !last->second.of_day) return time_of_day;
   const double before = first ? *latest_of_day_ : last->second.time;
-  const double time = std::floor(before / day_s) * day_s + time_of_day;
+  const double midnight = midnight_before(before);
+  const double time = first ? midnight + time_of_day : time_of_day_after(before, time_of_day);
   if (time >= day_s && time - before > day_s / 2.0) return time - day_s;
-  if (first || before - time <= day_s / 2.0) return time;
-  if (midnights_++ == 0) first_midnight_line_ = fix.line;
-  return time + day_s;
+  if (time - midnight >= day_s && midnights_++ == 0) first_midnight_line_ = fix.line;
+  return time;
 }
 
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.

@@ -19,8 +19,6 @@
 
 namespace sigmax::apps {
 
-inline constexpr double day_s = 86400.0;
-
 /// Where a recording is, what its columns mean, and which of its rows count.
 struct RecordingOptions {
   std::string file;                             ///< "-" is the standard input
@@ -138,7 +136,6 @@ class RecordingReader {
   bool uses(std::size_t index) const;
   std::string why_unused(const Quantity& quantity) const;
   std::string unused() const;
-  bool is_blank(const Column& column) const;
   bool senseless(const Columns& columns) const;
   bool selected() const;
   bool take_time(Fix& fix);

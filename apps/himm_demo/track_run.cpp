@@ -1,7 +1,6 @@
 #include "himm_demo/track_run.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <iterator>
 #include <limits>
@@ -19,6 +18,7 @@
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
+#include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -118,11 +118,10 @@ class TrackRun {
     }
   }
 
-  /// The time asked for; of a time of day the next after a target's last row, within half a day.
+  /// The time asked for; a time of day is on the day of a target's last row, or the next.
   double predict_to(double before) const {
     if (!options_.predict_to_time_of_day || !recording_.times_of_day()) return *options_.predict_to;
-    const double time = std::floor(before / day_s) * day_s + *options_.predict_to;
-    return before - time > day_s / 2.0 ? time + day_s : time;
+    return time_of_day_after(before, *options_.predict_to);
   }
 
   void take(Fix fix) {

@@ -111,7 +111,7 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   if (!any)
     throw InputError(
         message({.where = data.tracks.front().file,
-                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start wants positions",
+                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
                                      settings.name),
                  .remedy = "give bearings a start of their own, --set start=given; see himm_demo tune --help"}));
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));

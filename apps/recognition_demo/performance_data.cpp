@@ -102,7 +102,7 @@ PerformanceData read_performance(const std::string& file) {
   };
   for (CsvRow row; reader.next(row);) {
     for (const std::size_t column : {type, variable})
-      if (trimmed(row[column]).empty()) throw row.error(column, "a name");
+      if (row.blank(column)) throw row.error(column, "a name");
     const std::string of_type{trimmed(row[type])}, of_variable{trimmed(row[variable])};
     const double least = row.number(minimum), greatest = row.number(maximum);
     if (!(least < greatest)) throw row.error(maximum, fmt::format("a number above the minimum, {}", least));

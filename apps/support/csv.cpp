@@ -31,13 +31,15 @@ std::string_view CsvRow::operator[](std::size_t column) const {
   return std::string_view{text_}.substr(begin, ends_[column] - begin);
 }
 
+bool CsvRow::blank(std::size_t column) const { return is_blank((*this)[column]); }
+
 double CsvRow::number(std::size_t column) const {
   if (const auto value = parse_number((*this)[column])) return *value;
   throw error(column, "a finite number with a decimal point", "correct the cell or drop the row");
 }
 
 std::optional<double> CsvRow::optional_number(std::size_t column) const {
-  if (is_blank((*this)[column])) return std::nullopt;
+  if (blank(column)) return std::nullopt;
   if (const auto value = parse_number((*this)[column])) return value;
   throw error(column, "a finite number with a decimal point", "leave the cell empty where there is none");
 }

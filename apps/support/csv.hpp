@@ -29,6 +29,9 @@ class CsvRow {
   std::size_t size() const { return ends_.size(); }
   std::string_view operator[](std::size_t column) const;
 
+  /// Whether the field is empty, or blanks.
+  bool blank(std::size_t column) const;
+
   /// Throws InputError with file, line and column unless the field is a finite number.
   double number(std::size_t column) const;
 

@@ -126,6 +126,13 @@ std::optional<double> parse_timestamp(std::string_view text) {
 
 bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }
 
+double midnight_before(double time) { return std::floor(time / day_s) * day_s; }
+
+double time_of_day_after(double before, double time_of_day) {
+  const double time = midnight_before(before) + time_of_day;
+  return before - time > day_s / 2.0 ? time + day_s : time;
+}
+
 std::string iso_time(double seconds) {
   using namespace std::chrono;
   if (!(seconds >= -62167219200.0 && seconds < 253402300799.0)) throw std::out_of_range("iso_time: no year 0 to 9999");

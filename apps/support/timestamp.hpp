@@ -17,6 +17,15 @@ std::optional<double> parse_timestamp(std::string_view text);
 /// Whether that is a time of day, which tells no date.
 bool is_time_of_day(std::string_view text);
 
+inline constexpr double day_s = 86400.0;
+
+/// The midnight before a time, both in seconds since some midnight.
+double midnight_before(double time);
+
+/// A time of day on the day of an earlier time, in seconds since some midnight; on the next day where it would fall by
+/// more than 12 hours.
+double time_of_day_after(double before, double time_of_day);
+
 /// Seconds since 1970-01-01 UTC as a date and time, 2016-01-12T13:02:11.218Z, to the microsecond. Years 0 to 9999;
 /// others throw std::out_of_range.
 std::string iso_time(double seconds);

@@ -377,7 +377,7 @@ TEST(HimmDemoRealInput, ALateRowAfterMidnightGoesBack) {
   EXPECT_TRUE(says(refused.output, "a.csv:8: column 'time_s': found '23:59:59', expected a time after"))
       << refused.output;
   const std::vector<std::string> skip = {"--on-bad-time", "skip"};
-  EXPECT_EQ(tracked(times("23:59:59,41,7\n"), skip).estimates.size(), tracked(times(""), skip).estimates.size());
+  EXPECT_EQ(tracked(times("23:59:59,41,7\n"), skip).estimates, tracked(times(""), skip).estimates);
   EXPECT_EQ(rows(tracked(times("23:59:59,41,7\n"), skip).estimates).back().at("time_s"), "86406");
 }
 
@@ -416,7 +416,7 @@ TEST(HimmDemoRealInput, MetresGoBeforeFeetAndWhatIsMappedBeforeBoth) {
   EXPECT_TRUE(says(tracked(feet).output, "altitude_gnss_ft in ft above the ellipsoid"));
   const auto two = recording("time_s,x_m,y_m,east", [](int k) { return exact(k) + ",9,7," + exact(0.01 * k); });
   const auto mapped = tracked(two, {"--columns", "x_km=east"});
-  EXPECT_NEAR(number(rows(mapped.estimates).back().at("x_m")), 290.0, 1.0);
+  EXPECT_NEAR(number(rows(mapped.estimates).back().at("x_m")), 290.0, 1e-6);
   EXPECT_TRUE(says(mapped.output, "Not used: x_m (east says it)")) << mapped.output;
   const TemporaryDirectory directory;
   const auto none = program::run(SIGMAX_HIMM_DEMO, {"track", directory.write("a.csv", two), "--columns", "vx_mps=no"});

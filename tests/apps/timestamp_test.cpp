@@ -96,6 +96,15 @@ TEST(Timestamp, NothingElseIsATime) {
     EXPECT_EQ(parse_timestamp(text), std::nullopt) << text;
 }
 
+TEST(Timestamp, ATimeOfDayThatFallsByMoreThanHalfADayIsOfTheNext) {
+  EXPECT_EQ(time_of_day_after(86399.0, 1.0), 86401.0);
+  EXPECT_EQ(time_of_day_after(43200.0, 0.0), 0.0);
+  EXPECT_EQ(time_of_day_after(43200.5, 0.0), 86400.0);
+  EXPECT_EQ(time_of_day_after(86401.0, 86399.0), 172799.0);
+  EXPECT_EQ(time_of_day_after(5.0, 70000.0), 70000.0);
+  EXPECT_EQ(midnight_before(172799.5), 86400.0);
+}
+
 RC_GTEST_PROP(Timestamp, AgreesWithTheCalendarOfTheCLibrary, ()) {
   const auto seconds = *rc::gen::inRange<std::int64_t>(-2208988800, 4102444800);
   const auto milliseconds = *rc::gen::inRange(0, 1000);

@@ -9,7 +9,7 @@
 #include <sigmax/core/table.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
-#include <sigmax/hybrid/future_evidence.hpp>
+#include <sigmax/hybrid/evidence_collapse.hpp>
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 
 namespace sigmax {
@@ -138,7 +138,7 @@ class FixedIntervalSmoother {
   std::vector<Matrix> roots_ = std::vector<Matrix>(modes());
   EvidenceCollapse<max_size> collapse_;
   std::vector<double> log_weight_;  ///< of each i
-  std::vector<double> weights_;     ///< of the parts of the i at hand
+  std::vector<double> weights_;     ///< of each j, for the i at hand
   Table joint_;                     ///< log w(i, j)
   double dt_ = 0.0;                 ///< from the step before to the last that it saw
 };
@@ -205,7 +205,8 @@ void FixedIntervalSmoother<Models, Kind>::merge(const Step& before) {
       return;
     }
     const auto log_weight = [&](std::size_t j) { return joint_(i, j) - log_weight_[i]; };
-    const auto weight = [&](std::size_t j) { return std::exp(log_weight(j)); };
+    for (std::size_t j = 0; j < modes(); ++j) weights_[j] = std::exp(log_weight(j));
+    const auto weight = [&](std::size_t j) { return weights_[j]; };
     const std::size_t best = detail::select(modes(), log_weight, i, Tie::stay);
     collapse(Collapse<Kind>{}, EstimateMixture<std::decay_t<decltype(result)>>{mode(pairs_, i)}, weight, best, result);
     Evidence seen;
@@ -215,7 +216,6 @@ void FixedIntervalSmoother<Models, Kind>::merge(const Step& before) {
       evidence_[i] = parts_[i][best];
       evidence_[i].add(seen.R, seen.r);
     } else {
-      for (std::size_t j = 0; j < modes(); ++j) weights_[j] = weight(j);
       collapse_(parts_[i], weights_, roots_[i], seen, evidence_[i]);
     }
   });
