@@ -31,9 +31,6 @@ enum class StartRule {
   given      ///< from a given mean and variances; later starts are from points
 };
 
-/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
-enum class MemberType { kf, ekf, ukf, ckf };
-
 /// Everything that one target's filter is made of, chosen at run time: plain data.
 struct TargetChoice {
   int axes = 3;        ///< 1, 2 or 3; along 1 there is no radar, and no motion that turns
