@@ -37,6 +37,7 @@
 #include <sigmax/estimation/turn.hpp>
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/estimation/white_noise.hpp>
+#include <sigmax/hybrid/any_plot.hpp>
 #include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/collapse.hpp>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,9 +26,9 @@ TargetChoice choice(bool fuzzy, Scheme scheme, int axes = 3) {
 }
 
 AnyPlot at(double time, double x, double y, std::size_t tag = 0, double sigma = 10.0) {
-  AnyPlot plot{.time = time, .tag = tag, .sensor = AnyPlot::Sensor::position, .size = 3};
-  plot.z = {x, y, 100.0};
-  plot.covariance = {sigma * sigma, 0, 0, 0, sigma * sigma, 0, 0, 0, sigma * sigma};
+  const double variance = sigma * sigma;
+  AnyPlot plot = AnyPlot::position(time, std::array{x, y, 100.0}, std::array{variance, variance, variance});
+  plot.tag = tag;
   return plot;
 }
 
@@ -113,19 +114,13 @@ TEST(AnyTarget, NoSchemeStarvesAtAHardTurnBehindAGate) {
 TEST(AnyTarget, TakesWhatSeveralSensorsSee) {
   AnyTarget target{choice(false, Scheme::interacting)};
   for (int k = 0; k < 5; ++k) target.take(at(k, 100.0 * k + 5000.0, 0.0));
-  AnyPlot altitude{.time = 5.0, .sensor = AnyPlot::Sensor::components, .size = 1};
-  altitude.z[0] = 100.0;
-  altitude.covariance[0] = 1e-4;
-  altitude.places[0] = 2;
-  EXPECT_EQ(target.take(altitude), Verdict::accepted);
+  EXPECT_EQ(target.take(AnyPlot::components(5.0, std::array{2}, std::array{100.0}, std::array{1e-4})),
+            Verdict::accepted);
   EXPECT_NEAR(target.output().covariance[2 * 9 + 2], 1e-4, 1e-6);
-  AnyPlot doppler{.time = 5.0, .sensor = AnyPlot::Sensor::doppler, .size = 4};
-  doppler.z = {5500.9, 0.0, 0.01818, 100.0};
-  doppler.covariance[0] = doppler.covariance[15] = 1.0;
-  doppler.covariance[5] = doppler.covariance[10] = 1e-6;
-  EXPECT_EQ(target.take(doppler), Verdict::accepted) << "two sensors may see at one time";
-  AnyPlot bearing{.time = 6.0, .sensor = AnyPlot::Sensor::bearing, .size = 1};
-  bearing.covariance[0] = 1e-6;
+  const std::array doppler{5500.9, 0.0, 0.01818, 100.0};
+  EXPECT_EQ(target.take(AnyPlot::doppler(5.0, doppler, std::array{1.0, 1e-6, 1e-6, 1.0})), Verdict::accepted)
+      << "two sensors may see at one time";
+  AnyPlot bearing = AnyPlot::bearing(6.0, 0.0, 1e-6);
   EXPECT_EQ(target.take(bearing), Verdict::accepted);
   bearing.size = 2;
   EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(bearing); }, {"2 measured quantities", "1"}));
@@ -214,18 +209,13 @@ TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
     for (const bool fuzzy : {false, true}) {
       AnyTarget target{choice(fuzzy, scheme, 1)};
       const auto on_line = [](double time, double x) {
-        AnyPlot plot{.time = time, .sensor = AnyPlot::Sensor::position, .size = 1};
-        plot.z[0] = x;
-        plot.covariance[0] = 100.0;
-        return plot;
+        return AnyPlot::position(time, std::array{x}, std::array{100.0});
       };
       for (int k = 0; k < 6; ++k) target.take(on_line(k, 10.0 * k));
       EXPECT_EQ(target.components(), (std::vector<std::string>{"x", "vx", "ax"}));
       EXPECT_NEAR(target.output().mean[1], 10.0, 1e-9);
-      AnyPlot speed{.time = 6.0, .sensor = AnyPlot::Sensor::components, .size = 2, .places = {0, 1}};
-      speed.z = {60.0, 10.0};
-      speed.covariance = {100.0, 0.0, 0.0, 1.0};
-      EXPECT_EQ(target.take(speed), Verdict::accepted);
+      EXPECT_EQ(target.take(AnyPlot::components(6.0, std::array{0, 1}, std::array{60.0, 10.0}, std::array{100.0, 1.0})),
+                Verdict::accepted);
       AnyPlot range = on_line(7.0, 70.0);
       range.sensor = AnyPlot::Sensor::polar;
       EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(range); }, {"one axis", "plane"}));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sigmax/hybrid/any_plot.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/motion_choice.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
@@ -61,27 +61,6 @@ struct TargetChoice {
   TargetRules rules{.gate_probability = 1.0, .rejections = 0};
 };
 
-/// What a target is told at one time, in plain numbers.
-struct AnyPlot {
-  enum class Sensor {
-    none,        ///< there was no measurement
-    position,    ///< x, y[, z] in m
-    polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`
-    bearing,     ///< azimuth alone
-    components,  ///< those of the state at `places`
-    doppler      ///< as polar, and the rate of the range in m/s
-  };
-
-  double time = 0.0;    ///< in s
-  std::size_t tag = 0;  ///< comes back with what the plot leads to
-  Sensor sensor = Sensor::none;
-  int size = 0;                         ///< number of measured quantities, at most six
-  std::array<double, 6> z{};            ///< as many numbers
-  std::array<double, 36> covariance{};  ///< of them, row by row without gaps
-  std::array<double, 3> origin{};       ///< of the sensor, in m
-  std::array<int, 6> places{};          ///< in the state, where the position and its derivatives lead
-};
-
 /// What is known of a target at one time, in plain numbers.
 struct TargetPoint {
   double time = 0.0;
@@ -123,7 +102,7 @@ class ChosenTarget;
 ///     TargetChoice choice{.fuzzy = true, .motions = {{"dwna"}, {"dwpa"}}, .models = {"dwna", "dwpa"},
 ///                         .transition = {{1.0, 0.5}, {0.5, 1.0}}};
 ///     AnyTarget target{choice};
-///     target.take({.time = 0.2, .sensor = AnyPlot::Sensor::position, .size = 3, .z = {…}, .covariance = {…}});
+///     target.take(AnyPlot::position(0.2, std::array{5010.3, -203.7, 99.1}, std::array{100.0, 100.0, 400.0}));
 class AnyTarget {
  public:
   /// Called after each step or start with the tag of its plot.

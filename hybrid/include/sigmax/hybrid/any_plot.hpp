@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace sigmax {
+
+/// What a target is told at one time, in plain numbers. The functions fill one; the tag may be set afterwards:
+///
+///     AnyPlot plot = AnyPlot::polar(0.2, std::array{5030.2, 0.1096}, std::array{100.0, 4e-6});
+///     plot.tag = 17;
+///
+/// Each takes the covariance of what was measured row by row, or its diagonal alone: variances of errors that do not
+/// depend on each other. They throw std::invalid_argument for numbers of measured quantities that no such sensor has,
+/// and for covariances of another size.
+struct AnyPlot {
+  enum class Sensor {
+    none,        ///< there was no measurement
+    position,    ///< x, y[, z] in m
+    polar,       ///< range in m, azimuth counter-clockwise from x[, elevation] in rad, seen from `origin`
+    bearing,     ///< azimuth alone
+    components,  ///< those of the state at `places`
+    doppler      ///< as polar, and the rate of the range in m/s
+  };
+
+  double time = 0.0;    ///< in s
+  std::size_t tag = 0;  ///< comes back with what the plot leads to
+  Sensor sensor = Sensor::none;
+  int size = 0;                         ///< number of measured quantities, at most six
+  std::array<double, 6> z{};            ///< as many numbers
+  std::array<double, 36> covariance{};  ///< of them, row by row without gaps
+  std::array<double, 3> origin{};       ///< of the sensor, in m
+  std::array<int, 6> places{};          ///< in the state, where the position and its derivatives lead
+
+  /// There was no measurement.
+  static AnyPlot missed(double time);
+
+  /// Along 1, 2 or 3 axes, in m.
+  static AnyPlot position(double time, std::span<const double> z, std::span<const double> covariance);
+
+  /// Range in m and azimuth, in three axes also the elevation, in rad.
+  static AnyPlot polar(double time, std::span<const double> z, std::span<const double> covariance,
+                       const std::array<double, 3>& origin = {});
+
+  /// As `polar`, and then the rate of the range in m/s.
+  static AnyPlot doppler(double time, std::span<const double> z, std::span<const double> covariance,
+                         const std::array<double, 3>& origin = {});
+
+  /// The azimuth alone, in rad.
+  static AnyPlot bearing(double time, double azimuth, double variance, const std::array<double, 3>& origin = {});
+
+  /// Some components of the state by themselves, as the height and a velocity: those at these places, 1 to 6.
+  static AnyPlot components(double time, std::span<const int> places, std::span<const double> z,
+                            std::span<const double> covariance);
+
+  /// Of the quantity number i, from 0.
+  double variance(int i) const { return covariance[static_cast<std::size_t>(i * (size + 1))]; }
+};
+
+}  // namespace sigmax

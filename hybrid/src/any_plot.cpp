@@ -1,0 +1,67 @@
+#include <sigmax/hybrid/any_plot.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace sigmax {
+namespace {
+
+AnyPlot filled(AnyPlot::Sensor sensor, double time, std::span<const double> z, std::span<const double> covariance,
+               std::size_t least, std::size_t most) {
+  const std::size_t n = z.size();
+  if (n < least || n > most)
+    throw std::invalid_argument("a plot of " + std::to_string(n) + " measured quantities; expected " +
+                                std::to_string(least) + " to " + std::to_string(most));
+  if (covariance.size() != n && covariance.size() != n * n)
+    throw std::invalid_argument("a covariance of " + std::to_string(covariance.size()) + " numbers for a plot of " +
+                                std::to_string(n) + "; expected " + std::to_string(n) + " variances or " +
+                                std::to_string(n * n) + " numbers");
+  AnyPlot plot{.time = time, .sensor = sensor, .size = static_cast<int>(n)};
+  std::copy(z.begin(), z.end(), plot.z.begin());
+  if (covariance.size() == n)
+    for (std::size_t i = 0; i < n; ++i) plot.covariance[i * (n + 1)] = covariance[i];
+  else
+    std::copy(covariance.begin(), covariance.end(), plot.covariance.begin());
+  return plot;
+}
+
+}  // namespace
+
+AnyPlot AnyPlot::missed(double time) { return {.time = time}; }
+
+AnyPlot AnyPlot::position(double time, std::span<const double> z, std::span<const double> covariance) {
+  return filled(Sensor::position, time, z, covariance, 1, 3);
+}
+
+AnyPlot AnyPlot::polar(double time, std::span<const double> z, std::span<const double> covariance,
+                       const std::array<double, 3>& origin) {
+  AnyPlot plot = filled(Sensor::polar, time, z, covariance, 2, 3);
+  plot.origin = origin;
+  return plot;
+}
+
+AnyPlot AnyPlot::doppler(double time, std::span<const double> z, std::span<const double> covariance,
+                         const std::array<double, 3>& origin) {
+  AnyPlot plot = filled(Sensor::doppler, time, z, covariance, 3, 4);
+  plot.origin = origin;
+  return plot;
+}
+
+AnyPlot AnyPlot::bearing(double time, double azimuth, double variance, const std::array<double, 3>& origin) {
+  AnyPlot plot = filled(Sensor::bearing, time, {&azimuth, 1}, {&variance, 1}, 1, 1);
+  plot.origin = origin;
+  return plot;
+}
+
+AnyPlot AnyPlot::components(double time, std::span<const int> places, std::span<const double> z,
+                            std::span<const double> covariance) {
+  AnyPlot plot = filled(Sensor::components, time, z, covariance, 1, 6);
+  if (places.size() != z.size())
+    throw std::invalid_argument(std::to_string(places.size()) + " places for a plot of " + std::to_string(z.size()) +
+                                " measured quantities");
+  std::copy(places.begin(), places.end(), plot.places.begin());
+  return plot;
+}
+
+}  // namespace sigmax

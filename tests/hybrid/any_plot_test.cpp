@@ -1,0 +1,82 @@
+#include <sigmax/hybrid/any_plot.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::throws;
+using Numbers = std::vector<double>;
+
+TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovariance) {
+  const AnyPlot two = AnyPlot::position(0.5, Numbers{1.0, 2.0}, Numbers{4.0, 1.0, 1.0, 9.0});
+  EXPECT_EQ(two.time, 0.5);
+  EXPECT_EQ(two.tag, 0U);
+  EXPECT_EQ(two.sensor, AnyPlot::Sensor::position);
+  EXPECT_EQ(two.size, 2);
+  EXPECT_EQ(two.z, (std::array<double, 6>{1.0, 2.0}));
+  EXPECT_EQ(two.covariance, (std::array<double, 36>{4.0, 1.0, 1.0, 9.0}));
+  EXPECT_EQ(two.variance(1), 9.0);
+  EXPECT_EQ(AnyPlot::position(0.5, Numbers{1.0}, Numbers{4.0}).size, 1);
+}
+
+TEST(AnyPlot, VariancesAloneAreADiagonal) {
+  const AnyPlot plot = AnyPlot::position(0.0, Numbers{1.0, 2.0, 3.0}, Numbers{4.0, 9.0, 16.0});
+  EXPECT_EQ(plot.covariance, (std::array<double, 36>{4.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 16.0}));
+  EXPECT_EQ(plot.variance(2), 16.0);
+}
+
+TEST(AnyPlot, OfARadarAndOfABearingKnowWhereTheSensorStands) {
+  const std::array<double, 3> radar = {7.0, 8.0, 9.0};
+  const AnyPlot polar = AnyPlot::polar(1.0, Numbers{100.0, 0.1, 0.2}, Numbers{1.0, 2.0, 3.0}, radar);
+  EXPECT_EQ(polar.sensor, AnyPlot::Sensor::polar);
+  EXPECT_EQ(polar.origin, radar);
+  const AnyPlot doppler = AnyPlot::doppler(1.0, Numbers{100.0, 0.1, 5.0}, Numbers{1.0, 2.0, 3.0}, radar);
+  EXPECT_EQ(doppler.sensor, AnyPlot::Sensor::doppler);
+  EXPECT_EQ(doppler.size, 3);
+  EXPECT_EQ(doppler.origin, radar);
+  const AnyPlot bearing = AnyPlot::bearing(1.0, 0.1, 2.0, radar);
+  EXPECT_EQ(bearing.sensor, AnyPlot::Sensor::bearing);
+  EXPECT_EQ(bearing.size, 1);
+  EXPECT_EQ(bearing.z[0], 0.1);
+  EXPECT_EQ(bearing.variance(0), 2.0);
+  EXPECT_EQ(bearing.origin, radar);
+  EXPECT_EQ(AnyPlot::polar(1.0, Numbers{100.0, 0.1}, Numbers{1.0, 2.0}).origin, (std::array<double, 3>{}));
+}
+
+TEST(AnyPlot, OfComponentsSaysWhichTheyAre) {
+  const AnyPlot plot = AnyPlot::components(2.0, std::array{2, 3}, Numbers{100.0, 5.0}, Numbers{25.0, 1.0});
+  EXPECT_EQ(plot.sensor, AnyPlot::Sensor::components);
+  EXPECT_EQ(plot.places, (std::array<int, 6>{2, 3}));
+  EXPECT_EQ(plot.variance(1), 1.0);
+}
+
+TEST(AnyPlot, OfAMissedMeasurementHasATimeAlone) {
+  const AnyPlot plot = AnyPlot::missed(3.0);
+  EXPECT_EQ(plot.time, 3.0);
+  EXPECT_EQ(plot.sensor, AnyPlot::Sensor::none);
+  EXPECT_EQ(plot.size, 0);
+}
+
+TEST(AnyPlot, RefusesWhatNoSensorMeasures) {
+  const auto refuses = [](const auto& make, std::initializer_list<std::string_view> words) {
+    return throws<std::invalid_argument>(make, words);
+  };
+  const Numbers none, one(1), two(2), three(3), four(4), five(5), seven(7);
+  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, none, none); }, {"0 measured quantities", "1 to 3"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, four, four); }, {"4 measured quantities", "1 to 3"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::polar(0.0, one, one); }, {"1 measured", "2 to 3"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::doppler(0.0, two, two); }, {"2 measured", "3 to 4"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::components(0.0, std::array<int, 7>{}, seven, seven); }, {"7 measured", "1 to 6"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::components(0.0, std::array{0}, two, two); }, {"1 places", "2 measured"}));
+  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, three, five); }, {"5 numbers", "3 variances or 9"}));
+}
+
+}  // namespace
+}  // namespace sigmax
