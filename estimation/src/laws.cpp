@@ -211,7 +211,7 @@ std::vector<std::string> motion_components(int axes, int orders) {
   return names;
 }
 
-double turn_rate(double omega) {
+double finite_rate(double omega) {
   if (std::isfinite(omega)) return omega;
   throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) +
                               "; expected a finite one");

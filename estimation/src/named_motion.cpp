@@ -79,7 +79,7 @@ void NamedMotion::require() const {
   }();
   if (names.first) motion_parameter(first, names.first, name());
   if (names.second) motion_parameter(second, names.second, name());
-  if (type == Type::known_turn) turn_rate(first);
+  if (type == Type::known_turn) finite_rate(first);
 }
 
 ModelRef NamedMotion::ref() const {

@@ -33,7 +33,7 @@ class KnownTurn {
 
   /// Throws std::invalid_argument unless ω is finite, and q finite and not negative.
   KnownTurn(double omega, double q)
-      : omega_(detail::turn_rate(omega)), q_(detail::motion_parameter(q, "q", name())) {}
+      : omega_(detail::finite_rate(omega)), q_(detail::motion_parameter(q, "q", name())) {}
 
   double omega() const { return omega_; }
   double q() const { return q_; }

@@ -27,7 +27,7 @@ void coordinated_turn(int axes, double q, double q_omega, const double* x, doubl
 std::vector<std::string> motion_components(int axes, int orders);
 
 /// Returns the rate of a turn. Throws std::invalid_argument unless it is finite.
-double turn_rate(double omega);
+double finite_rate(double omega);
 
 /// Returns the parameter of a model. Throws std::invalid_argument, naming both, unless `least` ≤ value ≤ 1e150, so that
 /// its square is finite.

@@ -92,10 +92,6 @@ struct ModeStay {
   bool is_start;
 };
 
-namespace detail {
-class ChosenTarget;
-}
-
 /// A Target whose scheme, kind, models and sensors are chosen at run time. All of them are compiled once, inside the
 /// library; what passes between is plain data, so that it does not matter with which flags a user compiles.
 ///
@@ -145,7 +141,8 @@ class AnyTarget {
   std::vector<ModeStay> explained() const;
 
  private:
-  std::unique_ptr<detail::ChosenTarget> target_;
+  struct Chosen;
+  std::unique_ptr<Chosen> chosen_;
 };
 
 }  // namespace sigmax
