@@ -124,8 +124,7 @@ void white_noise(int order, double q, double dt, double* F, double* Q, double* g
     gain[a] = power[static_cast<std::size_t>(p + 1)];
     for (int b = 0; b < order; ++b) {
       const int r = order - 1 - b;
-      Q[a + b * order] =
-          q * power[static_cast<std::size_t>(p)] * power[static_cast<std::size_t>(r)] * dt / (p + r + 1);
+      Q[a + b * order] = q * power[static_cast<std::size_t>(p)] * power[static_cast<std::size_t>(r)] * dt / (p + r + 1);
     }
   }
 }
@@ -213,8 +212,7 @@ std::vector<std::string> motion_components(int axes, int orders) {
 
 double finite_rate(double omega) {
   if (std::isfinite(omega)) return omega;
-  throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) +
-                              "; expected a finite one");
+  throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) + "; expected a finite one");
 }
 
 double motion_parameter(double value, std::string_view parameter, std::string_view model, double least) {

@@ -57,11 +57,16 @@ std::vector<std::string> NamedMotion::components() const {
 
 std::string_view NamedMotion::name() const {
   switch (type) {
-    case Type::discrete_white_noise: return order == 2 ? "dwna" : "dwpa";
-    case Type::white_noise: return order == 2 ? "cwna" : "cwpa";
-    case Type::ornstein_uhlenbeck: return order == 1 ? "ou_position" : order == 2 ? "ou_velocity" : "singer";
-    case Type::known_turn: return "known_turn";
-    case Type::coordinated_turn: break;
+    case Type::discrete_white_noise:
+      return order == 2 ? "dwna" : "dwpa";
+    case Type::white_noise:
+      return order == 2 ? "cwna" : "cwpa";
+    case Type::ornstein_uhlenbeck:
+      return order == 1 ? "ou_position" : order == 2 ? "ou_velocity" : "singer";
+    case Type::known_turn:
+      return "known_turn";
+    case Type::coordinated_turn:
+      break;
   }
   return "coordinated_turn";
 }
@@ -69,11 +74,16 @@ std::string_view NamedMotion::name() const {
 void NamedMotion::require() const {
   const auto names = [&]() -> std::pair<const char*, const char*> {
     switch (type) {
-      case Type::discrete_white_noise: return {"sigma_w", nullptr};
-      case Type::white_noise: return {"q", nullptr};
-      case Type::ornstein_uhlenbeck: return {"the rate", "sigma"};
-      case Type::known_turn: return {nullptr, "q"};
-      case Type::coordinated_turn: break;
+      case Type::discrete_white_noise:
+        return {"sigma_w", nullptr};
+      case Type::white_noise:
+        return {"q", nullptr};
+      case Type::ornstein_uhlenbeck:
+        return {"the rate", "sigma"};
+      case Type::known_turn:
+        return {nullptr, "q"};
+      case Type::coordinated_turn:
+        break;
     }
     return {"q", "q_omega"};
   }();

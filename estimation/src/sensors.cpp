@@ -81,8 +81,7 @@ void position_covariance(const double* measured, const double* sigma, int times,
       const double a_covariance = i < 2 && k < 2 ? azimuth.covariance[i][k] : 0.0;
       const double ee = e[i] * e[k], aa = a[i] * a[k];
       const double directions = ee * a_covariance + e_covariance * aa + e_covariance * a_covariance;
-      result[i + 3 * k] =
-          measured[0] * measured[0] * directions + times * sigma[0] * sigma[0] * (directions + ee * aa);
+      result[i + 3 * k] = measured[0] * measured[0] * directions + times * sigma[0] * sigma[0] * (directions + ee * aa);
     }
 }
 
@@ -129,8 +128,7 @@ void polar_difference(const double* z, const double* predicted, int m, double* r
 
 void convert(const double* measured, const double* sigma, Conversion conversion, double* mean, double* covariance) {
   const double r = measured[0];
-  if (!(r > 0.0))
-    throw std::invalid_argument("a radar range is " + std::to_string(r) + " m; expected a positive one");
+  if (!(r > 0.0)) throw std::invalid_argument("a radar range is " + std::to_string(r) + " m; expected a positive one");
   if (!(sigma[0] >= 0.0 && sigma[1] >= 0.0 && sigma[2] >= 0.0))
     throw std::invalid_argument("a radar's standard deviations are not negative");
   const double ca = std::cos(measured[1]), sa = std::sin(measured[1]);

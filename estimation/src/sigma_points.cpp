@@ -66,8 +66,8 @@ class SigmaPoints {
 };
 
 /// What f makes of the points: its mean, and the deviations from it.
-void propagate(const ModelRef& model, SigmaPoints& points, const double* x, double dt, double* mean,
-               double* deviations, double* Q) {
+void propagate(const ModelRef& model, SigmaPoints& points, const double* x, double dt, double* mean, double* deviations,
+               double* Q) {
   const int n = model.size();
   Scratch<32> state(n), shift(n);
   for (int i = 0; i < points.count(); ++i) {

@@ -40,9 +40,15 @@ void two_point_start(const TimedView& first, const TimedView& second, View start
 
 void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, View start) {
   const double h = positive_step(first.time, second.time), k = positive_step(second.time, third.time);
-  const double weights[] = {0.0, k / (h * (h + k)),  2.0 / (h * (h + k)),  //
-                            0.0, -(h + k) / (h * k), -2.0 / (h * k),       //
-                            1.0, (h + 2.0 * k) / (k * (h + k)), 2.0 / (k * (h + k))};
+  const double weights[] = {0.0,
+                            k / (h * (h + k)),
+                            2.0 / (h * (h + k)),  //
+                            0.0,
+                            -(h + k) / (h * k),
+                            -2.0 / (h * k),  //
+                            1.0,
+                            (h + 2.0 * k) / (k * (h + k)),
+                            2.0 / (k * (h + k))};
   const ConstView points[] = {first.measurement, second.measurement, third.measurement};
   start_from_points(weights, 3, points, 3, start);
 }

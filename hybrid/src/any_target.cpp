@@ -100,7 +100,7 @@ class ChosenStart {
     const int all = 3 * axes;
     double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
     (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1),
-                                                                   {wide_mean, wide_covariance, all});
+                                                                    {wide_mean, wide_covariance, all});
     detail::two_point_start(view(2), view(1), {narrow_mean, narrow_covariance, 2 * axes});
     return StartAt<Estimates>{points.back().time, estimates([&](int n, EstimateAt<double>& own) {
                                 const bool wide = n == all || released;
@@ -119,8 +119,7 @@ class ChosenStart {
     const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * plots[0].time - plots[1].time;
     return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
                                 for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
-                                  const auto place =
-                                      static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
+                                  const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
                                   own.mean(k) = choice_.start_mean[place];
                                   own.covariance(k, k) = choice_.start_covariance_diagonal[place];
                                 }
@@ -156,10 +155,9 @@ struct Followed {
       : filter(chosen_filter<Filter>(choice, models, start.nowhere())), life(filter, start, choice.rules) {}
 };
 
-using AnyFollowed =
-    std::variant<Followed<InteractingFilter<Random>>, Followed<InteractingFilter<Fuzzy>>,
-                 Followed<SecondOrderFilter<Random>>, Followed<SecondOrderFilter<Fuzzy>>,
-                 Followed<HistoriesOfModes<Random>>, Followed<HistoriesOfModes<Fuzzy>>>;
+using AnyFollowed = std::variant<Followed<InteractingFilter<Random>>, Followed<InteractingFilter<Fuzzy>>,
+                                 Followed<SecondOrderFilter<Random>>, Followed<SecondOrderFilter<Fuzzy>>,
+                                 Followed<HistoriesOfModes<Random>>, Followed<HistoriesOfModes<Fuzzy>>>;
 
 template <ScalableUncertainty Kind>
 AnyFollowed followed(const TargetChoice& choice) {
@@ -204,8 +202,8 @@ AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
   if (plot.size < 1 || plot.size > max_measurement_size)
     throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected 1 to 6");
   if (plot.sensor == AnyPlot::Sensor::components)
-    return ComponentSensor<max_measurement_size>(
-        std::span(plot.places).first(static_cast<std::size_t>(plot.size)), axes);
+    return ComponentSensor<max_measurement_size>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)),
+                                                 axes);
   if (axes == 2) return sensor_of<2>(plot);
   if (axes == 3) return sensor_of<3>(plot);
   if (plot.sensor != AnyPlot::Sensor::position)
@@ -216,8 +214,8 @@ AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
 
 Plot chosen_plot(const AnyPlot& plot, int axes) {
   if (plot.sensor == AnyPlot::Sensor::none) return Plot(plot.time, plot.tag);
-  return Plot(plot.time, detail::ConstView{plot.z.data(), plot.covariance.data(), plot.size},
-              chosen_sensor(plot, axes), plot.tag);
+  return Plot(plot.time, detail::ConstView{plot.z.data(), plot.covariance.data(), plot.size}, chosen_sensor(plot, axes),
+              plot.tag);
 }
 
 const TargetChoice& checked(const TargetChoice& choice) {
@@ -316,8 +314,7 @@ bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) 
   double by_columns[9];
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) by_columns[i + k * n] = A[i * n + k];
-  return chosen_->visit(
-      [&](auto& target) { return target.life.transform(target.filter, by_columns, b.data(), axes); });
+  return chosen_->visit([&](auto& target) { return target.life.transform(target.filter, by_columns, b.data(), axes); });
 }
 
 TargetPoint AnyTarget::output() const {

@@ -83,8 +83,9 @@ void Envelope::add(double weight, detail::ConstView estimate) {
   detail::Scratch<1024> varying(n * n);
   for (int k = 0; k < n; ++k)
     for (int i = 0; i < n; ++i)
-      varying[i + k * n] = estimate.covariance[part.varies[static_cast<std::size_t>(i)] +
-                                               part.varies[static_cast<std::size_t>(k)] * size_];
+      varying[i + k * n] =
+          estimate
+              .covariance[part.varies[static_cast<std::size_t>(i)] + part.varies[static_cast<std::size_t>(k)] * size_];
   part.root.resize(static_cast<std::size_t>(n * n));
   if (!detail::cholesky_factor(varying, n, part.root.data()))
     throw std::domain_error(
@@ -137,7 +138,8 @@ void Envelope::weigh(Part& part) {
   part.mass = 0.0;
   for (std::size_t k = 0; k < points; ++k) {
     double greatest = -std::numeric_limits<double>::infinity(), sum = 0.0;
-    for (std::size_t at = k; at < log_densities_.size(); at += points) greatest = std::max(greatest, log_densities_[at]);
+    for (std::size_t at = k; at < log_densities_.size(); at += points)
+      greatest = std::max(greatest, log_densities_[at]);
     for (std::size_t at = k; at < log_densities_.size(); at += points) sum += std::exp(log_densities_[at] - greatest);
     masses[k] = part.weight / points / sum;
     part.mass += masses[k];

@@ -105,7 +105,8 @@ void eigen(double* M, int n, double* values, double* vectors) {
       for (int q = p + 1; q < n; ++q) {
         if (M[p + q * n] == 0.0) continue;
         const double half_cotangent = (M[q + q * n] - M[p + p * n]) / (2.0 * M[p + q * n]);
-        const double t = std::copysign(1.0, half_cotangent) / (std::abs(half_cotangent) + std::hypot(half_cotangent, 1.0));
+        const double t =
+            std::copysign(1.0, half_cotangent) / (std::abs(half_cotangent) + std::hypot(half_cotangent, 1.0));
         const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
         const auto rotate = [&](double& a, double& b) {
           const double was = a;

@@ -7,8 +7,8 @@
 /// Factorisations that smoothing needs.
 namespace sigmax::detail {
 
-/// Turns the first `columns` of a matrix into an upper triangle by reflections of its rows, in place. The greatest entry
-/// of each column leads, so that rows of very different size keep their digits (Cox, Higham 1998).
+/// Turns the first `columns` of a matrix into an upper triangle by reflections of its rows, in place. The greatest
+/// entry of each column leads, so that rows of very different size keep their digits (Cox, Higham 1998).
 class Triangle {
  public:
   Triangle(double* matrix, int rows, int all_columns, int columns);

@@ -149,9 +149,8 @@ HybridEstimate<Kind> TrackBank<Kind, Number>::state(std::size_t track) const {
 
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::read(std::size_t track, State& state) const {
-  const Number* const at =
-      for_each_number(block(track / lanes_) + track % lanes_, lanes_, shortcut_.axes(), state.estimates,
-                      [](Number stored, double& known) { known = stored; });
+  const Number* const at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, shortcut_.axes(),
+                                           state.estimates, [](Number stored, double& known) { known = stored; });
   for (std::size_t j = 0; j < state.estimates.size(); ++j) {
     const detail::View estimate = state.estimates.view(j);
     detail::mirror_lower(estimate.covariance, estimate.n);
@@ -164,13 +163,11 @@ template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::write(std::size_t track, const State& state) {
   for (std::size_t j = 0; j < state.estimates.size(); ++j)
     if (!fits<Number>(state.estimates.view(j)))
-      throw std::domain_error("track " + std::to_string(track) +
-                              " is too far or too uncertain for the bank's numbers");
+      throw std::domain_error("track " + std::to_string(track) + " is too far or too uncertain for the bank's numbers");
   Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, shortcut_.axes(), state.estimates,
                                [](Number& stored, double known) { stored = static_cast<Number>(known); });
   for (const double log : state.belief.logs()) {  // however small, what is not excluded can come back
-    *at =
-        log == log_zero ? Number{} : std::max(static_cast<Number>(std::exp(log)), std::numeric_limits<Number>::min());
+    *at = log == log_zero ? Number{} : std::max(static_cast<Number>(std::exp(log)), std::numeric_limits<Number>::min());
     at += lanes_;
   }
   *at = static_cast<Number>(state.most_likely_mode);
@@ -179,8 +176,7 @@ void TrackBank<Kind, Number>::write(std::size_t track, const State& state) {
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::run(double dt, std::span<const ScanOfTracks<Number>> scans, std::size_t threads) {
   if (!(dt >= 0.0 && std::isfinite(dt)))
-    throw std::invalid_argument("a step of " + std::to_string(dt) +
-                                " s; expected a finite time that is not negative");
+    throw std::invalid_argument("a step of " + std::to_string(dt) + " s; expected a finite time that is not negative");
   for (const auto& scan : scans)
     if (scan.tracks_ != blocks() * lanes_)
       throw std::invalid_argument("a scan for " + std::to_string(scan.tracks_) + " tracks; the bank has room for " +

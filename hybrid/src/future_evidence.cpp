@@ -179,8 +179,8 @@ void finish(const double* G, double* Z, double* y, int n, const FutureEvidence& 
   multiply(Z, n, columns_of(basis, n), product, n, n, n, reached);
   multiply_transposed(basis, n, product, n, within, reached, reached, n, reached);
   eigen(within, reached, values, vectors);
-  const auto kept = static_cast<int>(std::count_if(values.data(), values.data() + reached,
-                                                   [](double value) { return value > least; }));
+  const auto kept = static_cast<int>(
+      std::count_if(values.data(), values.data() + reached, [](double value) { return value > least; }));
   double* const R = result.write(kept);
   Scratch<32> axis(n);
   int row = 0;
@@ -216,8 +216,7 @@ void collapse(const std::vector<FutureEvidence>& parts, const std::vector<double
     if (!(weights[j] > 0.0)) continue;
     const int rows = parts[j].rows();
     for (int k = 0; k < n; ++k)
-      for (int i = 0; i < rows; ++i)
-        stack[first + i + k * all] = std::sqrt(weights[j]) * parts[j].R()[i + k * rows];
+      for (int i = 0; i < rows; ++i) stack[first + i + k * all] = std::sqrt(weights[j]) * parts[j].R()[i + k * rows];
     first += rows;
   }
   Scratch<1024> G(n * n), H(n * n), empty(n * n), N(n * n), rest(n * n), solved(n * (n + 1)), X(n * n), Xi(n * n);

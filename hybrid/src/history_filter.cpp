@@ -196,8 +196,7 @@ int HistoriesOfModes<Kind>::normalized_innovation(double* numbers) const {
 template <ScalableUncertainty Kind>
 double HistoriesOfModes<Kind>::log_evidence() const {
   return detail::log_combine<AlgebraOf<Kind>>(
-      state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; },
-      detail::unit);
+      state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; }, detail::unit);
 }
 
 template <ScalableUncertainty Kind>
@@ -267,8 +266,7 @@ void HistoriesOfModes<Kind>::propose() {
       const bool begins = lacks_[l * modes() + j];
       for (std::size_t entry = 0; entry < (begins ? branches_ : 1); ++entry) {
         candidates_.push_back({{j, h, begins ? log_weight - share : log_weight}, entry, false});
-        if (candidates_.back().history.log_weight > candidates_[best].history.log_weight)
-          best = candidates_.size() - 1;
+        if (candidates_.back().history.log_weight > candidates_[best].history.log_weight) best = candidates_.size() - 1;
       }
     }
     if (best == candidates_.size()) candidates_.push_back({{j, last_of(j), log_zero}, 0, false});

@@ -23,7 +23,7 @@ void InteractingFilter<Kind>::step(double dt, const Seen& seen, double gate) {
   if (this->shortened(dt, &seen, gate, predicted_)) return;
   bool taken = false, concluded = false;
   this->located(dt, [&] {
-    mix(dt);                                    // step 1, (51)–(59)
+    mix(dt);                                     // step 1, (51)–(59)
     for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
       this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
       this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
@@ -50,8 +50,7 @@ void InteractingFilter<Kind>::step(double dt) {
   if (this->shortened(dt, nullptr, no_gate, predicted_)) return;
   this->located(dt, [&] {
     mix(dt);
-    for (std::size_t j = 0; j < modes(); ++j)
-      this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
+    for (std::size_t j = 0; j < modes(); ++j) this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
     coast();
   });
   this->conclude(false);

@@ -26,7 +26,8 @@ constexpr std::array<KnownParameter, 4> parameters{{
 /// A row of a motion that the library computes: its name, whether it stands for a manoeuvre, how many derivatives it
 /// has, and what its two parameters are made of.
 template <NamedMotion::Type Type, int Order, class Numbers>
-constexpr MotionRow named(std::string_view name, bool manoeuvres, Numbers, std::initializer_list<MotionParameter> needs) {
+constexpr MotionRow named(std::string_view name, bool manoeuvres, Numbers,
+                          std::initializer_list<MotionParameter> needs) {
   constexpr bool turns = Type == NamedMotion::Type::known_turn || Type == NamedMotion::Type::coordinated_turn;
   constexpr bool linear = Type != NamedMotion::Type::coordinated_turn;
   return {{name, Order, turns ? 2 : 1, linear, manoeuvres, MotionRow::parameters(needs)},

@@ -193,8 +193,8 @@ void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, con
   detail::InnovationView told{innovation.residual_numbers.data(), innovation.covariance_numbers.data()};
   detail::update(model(j).ref(), prior, seen.z, seen.sensor.of(system_.models(), j), posterior, told);
   innovation.squared_distance = told.squared_distance;
-  innovation.log_likelihood = interaction_.likelihood == LikelihoodForm::possibility ? -0.5 * told.squared_distance
-                                                                                      : told.log_likelihood;
+  innovation.log_likelihood =
+      interaction_.likelihood == LikelihoodForm::possibility ? -0.5 * told.squared_distance : told.log_likelihood;
   if (std::isnan(innovation.log_likelihood))
     throw std::domain_error("the likelihood in mode '" + system_.mode_variable().label(j) + "' is not a number");
 }

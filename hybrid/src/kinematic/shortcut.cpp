@@ -86,8 +86,7 @@ bool Shortcut::prepare(const std::vector<AxisLaw>& laws, double dt, const double
   if (dt != dt_) {
     dt_ = dt;
     described_ = true;
-    for (std::size_t j = 0; described_ && j < laws.size(); ++j)
-      described_ = written(laws[j], plan_.axes, plan_.law[j]);
+    for (std::size_t j = 0; described_ && j < laws.size(); ++j) described_ = written(laws[j], plan_.axes, plan_.law[j]);
   }
   return described_;
 }
@@ -100,7 +99,8 @@ bool Shortcut::step(const Estimates& now, const double* weights, std::size_t mos
 
 bool Shortcut::output(const Selection&, const Estimates& estimates, const double* weights, std::size_t most_likely,
                       View result) const {
-  if (outputs_) kinematic::output(plan_, true, track_of(estimates, weights, most_likely), result.mean, result.covariance);
+  if (outputs_)
+    kinematic::output(plan_, true, track_of(estimates, weights, most_likely), result.mean, result.covariance);
   return outputs_;
 }
 

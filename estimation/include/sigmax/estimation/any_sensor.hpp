@@ -36,8 +36,8 @@ class AnySensor {
       shared_ = std::make_shared<const Sensor>(std::move(sensor));
   }
 
-  /// What a measurement, with its covariance, tells of the position, if the sensor can tell it by itself: along how many
-  /// axes, or none, and as many numbers, at most three and nine.
+  /// What a measurement, with its covariance, tells of the position, if the sensor can tell it by itself: along how
+  /// many axes, or none, and as many numbers, at most three and nine.
   int position(detail::ConstView z, double* mean, double* covariance) const {
     return position_(sensor(), z, mean, covariance);
   }
@@ -56,7 +56,6 @@ class AnySensor {
   const detail::SensorTable* const& table() const { return table_; }
 
  private:
-
   template <class Sensor>
   static int position_of(const void* pointer, detail::ConstView z, double* mean, double* covariance) {
     if constexpr (requires(const Sensor& own, const MeasurementOf<Sensor>& measured) { own.position(measured); }) {

@@ -31,8 +31,7 @@ class CoordinatedTurn {
 
   /// Throws std::invalid_argument unless q and q_ω are finite and not negative.
   CoordinatedTurn(double q, double q_omega)
-      : q_(detail::motion_parameter(q, "q", name())),
-        q_omega_(detail::motion_parameter(q_omega, "q_omega", name())) {}
+      : q_(detail::motion_parameter(q, "q", name())), q_omega_(detail::motion_parameter(q_omega, "q_omega", name())) {}
 
   double q() const { return q_; }
   double q_omega() const { return q_omega_; }

@@ -9,10 +9,8 @@ namespace sigmax {
 
 /// A model that has a prediction: a linear motion, or any motion in a member of the Kalman family.
 template <class Model>
-concept FilterModel =
-    StateModel<Model> && (LinearMotion<Model> || requires(const Model& model) { model.ref(); } || requires {
-      typename Model::MotionType;
-    });
+concept FilterModel = StateModel<Model> &&(
+    LinearMotion<Model> || requires(const Model& model) { model.ref(); } || requires { typename Model::MotionType; });
 
 /// Prediction: of a linear motion (27) and (28), x = F x + u, P = F P Fᵀ + G Q Gᵀ. Of another with `Extended` x = f(x)
 /// and F = ∂f/∂x; with sigma points χ x = Σ wᵢ f(χᵢ), P = Σ wᵢ (f(χᵢ) − x)(·)ᵀ + Q. `result` may be `prior`.

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <sigmax/estimation/model.hpp>
+#include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/refs.hpp>
 
 namespace sigmax {

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include <sigmax/estimation/independent_axes.hpp>
-#include <sigmax/estimation/member.hpp>
+#include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/view.hpp>
 
 /// How compiled code asks a model of any type.
@@ -49,7 +49,8 @@ struct FunctionsOf {
       write<SquareMatrix<Moves::order>>(own.law().process_covariance(dt), law.Q);
       write<Vector<Moves::order>>(own.law().input_gain(dt), gain);
     }
-    for (int i = 0; i < Moves::order * Moves::axes; ++i) law.input[i] = gain[i / Moves::axes] * own.input()(i % Moves::axes);
+    for (int i = 0; i < Moves::order * Moves::axes; ++i)
+      law.input[i] = gain[i / Moves::axes] * own.input()(i % Moves::axes);
   }
 
   static void linear(const void* pointer, double dt, double* F, double* Q, double* input) {
@@ -103,7 +104,8 @@ ModelRef model_ref(const Model& model) {
     if constexpr (requires { model.motion().ref(); })
       result = model.motion().ref();
     else
-      result.table = &motion_table<Moves, !requires { model.weights(); }>;
+      result.table = &motion_table < Moves, !requires { model.weights(); }
+    > ;
     if constexpr (requires { model.weights(); }) result.points = model.weights();
     return result;
   } else {

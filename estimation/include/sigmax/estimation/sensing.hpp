@@ -157,7 +157,8 @@ concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>
 concept LinearSensorOf = SensorOf<Sensor, Model> &&(
-    measures_leading_components<Sensor> || requires { requires Sensor::is_linear; } || requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
+    measures_leading_components<Sensor> || requires { requires Sensor::is_linear; } ||
+    requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
     requires(const Sensor& sensor, const Model& model) { sensor.measurement_matrix(model); });
 
 namespace detail {

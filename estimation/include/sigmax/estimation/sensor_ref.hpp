@@ -70,8 +70,7 @@ struct SensorFunctions {
 template <class Sensor, class Model, bool Differentiates>
 inline constexpr SensorTable sensor_table = [] {
   using Functions = SensorFunctions<Sensor, Model, Differentiates>;
-  SensorTable table{measures_leading_components<Sensor>, LinearSensorOf<Sensor, Model>,
-                    Functions::seen};
+  SensorTable table{measures_leading_components<Sensor>, LinearSensorOf<Sensor, Model>, Functions::seen};
   if constexpr (!measures_leading_components<Sensor>) table.measure = Functions::measure;
   if constexpr (Functions::has_difference) table.difference = Functions::difference;
   if constexpr (requires(const Sensor& own, const Eigen::MatrixXd& points, const Eigen::VectorXd& weights) {
@@ -83,7 +82,9 @@ inline constexpr SensorTable sensor_table = [] {
 
 /// Whether filters of a model differentiate h: those that do not use sigma points.
 template <class Model>
-inline constexpr bool differentiates = !requires(const Model& model) { model.weights(); };
+inline constexpr bool differentiates = !requires(const Model& model) {
+  model.weights();
+};
 
 /// The type of a model that a sensor is asked with: the motion of a member.
 template <class Model>

@@ -23,9 +23,7 @@ class WhiteNoise : public detail::ComputedLaw<WhiteNoise<Order>, Order> {
 
   double q() const { return q_; }
   std::string_view name() const { return Order == 2 ? "cwna" : "cwpa"; }
-  void compute(double dt, double* F, double* Q, double* gain) const {
-    detail::white_noise(Order, q_, dt, F, Q, gain);
-  }
+  void compute(double dt, double* F, double* Q, double* gain) const { detail::white_noise(Order, q_, dt, F, Q, gain); }
 
  private:
   double q_;

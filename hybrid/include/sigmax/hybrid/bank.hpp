@@ -11,8 +11,8 @@
 namespace sigmax {
 
 /// The models of a multiple-model filter as a user has them: a tuple of different types, whose sizes the compiler
-/// checks, or a vector of one type, of AnyModel if they are chosen at run time. They fill one bank, a vector of AnyModel,
-/// and all that is computed is computed over that.
+/// checks, or a vector of one type, of AnyModel if they are chosen at run time. They fill one bank, a vector of
+/// AnyModel, and all that is computed is computed over that.
 template <class Models>
 struct Bank;
 

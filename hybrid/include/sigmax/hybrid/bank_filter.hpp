@@ -32,16 +32,16 @@ class BankFilter : public Filter {
 
   /// Starts every model from its own estimate; nothing is known of the mode. The transition is a relation that serves
   /// every step, or a function of the step such as TimedTransition. `rules` are those of the filter, and its
-  /// Interaction. Throws std::invalid_argument if the transition does not fit the models, or a start is not finite or of
-  /// another size than its model.
+  /// Interaction. Throws std::invalid_argument if the transition does not fit the models, or a start is not finite or
+  /// of another size than its model.
   template <class... Rules>
   BankFilter(const Models& models, ModeTransition<kind> transition, const Starts& start, const Rules&... rules)
       : Filter(detail::bank_of(models), std::move(transition), detail::starts_of(start), rules...) {
     require_components();
   }
   template <class... Rules>
-  BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start, const Rules&... rules)
-    requires(!std::is_same_v<Starts, Estimates>)
+  BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start,
+             const Rules&... rules) requires(!std::is_same_v<Starts, Estimates>)
       : Filter(detail::bank_of(models), std::move(transition), start, rules...) {
     require_components();
   }

@@ -123,8 +123,8 @@ inline constexpr bool may_move_along_axes<AnyModel> = true;
 template <class Models>
 inline constexpr bool may_all_move_along_axes = false;
 template <class... Model>
-inline constexpr bool may_all_move_along_axes<std::tuple<Model...>> =
-    sizeof...(Model) <= kinematic::max_modes && (may_move_along_axes<Model> && ...);
+inline constexpr bool may_all_move_along_axes<std::tuple<Model...>> = sizeof...(Model) <= kinematic::max_modes &&
+                                                                      (may_move_along_axes<Model> && ...);
 template <class Model>
 inline constexpr bool may_all_move_along_axes<std::vector<Model>> = may_move_along_axes<Model>;
 

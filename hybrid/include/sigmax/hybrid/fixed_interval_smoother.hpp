@@ -62,16 +62,16 @@ class FixedIntervalSmoother {
   detail::Components components_;
   Estimates entries_;  ///< what Lift::prior lends
   State state_;
-  Estimates pairs_;                                ///< of mode i: one for each j, at i · modes + j
-  std::vector<FutureEvidence> evidence_;           ///< of each j, about the mean of its filtered estimate
-  std::vector<FutureEvidence> nothing_;            ///< what a missed measurement tells of each i
+  Estimates pairs_;                                 ///< of mode i: one for each j, at i · modes + j
+  std::vector<FutureEvidence> evidence_;            ///< of each j, about the mean of its filtered estimate
+  std::vector<FutureEvidence> nothing_;             ///< what a missed measurement tells of each i
   std::vector<std::vector<FutureEvidence>> parts_;  ///< what j tells of i, at [i][j]
-  Estimates filtered_;                             ///< of the last step that it saw, whose means these are
-  std::vector<std::vector<double>> roots_;         ///< of the covariances of each i
-  std::vector<double> log_weight_;                 ///< of each i
-  std::vector<double> weights_;                    ///< of each j, for the i at hand
-  Table joint_;                                    ///< log w(i, j)
-  double dt_ = 0.0;                                ///< from the step before to the last that it saw
+  Estimates filtered_;                              ///< of the last step that it saw, whose means these are
+  std::vector<std::vector<double>> roots_;          ///< of the covariances of each i
+  std::vector<double> log_weight_;                  ///< of each i
+  std::vector<double> weights_;                     ///< of each j, for the i at hand
+  Table joint_;                                     ///< log w(i, j)
+  double dt_ = 0.0;                                 ///< from the step before to the last that it saw
 };
 
 extern template class FixedIntervalSmoother<Random>;

@@ -23,7 +23,8 @@ template <ScalableUncertainty Kind>
 struct RecordedStep {
   double dt;  ///< since the step before, in s; ignored in the first record
   HybridEstimate<Kind> state;
-  std::vector<FutureEvidence> seen;  ///< what the measurement told each mode, about its estimate; empty if there was none
+  std::vector<FutureEvidence>
+      seen;  ///< what the measurement told each mode, about its estimate; empty if there was none
 };
 
 }  // namespace sigmax

@@ -29,7 +29,7 @@ struct KnownMotion {
   int derivatives = 0;  ///< that it has of the position, itself included
   int least_axes = 1;   ///< 2 of one that turns
   bool linear = true;
-  bool manoeuvres = false;          ///< whether it stands for a manoeuvre beside a model that does not
+  bool manoeuvres = false;    ///< whether it stands for a manoeuvre beside a model that does not
   std::array<bool, 4> has{};  ///< which parameters
   bool has_parameter(MotionParameter parameter) const { return has[static_cast<std::size_t>(parameter)]; }
 };

@@ -28,7 +28,7 @@ struct AnyInnovation {
   double squared_distance = 0.0;  ///< d² = νᵀ S⁻¹ ν
   double log_likelihood = 0.0;    ///< in the form in force
 
-  Eigen::Map<const Eigen::VectorXd> residual() const { return {residual_numbers.data(), size}; }  ///< ν
+  Eigen::Map<const Eigen::VectorXd> residual() const { return {residual_numbers.data(), size}; }            ///< ν
   Eigen::Map<const Eigen::MatrixXd> covariance() const { return {covariance_numbers.data(), size, size}; }  ///< S
   detail::ConstView view() const { return {residual_numbers.data(), covariance_numbers.data(), size}; }
 };
@@ -217,7 +217,7 @@ class MultipleModelFilter {
   void describe_models(double dt);
   std::string this_step(double dt) const;
 
-  Estimates entries_;  ///< what Lift::prior knows of each model's components
+  Estimates entries_;                  ///< what Lift::prior knows of each model's components
   std::vector<detail::AxisLaw> laws_;  ///< of the models along independent axes, for steps of laws_dt_ seconds
   double laws_dt_ = std::numeric_limits<double>::quiet_NaN();
   detail::kinematic::Shortcut shortcut_;
