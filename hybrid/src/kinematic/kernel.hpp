@@ -303,7 +303,7 @@ struct Step {
   V* next_mean[max_modes];  ///< where the next one goes
   V* next_covariance[max_modes];
   V prior[max_modes];
-  V posterior[max_modes];
+  V posterior[max_modes]{};
   V next_most_likely;
   V* predicted[max_modes];  ///< where the mean before the measurement goes, of one track
   Innovated<V, A> innovated[max_modes];
