@@ -60,7 +60,7 @@ class Target {
   Verdict take(const Plot& plot) {
     return take(plot, [](const Plot&, bool) {});
   }
-  Verdict take(double time, const Measurement& z) requires(Filter::axes > 0) { return take(Plot(time, z)); }
+  Verdict take(double time, const Measurement& z) requires(Filter::axes != 0) { return take(Plot(time, z)); }
   Verdict take(double time) { return take(Plot(time)); }
   /// @}
 
