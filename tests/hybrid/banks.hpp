@@ -184,7 +184,7 @@ inline std::vector<State> starts(const TargetChoice& choice) {
 }
 
 /// Position as measured, at rest within 200 m/s and 20 m/s².
-inline Gaussian<6> one_point_start(const Gaussian<2>& z) {
+inline Gaussian<6> one_point_start(const Gaussian<Eigen::Dynamic, 3>& z) {
   Gaussian<6> start{Vector<6>::Zero(), SquareMatrix<6>::Zero()};
   start.mean.head<2>() = z.mean;
   start.covariance.topLeftCorner<2, 2>() = z.covariance;

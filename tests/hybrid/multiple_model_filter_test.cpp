@@ -479,6 +479,27 @@ TEST(MultipleModelFilter, AFunctionOfTheStepGivesTheTransition) {
   });
 }
 
+/// Measures the position in millimetres: every Λ is 10⁻⁶ times as great.
+struct Millimetres {
+  static constexpr int seen_size = 2;
+  static constexpr int measurement_size = 2;
+  Vector<2> measure(const Vector<2>& x) const { return 1000.0 * x; }
+  SquareMatrix<2> measurement_jacobian(const Vector<2>&) const { return 1000.0 * SquareMatrix<2>::Identity(); }
+};
+
+TEST(MultipleModelFilter, ScalingTheLikelihoodChangesNothing) {
+  for_each(merging, [](const TargetChoice& choice) {
+    AnyFilter metres(choice), millimetres(choice);
+    for (const Scan& scan : manoeuvring_target(110)) {
+      metres.step(scan);
+      scan.z ? millimetres.step(scan.dt, {1e3 * scan.z->mean, 1e6 * scan.z->covariance}, Millimetres{})
+             : millimetres.step(scan.dt);
+      ASSERT_PRED_FORMAT3(near, millimetres.logs, metres.logs, 1e-8);
+      ASSERT_PRED_FORMAT3(near_matrix, millimetres.estimate.mean, metres.estimate.mean, 1e-9);
+    }
+  });
+}
+
 /// A turn of the axes, whose lengths it leaves, and a new origin.
 TEST(MultipleModelFilter, InOtherCoordinatesIsTheFilterOfMeasurementsInThem) {
   const SquareMatrix<2> turned{{0.8, -0.6}, {0.6, 0.8}};
