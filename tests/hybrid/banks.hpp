@@ -226,9 +226,10 @@ struct Shown {
 template <class Filter>
 Shown shown(const Filter& filter) {
   const auto logs = filter.belief().logs();
-  Shown result{filter.components(),       filter.estimates(),     {logs.begin(), logs.end()},
-               filter.most_likely_mode(), filter.estimate(),      filter.most_likely_estimate(),
-               filter.measured(),         filter.gate_distance(), filter.log_evidence(),
+  const auto sized = [](const auto& estimate) { return State{estimate.mean, estimate.covariance}; };
+  Shown result{filter.components(),       filter.estimates(),       {logs.begin(), logs.end()},
+               filter.most_likely_mode(), sized(filter.estimate()), sized(filter.most_likely_estimate()),
+               filter.measured(),         filter.gate_distance(),   filter.log_evidence(),
                filter.log_score()};
   if (!result.measured) return result;
   result.nis = filter.nis();
