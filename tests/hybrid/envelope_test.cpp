@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-
 #include "hybrid/banks.hpp"
 #include "support/matrices.hpp"
 
@@ -30,12 +28,12 @@ struct Weighted {
 };
 
 Moments matched(const std::vector<Weighted>& parts) {
-  const auto n = parts.front().mean.size();
+  const auto n = static_cast<int>(parts.front().mean.size());
   Envelope envelope;
   envelope.clear(n);
-  for (const auto& part : parts) envelope.add(part.weight, part.mean, part.covariance);
+  for (const auto& part : parts) envelope.add(part.weight, {part.mean.data(), part.covariance.data(), n});
   Moments result{0.0, Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
-  result.beta = envelope.match(result.mean, result.covariance);
+  result.beta = envelope.match({result.mean.data(), result.covariance.data(), n});
   return result;
 }
 
@@ -185,33 +183,30 @@ TEST(Envelope, RefusesWhatItCannotMeasure) {
   EXPECT_THROW(envelope.clear(0), std::invalid_argument);
   EXPECT_THROW(envelope.clear(33), std::invalid_argument);
   envelope.clear(2);
-  Eigen::VectorXd mean(2);
-  Eigen::MatrixXd covariance(2, 2);
-  EXPECT_THROW(envelope.match(mean, covariance), std::logic_error);
-  const auto bad = planar(1.0, 0.0, 0.0, 1.0, 2.0, 1.0);
-  EXPECT_THROW(envelope.add(bad.weight, bad.mean, bad.covariance), std::domain_error);
+  Gaussian<2> result;
+  EXPECT_THROW(envelope.match(detail::view(result)), std::logic_error);
+  EXPECT_THROW(matched({planar(1.0, 0.0, 0.0, 1.0, 2.0, 1.0)}), std::domain_error);
 }
 
 TEST(Envelope, OfTheModesIsTheOutputOfAFilterAndGivesItsBeta) {
-  const auto all = starts();
-  InteractingMultipleModel filter{VectorBank{calm(), calm(4.0), turning()},
-                                  fuzzy_transition,
-                                  all,
-                                  {Lift::borrowed_variance, {MixedCovariance::envelope}}};
-  for (const auto& scan : manoeuvring_target(100)) step(filter, scan);
-  const auto output = filter.estimate();
+  TargetChoice choice = chosen(true);
+  choice.mixed_covariance = MixedCovariance::envelope;
+  AnyFilter filter(choice);
+  for (const auto& scan : manoeuvring_target(100)) filter.step(scan);
   std::vector<Weighted> parts;
   for (std::size_t j = 0; j < 3; ++j) {
-    Weighted part{filter.belief()[j], Eigen::VectorXd::Zero(6), Eigen::MatrixXd::Zero(6, 6)};
-    const auto& own = filter.estimates()[j];
-    part.mean.head(own.mean.size()) = own.mean;
-    part.covariance.topLeftCorner(own.mean.size(), own.mean.size()) = own.covariance;
-    if (j < 2)
-      for (Eigen::Index i = 4; i < 6; ++i) part.covariance(i, i) = filter.estimates()[2].covariance(i, i);
+    Weighted part{std::exp(filter.logs[j]), Eigen::VectorXd::Zero(6), Eigen::MatrixXd::Zero(6, 6)};
+    const auto own = filter.estimates[j];
+    part.mean.head(own.size()) = own.mean;
+    part.covariance.topLeftCorner(own.size(), own.size()) = own.covariance;
+    for (Eigen::Index i = own.size(); i < 6; ++i) part.covariance(i, i) = filter.estimates[2].covariance(i, i);
     parts.push_back(part);
   }
   const auto expected = matched(parts);
-  expect_near({filter.beta(), output.mean, output.covariance}, expected, 1e-9);
+  filter.do_with([&](const auto& one) {
+    if constexpr (requires { one.beta(); })
+      expect_near({one.beta(), filter.estimate.mean, filter.estimate.covariance}, expected, 1e-9);
+  });
   EXPECT_GT(expected.beta, 1.0);
 }
 
