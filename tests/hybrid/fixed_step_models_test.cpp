@@ -180,9 +180,6 @@ void knows_what_all_histories_know() {
                               if (scheme == Scheme::interacting) return;
                               for (const double measured : z)
                                 filter.step(1.0, {Vector<1>{measured}, SquareMatrix<1>{0.5}}, PositionSensor<1>{});
-                              const auto all = all_histories(fuzzy, generated, z);
-                              auto expected = all.estimate();
-                              if (fuzzy) expected = all.of_mode(all.winner());
                               require_near(filter.estimate().mean(0), expected.mean[0], 1e-9);
                               require_near(filter.estimate().covariance(0, 0), expected.covariance(0, 0), 1e-9);
                             });
