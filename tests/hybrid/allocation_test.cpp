@@ -9,9 +9,7 @@
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/unscented.hpp>
-#include <sigmax/hybrid/target.hpp>
-
-#include "hybrid/banks.hpp"
+#include "hybrid/targets.hpp"
 #include "support/allocations.hpp"
 
 namespace sigmax {
@@ -102,8 +100,7 @@ TEST(Allocation, ATargetAllocatesNothingWhateverBecomesOfAMeasurement) {
   const TargetChoice choice = chosen(true);
   const InteractingMultipleModel filter{models_of(choice), transition_of<Fuzzy>(choice), starts()};
   Target target{filter, 0.0, one_point_start, TargetRules{0.999, 2, 1e9, 3}};
-  const Gaussian<2> z{Vector<2>{12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
-  const Gaussian<2> far{Vector<2>{-12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
+  const Gaussian<2> z = near_by, far = far_off;
   std::vector<Verdict> verdicts;
   verdicts.reserve(16);
   for (const Plot& plot : {Plot(1.0, z), Plot(2.0, z), Plot(1.5, z), Plot(3.0, far), Plot(4.0, far), Plot(5.0)}) {

@@ -183,15 +183,6 @@ inline std::vector<State> starts(const TargetChoice& choice) {
   return result;
 }
 
-/// Position as measured, at rest within 200 m/s and 20 m/s².
-inline Gaussian<6> one_point_start(const Gaussian<Eigen::Dynamic, 3>& z) {
-  Gaussian<6> start{Vector<6>::Zero(), SquareMatrix<6>::Zero()};
-  start.mean.head<2>() = z.mean;
-  start.covariance.topLeftCorner<2, 2>() = z.covariance;
-  start.covariance.diagonal().tail<4>() << 4e4, 4e4, 400.0, 400.0;
-  return start;
-}
-
 template <Uncertainty Kind>
 ModeTransition<Kind> transition_of(const TargetChoice& choice) {
   const Variable<Kind> mode{"motion", choice.models};
