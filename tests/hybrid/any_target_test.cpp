@@ -58,25 +58,49 @@ TEST(AnyTarget, StartsFromThreePointsAndTellsTheTagOfEveryStep) {
   EXPECT_FALSE(point.nis);
 }
 
-TEST(AnyTarget, ACopyGoesOnByItself) {
+TEST(AnyTarget, CopiedGoesItsOwnWayAndMovedGoesOn) {
+  for (const bool fuzzy : {false, true})
+    for (const Scheme scheme : {Scheme::interacting, Scheme::second_order, Scheme::histories}) {
+      AnyTarget target{choice(fuzzy, scheme)};
+      for (int k = 0; k < 4; ++k) target.take(at(k, 100.0 * k, 0.0));
+      AnyTarget copy = target, other{choice(!fuzzy, Scheme::interacting)};
+      copy.take(at(4.0, 400.0, 50.0));
+      EXPECT_EQ(target.time(), 3.0);
+      EXPECT_EQ(copy.time(), 4.0);
+      target.take(at(4.0, 400.0, 50.0));
+      EXPECT_EQ(target.output().mean, copy.output().mean);
+      other = copy;
+      EXPECT_EQ(other.output().mean, copy.output().mean);
+      EXPECT_EQ(other.starts(), 1U);
+      EXPECT_EQ(other.rejected(), 0U);
+
+      AnyTarget moved = std::move(copy);
+      EXPECT_EQ(moved.output().log_score, target.output().log_score);
+      other = std::move(moved);
+      std::vector<std::size_t> told;
+      for (const int k : {5, 6}) {
+        target.take(at(k, 100.0 * k, 100.0));
+        other.take(at(k, 100.0 * k, 100.0, static_cast<std::size_t>(k)),
+                   [&](std::size_t tag, bool) { told.push_back(tag); });
+        EXPECT_EQ(other.output().mean, target.output().mean);
+        EXPECT_EQ(other.output().log_score, target.output().log_score);
+      }
+      EXPECT_EQ(told, (std::vector<std::size_t>{5, 6}));
+    }
+}
+
+TEST(AnyTarget, IsToldInOtherCoordinates) {
   AnyTarget target{choice(true, Scheme::interacting)};
-  for (int k = 0; k < 4; ++k) target.take(at(k, 100.0 * k, 0.0), {});
-  AnyTarget copy = target, other{choice(false, Scheme::interacting)};
-  copy.take(at(4.0, 400.0, 50.0), {});
-  EXPECT_EQ(target.time(), 3.0);
-  EXPECT_EQ(copy.time(), 4.0);
-  target.take(at(4.0, 400.0, 50.0), {});
-  EXPECT_EQ(target.output().mean, copy.output().mean);
-  other = copy;
-  EXPECT_EQ(other.output().mean, copy.output().mean);
-  EXPECT_EQ(other.starts(), 1U);
-  EXPECT_EQ(other.rejected(), 0U);
-  const double turn[] = {0, 1, 0, -1, 0, 0, 0, 0, 1}, shift[] = {0, 0, 7};
-  EXPECT_TRUE(other.transform(turn, shift));
-  EXPECT_NEAR(other.output().mean[0], copy.output().mean[1], 1e-9);
-  EXPECT_NEAR(other.output().mean[1], -copy.output().mean[0], 1e-9);
-  EXPECT_NEAR(other.output().mean[2], copy.output().mean[2] + 7.0, 1e-9);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { other.transform(shift, shift); }, {"3 axes"}));
+  for (int k = 0; k < 4; ++k) target.take(at(k, 100.0 * k, 50.0 * k));
+  const auto before = target.output().mean;
+  const double turn[] = {0, 1, 0, -1, 0, 0, 0, 0, 1}, shift[] = {0, 0, 7};  // A row by row
+  EXPECT_TRUE(target.transform(turn, shift));
+  const auto after = target.output().mean;
+  EXPECT_NEAR(after[0], before[1], 1e-9);
+  EXPECT_NEAR(after[1], -before[0], 1e-9);
+  EXPECT_NEAR(after[2], before[2] + 7.0, 1e-9);
+  EXPECT_NEAR(after[3], before[4], 1e-9);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { target.transform(shift, shift); }, {"3 axes"}));
 }
 
 TEST(AnyTarget, AGivenStartWaitsForTheSecondPlotAndTakesBoth) {
@@ -178,15 +202,6 @@ TEST(AnyTarget, ATurnedWorldGivesTheTurnedTrack) {
   }
 }
 
-TEST(AnyTarget, ACopyGoesItsOwnWay) {
-  AnyTarget target{choice(false, Scheme::interacting)};
-  for (int k = 0; k < 5; ++k) target.take(at(k, 100.0 * k, 0.0));
-  AnyTarget copy = target;
-  copy.take(at(5.0, 600.0, 0.0));
-  EXPECT_EQ(target.time(), 4.0);
-  EXPECT_EQ(copy.time(), 5.0);
-}
-
 TEST(AnyTarget, RefusesAChoiceThatMakesNoSense) {
   TargetChoice bad = choice(false, Scheme::interacting);
   bad.motions[1].name = "warp";
@@ -223,21 +238,6 @@ TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
   TargetChoice turning = choice(false, Scheme::interacting, 1);
   turning.motions[1].name = "ct";
   EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{turning}; }, {"ct", "one axis"}));
-}
-
-TEST(MotionChoice, KnowsItsMotions) {
-  EXPECT_EQ(known_motions().size(), 9U);
-  EXPECT_EQ(known_motion("singer")->derivatives, 3);
-  EXPECT_TRUE(known_motion("singer")->has_parameter(MotionParameter::tau));
-  EXPECT_FALSE(known_motion("dwna")->has_parameter(MotionParameter::tau));
-  EXPECT_FALSE(known_motion("ct")->linear);
-  EXPECT_EQ(known_motion("ct")->derivatives, 2);
-  EXPECT_EQ(known_motion("ct")->least_axes, 2);
-  EXPECT_EQ(known_motion("singer")->least_axes, 1);
-  EXPECT_TRUE(known_motion("ct")->manoeuvres);
-  EXPECT_EQ(known_motion("ou_position")->derivatives, 1);
-  EXPECT_EQ(known_motion("warp"), nullptr);
-  EXPECT_EQ(motion_parameters()[static_cast<std::size_t>(MotionParameter::tau)].key, "tau_s");
 }
 
 }  // namespace
