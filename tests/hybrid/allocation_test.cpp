@@ -80,19 +80,15 @@ TEST(Allocation, ATupleOfTypedModelsAllocatesNothing) {
 }
 
 TEST(Allocation, AStepOfTheSmootherAllocatesNothing) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    AnyFilter any(choice);
-    any.do_with([](auto& filter) {
-      std::vector record{filter.recorded(0.0)};
-      for (const Scan& scan : manoeuvring_target(20)) {
-        scan.z ? filter.step(scan.dt, *scan.z, PositionSensor<2>{}) : filter.step(scan.dt);
-        record.push_back(scan.z ? filter.recorded(scan.dt, *scan.z, PositionSensor<2>{}) : filter.recorded(scan.dt));
-      }
-      FixedIntervalSmoother smoother{filter};
-      smoother.begin(record.back());
-      for (std::size_t k = record.size() - 1; k-- > 0;)
-        ASSERT_EQ(allocations_of([&] { smoother.step(record[k]); }), 0U);
-    });
+  with_every_filter([](auto& filter) {
+    std::vector record{filter.recorded(0.0)};
+    for (const Scan& scan : manoeuvring_target(20)) {
+      scan.z ? filter.step(scan.dt, *scan.z, PositionSensor<2>{}) : filter.step(scan.dt);
+      record.push_back(scan.z ? filter.recorded(scan.dt, *scan.z, PositionSensor<2>{}) : filter.recorded(scan.dt));
+    }
+    FixedIntervalSmoother smoother{filter};
+    smoother.begin(record.back());
+    for (std::size_t k = record.size() - 1; k-- > 0;) ASSERT_EQ(allocations_of([&] { smoother.step(record[k]); }), 0U);
   });
 }
 

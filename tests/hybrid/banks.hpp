@@ -97,22 +97,18 @@ inline TargetChoice with(TargetChoice choice, Lift lift) {
   return choice;
 }
 
-/// "Himm, own_recentred, unbiased": what sets it apart.
+/// "himm, lift unbiased, selected, mixing stay, output first".
 inline std::string name_of(const TargetChoice& choice) {
-  static const char* const names[2][5] = {{"Imm", "Gpb1", "Gpb2", "StaticImm", "ImmHistories"},
-                                          {"Himm", "HimmOneArgMax", "Viterbi", "StaticHimm", "HimmHistories"}};
-  std::string name = names[choice.fuzzy ? 1 : 0][static_cast<int>(choice.scheme)];
-  const auto add = [&](int value, int usual, std::initializer_list<const char*> words) {
-    if (value != usual) name += std::string(", ") + words.begin()[value];
-  };
-  add(static_cast<int>(choice.mixed_covariance), 2, {"selected", "own", "own_recentred", "released", "envelope"});
-  add(static_cast<int>(choice.imm_mixing), 0, {"", "released"});
-  add(static_cast<int>(choice.lift), 1, {"zero", "borrowed_variance", "unbiased", "prior"});
-  add(static_cast<int>(choice.mixing_tie), 0, {"", "mixing first", "mixing last"});
-  add(static_cast<int>(choice.output_tie), 0, {"", "output first", "output last"});
-  add(static_cast<int>(choice.likelihood), 0, {"", "possibility"});
-  add(static_cast<int>(choice.output_spread), 0, {"", "spread omitted"});
-  return name;
+  static constexpr const char *schemes[] = {"imm", "gpb1", "gpb2", "static imm", "imm histories"},
+                              *fuzzy_schemes[] = {"himm", "himm by one arg max", "viterbi", "static himm",
+                                                  "himm histories"},
+                              *all_lifts[] = {"zero", "borrowed", "unbiased", "prior"},
+                              *covariances[] = {"selected", "own", "own recentred", "released", "envelope"},
+                              *all_ties[] = {"stay", "first", "last"};
+  const auto word = [](const auto& words, auto value) { return std::string(words[static_cast<int>(value)]); };
+  return word(choice.fuzzy ? fuzzy_schemes : schemes, choice.scheme) + ", lift " + word(all_lifts, choice.lift) + ", " +
+         word(covariances, choice.mixed_covariance) + ", mixing " + word(all_ties, choice.mixing_tie) + ", output " +
+         word(all_ties, choice.output_tie);
 }
 
 inline constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
@@ -153,6 +149,33 @@ inline std::vector<TargetChoice> every_reading() {
       }
     all.push_back(with(chosen(true, Scheme::second_order), lift));
   }
+  return all;
+}
+
+/// These, and each of the other rules.
+inline std::vector<TargetChoice> every_rule() {
+  std::vector<TargetChoice> all = every_reading();
+  const auto add = [&](bool fuzzy, Scheme scheme, const auto& change) {
+    all.push_back(with(chosen(fuzzy, scheme), Lift::zero));
+    all.back().mixed_covariance = MixedCovariance::selected;
+    change(all.back());
+  };
+  for (const Scheme scheme : {Scheme::interacting, Scheme::second_order}) {
+    for (const Tie mixing : every_tie)
+      for (const Tie output : every_tie)
+        add(true, scheme, [&](TargetChoice& choice) {
+          choice.mixing_tie = mixing;
+          choice.output_tie = output;
+        });
+    for (const bool fuzzy : {false, true})
+      add(fuzzy, scheme, [](TargetChoice& choice) { choice.likelihood = LikelihoodForm::possibility; });
+    add(false, scheme, [](TargetChoice& choice) { choice.output_spread = OutputSpread::omitted; });
+  }
+  for (const Lift lift : lifts)
+    add(true, Scheme::interacting, [&](TargetChoice& choice) {
+      choice.lift = lift;
+      choice.mixed_covariance = MixedCovariance::envelope;
+    });
   return all;
 }
 
@@ -287,17 +310,16 @@ class AnyFilter : public Shown {
   Filter filter_;
 };
 
-/// The plain Kalman filter of one model.
-struct Alone {
-  AnyModel model;
-  State state;
-  double log_likelihood = 0.0;
+/// That of one model: its Kalman filter, as kinematic_step_test.cpp shows.
+inline AnyFilter alone(const MotionChoice& motion, const State& start) {
+  return {with(chosen(false), {motion}, {{1.0}}), std::vector{start}};
+}
 
-  void step(const Scan& scan) {
-    predict(model, state, scan.dt, state);
-    if (scan.z) log_likelihood += update(model, state, *scan.z, PositionSensor<2>{}, state).log_likelihood;
-  }
-};
+/// Asks a law of every filter itself.
+template <class Law>
+void with_every_filter(const Law& law) {
+  for_each(every_filter(), [&](const TargetChoice& choice) { AnyFilter(choice).do_with(law); });
+}
 
 /// The envelope of some states for a restatement; envelope_test.cpp holds it against plain sums.
 inline restatement::State enveloped(const std::vector<restatement::State>& states, const std::vector<double>& weights) {

@@ -15,13 +15,13 @@ using namespace support;
 
 /// One model alone, filtered and smoothed.
 std::vector<State> smoothed_alone(const MotionChoice& motion, const State& start, const std::vector<Scan>& scans) {
-  Alone alone{model_of(motion), start};
+  AnyFilter filter = alone(motion, start);
   std::vector<FilteredStep<State>> record{{0.0, start}};
   for (const Scan& scan : scans) {
-    alone.step(scan);
-    record.push_back({scan.dt, alone.state});
+    filter.step(scan);
+    record.push_back({scan.dt, filter.estimate});
   }
-  return smooth(alone.model, record);
+  return smooth(model_of(motion), record);
 }
 
 TEST(FixedIntervalSmoother, OfOneModelOrEqualModelsIsTheRtsSmoother) {

@@ -45,13 +45,11 @@ void is_the_interval_up_to_the_lag(Filter filter, std::size_t lag) {
 
 TEST(FixedLagSmoother, IsTheIntervalUpToTheLag) {
   for (const std::size_t lag : {0U, 1U, 3U, 12U, 100U})
-    for_each(every_filter(), [&](const TargetChoice& choice) {
-      AnyFilter(choice).do_with([&](const auto& filter) { is_the_interval_up_to_the_lag(filter, lag); });
-    });
+    with_every_filter([&](const auto& filter) { is_the_interval_up_to_the_lag(filter, lag); });
 }
 
 TEST(FixedLagSmoother, OfNothingIsNothing) {
-  AnyFilter(chosen(true)).do_with([](const auto& filter) { EXPECT_TRUE(FixedLagSmoother(filter, 3).rest().empty()); });
+  with_every_filter([](const auto& filter) { EXPECT_TRUE(FixedLagSmoother(filter, 3).rest().empty()); });
 }
 
 }  // namespace

@@ -91,20 +91,6 @@ TEST(InteractingMultipleModel, MixingPreservesTheMixturesFirstTwoMoments) {
   });
 }
 
-TEST(InteractingMultipleModel, WhatHimmPutsOutIsExactlyOneFiltersEstimateAndSoIsTheMostLikelyOneOfAnyKind) {
-  for_each(every_reading(), [](const TargetChoice& choice) {
-    AnyFilter filter(choice);
-    for (const Scan& scan : manoeuvring_target(110)) {
-      filter.step(scan);
-      const auto& winner = std::as_const(filter.estimates)[filter.winner];
-      const auto n = winner.size();
-      ASSERT_EQ(filter.most_likely_estimate.mean.head(n), winner.mean);
-      ASSERT_EQ(filter.most_likely_estimate.covariance.topLeftCorner(n, n), winner.covariance);
-      if (choice.fuzzy) ASSERT_EQ(filter.estimate.covariance, filter.most_likely_estimate.covariance);
-    }
-  });
-}
-
 TEST(InteractingMultipleModel, OneStartServesAllModels) {
   const State start = starts()[2];
   const AnyFilter filter(chosen(true), start);

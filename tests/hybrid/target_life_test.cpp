@@ -29,73 +29,41 @@ void require_same_state(const State& found, const State& expected, double tolera
 }
 
 TEST(TargetLife, IsSmoothedFromStartToStartAsTheFiltersOwnRecordIs) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    AnyFilter(choice).do_with([](const auto& filter) {
-      auto target = recording(filter);
-      std::vector<std::vector<decltype(filter.recorded(0.0))>> segments;
-      std::vector<std::pair<std::size_t, bool>> told;
-      std::vector<double> times;
-      std::vector<std::optional<double>> nis;
-      for (const Plot& plot : plots(80, 40))
-        target.take(plot, [&](const Plot& each, bool is_start) {
-          told.push_back({each.tag, is_start});
-          if (is_start) segments.emplace_back();
-          const double dt = is_start ? 0.0 : target.time() - times.back();
-          times.push_back(target.time());
-          const bool measured = target.filter().measured();
-          nis.push_back(measured ? std::optional(target.filter().nis()) : std::nullopt);
-          segments.back().push_back(measured ? target.filter().recorded(dt, *each.position<2>(), PositionSensor<2>{})
-                                             : target.filter().recorded(dt));
-        });
-      ASSERT_EQ(segments.size(), 2U);
-      EXPECT_EQ(target.starts(), 2U);
-      std::vector<std::decay_t<decltype(segments[0][0].state)>> expected;
-      for (const auto& segment : segments)
-        for (const auto& state : smooth(target.filter(), segment)) expected.push_back(state);
-
-      std::size_t k = 0;
-      target.smoothed([&](const auto& kept, const auto& state) {
-        ASSERT_LT(k, told.size());
-        ASSERT_EQ(kept.tag, told[k].first);
-        ASSERT_EQ(kept.is_start, told[k].second);
-        ASSERT_EQ(kept.time, times[k]);
-        ASSERT_EQ(kept.nis, nis[k]);
-        require_same_state(state, expected[k], 1e-12);
-        ++k;
+  with_every_filter([](const auto& filter) {
+    auto target = recording(filter);
+    std::vector<std::vector<decltype(filter.recorded(0.0))>> segments;
+    std::vector<std::pair<std::size_t, bool>> told;
+    std::vector<double> times;
+    std::vector<std::optional<double>> nis;
+    for (const Plot& plot : plots(80, 40))
+      target.take(plot, [&](const Plot& each, bool is_start) {
+        told.push_back({each.tag, is_start});
+        if (is_start) segments.emplace_back();
+        const double dt = is_start ? 0.0 : target.time() - times.back();
+        times.push_back(target.time());
+        const bool measured = target.filter().measured();
+        nis.push_back(measured ? std::optional(target.filter().nis()) : std::nullopt);
+        segments.back().push_back(measured ? target.filter().recorded(dt, *each.position<2>(), PositionSensor<2>{})
+                                           : target.filter().recorded(dt));
       });
-      EXPECT_EQ(k, told.size());
-    });
-  });
-}
+    ASSERT_EQ(segments.size(), 2U);
+    EXPECT_EQ(target.starts(), 2U);
+    std::vector<std::decay_t<decltype(segments[0][0].state)>> expected;
+    for (const auto& segment : segments)
+      for (const auto& state : smooth(target.filter(), segment)) expected.push_back(state);
 
-TEST(TargetLife, TellsThePairsOfModesBackwardsFromEachEnd) {
-  auto target = recording(imm());
-  for (const Plot& plot : plots(60, 30)) target.take(plot);
-  std::vector<std::size_t> tags;
-  std::vector<std::vector<double>> beliefs;
-  target.smoothed([&](const auto& kept, const auto& state) {
-    tags.push_back(kept.tag);
-    beliefs.push_back({state.belief[0], state.belief[1], state.belief[2]});
+    std::size_t k = 0;
+    target.smoothed([&](const auto& kept, const auto& state) {
+      ASSERT_LT(k, told.size());
+      ASSERT_EQ(kept.tag, told[k].first);
+      ASSERT_EQ(kept.is_start, told[k].second);
+      ASSERT_EQ(kept.time, times[k]);
+      ASSERT_EQ(kept.nis, nis[k]);
+      require_same_state(state, expected[k], 1e-12);
+      ++k;
+    });
+    EXPECT_EQ(k, told.size());
   });
-  std::size_t told = 0, ends = 0;
-  target.smoothed([](const auto&, const auto&) {},
-                  [&](const auto& kept, const Table& log_pairs, bool is_last) {
-                    const auto k =
-                        static_cast<std::size_t>(std::find(tags.begin(), tags.end(), kept.tag) - tags.begin());
-                    for (std::size_t j = 0; j < 3; ++j) {  // the margins are the smoothed modes before and after
-                      double before = 0.0, after = 0.0;
-                      for (std::size_t i = 0; i < 3; ++i) {
-                        before += std::exp(log_pairs(j, i));
-                        after += std::exp(log_pairs(i, j));
-                      }
-                      EXPECT_PRED_FORMAT3(near, before, beliefs[k - 1][j], 1e-9);
-                      EXPECT_PRED_FORMAT3(near, after, beliefs[k][j], 1e-9);
-                    }
-                    ++told;
-                    ends += is_last ? 1 : 0;
-                  });
-  EXPECT_EQ(told, tags.size() - target.starts());
-  EXPECT_EQ(ends, target.starts());
 }
 
 TEST(TargetLife, IsNotRecordedUnlessItIsAskedFor) {
@@ -106,31 +74,29 @@ TEST(TargetLife, IsNotRecordedUnlessItIsAskedFor) {
 
 TEST(TargetLife, OfLatePlotsIsThatOfTheRightOrderToTheBit) {
   const auto all = plots(28, 14);
-  for_each(every_filter(), [&](const TargetChoice& choice) {
-    AnyFilter(choice).do_with([&](const auto& filter) {
-      const auto fresh = recording(filter, 4);
-      auto in_order = fresh;
-      for (const Plot& plot : all) in_order.take(plot);
-      ASSERT_GE(in_order.starts(), 2U);
-      std::vector<std::size_t> tags;
-      std::vector<std::decay_t<decltype(filter.by_modes())>> expected;
-      in_order.smoothed([&](const auto& kept, const auto& state) {
-        tags.push_back(kept.tag);
-        expected.push_back(state);
-      });
-      std::mt19937 generator(1);
-      for (int shuffle = 0; shuffle < 20; ++shuffle) {
-        auto shuffled = fresh;
-        for (const Plot& plot : late(all, 1, 4, [&] { return generator() % 4; })) shuffled.take(plot);
-        std::size_t k = 0;
-        shuffled.smoothed([&](const auto& kept, const auto& state) {
-          ASSERT_LT(k, tags.size());
-          ASSERT_EQ(kept.tag, tags[k]);
-          require_same_state(state, expected[k++], 0.0);
-        });
-        ASSERT_EQ(k, tags.size());
-      }
+  with_every_filter([&](const auto& filter) {
+    const auto fresh = recording(filter, 4);
+    auto in_order = fresh;
+    for (const Plot& plot : all) in_order.take(plot);
+    ASSERT_GE(in_order.starts(), 2U);
+    std::vector<std::size_t> tags;
+    std::vector<std::decay_t<decltype(filter.by_modes())>> expected;
+    in_order.smoothed([&](const auto& kept, const auto& state) {
+      tags.push_back(kept.tag);
+      expected.push_back(state);
     });
+    std::mt19937 generator(1);
+    for (int shuffle = 0; shuffle < 20; ++shuffle) {
+      auto shuffled = fresh;
+      for (const Plot& plot : late(all, 1, 4, [&] { return generator() % 4; })) shuffled.take(plot);
+      std::size_t k = 0;
+      shuffled.smoothed([&](const auto& kept, const auto& state) {
+        ASSERT_LT(k, tags.size());
+        ASSERT_EQ(kept.tag, tags[k]);
+        require_same_state(state, expected[k++], 0.0);
+      });
+      ASSERT_EQ(k, tags.size());
+    }
   });
 }
 

@@ -37,34 +37,32 @@ Filter started(Filter filter, const std::array<Plot, 3>& plots) {
 }
 
 TEST(TargetStart, SeveralPointsWaitUntilTheyAreEnough) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    AnyFilter(choice).do_with([](const auto& filter) {
-      Target target{filter, start_from_three};
-      std::vector<std::pair<double, bool>> told;
-      const auto take = [&](const Plot& plot) {
-        return target.take(plot, [&](const Plot& each, bool is_start) {
-          told.push_back({each.time, is_start});
-          EXPECT_TRUE(target.running());
-        });
-      };
-      EXPECT_FALSE(target.running());
-      EXPECT_EQ(take({1.0, at(0, 0)}), Verdict::waiting);
-      EXPECT_EQ(take(Plot(2.0)), Verdict::waiting) << "there was none";
-      EXPECT_EQ(take({3.0, at(200, 0)}), Verdict::waiting);
-      EXPECT_FALSE(target.running());
-      EXPECT_EQ(target.starts(), 0U);
-      EXPECT_TRUE(told.empty());
-      EXPECT_EQ(take({4.0, at(310, 10)}), Verdict::started);
-      EXPECT_EQ(target.time(), 4.0);
-      EXPECT_EQ(target.accepted_time(), 4.0);
-      EXPECT_EQ(target.starts(), 1U);
-      auto expected = started(filter, {Plot(1.0, at(0, 0)), Plot(3.0, at(200, 0)), Plot(4.0, at(310, 10))});
-      EXPECT_PRED_FORMAT2(same_filter, target.filter(), expected);
-      EXPECT_EQ(take({5.0, at(400, 0)}), Verdict::accepted);
-      expected.step(1.0, at(400, 0), PositionSensor<2>{});
-      EXPECT_PRED_FORMAT2(same_filter, target.filter(), expected);
-      EXPECT_EQ(told, (std::vector<std::pair<double, bool>>{{4.0, true}, {5.0, false}}));
-    });
+  with_every_filter([](const auto& filter) {
+    Target target{filter, start_from_three};
+    std::vector<std::pair<double, bool>> told;
+    const auto take = [&](const Plot& plot) {
+      return target.take(plot, [&](const Plot& each, bool is_start) {
+        told.push_back({each.time, is_start});
+        EXPECT_TRUE(target.running());
+      });
+    };
+    EXPECT_FALSE(target.running());
+    EXPECT_EQ(take({1.0, at(0, 0)}), Verdict::waiting);
+    EXPECT_EQ(take(Plot(2.0)), Verdict::waiting) << "there was none";
+    EXPECT_EQ(take({3.0, at(200, 0)}), Verdict::waiting);
+    EXPECT_FALSE(target.running());
+    EXPECT_EQ(target.starts(), 0U);
+    EXPECT_TRUE(told.empty());
+    EXPECT_EQ(take({4.0, at(310, 10)}), Verdict::started);
+    EXPECT_EQ(target.time(), 4.0);
+    EXPECT_EQ(target.accepted_time(), 4.0);
+    EXPECT_EQ(target.starts(), 1U);
+    auto expected = started(filter, {Plot(1.0, at(0, 0)), Plot(3.0, at(200, 0)), Plot(4.0, at(310, 10))});
+    EXPECT_PRED_FORMAT2(same_filter, target.filter(), expected);
+    EXPECT_EQ(take({5.0, at(400, 0)}), Verdict::accepted);
+    expected.step(1.0, at(400, 0), PositionSensor<2>{});
+    EXPECT_PRED_FORMAT2(same_filter, target.filter(), expected);
+    EXPECT_EQ(told, (std::vector<std::pair<double, bool>>{{4.0, true}, {5.0, false}}));
   });
 }
 

@@ -41,19 +41,17 @@ TEST(Target, TakesWhatIsInsideTheGateAndMissesTheRest) {
 }
 
 TEST(Target, StartsAgainAfterSoManyRejectionsInARow) {
-  for_each(every_filter(), [](const TargetChoice& choice) {
-    AnyFilter(choice).do_with([](auto& filter) {
-      Target target{filter, 0.0, one_point_start, TargetRules{0.999, 3}};
-      EXPECT_EQ(target.take(Plot(0.2, far_off)), Verdict::rejected);
-      EXPECT_EQ(target.take(0.4), Verdict::missed);
-      EXPECT_EQ(target.take(Plot(0.6, far_off)), Verdict::rejected);
-      EXPECT_EQ(target.accepted_time(), 0.0);
-      EXPECT_EQ(target.take(Plot(0.8, far_off)), Verdict::restarted);
-      EXPECT_EQ(target.accepted_time(), 0.8);
-      filter.restart(one_point_start({far_off.mean, far_off.covariance}));
-      EXPECT_PRED_FORMAT2(same_filter, target.filter(), filter);
-      EXPECT_EQ(target.take(1.0, {far_off.mean, far_off.covariance}), Verdict::accepted);
-    });
+  with_every_filter([](auto& filter) {
+    Target target{filter, 0.0, one_point_start, TargetRules{0.999, 3}};
+    EXPECT_EQ(target.take(Plot(0.2, far_off)), Verdict::rejected);
+    EXPECT_EQ(target.take(0.4), Verdict::missed);
+    EXPECT_EQ(target.take(Plot(0.6, far_off)), Verdict::rejected);
+    EXPECT_EQ(target.accepted_time(), 0.0);
+    EXPECT_EQ(target.take(Plot(0.8, far_off)), Verdict::restarted);
+    EXPECT_EQ(target.accepted_time(), 0.8);
+    filter.restart(one_point_start({far_off.mean, far_off.covariance}));
+    EXPECT_PRED_FORMAT2(same_filter, target.filter(), filter);
+    EXPECT_EQ(target.take(1.0, {far_off.mean, far_off.covariance}), Verdict::accepted);
   });
 }
 
@@ -100,20 +98,18 @@ TEST(Target, StartsAgainAfterAGap) {
 /// Whatever comes late by no more than the buffer: the result is that of the right order, to the bit.
 TEST(Target, LateMeasurementsWithinTheBufferGiveWhatTheRightOrderGivesToTheBit) {
   const auto all = plots(32);
-  for_each(every_filter(), [&](const TargetChoice& choice) {
-    AnyFilter(choice).do_with([&](const auto& filter) {
-      const Target fresh{filter, 0.0, one_point_start, TargetRules{0.999, 2, 1.5, 4}};
-      auto in_order = fresh;
-      for (const Plot& plot : all) in_order.take(plot);
-      std::mt19937 generator(1);
-      for (int shuffle = 0; shuffle < 40; ++shuffle) {
-        auto shuffled = fresh;
-        for (const Plot& plot : late(all, 0, 4, [&] { return generator() % 4; })) shuffled.take(plot);
-        ASSERT_PRED_FORMAT2(same_filter, shuffled.filter(), in_order.filter());
-        ASSERT_EQ(shuffled.time(), in_order.time());
-        ASSERT_EQ(shuffled.accepted_time(), in_order.accepted_time());
-      }
-    });
+  with_every_filter([&](const auto& filter) {
+    const Target fresh{filter, 0.0, one_point_start, TargetRules{0.999, 2, 1.5, 4}};
+    auto in_order = fresh;
+    for (const Plot& plot : all) in_order.take(plot);
+    std::mt19937 generator(1);
+    for (int shuffle = 0; shuffle < 40; ++shuffle) {
+      auto shuffled = fresh;
+      for (const Plot& plot : late(all, 0, 4, [&] { return generator() % 4; })) shuffled.take(plot);
+      ASSERT_PRED_FORMAT2(same_filter, shuffled.filter(), in_order.filter());
+      ASSERT_EQ(shuffled.time(), in_order.time());
+      ASSERT_EQ(shuffled.accepted_time(), in_order.accepted_time());
+    }
   });
 }
 
