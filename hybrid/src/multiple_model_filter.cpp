@@ -245,7 +245,7 @@ bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double ga
   if (seen && !taken && !take(nullptr, nullptr)) return false;
   const auto posterior = next().belief.logs(detail::ByLaw{});
   for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
-  conclude(taken, told.posterior);
+  conclude(taken);
   return true;
 }
 
@@ -279,14 +279,11 @@ RecordedStep<Kind> MultipleModelFilter<Kind>::recorded_by(double dt, const Seen*
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::conclude(bool measured, const double* weights) {
+void MultipleModelFilter<Kind>::conclude(bool measured) {
   next().most_likely_mode =
       detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
   current_ = 1 - current_;
-  if (weights)
-    std::copy_n(weights, modes(), weights_.begin());
-  else
-    read_weights(belief(), weights_.data());
+  read_weights(belief(), weights_.data());
   measured_ = measured;
   ++steps_;
 }

@@ -186,8 +186,8 @@ class MultipleModelFilter {
   /// What a lift of the output borrows: for each component from the most likely model that has it.
   void output_receiver(const State& state, detail::View result) const;
 
-  /// The next state becomes the state; its most likely mode is (64). `weights` are those of its belief, if known.
-  void conclude(bool measured, const double* weights = nullptr);
+  /// The next state becomes the state; its most likely mode is (64).
+  void conclude(bool measured);
 
   /// One Gaussian for innovations, as the mode's kind asks.
   static AnyInnovation collapsed(std::span<const AnyInnovation> innovations, const double* weights, std::size_t winner);
