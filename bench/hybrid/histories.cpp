@@ -25,6 +25,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <Eigen/Cholesky>
+
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/start.hpp>

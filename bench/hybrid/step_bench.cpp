@@ -63,7 +63,7 @@ template <Uncertainty Kind, class Models>
 void step_with_output(benchmark::State& state, const Models& models) {
   InteractingMultipleModel filter{models, transition<Kind>(), start()};
   run(state, [&](const Gaussian<3>& z) {
-    filter.step(T, z);
+    filter.step(T, z, PositionSensor<3>{});
     auto estimate = filter.estimate();
     benchmark::DoNotOptimize(estimate.covariance.data());
     benchmark::ClobberMemory();
@@ -98,7 +98,7 @@ void ModesStep(benchmark::State& state) {
   for (std::size_t j = 0; j < modes; ++j) rows[j][j] = 0.95;
   InteractingMultipleModel filter{models, Relation<Random, Random>{mode, mode, rows}, start()};
   run(state, [&](const Gaussian<3>& z) {
-    filter.step(T, z);
+    filter.step(T, z, PositionSensor<3>{});
     auto estimate = filter.estimate();
     benchmark::DoNotOptimize(estimate.covariance.data());
     benchmark::ClobberMemory();

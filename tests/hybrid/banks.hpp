@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <sigmax/hybrid/any_target.hpp>
-#include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
@@ -20,6 +19,7 @@
 #include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
+#include "support/enveloped.hpp"
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
 
@@ -319,19 +319,6 @@ inline AnyFilter alone(const MotionChoice& motion, const State& start) {
 template <class Law>
 void with_every_filter(const Law& law) {
   for_each(every_filter(), [&](const TargetChoice& choice) { AnyFilter(choice).do_with(law); });
-}
-
-/// The envelope of some states for a restatement; envelope_test.cpp holds it against plain sums.
-inline restatement::State enveloped(const std::vector<restatement::State>& states, const std::vector<double>& weights) {
-  const std::size_t n = states.front().mean.size();
-  const auto size = static_cast<int>(n);
-  Envelope envelope;
-  envelope.clear(size);
-  for (std::size_t l = 0; l < states.size(); ++l)
-    envelope.add(weights[l], {states[l].mean.data(), states[l].covariance.values.data(), size});
-  restatement::State result{restatement::Vector(n), restatement::Matrix(n, n)};
-  envelope.match({result.mean.data(), result.covariance.values.data(), size});
-  return result;
 }
 
 template <class Estimate>

@@ -56,7 +56,7 @@ void is_restated(const Flight& flight, const TargetChoice& choice,
 }
 
 void smooths(const TargetChoice& choice, const std::vector<State>& start) {
-  const Flight flight = flown(choice, start, rows_of(manoeuvring_target(140)));
+  const Flight flight = flown(choice, start, rows_of(manoeuvring_target(110)));
   is_restated<long double>(flight, choice, restated_models<long double>(choice), 1e-8);
   std::set<std::size_t> winners;
   for (const Moment& moment : flight.smoothed) winners.insert(moment.winner);
