@@ -39,6 +39,15 @@ RectangularMatrix<Rows, Columns> fixed(const restatement::Matrix& matrix) {
   return result;
 }
 
+inline Eigen::MatrixXd matrix_of(const restatement::Matrix& matrix) {
+  return Eigen::MatrixXd::NullaryExpr(
+      static_cast<Eigen::Index>(matrix.rows), static_cast<Eigen::Index>(matrix.columns),
+      [&](Eigen::Index i, Eigen::Index j) { return matrix(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); });
+}
+inline Eigen::VectorXd vector_of(const restatement::Vector& vector) {
+  return Eigen::Map<const Eigen::VectorXd>(vector.data(), static_cast<Eigen::Index>(vector.size()));
+}
+
 /// EXPECT_PRED_FORMAT3(near_matrix, found, expected, tolerance): of one shape, and near entry by entry.
 inline testing::AssertionResult near_matrix(const char* a_text, const char* b_text, const char* tolerance_text,
                                             const AnyMatrix& a, const AnyMatrix& b, double tolerance) {
@@ -53,13 +62,7 @@ inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expecte
     RC_FAIL(std::string(result.message()));
 }
 inline void require_near_matrix(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
-  require_near_matrix(found,
-                      Eigen::MatrixXd::NullaryExpr(
-                          static_cast<Eigen::Index>(expected.rows), static_cast<Eigen::Index>(expected.columns),
-                          [&](Eigen::Index i, Eigen::Index j) {
-                            return expected(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-                          }),
-                      tolerance);
+  require_near_matrix(found, matrix_of(expected), tolerance);
 }
 
 /// A generated number between two, in steps fine enough to be generic.

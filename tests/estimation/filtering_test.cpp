@@ -1,0 +1,310 @@
+// The filters in numbers beside their plain restatement, of models of many sizes: rows go by blocks of ten, and from 17
+// states on there is no room on the stack.
+#include <sigmax/estimation/filtering.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <sigmax/estimation/extended.hpp>
+
+#include "estimation/restated.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using restatement::State;
+using support::drawn_model;
+using support::Draws;
+using support::Estimate;
+using support::estimate_of;
+using support::matrix_of;
+using support::near;
+using support::near_matrix;
+using support::near_state;
+using support::OwnLinearMotion;
+using support::OwnMotion;
+using support::throws;
+using support::vector_of;
+
+using Dense = restatement::Matrix;
+using Restated = restatement::NonlinearModel;
+using Columns = Eigen::MatrixXd;
+
+constexpr double dt = 0.5;
+constexpr std::size_t sizes[] = {1, 2, 3, 4, 6, 9, 10, 11, 12, 13, 14, 17, 33};
+
+/// Tangents, points with and without a centre, and with a centre of a negative weight.
+std::vector<SigmaPointWeights> rules(std::size_t n) {
+  const double size = static_cast<double>(n);
+  return {{}, {size, 0.0, 2.0}, {size, 0.0, 0.0}, {0.8 * size, -0.25, 1.0}, {1.5 * size, 1.0 / 3.0, 0.1}};
+}
+restatement::Points points_of(const State& x, const SigmaPointWeights& rule) {
+  restatement::Points points{{x.mean}, {rule.centre_of_mean}, {rule.centre_of_covariance}};
+  add_pairs(points, x, rule.spread);
+  return points;
+}
+
+/// A motion of the model as compiled code sees it.
+detail::ModelRef ref_of(const OwnMotion& motion, const SigmaPointWeights& rule) {
+  return {&motion, &detail::motion_table<OwnMotion, true>, rule};
+}
+
+/// A sensor that sees the first k states of the model, and how compiled code asks it.
+struct Sees {
+  const Restated& model;
+  int k;
+};
+int seen(const void* pointer) { return static_cast<const Sees*>(pointer)->k; }
+void measure(const void* pointer, const void*, const double* x, int n, int m, double* z, double* H) {
+  const Sees& sees = *static_cast<const Sees*>(pointer);
+  restatement::Vector state(x, x + sees.k);
+  state.resize(static_cast<std::size_t>(n), 1e9);  // of which nothing is seen
+  if (z) Eigen::Map<Eigen::VectorXd>(z, m) = vector_of(sees.model.h(state));
+  if (H) Eigen::Map<Columns>(H, m, sees.k) = matrix_of(sees.model.H(state)).leftCols(sees.k);
+}
+constexpr detail::SensorTable bends{false, false, seen, measure}, is_linear{false, true, seen, measure},
+    leads{true, true, seen};
+
+Estimate sized(std::size_t n) {
+  const auto size = static_cast<Eigen::Index>(n);
+  return {Vector<Eigen::Dynamic, 40>::Zero(size), SquareMatrix<Eigen::Dynamic, 40>::Zero(size, size)};
+}
+
+/// What `predict` and the functions beside it make of a model, as the restatement says.
+void expect_prediction(const detail::ModelRef& model, const Restated& restated, const State& prior) {
+  const std::size_t n = prior.mean.size();
+  const auto size = static_cast<Eigen::Index>(n);
+  const Estimate start = estimate_of(prior);
+  const auto points = points_of(prior, model.points);
+  const State expected =
+      model.by_points() ? points_prediction(restated, points, dt) : extended_prediction(restated, prior, dt);
+  const Columns cross = matrix_of(model.by_points() ? points_cross_covariance(restated, prior, points, dt)
+                                                    : prior.covariance * transposed(restated.F(prior.mean, dt)));
+  Estimate found = sized(n), in_place = start;
+  detail::predict(model, detail::view(start), dt, detail::view(found));
+  EXPECT_PRED_FORMAT3(near_state, found, expected, 1e-9) << n;
+  EXPECT_EQ(found.covariance, found.covariance.transpose());
+  detail::predict(model, detail::view(in_place), dt, detail::view(in_place));
+  EXPECT_EQ(in_place.mean, found.mean);
+  EXPECT_EQ(in_place.covariance, found.covariance);
+
+  Columns with_state(size, size), F(size, size), Q(size, size);
+  detail::prediction_covariance(model, detail::view(start), dt, with_state.data());
+  EXPECT_PRED_FORMAT3(near_matrix, with_state, cross, 1e-9) << n;
+
+  // As a linear step it has the same mean and covariances.
+  Estimate step = sized(n);
+  detail::linearised_step(model, detail::view(start), dt, step.mean.data(), F.data(), Q.data());
+  step.covariance = F * start.covariance * F.transpose() + Q;
+  EXPECT_PRED_FORMAT3(near_state, step, expected, 1e-8) << n;
+  EXPECT_PRED_FORMAT3(near_matrix, start.covariance * F.transpose(), cross, 1e-9) << n;
+}
+
+TEST(Filtering, EveryPredictionIsItsRestatement) {
+  Draws draws(1);
+  for (const std::size_t n : sizes) {
+    const State prior = draws.state(n);
+    const OwnLinearMotion linear{{drawn_model(draws, n, 1, n, 0.0), n}};
+    const OwnMotion motion{drawn_model(draws, n, 1, n, 0.3), n};
+    for (const auto& rule : rules(n)) {
+      expect_prediction({&linear, &detail::motion_table<OwnLinearMotion, false>, rule}, linear.own.model, prior);
+      expect_prediction(ref_of(motion, rule), motion.model, prior);
+    }
+  }
+}
+
+struct Updated {
+  Estimate posterior;
+  Columns residual, S;
+  detail::InnovationView innovation;
+
+  Updated(const Estimate& start, Eigen::Index m)
+      : posterior(start), residual(m, 1), S(m, m), innovation{residual.data(), S.data()} {}
+};
+
+/// What `update` and the linearised measurement make of a sensor of the first k states, as the restatement says.
+void expect_update(const detail::ModelRef& model, const detail::SensorTable& table, int k, const Restated& restated,
+                   const State& prior, const State& measured) {
+  const Sees sees{restated, k};
+  const detail::SensorRef sensor{&sees, &table};
+  const Estimate start = estimate_of(prior), z = estimate_of(measured);
+  const auto m = z.size();
+  const auto expected = model.by_points() ? points_update(restated, prior, points_of(prior, model.points),
+                                                          measured.mean, measured.covariance)
+                                          : extended_update(restated, prior, measured.mean, measured.covariance);
+  Updated found(sized(prior.mean.size()), m), in_place(start, m);
+  detail::update(model, detail::view(start), detail::view(z), sensor, detail::view(found.posterior), found.innovation);
+  ASSERT_PRED_FORMAT3(near_matrix, found.residual, vector_of(expected.nu), 1e-9);
+  ASSERT_PRED_FORMAT3(near_matrix, found.S, matrix_of(expected.S), 1e-9);
+  ASSERT_PRED_FORMAT3(near, found.innovation.squared_distance, expected.squared, 1e-8);
+  ASSERT_PRED_FORMAT3(near, found.innovation.log_likelihood, expected.log_likelihood, 1e-8);
+  ASSERT_PRED_FORMAT3(near_state, found.posterior, expected.posterior, 1e-8);
+  ASSERT_EQ(found.posterior.covariance, found.posterior.covariance.transpose());
+  detail::update(model, detail::view(in_place.posterior), detail::view(z), sensor, detail::view(in_place.posterior),
+                 in_place.innovation);
+  ASSERT_EQ(in_place.posterior.mean, found.posterior.mean);
+  ASSERT_EQ(in_place.posterior.covariance, found.posterior.covariance);
+
+  // As a linear measurement it has the same residual, S and correction.
+  Columns residual(m, 1), H(m, start.size()), R(m, m);
+  detail::linearised_measurement(model, detail::view(start), detail::view(z), sensor, residual.data(), H.data(),
+                                 R.data());
+  const Columns PHt = start.covariance * H.transpose();
+  ASSERT_PRED_FORMAT3(near_matrix, residual, found.residual, 1e-9);
+  ASSERT_PRED_FORMAT3(near_matrix, H * PHt + R, found.S, 1e-8);
+  ASSERT_PRED_FORMAT3(near_matrix, start.mean + PHt * found.S.inverse() * residual, found.posterior.mean, 1e-8);
+}
+
+TEST(Filtering, EveryUpdateIsItsRestatement) {
+  Draws draws(2);
+  for (const std::size_t n : sizes)
+    for (const std::size_t k : {std::size_t{1}, (n + 1) / 2, n})
+      for (const auto& rule : rules(n)) {
+        SCOPED_TRACE(testing::Message() << n << " states, " << k << " seen, spread " << rule.spread);
+        const State prior = draws.state(n);
+        for (const std::size_t m : {1UL, 2UL, 3UL, 6UL, 8UL}) {
+          const OwnMotion linear{drawn_model(draws, n, m, k, 0.0), n}, bent{drawn_model(draws, n, m, k, 0.3), n};
+          expect_update(ref_of(linear, rule), is_linear, static_cast<int>(k), linear.model, prior, draws.state(m));
+          expect_update(ref_of(bent, rule), bends, static_cast<int>(k), bent.model, prior, draws.state(m));
+        }
+        Dense position(k, n);
+        for (std::size_t i = 0; i < k; ++i) position(i, i) = 1.0;
+        const OwnMotion leading{support::bent(draws.matrix(n, n), draws.vector(n), draws.covariance(n), position, 0.0),
+                                n};
+        expect_update(ref_of(leading, rule), leads, static_cast<int>(k), leading.model, prior, draws.state(k));
+      }
+}
+
+/// x + A (yˢ − y) and P + A (Pˢ − P_y) Aᵀ, A = Cov(x, y) P_y⁻¹.
+TEST(Filtering, AStepOfTheSmootherIsTheFormula) {
+  Draws draws(3);
+  for (const std::size_t n : sizes)
+    for (const auto& rule : rules(n)) {
+      const OwnMotion motion{drawn_model(draws, n, 1, n, 0.3), n};
+      const detail::ModelRef model = ref_of(motion, rule);
+      const Estimate filtered = estimate_of(draws.state(n)), next = estimate_of(draws.state(n));
+      Estimate y = sized(n), expected = filtered, found = sized(n), over_filtered = filtered, over_next = next;
+      Columns cross(filtered.size(), filtered.size());
+      detail::predict(model, detail::view(filtered), dt, detail::view(y));
+      detail::prediction_covariance(model, detail::view(filtered), dt, cross.data());
+      const Columns A = cross * y.covariance.inverse();
+      expected.mean += A * (next.mean - y.mean);
+      expected.covariance += A * (next.covariance - y.covariance) * A.transpose();
+      detail::smooth_step(model, detail::view(filtered), dt, detail::view(next), detail::view(found));
+      EXPECT_PRED_FORMAT3(near_matrix, found.mean, expected.mean, 1e-8) << n;
+      EXPECT_PRED_FORMAT3(near_matrix, found.covariance, expected.covariance, 1e-8) << n;
+      detail::smooth_step(model, detail::view(over_filtered), dt, detail::view(next), detail::view(over_filtered));
+      detail::smooth_step(model, detail::view(filtered), dt, detail::view(over_next), detail::view(over_next));
+      for (const Estimate& in_place : {over_filtered, over_next}) {
+        EXPECT_EQ(in_place.mean, found.mean);
+        EXPECT_EQ(in_place.covariance, found.covariance);
+      }
+    }
+}
+
+TEST(Filtering, ALawAlongIndependentAxesMovesEachAxisByItself) {
+  Draws draws(4);
+  for (const int order : {1, 2, 3})
+    for (const int axes : {1, 2, 3}) {
+      const auto n = static_cast<std::size_t>(order * axes);
+      detail::AxisLaw law{order};
+      Dense F(n, n), Q(n, n);
+      const Dense Q_s = draws.covariance(static_cast<std::size_t>(order));
+      restatement::Vector input = draws.vector(n);
+      std::copy(input.begin(), input.end(), law.input);
+      for (int a = 0; a < order; ++a)
+        for (int b = 0; b < order; ++b) {
+          law.F[a + b * order] = a > b ? 0.0 : a == b && draws.number() < 0.0 ? 1.0 : draws.number();
+          law.Q[a + b * order] = Q_s(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+          for (int i = 0; i < axes; ++i) {
+            const auto row = static_cast<std::size_t>(a * axes + i), column = static_cast<std::size_t>(b * axes + i);
+            F(row, column) = law.F[a + b * order];
+            Q(row, column) = law.Q[a + b * order];
+          }
+        }
+      const State prior = draws.state(n);
+      const Estimate start = estimate_of(prior);
+      Estimate found = sized(n), in_place = start;
+      detail::predict(law, axes, detail::view(start), detail::view(found));
+      detail::predict(law, axes, detail::view(in_place), detail::view(in_place));
+      const State expected = extended_prediction(support::bent(F, input, Q, Dense(1, n), 0.0), prior, dt);
+      EXPECT_PRED_FORMAT3(near_state, found, expected, 1e-12) << order << " derivatives, " << axes << " axes";
+      EXPECT_EQ(found.covariance, found.covariance.transpose());
+      EXPECT_EQ(in_place.mean, found.mean);
+      EXPECT_EQ(in_place.covariance, found.covariance);
+    }
+}
+
+/// p → A p + b, and its derivatives by A; what is no derivative, as a rate of turn, stays.
+TEST(Filtering, ATransformationMovesThePositionAndItsDerivatives) {
+  Draws draws(5);
+  for (const std::size_t axes : {1UL, 2UL, 3UL})
+    for (const std::size_t n : {axes, 2 * axes + (axes == 1 ? 0 : 1), 3 * axes}) {
+      const Dense A = draws.matrix(axes, axes);
+      const Columns by_columns = matrix_of(A);
+      const restatement::Vector b = draws.vector(axes);
+      Dense all = restatement::identity(n);
+      for (std::size_t i = 0; i < n - n % axes; ++i)
+        for (std::size_t j = 0; j < axes; ++j) all(i, i - i % axes + j) = A(i % axes, j);
+      const State before = draws.state(n);
+      State expected{all * before.mean, all * before.covariance * transposed(all)};
+      for (std::size_t i = 0; i < axes; ++i) expected.mean[i] += b[i];
+      Estimate found = estimate_of(before);
+      detail::transform(by_columns.data(), b.data(), static_cast<int>(axes), detail::view(found));
+      EXPECT_PRED_FORMAT3(near_state, found, expected, 1e-12) << n << " states, " << axes << " axes";
+      EXPECT_EQ(found.covariance, found.covariance.transpose());
+    }
+}
+
+/// A start in place, an action that throws, and the start again.
+template <class Exception, class Action>
+void expect_unchanged(const Estimate& start, const Action& action) {
+  Estimate x = start;
+  EXPECT_THROW(action(detail::view(x)), Exception);
+  EXPECT_TRUE((x.mean.array() == start.mean.array() || start.mean.array().isNaN()).all());
+  EXPECT_EQ(x.covariance, start.covariance);
+}
+
+TEST(Filtering, AnEstimateIsAsItWasIfSomethingIsThrown) {
+  Draws draws(6);
+  const OwnMotion motion{drawn_model(draws, 3, 2, 2, 0.3), 3};
+  Restated nowhere = motion.model;
+  nowhere.f = [](const restatement::Vector& x, double) { return restatement::Vector(x.size(), NAN); };
+  const OwnMotion lost{nowhere, 3};
+  const Estimate start = estimate_of(draws.state(3));
+  Estimate indefinite = start, unknown = start, z = estimate_of(draws.state(2)), not_measured = z, negative = z;
+  indefinite.covariance(2, 2) = -1.0;
+  unknown.mean(1) = NAN;
+  not_measured.mean(1) = NAN;
+  negative.covariance *= -100.0;
+  const Sees sees{motion.model, 2};
+  for (const auto& rule : rules(3)) {
+    const detail::ModelRef model = ref_of(motion, rule), without_f = ref_of(lost, rule);
+    expect_unchanged<std::domain_error>(start, [&](detail::View x) { detail::predict(without_f, x, dt, x); });
+    expect_unchanged<std::domain_error>(unknown, [&](detail::View x) { detail::predict(model, x, dt, x); });
+    const auto updates = [&](const Estimate& measured, const detail::SensorTable& table) {
+      return [&](detail::View x) {
+        Columns residual(2, 1), S(2, 2);
+        detail::InnovationView innovation{residual.data(), S.data()};
+        detail::update(model, x, detail::view(measured), {&sees, &table}, x, innovation);
+      };
+    };
+    for (const auto* table : {&bends, &is_linear, &leads}) {
+      expect_unchanged<std::invalid_argument>(start, updates(not_measured, *table));
+      expect_unchanged<std::domain_error>(start, updates(negative, *table));
+      expect_unchanged<std::domain_error>(unknown, updates(z, *table));
+    }
+    if (!model.by_points()) continue;
+    expect_unchanged<std::domain_error>(indefinite, [&](detail::View x) { detail::predict(model, x, dt, x); });
+    expect_unchanged<std::domain_error>(indefinite, updates(z, bends));
+    expect_unchanged<std::domain_error>(
+        indefinite, [&](detail::View x) { detail::smooth_step(model, x, dt, detail::view(start), x); });
+  }
+}
+
+}  // namespace
+}  // namespace sigmax
