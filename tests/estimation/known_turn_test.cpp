@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include <sigmax/estimation/white_noise.hpp>
@@ -14,10 +15,9 @@ namespace {
 
 using support::generated_step;
 using support::holds;
+using support::near_matrix;
 using support::number_between;
-using support::require_dense_prediction;
-using support::require_integral_of;
-using support::require_near_covariance;
+using support::require_integral;
 using support::require_near_matrix;
 using support::require_steps_to_add_up;
 using support::throws;
@@ -25,20 +25,44 @@ using support::throws;
 static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
 static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
 
+/// What KnownTurn says of itself, in long double, for a step of T at θ = ωT.
+TEST(KnownTurn, IsThePrintedOneAndDoesNotCancel) {
+  const double T = 2.0, q = 3.0;
+  for (const double size : {1e-6, 1e-4, 0.0199999, 0.0200001, 0.3, 0.999, 1.001, 3.0})
+    for (const double theta : {size, -size}) {
+      const long double t = theta, sine = std::sin(t), half = std::sin(t / 2), versine = 2 * half * half;
+      const double along = static_cast<double>(sine / t), across = static_cast<double>(versine / t);
+      const double c = static_cast<double>(versine / (t * t));
+      const double s = size < 1e-3 ? 1.0 / 6.0 - theta * theta / 120.0 : static_cast<double>((t - sine) / (t * t * t));
+      const double cosine = std::cos(theta), sine_too = std::sin(theta);
+      const KnownTurn<2> turn{theta / T, q};
+      EXPECT_PRED_FORMAT3(near_matrix, turn.transition(T),
+                          (SquareMatrix<4>{{1, 0, T * along, -T * across},
+                                           {0, 1, T * across, T * along},
+                                           {0, 0, cosine, -sine_too},
+                                           {0, 0, sine_too, cosine}}),
+                          1e-15)
+          << theta;
+      const double qT2 = q * T * T, of_position = 2.0 * qT2 * T * s, across_noise = qT2 * theta * s;
+      EXPECT_PRED_FORMAT3(near_matrix, turn.process_covariance(T),
+                          (SquareMatrix<4>{{of_position, 0, qT2 * c, across_noise},
+                                           {0, of_position, -across_noise, qT2 * c},
+                                           {qT2 * c, -across_noise, q * T, 0},
+                                           {across_noise, qT2 * c, 0, q * T}}),
+                          1e-13)
+          << theta;
+    }
+}
+
 TEST(KnownTurn, IsTheIntegral) {
   holds([] {
     const double w = number_between(-2.0, 2.0), q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    const Eigen::MatrixXd plane{{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 0, 0, -w}, {0, 0, w, 0}};
-    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(4, 4);
-    noise(2, 2) = noise(3, 3) = q;
-    require_integral_of(plane, noise, KnownTurn<2>{w, q}, dt);
-
-    Eigen::MatrixXd space = Eigen::MatrixXd::Zero(6, 6), noise_in_space = Eigen::MatrixXd::Zero(6, 6);
-    space.topRightCorner(3, 3).setIdentity();
-    space(3, 4) = -w;
-    space(4, 3) = w;
-    noise_in_space.bottomRightCorner(3, 3).diagonal().setConstant(q);
-    require_integral_of(space, noise_in_space, KnownTurn<3>{w, q}, dt);
+    restatement::Matrix A(6, 6), D(6, 6);
+    for (std::size_t i = 0; i < 3; ++i) A(i, 3 + i) = 1.0;
+    for (std::size_t i = 3; i < 6; ++i) D(i, i) = q;
+    A(3, 4) = -w;
+    A(4, 3) = w;
+    require_integral(A, D, KnownTurn<3>{w, q}, dt);
   });
 }
 
@@ -60,8 +84,11 @@ TEST(KnownTurn, WithoutARateItIsWhiteNoiseAcceleration) {
   });
 }
 
-TEST(KnownTurn, PredictionIsTheFormula) {
-  holds([] { require_dense_prediction(KnownTurn<3>{number_between(-2.0, 2.0), 1.0}, number_between(0.0, 3.0)); });
+TEST(KnownTurn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
+  const double omega = std::numbers::pi / 2.0, radius = 200.0, speed = radius * omega;
+  const Vector<6> start(0.0, 0.0, 10.0, speed, 0.0, 5.0);  // the centre is at (0, 200)
+  EXPECT_PRED_FORMAT3(near_matrix, (KnownTurn<3>{omega, 1.0}.transition(1.0) * start),
+                      (Vector<6>{radius, radius, 15.0, 0.0, speed, 5.0}), 1e-12);
 }
 
 TEST(KnownTurn, NamesItselfAndSharesTheComponentsOfOthers) {

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
@@ -42,23 +42,21 @@ static_assert(!LinearMotion<TallNoise>);
 static_assert(!LinearMotion<LongInput>);
 
 using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
-using RunTime = AnyMotion<9, Dwna, IndependentAxes<3, DiscreteWhiteNoise<3>>>;
 
 static_assert(LinearMotion<RandomWalk>);
 static_assert(LinearMotion<FixedStepMotion<4>>);
 static_assert(LinearMotion<Dwna>);
-static_assert(StateModel<RunTime> && !LinearMotion<RunTime>);
+static_assert(StateModel<AnyModel> && !LinearMotion<AnyModel>);
 static_assert(!StateModel<int> && !LinearMotion<int>);
 static_assert(!StateModel<Nameless> && !LinearMotion<Nameless>);
 
 static_assert(std::is_same_v<EstimateOf<Dwna>, Gaussian<6>>);
 static_assert(std::is_same_v<StateOf<Dwna>, Vector<6>>);
 static_assert(std::is_same_v<StateMatrixOf<Dwna>, SquareMatrix<6>>);
-static_assert(std::is_same_v<EstimateOf<RunTime>, Gaussian<Eigen::Dynamic, 9>>);
+static_assert(std::is_same_v<EstimateOf<AnyModel>, Gaussian<Eigen::Dynamic, 32>>);
 
 TEST(Model, SaysAlongHowManyAxesItKnowsItsPositionOrNothing) {
   EXPECT_EQ(axes_of<Dwna>, 3);
-  EXPECT_EQ(axes_of<RunTime>, 3);
   EXPECT_EQ(axes_of<RandomWalk>, 0);
   EXPECT_EQ(axes_of<FixedStepMotion<4>>, 0);
 }

@@ -1,4 +1,4 @@
-#include <sigmax/estimation/motion.hpp>
+#include <sigmax/estimation/motion_numbers.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@ namespace {
 
 using support::throws;
 
-TEST(Motion, ComponentsAreOrderedByDerivative) {
+TEST(MotionNumbers, ComponentsAreOrderedByDerivative) {
   EXPECT_EQ(detail::motion_components(1, 1), (std::vector<std::string>{"x"}));
   EXPECT_EQ(detail::motion_components(2, 2), (std::vector<std::string>{"x", "y", "vx", "vy"}));
   EXPECT_EQ(detail::motion_components(3, 3),
             (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"}));
 }
 
-TEST(Motion, AParameterIsFiniteAndNotTooSmall) {
+TEST(MotionNumbers, AParameterIsFiniteAndNotTooSmall) {
   EXPECT_EQ(detail::motion_parameter(0.0, "q", "cwna"), 0.0);
   EXPECT_EQ(detail::motion_parameter(3.0, "q", "cwna", 3.0), 3.0);
   EXPECT_TRUE(throws<std::invalid_argument>([] { detail::motion_parameter(-1.0, "q", "cwna"); }, {"q", "cwna", "-1"}));

@@ -1,0 +1,122 @@
+#include <sigmax/estimation/any_model.hpp>
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+
+#include "estimation/restated.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near;
+using support::near_matrix;
+using support::OwnLinearMotion;
+using support::OwnMotion;
+using support::throws;
+
+static_assert(FilterModel<AnyModel> && StateModel<AnyModel> && axes_of<AnyModel> == 0);
+static_assert(!LinearMotion<AnyModel>, "nobody asks for its matrices");
+static_assert(!std::is_convertible_v<CoordinatedTurn<2>, AnyModel>, "it needs a member");
+static_assert(std::is_convertible_v<Extended<CoordinatedTurn<2>>, AnyModel>);
+
+/// `any` does what `model` does, by a sensor that is linear and by one that is not.
+template <class Model>
+void expect_as(const Model& model) {
+  const AnyModel any = model;
+  EXPECT_EQ(any.size(), model.size());
+  EXPECT_EQ(any.name(), model.name());
+  EXPECT_EQ(any.components(), model.components());
+  EXPECT_EQ(any.axes(), axes_of<Model>);
+  const auto n = model.size();
+  EstimateOf<Model> expected{StateOf<Model>::LinSpaced(n, 40.0, 1.0), StateMatrixOf<Model>::Constant(n, n, 0.5)};
+  expected.covariance.diagonal().setLinSpaced(n, 1.0, 2.0);
+  EstimateOf<AnyModel> found{expected.mean, expected.covariance};
+  EXPECT_EQ(prediction_covariance(any, found, 0.7), prediction_covariance(model, expected, 0.7));
+  predict(model, expected, 0.7, expected);
+  predict(any, found, 0.7, found);
+  EXPECT_EQ(found.mean, expected.mean);
+  EXPECT_EQ(found.covariance, expected.covariance);
+
+  const Gaussian<2> z{Vector<2>(42.0, 0.8), SquareMatrix<2>{{1.0, 0.2}, {0.2, 0.5}}};
+  const auto updates_alike = [&](const auto& sensor) {
+    auto here = found;
+    auto there = expected;
+    const auto innovation = update(any, here, z, sensor, here), same = update(model, there, z, sensor, there);
+    EXPECT_EQ(here.mean, there.mean);
+    EXPECT_EQ(here.covariance, there.covariance);
+    EXPECT_EQ(innovation.residual, same.residual);
+    EXPECT_EQ(innovation.covariance, same.covariance);
+    EXPECT_EQ(innovation.squared_distance, same.squared_distance);
+    EXPECT_EQ(innovation.log_likelihood, same.log_likelihood);
+  };
+  updates_alike(PositionSensor<2>{});
+  updates_alike(PolarSensor<2>{Vector<2>(-30.0, 20.0)});
+}
+
+TEST(AnyModel, DoesWhatTheModelDoesThatItWasMadeOf) {
+  expect_as(dwpa<2>(2.0));
+  expect_as(Extended{dwna<2>(3.0, Vector<2>(1.0, -2.0))});
+  expect_as(Unscented{CoordinatedTurn<2>{1.0, 0.01}, {0.5, 2.0, 1.0}});
+  expect_as(Cubature{CoordinatedTurn<2>{1.0, 0.01}});
+}
+
+TEST(AnyModel, MayBeAUsersOwn) {
+  support::Draws draws(1);
+  const OwnMotion motion{support::drawn_model(draws, 3, 1, 3, 0.3), 3};
+  expect_as(OwnLinearMotion{motion});
+  expect_as(Extended{motion});
+  expect_as(Unscented{motion});
+}
+
+TEST(AnyModel, SharesTheModelThatItWasMadeOf) {
+  AnyModel any = Extended{dwna<2>(1.0)};
+  const EstimateOf<AnyModel> x{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
+  const auto expected = predict(any, x, 1.0);
+  const AnyModel copy = any;
+  any = dwpa<1>(1.0);
+  EXPECT_EQ(any.size(), 3);
+  EXPECT_EQ(copy.name(), "dwna");
+  EXPECT_EQ(predict(copy, x, 1.0).covariance, expected.covariance);
+}
+
+TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
+  const EstimateOf<AnyModel> wrong{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
+  EstimateOf<AnyModel> x = wrong;
+  for (const AnyModel& turn : support::every_member(CoordinatedTurn<2>{1.0, 0.01})) {
+    const std::initializer_list<std::string_view> words{"coordinated_turn", "4 components", "5"};
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { predict(turn, x, 1.0, x); }, words));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { prediction_covariance(turn, x, 1.0); }, words));
+    EXPECT_TRUE(throws<std::invalid_argument>(
+        [&] {
+          update(turn, x, {Vector<2>::Ones(), SquareMatrix<2>::Identity()}, PositionSensor<2>{}, x);
+        },
+        words));
+  }
+  EXPECT_EQ(x.covariance, wrong.covariance);
+}
+
+TEST(AnyModel, RefusesASensorOfMoreThanThereIs) {
+  const AnyModel dwna_now = dwna<2>(3.0);
+  EstimateOf<AnyModel> x{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
+  const LinearSensor<1, 5> acceleration{RectangularMatrix<1, 5>(0.0, 0.0, 0.0, 0.0, 1.0)};
+  EXPECT_TRUE(throws<std::invalid_argument>(
+      [&] {
+        update(dwna_now, x, {Vector<1>(0.0), SquareMatrix<1>(1.0)}, acceleration, x);
+      },
+      {"sees 5", "dwna", "4"}));
+}
+
+TEST(AnyModel, HasAtMost32States) {
+  support::Draws draws(2);
+  const auto of_size = [&](std::size_t n) { return OwnMotion{support::drawn_model(draws, n, 1, n, 0.3), n}; };
+  EXPECT_EQ(AnyModel{Extended{of_size(32)}}.size(), 32);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyModel{Extended{of_size(33)}}; }, {"'own'", "33 states", "32"}));
+}
+
+}  // namespace
+}  // namespace sigmax
