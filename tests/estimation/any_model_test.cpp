@@ -6,6 +6,7 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/rts_smoother.hpp>
 
 #include "estimation/restated.hpp"
 #include "support/throws.hpp"
@@ -86,18 +87,20 @@ TEST(AnyModel, SharesTheModelThatItWasMadeOf) {
 
 TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
   const EstimateOf<AnyModel> wrong{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
-  EstimateOf<AnyModel> x = wrong;
+  EstimateOf<AnyModel> x;
   for (const AnyModel& turn : support::every_member(CoordinatedTurn<2>{1.0, 0.01})) {
     const std::initializer_list<std::string_view> words{"coordinated_turn", "4 components", "5"};
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { predict(turn, x, 1.0, x); }, words));
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { prediction_covariance(turn, x, 1.0); }, words));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { predict(turn, wrong, 1.0, x); }, words));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { prediction_covariance(turn, wrong, 1.0); }, words));
     EXPECT_TRUE(throws<std::invalid_argument>(
         [&] {
-          update(turn, x, {Vector<2>::Ones(), SquareMatrix<2>::Identity()}, PositionSensor<2>{}, x);
+          update(turn, wrong, {Vector<2>::Ones(), SquareMatrix<2>::Identity()}, PositionSensor<2>{}, x);
         },
         words));
+    const EstimateOf<AnyModel> right{Vector<5>::Ones(), SquareMatrix<5>::Identity()};
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { smooth_step(turn, right, 1.0, wrong, x); }, words));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { smooth_step(turn, wrong, 1.0, right, x); }, words));
   }
-  EXPECT_EQ(x.covariance, wrong.covariance);
 }
 
 TEST(AnyModel, RefusesASensorOfMoreThanThereIs) {

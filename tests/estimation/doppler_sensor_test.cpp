@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/jacobian.hpp>
 
 #include "support/matrices.hpp"
 
@@ -33,7 +32,7 @@ TEST(DopplerSensor, SeesWhatARadarSeesAndHowFastTheRangeGrows) {
     x(1) += 200.0;
     const DopplerSensor<3> sensor{origin};
     const Vector<4> seen = sensor.measure(x);
-    require_near_matrix(seen.head<3>(), PolarSensor<3>{origin}.measure(Vector<3>(x.head<3>())), 1e-12);
+    require_near_matrix(seen.head<3>(), PolarSensor<3>{origin}.measure(x.head<3>()), 1e-12);
     constexpr double h = 1e-4;  // s, on either side
     const auto range_in = [&](double dt) { return (x.head<3>() + dt * x.tail<3>() - origin).norm(); };
     require_near(seen(3), (range_in(h) - range_in(-h)) / (2.0 * h), 1e-7);
@@ -48,21 +47,24 @@ TEST(DopplerSensor, ATargetThatComesStraightInHasItsSpeedAndOneThatCirclesNone) 
 }
 
 template <int Axes>
-void jacobian_is_the_derivative() {
-  holds([] {
-    const Vector<Axes> origin = 100.0 * generated_matrix<Axes, 1>();
-    Vector<2 * Axes> x = 20.0 * generated_matrix<2 * Axes, 1>();
-    x.template head<Axes>() = origin + 100.0 * generated_matrix<Axes, 1>();
-    x(1) = origin(1) + number_between(10.0, 100.0);
-    const DopplerSensor<Axes> sensor{origin};
-    const auto derivative = jacobian<Axes + 1, Axes + 1, 2 * Axes, 2 * Axes>(
-        [&](const DifferentiableVector<2 * Axes>& state) { return sensor.measure(state); }, x);
-    require_near_matrix(sensor.measurement_jacobian(x), derivative, 1e-11);
-  });
+void require_derivative() {
+  const Vector<Axes> origin = 100.0 * generated_matrix<Axes, 1>();
+  Vector<2 * Axes> x = 20.0 * generated_matrix<2 * Axes, 1>();
+  x.template head<Axes>() = origin + 100.0 * generated_matrix<Axes, 1>();
+  x(1) = origin(1) + number_between(10.0, 100.0);
+  const DopplerSensor<Axes> sensor{origin};
+  const auto H = sensor.measurement_jacobian(x);
+  constexpr double h = 1e-4;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Vector<2 * Axes> step = h * Vector<2 * Axes>::Unit(i);
+    require_near_matrix(H.col(i), (sensor.measure(x + step) - sensor.measure(x - step)) / (2.0 * h), 1e-7);
+  }
 }
 TEST(DopplerSensor, ItsJacobianIsTheDerivative) {
-  jacobian_is_the_derivative<2>();
-  jacobian_is_the_derivative<3>();
+  holds([] {
+    require_derivative<2>();
+    require_derivative<3>();
+  });
 }
 
 TEST(DopplerSensor, DifferencesOfAzimuthsAreWrappedAndNothingElseIs) {
