@@ -43,7 +43,8 @@ std::vector<SigmaPointWeights> rules(std::size_t n) {
   return {{}, {size, 0.0, 2.0}, {size, 0.0, 0.0}, {0.8 * size, -0.25, 1.0}, {1.5 * size, 1.0 / 3.0, 0.1}};
 }
 restatement::Points points_of(const State& x, const SigmaPointWeights& rule) {
-  restatement::Points points{{x.mean}, {rule.centre_of_mean}, {rule.centre_of_covariance}};
+  restatement::Points points;
+  if (rule.centre_of_covariance != 0.0) points = {{x.mean}, {rule.centre_of_mean}, {rule.centre_of_covariance}};
   add_pairs(points, x, rule.spread);
   return points;
 }
@@ -66,7 +67,12 @@ void measure(const void* pointer, const void*, const double* x, int n, int m, do
   if (z) Eigen::Map<Eigen::VectorXd>(z, m) = vector_of(sees.model.h(state));
   if (H) Eigen::Map<Columns>(H, m, sees.k) = matrix_of(sees.model.H(state)).leftCols(sees.k);
 }
-constexpr detail::SensorTable bends{false, false, seen, measure}, is_linear{false, true, seen, measure},
+/// The first number is an angle, and a difference in it less than half a turn.
+void difference(const void*, const double* z, const double* predicted, int m, double* result) {
+  for (int i = 0; i < m; ++i) result[i] = z[i] - predicted[i];
+  result[0] = restatement::in_half_a_turn(result[0]);
+}
+constexpr detail::SensorTable bends{false, false, seen, measure, difference}, is_linear{false, true, seen, measure},
     leads{true, true, seen};
 
 Estimate sized(std::size_t n) {
@@ -167,9 +173,15 @@ TEST(Filtering, EveryUpdateIsItsRestatement) {
         SCOPED_TRACE(testing::Message() << n << " states, " << k << " seen, spread " << rule.spread);
         const State prior = draws.state(n);
         for (const std::size_t m : {1UL, 2UL, 3UL, 6UL, 8UL}) {
-          const OwnMotion linear{drawn_model(draws, n, m, k, 0.0), n}, bent{drawn_model(draws, n, m, k, 0.3), n};
+          const OwnMotion linear{drawn_model(draws, n, m, k, 0.0), n};
+          OwnMotion bent{drawn_model(draws, n, m, k, 0.3), n};
+          bent.model.is_angle[0] = true;
+          const double size = static_cast<double>(n);  // so that the points are less than half a turn apart
+          const State near_by{prior.mean, 0.05 / (size * size) * prior.covariance};
           expect_update(ref_of(linear, rule), is_linear, static_cast<int>(k), linear.model, prior, draws.state(m));
-          expect_update(ref_of(bent, rule), bends, static_cast<int>(k), bent.model, prior, draws.state(m));
+          State measured = draws.state(m);
+          measured.mean[0] += 3.0;
+          expect_update(ref_of(bent, rule), bends, static_cast<int>(k), bent.model, near_by, measured);
         }
         Dense position(k, n);
         for (std::size_t i = 0; i < k; ++i) position(i, i) = 1.0;

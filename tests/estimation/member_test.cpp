@@ -25,11 +25,9 @@ using support::estimate_of;
 using support::every_member;
 using support::near;
 using support::near_matrix;
-using support::near_state;
 using support::OwnLinearMotion;
 using support::OwnMotion;
 using support::OwnSensor;
-using support::vector_of;
 
 constexpr double pi = std::numbers::pi;
 using Dense = restatement::Matrix;
@@ -163,95 +161,6 @@ TEST(Member, IndependentLinearMeasurementsOneByOneAreTheBatch) {
       EXPECT_PRED_FORMAT3(near_matrix, sequential.covariance, batch.covariance, 1e-9);
       EXPECT_PRED_FORMAT3(near, log_likelihood, both.log_likelihood, 1e-9);
     }
-  }
-}
-
-/// A coordinated turn in the plane seen by a radar, in plain formulas.
-Restated restated_turn(double q, double q_omega) {
-  using restatement::Vector;
-  return {[](const Vector& x, double T) -> Vector {
-            const double w = x[4], s = std::sin(w * T), c = std::cos(w * T);
-            return {x[0] + s / w * x[2] - (1 - c) / w * x[3], x[1] + (1 - c) / w * x[2] + s / w * x[3],
-                    c * x[2] - s * x[3], s * x[2] + c * x[3], w};
-          },
-          [](const Vector& x, double T) -> Dense {
-            const double w = x[4], s = std::sin(w * T), c = std::cos(w * T), vx = x[2], vy = x[3];
-            Dense F = restatement::identity(5);
-            F(0, 2) = F(1, 3) = s / w;
-            F(1, 2) = (1 - c) / w;
-            F(0, 3) = -F(1, 2);
-            F(2, 2) = F(3, 3) = c;
-            F(3, 2) = s;
-            F(2, 3) = -s;
-            F(0, 4) = (c * T * vx - s * vx / w) / w - (s * T * vy + (c - 1) * vy / w) / w;
-            F(1, 4) = (s * T * vx - (1 - c) * vx / w) / w + (c * T * vy - s * vy / w) / w;
-            F(2, 4) = -s * T * vx - c * T * vy;
-            F(3, 4) = c * T * vx - s * T * vy;
-            return F;
-          },
-          [q, q_omega](double T) -> Dense {
-            const double a = q * T * T * T / 3, b = q * T * T / 2, c = q * T;
-            return {5, 5, {a, 0, b, 0, 0, 0, a, 0, b, 0, b, 0, c, 0, 0, 0, b, 0, c, 0, 0, 0, 0, 0, q_omega * T}};
-          },
-          [](const Vector& x) -> Vector {
-            return {std::hypot(x[0], x[1]), std::atan2(x[1], x[0])};
-          },
-          [](const Vector& x) -> Dense {
-            const double r = std::hypot(x[0], x[1]);
-            return {2, 5, {x[0] / r, x[1] / r, 0, 0, 0, -x[1] / (r * r), x[0] / (r * r), 0, 0, 0}};
-          },
-          {false, true}};
-}
-
-/// A target anywhere 50 to 150 m away, known to some metres, and what a radar at the origin sees of it.
-State drawn_turning(Draws& draws) {
-  const double range = draws.number(50.0, 150.0), azimuth = draws.number(-pi, pi);
-  State x{{range * std::cos(azimuth), range * std::sin(azimuth), draws.number(-10.0, 10.0), draws.number(-10.0, 10.0),
-           draws.number(0.05, 0.6)},
-          draws.covariance(5)};
-  for (std::size_t i = 0; i < 5; ++i) {
-    x.covariance(i, 4) *= 0.05;
-    x.covariance(4, i) *= 0.05;
-  }
-  return x;
-}
-State drawn_polar(Draws& draws, const State& x) {
-  const double azimuth = std::atan2(x.mean[1], x.mean[0]) + draws.number(-0.05, 0.05);
-  return {{std::hypot(x.mean[0], x.mean[1]) + draws.number(-3.0, 3.0), std::remainder(azimuth, 2.0 * pi)},
-          Dense(2, 2, {4.0, 0.001, 0.001, 0.0025})};
-}
-
-TEST(Member, OfATurnSeenByARadarIsItsPlainRestatement) {
-  Draws draws(4);
-  for (int run = 0; run < 200; ++run) {
-    const double q = draws.number(0.1, 2.0), q_omega = draws.number(0.0, 0.01), dt = draws.number(0.1, 1.5);
-    const CoordinatedTurn<2> turn{q, q_omega};
-    const Restated restated = restated_turn(q, q_omega);
-    const State prior = drawn_turning(draws), z = drawn_polar(draws, prior);
-    const auto compare = [&](const AnyModel& member, const State& predicted, const restatement::Updated& updated,
-                             const Dense& cross) {
-      EstimateOf<AnyModel> found = start_of(prior);
-      EXPECT_PRED_FORMAT3(near_matrix, prediction_covariance(member, found, dt), support::matrix_of(cross), 1e-9);
-      EXPECT_PRED_FORMAT3(near_state, Estimate(predict(member, found, dt).mean, predict(member, found, dt).covariance),
-                          predicted, 1e-9);
-      const Gaussian<2> seen{vector_of(z.mean), support::matrix_of(z.covariance)};
-      const auto innovation = update(member, found, seen, PolarSensor<2>{}, found);
-      EXPECT_PRED_FORMAT3(near_matrix, innovation.residual, vector_of(updated.nu), 1e-9);
-      EXPECT_PRED_FORMAT3(near_matrix, innovation.covariance, support::matrix_of(updated.S), 1e-9);
-      EXPECT_PRED_FORMAT3(near, innovation.log_likelihood, updated.log_likelihood, 1e-9);
-      EXPECT_PRED_FORMAT3(near_state, Estimate(found.mean, found.covariance), updated.posterior, 1e-9);
-    };
-    compare(Extended{turn}, extended_prediction(restated, prior, dt),
-            extended_update(restated, prior, z.mean, z.covariance),
-            prior.covariance * transposed(restated.F(prior.mean, dt)));
-    const auto compare_points = [&](const AnyModel& member, const restatement::Points& points) {
-      compare(member, points_prediction(restated, points, dt),
-              points_update(restated, prior, points, z.mean, z.covariance),
-              points_cross_covariance(restated, prior, points, dt));
-    };
-    for (const auto& s : {UnscentedScaling{}, UnscentedScaling{0.5, 2.0, 1.0}, UnscentedScaling{1.5, 0.5, -0.2}})
-      compare_points(Unscented{turn, s}, unscented_points(prior, s.alpha, s.beta, s.kappa));
-    compare_points(Cubature{turn}, restatement::cubature_points(prior));
   }
 }
 
