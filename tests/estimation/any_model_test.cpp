@@ -14,11 +14,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::near_matrix;
-using support::OwnLinearMotion;
-using support::OwnMotion;
-using support::throws;
+using namespace support;
 
 static_assert(FilterModel<AnyModel> && StateModel<AnyModel> && axes_of<AnyModel> == 0);
 static_assert(!LinearMotion<AnyModel>, "nobody asks for its matrices");
@@ -67,8 +63,8 @@ TEST(AnyModel, DoesWhatTheModelDoesThatItWasMadeOf) {
 }
 
 TEST(AnyModel, MayBeAUsersOwn) {
-  support::Draws draws(1);
-  const OwnMotion motion{support::drawn_model(draws, 3, 1, 3, 0.3), 3};
+  Draws draws(1);
+  const OwnMotion motion{drawn_model(draws, 3, 1, 3, 0.3), 3};
   expect_as(OwnLinearMotion{motion});
   expect_as(Extended{motion});
   expect_as(Unscented{motion});
@@ -88,7 +84,7 @@ TEST(AnyModel, SharesTheModelThatItWasMadeOf) {
 TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
   const EstimateOf<AnyModel> wrong{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
   EstimateOf<AnyModel> x;
-  for (const AnyModel& turn : support::every_member(CoordinatedTurn<2>{1.0, 0.01})) {
+  for (const AnyModel& turn : every_member(CoordinatedTurn<2>{1.0, 0.01})) {
     const std::initializer_list<std::string_view> words{"coordinated_turn", "4 components", "5"};
     EXPECT_TRUE(throws<std::invalid_argument>([&] { predict(turn, wrong, 1.0, x); }, words));
     EXPECT_TRUE(throws<std::invalid_argument>([&] { prediction_covariance(turn, wrong, 1.0); }, words));
@@ -115,8 +111,8 @@ TEST(AnyModel, RefusesASensorOfMoreThanThereIs) {
 }
 
 TEST(AnyModel, HasAtMost32States) {
-  support::Draws draws(2);
-  const auto of_size = [&](std::size_t n) { return OwnMotion{support::drawn_model(draws, n, 1, n, 0.3), n}; };
+  Draws draws(2);
+  const auto of_size = [&](std::size_t n) { return OwnMotion{drawn_model(draws, n, 1, n, 0.3), n}; };
   EXPECT_EQ(AnyModel{Extended{of_size(32)}}.size(), 32);
   EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyModel{Extended{of_size(33)}}; }, {"'own'", "33 states", "32"}));
 }

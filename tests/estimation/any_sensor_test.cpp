@@ -15,9 +15,7 @@
 namespace sigmax {
 namespace {
 
-using support::every_member;
-using support::near;
-using support::throws;
+using namespace support;
 
 static_assert(Sensing<AnySensor> && SensorOf<AnySensor, AnyModel> && SensorOf<AnySensor, CoordinatedTurn<2>>);
 static_assert(AnySensor::measurement_size == Eigen::Dynamic && AnySensor::max_measurement_size == 6);

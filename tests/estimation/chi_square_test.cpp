@@ -12,8 +12,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::throws;
+using namespace support;
 
 const std::initializer_list<int> all_degrees{1, 2, 3, 6, 9, 30, 101, 600, 1201, 57600};
 

@@ -16,12 +16,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_matrix;
-using support::holds;
-using support::near_matrix;
-using support::number_between;
-using support::require_near_matrix;
-using support::throws;
+using namespace support;
 
 static_assert(NonlinearMotion<CoordinatedTurn<2>> && axes_of<CoordinatedTurn<2>> == 2);
 static_assert(NonlinearMotion<CoordinatedTurn<3>> && axes_of<CoordinatedTurn<3>> == 3);

@@ -10,11 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated;
-using support::generated_covariance;
-using support::holds;
-using support::matrix_of;
-using support::require_near_matrix;
+using namespace support;
 
 using Matrix = Eigen::MatrixXd;
 
@@ -82,9 +78,8 @@ TEST(CovarianceRoot, KnowsRoundingFromWhatIsNoCovariance) {
 }
 
 TEST(CovarianceRoot, IsRefusedByName) {
-  EXPECT_TRUE(
-      support::throws<std::domain_error>([] { detail::refuse_covariance("dwna", 2); },
-                                         {"covariance", "'dwna'", "not positive semi-definite", "component 2"}));
+  EXPECT_TRUE(throws<std::domain_error>([] { detail::refuse_covariance("dwna", 2); },
+                                        {"covariance", "'dwna'", "not positive semi-definite", "component 2"}));
 }
 
 }  // namespace

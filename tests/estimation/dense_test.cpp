@@ -13,8 +13,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::near_matrix;
+using namespace support;
 using Matrix = Eigen::MatrixXd;
 
 /// Numbers with no pattern.
@@ -77,8 +76,8 @@ TEST(Dense, WhatIsNotPositiveDefiniteHasNoFactor) {
   for (const Eigen::Matrix2d& S : {Eigen::Matrix2d{{1.0, 2.0}, {2.0, 1.0}}, Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}},
                                    Eigen::Matrix2d::Zero().eval()}) {
     EXPECT_FALSE(detail::cholesky_factor(S.data(), 2, L.data()));
-    EXPECT_TRUE(support::throws<std::domain_error>([&] { detail::normalized_error_squared(L.data(), S.data(), 2); },
-                                                   {"not positive definite"}));
+    EXPECT_TRUE(throws<std::domain_error>([&] { detail::normalized_error_squared(L.data(), S.data(), 2); },
+                                          {"not positive definite"}));
   }
 }
 

@@ -12,8 +12,7 @@
 namespace sigmax {
 namespace {
 
-using support::near_matrix;
-using support::throws;
+using namespace support;
 
 TEST(DiscreteWhiteNoise, IsThatOfThePaperAtFiveHertz) {
   EXPECT_PRED_FORMAT3(near_matrix, dwna<1>(3.0).transition(0.2), (SquareMatrix<2>{{1, 0.2}, {0, 1}}), 1e-15);

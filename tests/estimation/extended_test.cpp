@@ -7,16 +7,15 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::OwnMotion;
+using namespace support;
 
 TEST(Extended, OfAQuadraticKnowsNothingOfItsCurvature) {
-  support::expect_quadratics([](const OwnMotion& model) { return Extended{model}; },
-                             [](const Vector<3>& g, const SquareMatrix<3>&) { return g.squaredNorm(); }, 0.0);
+  expect_quadratics([](const OwnMotion& model) { return Extended{model}; },
+                    [](const Vector<3>& g, const SquareMatrix<3>&) { return g.squaredNorm(); }, 0.0);
 }
 
 TEST(Extended, PredictsByTheTangent) {
-  const auto x = predict(AnyModel{Extended{support::square}}, support::one_number(-3.0, 0.5), 1.0);
+  const auto x = predict(AnyModel{Extended{square}}, one_number(-3.0, 0.5), 1.0);
   EXPECT_PRED_FORMAT3(near, x.mean(0), 9.0, 1e-13);
   EXPECT_PRED_FORMAT3(near, x.covariance(0), 4.0 * 9.0 * 0.5 + 1.0, 1e-13);
 }

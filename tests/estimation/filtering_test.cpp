@@ -17,18 +17,7 @@ namespace sigmax {
 namespace {
 
 using restatement::State;
-using support::drawn_model;
-using support::Draws;
-using support::Estimate;
-using support::estimate_of;
-using support::matrix_of;
-using support::near;
-using support::near_matrix;
-using support::near_state;
-using support::OwnLinearMotion;
-using support::OwnMotion;
-using support::throws;
-using support::vector_of;
+using namespace support;
 
 using Dense = restatement::Matrix;
 using Restated = restatement::NonlinearModel;
@@ -185,8 +174,7 @@ TEST(Filtering, EveryUpdateIsItsRestatement) {
         }
         Dense position(k, n);
         for (std::size_t i = 0; i < k; ++i) position(i, i) = 1.0;
-        const OwnMotion leading{support::bent(draws.matrix(n, n), draws.vector(n), draws.covariance(n), position, 0.0),
-                                n};
+        const OwnMotion leading{bent(draws.matrix(n, n), draws.vector(n), draws.covariance(n), position, 0.0), n};
         expect_update(ref_of(leading, rule), leads, static_cast<int>(k), leading.model, prior, draws.state(k));
       }
 }
@@ -243,7 +231,7 @@ TEST(Filtering, ALawAlongIndependentAxesMovesEachAxisByItself) {
       Estimate found = sized(n), in_place = start;
       detail::predict(law, axes, detail::view(start), detail::view(found));
       detail::predict(law, axes, detail::view(in_place), detail::view(in_place));
-      const State expected = extended_prediction(support::bent(F, input, Q, Dense(1, n), 0.0), prior, dt);
+      const State expected = extended_prediction(bent(F, input, Q, Dense(1, n), 0.0), prior, dt);
       EXPECT_PRED_FORMAT3(near_state, found, expected, 1e-12) << order << " derivatives, " << axes << " axes";
       EXPECT_EQ(found.covariance, found.covariance.transpose());
       EXPECT_EQ(in_place.mean, found.mean);

@@ -16,36 +16,10 @@ namespace sigmax {
 namespace {
 
 using restatement::transposed;
-using support::dense;
-using support::fixed;
-using support::generated;
-using support::generated_covariance;
-using support::generated_gaussian;
-using support::holds;
-using support::near;
-using support::near_matrix;
-using support::number_between;
-using support::require_near;
-using support::require_near_matrix;
-using support::throws;
-
-using Dense = restatement::Matrix;
-
-TEST(GaussianPossibility, OfARegularCovarianceIsTheFormula) {
-  holds([] {
-    const auto density = generated_gaussian<3>();
-    const GaussianPossibility<3> pi{density};
-    const auto offset = generated(3, 1);
-    const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
-    const double squared = (transposed(offset) * inverse * offset)(0, 0);
-    const Vector<3> x = density.mean + fixed<3, 1>(offset);
-    require_near(pi.log(x), -0.5 * squared, 1e-12);
-    require_near(pi(x), std::exp(-0.5 * squared), 1e-12);
-    RC_ASSERT(pi(density.mean) == 1.0);
-  });
-}
+using namespace support;
 
 /// Σ = A Aᵀ of any rank: at m + A y the distance is that of the least such y, which of independent columns is y itself.
+/// What A does not reach is impossible.
 template <int N>
 void knows_its_support() {
   holds([] {
@@ -61,15 +35,14 @@ void knows_its_support() {
     const auto least = transposed(y) * y;
     if (!(pi.log(x) > log_zero)) RC_FAIL("a point of the support is impossible");
     require_near(pi.log(x), -0.5 * least(0, 0), 1e-5);
+    if (rank < N) RC_ASSERT(pi(x + 1e-2 * Vector<N>::Unit(N - 1)) == 0.0);
   });
 }
 
 TEST(GaussianPossibility, OfASingularCovarianceOfAnyRankKnowsItsSupport) {
   knows_its_support<1>();
   knows_its_support<2>();
-  knows_its_support<3>();
   knows_its_support<4>();
-  knows_its_support<5>();
   knows_its_support<6>();
 }
 
@@ -85,29 +58,15 @@ TEST(GaussianPossibility, TakesOnlyRoundingForNothing) {
 /// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
 TEST(GaussianPossibility, IsTheDensityOnTheRatioScale) {
   holds([] {
-    const auto gaussian = generated_gaussian<2>();
-    const auto covariance = dense(gaussian.covariance);
-    const auto [inverse, log_determinant] = restatement::inverse(covariance);
-    const auto offset = generated(2, 1);
-    const double greatest = std::exp(-0.5 * log_determinant) / (2.0 * std::numbers::pi);
+    const auto gaussian = generated_gaussian<3>();
+    const auto [inverse, log_determinant] = restatement::inverse(dense(gaussian.covariance));
+    const auto offset = generated(3, 1);
+    const double greatest = std::exp(-0.5 * log_determinant) / std::pow(2.0 * std::numbers::pi, 1.5);
     const double p = greatest * std::exp(-0.5 * (transposed(offset) * inverse * offset)(0, 0));
-    const GaussianPossibility<2> pi{gaussian};
-    require_near(pi(gaussian.mean + fixed<2, 1>(offset)), p / greatest, 1e-12);
+    const GaussianPossibility<3> pi{gaussian};
+    RC_ASSERT(pi(gaussian.mean) == 1.0);
+    require_near(pi(gaussian.mean + fixed<3, 1>(offset)), p / greatest, 1e-12);
     require_near_matrix(pi.density().covariance, gaussian.covariance, 0.0);
-  });
-}
-
-/// Σ = BBᵀ of rank two: x = m + By has the distance of y, the shortest one; what B does not reach is impossible.
-TEST(GaussianPossibility, OfASingularCovarianceLivesOnItsSupport) {
-  holds([] {
-    const Dense B(4, 2, {1, 0, 0, 1, number_between(-2, 2), number_between(-2, 2), 1, number_between(-2, 2)});
-    const Vector<4> mean = 10.0 * fixed<4, 1>(generated(4, 1));
-    const GaussianPossibility<4> pi{{mean, fixed<4, 4>(B * transposed(B))}};
-    const auto y = 3.0 * generated(2, 1);
-    const Vector<4> x = mean + fixed<4, 1>(B * y);
-    require_near(pi.log(x), -0.5 * (y(0, 0) * y(0, 0) + y(1, 0) * y(1, 0)), 1e-9);
-    const Vector<4> off = x + 1e-3 * Vector<4>{-B(2, 0), -B(2, 1), 1.0, 0.0};  // orthogonal to the columns' first three
-    RC_ASSERT(pi(off + 1e-3 * Vector<4>::Unit(3)) == 0.0);
   });
 }
 
@@ -203,40 +162,10 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
   }
 }
 
-using Model = FixedStepMotion<3>;
-Model generated_model() {
-  return {"model", {"a", "b", "c"}, 1.0, fixed<3, 3>(generated(3, 3)), fixed<3, 3>(generated_covariance(3))};
-}
-LinearSensor<2, 3> generated_sensor() { return LinearSensor<2, 3>{fixed<2, 3>(generated(2, 3))}; }
-
-/// First (34), then (36) and (37); or first (23) and (24), then (34): with both numbers of (34) written as ratios of
-/// the filter's own densities.
-TEST(GaussianPossibility, TheRatioTransformCommutesWithTheRecursion) {
-  holds([] {
-    const auto model = generated_model();
-    const auto sensor = generated_sensor();
-    Gaussian<3> density = generated_gaussian<3>();
-    GaussianPossibility<3> pi{density};
-    for (int k = 0; k < 3; ++k) {
-      predict(model, density, 1.0, density);
-      pi = predict(model, pi, 1.0);
-      if (*rc::gen::inRange(0, 2) == 1) {
-        const auto z = generated_gaussian<2>();
-        update(model, density, z, sensor, density);
-        pi = update(model, pi, z, sensor);
-      }
-      const auto inverse = restatement::inverse(dense(density.covariance)).matrix;
-      const auto offset = generated(3, 1);
-      const double log_ratio = -0.5 * (transposed(offset) * inverse * offset)(0, 0);  // log p(x) − log sup p
-      require_near(pi.log(density.mean + fixed<3, 1>(offset)), log_ratio, 1e-9);
-    }
-  });
-}
-
 TEST(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
   holds([] {
-    const auto model = generated_model();
-    const auto sensor = generated_sensor();
+    const FixedStepMotion<3> model("still", {"a", "b", "c"}, 1.0, SquareMatrix<3>::Identity(), SquareMatrix<3>::Zero());
+    const LinearSensor<2, 3> sensor{generated_matrix<2, 3>()};
     Gaussian<3> posterior;
     const auto prior = generated_gaussian<3>();
     const auto z = generated_gaussian<2>();

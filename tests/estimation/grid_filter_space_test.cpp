@@ -13,7 +13,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
+using namespace support;
 
 // Functions are of one type for each dimension, so that a filter is compiled once.
 template <int N>

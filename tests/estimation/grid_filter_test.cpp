@@ -15,8 +15,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::throws;
+using namespace support;
 
 // Functions are of one type, so that a filter is compiled once.
 using Log = std::function<double(const Vector<1>&)>;
@@ -34,40 +33,6 @@ double parabola(double x, double variance) { return -0.5 * x * x / variance; }
 SquareMatrix<1> variance(double value) { return SquareMatrix<1>{value}; }
 
 double grown(double x, int k) { return 0.5 * x + 25.0 * x / (1.0 + x * x) + 8.0 * std::cos(1.2 * k); }
-
-/// The growth model, in plain loops over whatever cells the filter has: (23), (24).
-TEST(GridFilter, OfARandomStateIsBayesFilter) {
-  using Kind = Random;
-  const auto plus = [](double a, double b) { return a + b; };
-  const double Q = 10.0, R = 1.0;
-  GridFilter<Kind, 1> filter{line(-15.0, 15.0, 0.5), on_line([](double x) { return parabola(x - 1.0, 5.0); })};
-  for (int k = 1; k <= 6; ++k) {
-    filter.adapt();
-    std::vector<double> from, prior(filter.belief().values().begin(), filter.belief().values().end());
-    for (std::size_t i = 0; i < prior.size(); ++i) from.push_back(filter.grid().centre(i)(0));
-    const auto f = [k](double x) { return grown(x, k); };
-    const double z = 3.0 + 2.0 * std::sin(k);
-    filter.predict(along_line(f), variance(Q));
-    const double log_evidence = filter.update(on_line([&](double x) { return parabola(z - x * x / 20.0, R); }));
-
-    std::vector<double> posterior(filter.grid().size(), 0.0);
-    const auto to = [&](std::size_t j) { return filter.grid().centre(j)(0); };
-    for (std::size_t i = 0; i < prior.size(); ++i) {
-      double total = 0.0;
-      for (std::size_t j = 0; j < posterior.size(); ++j) total = plus(total, std::exp(parabola(to(j) - f(from[i]), Q)));
-      for (std::size_t j = 0; j < posterior.size(); ++j)
-        posterior[j] = plus(posterior[j], std::exp(parabola(to(j) - f(from[i]), Q)) / total * prior[i]);
-    }
-    double total = 0.0;
-    for (std::size_t j = 0; j < posterior.size(); ++j) {
-      posterior[j] *= std::exp(parabola(z - to(j) * to(j) / 20.0, R));
-      total = plus(total, posterior[j]);
-    }
-    EXPECT_PRED_FORMAT3(near, log_evidence, std::log(total), 1e-9);
-    for (double& value : posterior) value /= total;
-    EXPECT_PRED_FORMAT3(near, filter.belief().values(), posterior, 1e-10);
-  }
-}
 
 /// The growth model by brute force, on a grid that is fine everywhere: (23), (24) with `plus` a sum, (36), (37) with a
 /// maximum. The filter with its default options is right to 1 % of the deviation, about 8.

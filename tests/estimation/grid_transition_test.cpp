@@ -10,8 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::throws;
+using namespace support;
 
 const SquareMatrix<2> Q{{2.0, -0.6}, {-0.6, 0.5}};
 const Grid<2> grid{{-4.0, -3.0}, {5.0, 3.0}, {0.5, 0.25}};

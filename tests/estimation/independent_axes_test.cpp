@@ -12,11 +12,7 @@ namespace {
 
 using restatement::kronecker;
 using restatement::transposed;
-using support::dense;
-using support::fixed;
-using support::generated;
-using support::holds;
-using support::require_near_matrix;
+using namespace support;
 
 /// A law of one's own: any upper triangular matrix.
 struct Law {
@@ -38,8 +34,7 @@ static_assert(!MotionLaw<OtherSize>);
 
 TEST(IndependentAxes, EveryAxisFollowsTheLaw) {
   holds([] {
-    const Law law{fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(),
-                  fixed<3, 3>(support::generated_covariance(3))};
+    const Law law{fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(), fixed<3, 3>(generated_covariance(3))};
     const IndependentAxes<2, Law> model{law, Vector<2>(3.0, -5.0)};
     const auto identity = restatement::identity(2);
     const auto F = kronecker(dense(law.F), identity), Q = kronecker(dense(law.Q), identity);
@@ -48,7 +43,7 @@ TEST(IndependentAxes, EveryAxisFollowsTheLaw) {
     const Vector<6> input(6, -10, 9, -15, 3, -5);
     RC_ASSERT(model.known_input(2.0) == input);
 
-    const auto prior = support::generated_gaussian<6>();
+    const auto prior = generated_gaussian<6>();
     const auto predicted = predict(model, prior, 2.0);
     require_near_matrix(predicted.mean, F * dense(prior.mean) + dense(input), 1e-12);
     require_near_matrix(predicted.covariance, F * dense(prior.covariance) * transposed(F) + Q, 1e-12);

@@ -19,9 +19,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::near_matrix;
-using support::throws;
+using namespace support;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -68,7 +66,7 @@ TEST(Kalman, TheFormsThatReturnAreThoseThatWrite) {
 /// as a large one.
 testing::AssertionResult positive_semi_definite(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  restatement::Matrix P = support::dense(scale.asDiagonal() * covariance * scale.asDiagonal());
+  restatement::Matrix P = dense(scale.asDiagonal() * covariance * scale.asDiagonal());
   for (std::size_t k = 0; k < P.rows; ++k) {  // elimination: the pivots of a positive definite matrix are positive
     P(k, k) += 1e-12;
     if (!(P(k, k) > 0.0)) return testing::AssertionFailure() << "pivot " << k << " is " << P(k, k);

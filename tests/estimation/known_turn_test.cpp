@@ -13,46 +13,10 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::near_matrix;
-using support::number_between;
-using support::require_integral;
-using support::require_near_matrix;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
 static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
-
-/// What KnownTurn says of itself, in long double, for a step of T at θ = ωT.
-TEST(KnownTurn, IsThePrintedOneAndDoesNotCancel) {
-  const double T = 2.0, q = 3.0;
-  for (const double size : {1e-6, 1e-4, 0.0199999, 0.0200001, 0.3, 0.999, 1.001, 3.0})
-    for (const double theta : {size, -size}) {
-      const long double t = theta, sine = std::sin(t), half = std::sin(t / 2), versine = 2 * half * half;
-      const double along = static_cast<double>(sine / t), across = static_cast<double>(versine / t);
-      const double c = static_cast<double>(versine / (t * t));
-      const double s = size < 1e-3 ? 1.0 / 6.0 - theta * theta / 120.0 : static_cast<double>((t - sine) / (t * t * t));
-      const double cosine = std::cos(theta), sine_too = std::sin(theta);
-      const KnownTurn<2> turn{theta / T, q};
-      EXPECT_PRED_FORMAT3(near_matrix, turn.transition(T),
-                          (SquareMatrix<4>{{1, 0, T * along, -T * across},
-                                           {0, 1, T * across, T * along},
-                                           {0, 0, cosine, -sine_too},
-                                           {0, 0, sine_too, cosine}}),
-                          1e-15)
-          << theta;
-      const double qT2 = q * T * T, of_position = 2.0 * qT2 * T * s, across_noise = qT2 * theta * s;
-      EXPECT_PRED_FORMAT3(near_matrix, turn.process_covariance(T),
-                          (SquareMatrix<4>{{of_position, 0, qT2 * c, across_noise},
-                                           {0, of_position, -across_noise, qT2 * c},
-                                           {qT2 * c, -across_noise, q * T, 0},
-                                           {across_noise, qT2 * c, 0, q * T}}),
-                          1e-13)
-          << theta;
-    }
-}
 
 TEST(KnownTurn, IsTheIntegral) {
   holds([] {

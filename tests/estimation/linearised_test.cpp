@@ -10,9 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::near_matrix;
-using support::square;
+using namespace support;
 
 const CoordinatedTurn<2> turn{2.0, 1e-3};
 const PolarSensor<2> radar{Vector<2>{-3e3, 500.0}};
@@ -52,12 +50,12 @@ TEST(Linearised, OfTheExtendedFilterHasTheSlopesAtTheMean) {
 /// x² about N(m, P) is m² + P + 2m (x − m) and a rest of variance 2P².
 TEST(Linearised, WhatPointsLeaveUnexplainedIsNoise) {
   const AnyModel filter = Unscented{square};
-  const auto step = linearised_step(filter, support::one_number(3.0, 0.5), 1.0);
+  const auto step = linearised_step(filter, one_number(3.0, 0.5), 1.0);
   EXPECT_PRED_FORMAT3(near, step.mean(0), 9.5, 1e-14);
   EXPECT_PRED_FORMAT3(near, step.F(0), 6.0, 1e-14);
   EXPECT_PRED_FORMAT3(near, step.Q(0), 1.5, 1e-14);
-  const auto seen = linearised_measurement(filter, support::one_number(3.0, 0.5), support::measured_number(5.0, 7.0),
-                                           support::OwnSensor{square.model});
+  const auto seen =
+      linearised_measurement(filter, one_number(3.0, 0.5), measured_number(5.0, 7.0), OwnSensor{square.model});
   EXPECT_PRED_FORMAT3(near, seen.residual(0), -4.5, 1e-14);
   EXPECT_PRED_FORMAT3(near, seen.H(0), 6.0, 1e-14);
   EXPECT_PRED_FORMAT3(near, seen.R(0), 7.5, 1e-14);

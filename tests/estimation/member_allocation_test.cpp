@@ -14,7 +14,7 @@
 namespace sigmax {
 namespace {
 
-using support::allocations_of;
+using namespace support;
 
 template <class Filter, class Sensor>
 void expect_none(const Filter& filter, const EstimateOf<Filter>& start, const MeasurementOf<Sensor>& z,

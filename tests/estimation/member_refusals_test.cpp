@@ -12,8 +12,7 @@
 namespace sigmax {
 namespace {
 
-using support::every_member;
-using support::throws;
+using namespace support;
 using Prior = EstimateOf<AnyModel>;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -60,34 +59,36 @@ TEST(MemberRefusals, OfAnEstimateThatIsNotFinite) {
                                         {"estimate", "dwna", "not finite"}));
 }
 
-/// f has a pole at 0 and h at 1.
+/// f has a pole at 0 and h at 1, and their slopes at 2 and at 3.
 TEST(MemberRefusals, OfAFunctionThatIsNotFiniteAndNamesTheState) {
   using restatement::Matrix, restatement::Vector;
-  const support::OwnMotion poles{{[](const Vector& x, double) -> Vector { return {1.0 / x[0]}; },
-                                  [](const Vector& x, double) -> Matrix {
-                                    return {1, 1, {-1.0 / (x[0] * x[0])}};
-                                  },
-                                  [](double) { return restatement::identity(1); },
-                                  [](const Vector& x) -> Vector { return {1.0 / (x[0] - 1.0)}; },
-                                  [](const Vector& x) -> Matrix {
-                                    return {1, 1, {-1.0 / ((x[0] - 1.0) * (x[0] - 1.0))}};
-                                  },
-                                  {false}},
-                                 1};
-  const auto refuses = [&](const AnyModel& member, double pole_of_f, double pole_of_h) {
+  const auto pole = [](double x, double at) { return 1.0 / std::abs(x - at); };
+  const OwnMotion poles{{[=](const Vector& x, double) -> Vector { return {pole(x[0], 0.0)}; },
+                         [=](const Vector& x, double) -> Matrix {
+                           return {1, 1, {pole(x[0], 2.0)}};
+                         },
+                         [](double) { return restatement::identity(1); },
+                         [=](const Vector& x) -> Vector { return {pole(x[0], 1.0)}; },
+                         [=](const Vector& x) -> Matrix {
+                           return {1, 1, {pole(x[0], 3.0)}};
+                         },
+                         {false}},
+                        1};
+  const Gaussian<1> z{sigmax::Vector<1>(1.0), SquareMatrix<1>(1.0)};
+  const auto refuses = [&](const AnyModel& member, double of_f, double of_h, const char* f, const char* h,
+                           const char* x_of_f, const char* x_of_h) {
     const auto at = [](double x) { return Prior{sigmax::Vector<1>(x), SquareMatrix<1>(1.0)}; };
-    EXPECT_TRUE(
-        throws<std::domain_error>([&] { predict(member, at(pole_of_f), 1.0); }, {"f", "own", "not finite", "x = (0"}));
+    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, at(of_f), 1.0); }, {f, "own", "not finite", x_of_f}));
     EXPECT_TRUE(throws<std::domain_error>(
         [&] {
-          update(member, at(pole_of_h), {sigmax::Vector<1>(1.0), SquareMatrix<1>(1.0)},
-                 support::OwnSensor{poles.model});
+          update(member, at(of_h), {z.mean, z.covariance}, OwnSensor{poles.model});
         },
-        {"h", "own", "not finite", "x = (1"}));
+        {h, "own", "not finite", x_of_h}));
   };
-  refuses(Extended{poles}, 0.0, 1.0);
-  refuses(Unscented{poles}, 0.0, 1.0);
-  refuses(Cubature{poles}, 1.0, 2.0);  // its points are one deviation from the mean
+  refuses(Extended{poles}, 0.0, 1.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");
+  refuses(Extended{poles}, 2.0, 3.0, "the Jacobian of f", "the Jacobian of h", "x = (2.0", "x = (3.0");
+  refuses(Unscented{poles}, 0.0, 1.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");
+  refuses(Cubature{poles}, 1.0, 2.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");  // its points are one from the mean
 }
 
 }  // namespace

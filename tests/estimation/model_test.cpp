@@ -27,19 +27,15 @@ struct Nameless : RandomWalk {
   void name() const {}
 };
 
-// A matrix of another size does not compile.
-struct WideTransition : RandomWalk {
-  RectangularMatrix<1, 2> transition(double) const { return RectangularMatrix<1, 2>::Zero(); }
+/// Of one state, with functions of these sizes: what is of another does not compile.
+template <int Columns, int Rows, int Input>
+struct Shaped : RandomWalk {
+  RectangularMatrix<1, Columns> transition(double) const { return {}; }
+  RectangularMatrix<Rows, 1> process_covariance(double) const { return {}; }
+  Vector<Input> known_input(double) const { return {}; }
 };
-struct TallNoise : RandomWalk {
-  RectangularMatrix<2, 1> process_covariance(double) const { return RectangularMatrix<2, 1>::Zero(); }
-};
-struct LongInput : RandomWalk {
-  Vector<2> known_input(double) const { return Vector<2>::Zero(); }
-};
-static_assert(!LinearMotion<WideTransition>);
-static_assert(!LinearMotion<TallNoise>);
-static_assert(!LinearMotion<LongInput>);
+static_assert(LinearMotion<Shaped<1, 1, 1>> && !LinearMotion<Shaped<2, 1, 1>>);
+static_assert(!LinearMotion<Shaped<1, 2, 1>> && !LinearMotion<Shaped<1, 1, 2>>);
 
 using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
 

@@ -10,7 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::throws;
+using namespace support;
 
 TEST(MotionNumbers, ComponentsAreOrderedByDerivative) {
   EXPECT_EQ(detail::motion_components(1, 1), (std::vector<std::string>{"x"}));

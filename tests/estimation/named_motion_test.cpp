@@ -21,7 +21,7 @@ namespace sigmax {
 namespace {
 
 using detail::NamedMotion;
-using support::throws;
+using namespace support;
 using Type = NamedMotion::Type;
 
 /// A named motion, and the class that has the axes in its type.

@@ -12,35 +12,10 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::near;
-using support::near_matrix;
-using support::number_between;
-using support::require_integral;
-using support::require_near_covariance;
-using support::require_near_matrix;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 /// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
 double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
-
-/// The last column of F_s and the variance of the position of Singer's model by their series in long double, which the
-/// library sums for u < 1 only.
-TEST(OrnsteinUhlenbeck, ASeriesAndAFormulaMeetAtOne) {
-  for (const double u : {0.0, 1e-8, 0.01, 0.5, 0.999, 1.0, 1.5, 10.0}) {
-    long double entry = 0, variance = 0;  // Σ (−u)ⁿ/(n+2)! and 2u Σ (−u)ⁿ (2ⁿ⁺⁵ − 4 (n + 5))/(n+5)!
-    for (int n = 100; n-- > 0;) {
-      const long double power = std::pow(-static_cast<long double>(u), n);
-      entry += power / std::tgamma(n + 3.0L);
-      variance += u * power * (std::pow(2.0L, n + 5) - 4.0L * (n + 5)) / std::tgamma(n + 6.0L);
-    }
-    EXPECT_PRED_FORMAT3(near, singer<1>(u, 1.0).transition(1.0)(0, 2), static_cast<double>(entry), 1e-13) << u;
-    EXPECT_PRED_FORMAT3(near, singer<1>(u, 1.0).process_covariance(1.0)(0, 0), static_cast<double>(variance), 1e-12)
-        << u;
-  }
-}
 
 TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
   const double a = 0.7, T = 3.0, s2 = 4.0;  // Singer 1970; Bar-Shalom, Li, Kirubarajan 2001, (8.2.3-11)

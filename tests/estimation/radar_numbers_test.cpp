@@ -9,7 +9,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
+using namespace support;
 
 TEST(RadarNumbers, AnAngleIsWrapped) {
   constexpr double pi = std::numbers::pi;

@@ -83,6 +83,15 @@ using Estimate = Gaussian<Eigen::Dynamic, 40>;
 inline Estimate estimate_of(const restatement::State& state) {
   return {vector_of(state.mean), matrix_of(state.covariance)};
 }
+/// The same as an estimate of a model's state, or as a measurement of a sensor.
+template <class Asked>
+auto estimate_of(const restatement::State& state) {
+  const Estimate same = estimate_of(state);
+  if constexpr (Sensing<Asked>)
+    return MeasurementOf<Asked>{same.mean, same.covariance};
+  else
+    return EstimateOf<Asked>{same.mean, same.covariance};
+}
 
 /// The motion of a restated model as a user's own, with its Jacobian.
 struct OwnMotion {

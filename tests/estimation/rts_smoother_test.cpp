@@ -15,12 +15,7 @@
 namespace sigmax {
 namespace {
 
-using support::dense;
-using support::fixed;
-using support::generated_matrix;
-using support::holds;
-using support::near_matrix;
-using support::require_near_matrix;
+using namespace support;
 
 using Model = FixedStepMotion<2>;
 using Record = std::vector<FilteredStep<Gaussian<2>>>;
@@ -32,15 +27,15 @@ TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
                       {"a", "b"},
                       1.0,
                       generated_matrix<2, 2>(),
-                      fixed<2, 2>(support::generated_covariance(2)),
+                      fixed<2, 2>(generated_covariance(2)),
                       generated_matrix<2, 1>()};
     const LinearSensor<1, 2> sensor{generated_matrix<1, 2>()};
-    Record record{{0.0, support::generated_gaussian<2>()}};
+    Record record{{0.0, generated_gaussian<2>()}};
     std::vector<std::optional<Gaussian<1>>> measurements(7);
     for (auto& z : measurements) {
       auto estimate = predict(model, record.back().state, 1.0);
       if (*rc::gen::inRange(0, 4) > 0) {
-        z = support::generated_gaussian<1>();
+        z = generated_gaussian<1>();
         estimate = update(model, estimate, *z, sensor);
       }
       record.push_back({1.0, estimate});
@@ -75,8 +70,8 @@ TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
       if (const auto& z = measurements[k])
         add(placed(dense(sensor.measurement_matrix()), k + 1, {1, n}), {z->mean(0)}, dense(z->covariance));
     }
-    const auto covariance = support::matrix_of(restatement::inverse(information).matrix);
-    const auto mean = (covariance * support::vector_of(vector)).eval();
+    const auto covariance = matrix_of(restatement::inverse(information).matrix);
+    const auto mean = (covariance * vector_of(vector)).eval();
     for (std::size_t k = 0; k < smoothed.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(2 * k);
       require_near_matrix(smoothed[k].mean, mean.segment(at, 2), 1e-9);
@@ -109,8 +104,8 @@ TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {
 TEST(RtsSmoother, NamesTheModelWhoseCovarianceLostDefiniteness) {
   const Gaussian<2> lost{Vector<2>::Zero(), SquareMatrix<2>{{1.0, 2.0}, {2.0, 1.0}}};
   Gaussian<2> result;
-  EXPECT_TRUE(support::throws<std::domain_error>([&] { smooth_step(dwna<1>(1.0), lost, 0.0, lost, result); },
-                                                 {"model 'dwna'", "not positive semi-definite"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { smooth_step(dwna<1>(1.0), lost, 0.0, lost, result); },
+                                        {"model 'dwna'", "not positive semi-definite"}));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/estimation/extended.hpp>
 
 #include "support/matrices.hpp"
@@ -15,15 +16,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_gaussian;
-using support::generated_matrix;
-using support::holds;
-using support::near;
-using support::near_matrix;
-using support::number_between;
-using support::require_near;
-using support::require_near_matrix;
-using support::throws;
+using namespace support;
 
 constexpr double pi = std::numbers::pi;
 const auto motion = dwna<3>(2.0);
@@ -60,6 +53,9 @@ TEST(Sensors, JacobiansAreTheDerivatives) {
     require_derivative(PolarSensor<2>{origin.head<2>()}, position.head<2>());
     require_derivative(PolarSensor<3>{origin}, position);
     require_derivative(BearingSensor{origin.head<2>()}, position.head<2>());
+    const Vector<3> v = 20.0 * generated_matrix<3, 1>();
+    require_derivative(DopplerSensor<2>{origin.head<2>()}, Vector<4>(position(0), position(1), v(0), v(1)));
+    require_derivative(DopplerSensor<3>{origin}, (Vector<6>() << position, v).finished());
   });
 }
 
@@ -107,20 +103,6 @@ TEST(Sensors, LinearOnesAreThoseOfTheirMatrices) {
     same(PositionSensor<3>{}, LinearSensor<3, 3>{SquareMatrix<3>::Identity()});
     same(ComponentSensor<4>{places}, LinearSensor<3, 3>{SquareMatrix<3>::Identity()});
     same(ComponentSensor<4>{others}, LinearSensor<3, 6>{H});
-  });
-}
-
-TEST(Sensors, APositionSensorMayMeasureFewerAxes) {
-  holds([] {
-    const auto prior = generated_gaussian<6>();
-    const auto z = generated_gaussian<2>();
-    // The third coordinate tells nothing if its variance is immense.
-    Gaussian<3> with_altitude{Vector<3>(z.mean(0), z.mean(1), 0.0), SquareMatrix<3>::Zero()};
-    with_altitude.covariance.topLeftCorner<2, 2>() = z.covariance;
-    with_altitude.covariance(2, 2) = 1e14;
-    const auto found = update(motion, prior, z, PositionSensor<2>{}), expected = update(motion, prior, with_altitude);
-    require_near_matrix(found.mean, expected.mean, 1e-10);
-    require_near_matrix(found.covariance, expected.covariance, 1e-10);
   });
 }
 

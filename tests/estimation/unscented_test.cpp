@@ -8,22 +8,16 @@
 namespace sigmax {
 namespace {
 
-using support::measured_number;
-using support::near;
-using support::one_number;
-using support::OwnMotion;
-using support::OwnSensor;
-using support::square;
-using support::throws;
+using namespace support;
 
 TEST(Unscented, OfAQuadraticHasTheExactMeanAndItsOwnVariance) {
   for (const auto& s : {UnscentedScaling{}, UnscentedScaling{0.4, 2.5, -0.8}, UnscentedScaling{1.8, 0.2, 2.5}}) {
     const double c = s.alpha * s.alpha * (3.0 + s.kappa);
-    support::expect_quadratics([&](const OwnMotion& model) { return Unscented(model, s); },
-                               [&](const Vector<3>& g, const SquareMatrix<3>& B) {
-                                 return g.squaredNorm() + 0.25 * c * B.diagonal().squaredNorm() +
-                                        0.25 * (s.beta - s.alpha * s.alpha) * B.trace() * B.trace();
-                               });
+    expect_quadratics([&](const OwnMotion& model) { return Unscented(model, s); },
+                      [&](const Vector<3>& g, const SquareMatrix<3>& B) {
+                        return g.squaredNorm() + 0.25 * c * B.diagonal().squaredNorm() +
+                               0.25 * (s.beta - s.alpha * s.alpha) * B.trace() * B.trace();
+                      });
   }
 }
 

@@ -10,13 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::near_matrix;
-using support::number_between;
-using support::require_integral;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 TEST(WhiteNoise, AccelerationIsThatOfTheBook) {
   const auto model = cwna<1>(3.0);
