@@ -50,15 +50,6 @@ TEST(CoordinatedTurn, FliesACircle) {
   EXPECT_PRED_FORMAT3(near_matrix, x, start, 1e-11);
 }
 
-TEST(CoordinatedTurn, TwoStepsAreOne) {
-  holds([] {
-    const auto x = generated_state<2>();
-    const double s = number_between(0.0, 2.0), t = number_between(0.0, 2.0);
-    const CoordinatedTurn<2> model{1.0, 1.0};
-    require_near_matrix(model.propagate(model.propagate(x, s), t), model.propagate(x, s + t), 1e-12);
-  });
-}
-
 /// Bar-Shalom, Li, Kirubarajan 2001, (11.7.2-4) and (11.7.2-5), states in our order, in long double; z apart.
 TEST(CoordinatedTurn, ItsJacobianIsThePrintedOneAndDoesNotCancel) {
   const double T = 2.0, vx = 7.0, vy = -4.0;
@@ -98,12 +89,9 @@ TEST(CoordinatedTurn, TheNoiseIsWhiteAccelerationAndAWienerRate) {
   EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.process_covariance(2.0)), Q);
 }
 
-TEST(CoordinatedTurn, NamesItselfAndItsComponents) {
-  const CoordinatedTurn<3> model{3.0, 0.5};
-  EXPECT_EQ(model.name(), "coordinated_turn");
-  EXPECT_EQ(model.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "omega"}));
-  EXPECT_EQ(model.q(), 3.0);
-  EXPECT_EQ(model.q_omega(), 0.5);
+TEST(CoordinatedTurn, ShowsItsParameters) {
+  EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.q()), 3.0);
+  EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.q_omega()), 0.5);
 }
 
 TEST(CoordinatedTurn, RefusesANoiseThatIsNone) {

@@ -43,7 +43,7 @@ TEST(ModelRef, TellsWhereItsPointsLie) {
   EXPECT_EQ(detail::model_ref(any).table, detail::model_ref(cubature).table);
 }
 
-/// A motion is differentiated only for a filter by tangents: points need no Jacobian, nor a function of any scalar.
+/// Else a turn that nobody can differentiate would not compile.
 TEST(ModelRef, PointsNeedNoJacobian) {
   const Gaussian<5> x{Vector<5>(1.0, 2.0, 3.0, 4.0, 0.1), SquareMatrix<5>::Identity()};
   EXPECT_EQ(predict(Cubature{Opaque{1.0, 0.1}}, x, 1.0).mean,

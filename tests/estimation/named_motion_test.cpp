@@ -24,8 +24,9 @@ using detail::NamedMotion;
 using namespace support;
 using Type = NamedMotion::Type;
 
-/// A named motion, and the class that has the axes in its type.
-struct Pair {
+/// A motion's name, its numbers, and the class that has the axes in its type.
+struct Row {
+  const char* name;
   NamedMotion named;
   AnyModel typed;
 };
@@ -52,22 +53,25 @@ void expect_the_same(const AnyModel& named, const AnyModel& typed) {
 
 template <int Axes>
 void expect_along_axes() {
-  std::vector<Pair> all{{{Type::discrete_white_noise, 2, Axes, 3.0, 0.0}, dwna<Axes>(3.0)},
-                        {{Type::discrete_white_noise, 3, Axes, 2.0, 0.0}, dwpa<Axes>(2.0)},
-                        {{Type::white_noise, 2, Axes, 1.5, 0.0}, cwna<Axes>(1.5)},
-                        {{Type::white_noise, 3, Axes, 0.5, 0.0}, cwpa<Axes>(0.5)},
-                        {{Type::ornstein_uhlenbeck, 1, Axes, 0.3, 2.0}, ou_position<Axes>(0.3, 2.0)},
-                        {{Type::ornstein_uhlenbeck, 2, Axes, 0.2, 3.0}, ou_velocity<Axes>(0.2, 3.0)},
-                        {{Type::ornstein_uhlenbeck, 3, Axes, 0.1, 4.0}, singer<Axes>(0.1, 4.0)}};
+  std::vector<Row> all{{"dwna", {Type::discrete_white_noise, 2, Axes, 3.0, 0.0}, dwna<Axes>(3.0)},
+                       {"dwpa", {Type::discrete_white_noise, 3, Axes, 2.0, 0.0}, dwpa<Axes>(2.0)},
+                       {"cwna", {Type::white_noise, 2, Axes, 1.5, 0.0}, cwna<Axes>(1.5)},
+                       {"cwpa", {Type::white_noise, 3, Axes, 0.5, 0.0}, cwpa<Axes>(0.5)},
+                       {"ou_position", {Type::ornstein_uhlenbeck, 1, Axes, 0.3, 2.0}, ou_position<Axes>(0.3, 2.0)},
+                       {"ou_velocity", {Type::ornstein_uhlenbeck, 2, Axes, 0.2, 3.0}, ou_velocity<Axes>(0.2, 3.0)},
+                       {"singer", {Type::ornstein_uhlenbeck, 3, Axes, 0.1, 4.0}, singer<Axes>(0.1, 4.0)}};
   if constexpr (Axes > 1) {
     const NamedMotion turn{Type::coordinated_turn, 2, Axes, 2.0, 0.1};
     const CoordinatedTurn<Axes> typed{2.0, 0.1};
-    all.push_back({{Type::known_turn, 2, Axes, 0.2, 1.5}, KnownTurn<Axes>{0.2, 1.5}});
+    all.push_back({"known_turn", {Type::known_turn, 2, Axes, 0.2, 1.5}, KnownTurn<Axes>{0.2, 1.5}});
+    EXPECT_EQ(typed.name(), "coordinated_turn");
+    EXPECT_EQ(typed.components().back(), "omega");
     expect_the_same(Extended{turn}, Extended{typed});
     expect_the_same(Unscented{turn}, Unscented{typed});
     expect_the_same(Cubature{turn}, Cubature{typed});
   }
-  for (const auto& [named, typed] : all) {
+  for (const auto& [name, named, typed] : all) {
+    EXPECT_EQ(typed.name(), name);
     expect_the_same(named, typed);
     expect_the_same(Cubature{named}, typed);
   }

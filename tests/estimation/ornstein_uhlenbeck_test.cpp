@@ -80,10 +80,7 @@ TEST(OrnsteinUhlenbeck, AStepOfNoTimeIsNone) {
   EXPECT_EQ(singer<3>(0.5, 2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
 }
 
-TEST(OrnsteinUhlenbeck, NamesItselfAndShowsItsParameters) {
-  EXPECT_EQ(ou_position<2>(1.0, 1.0).name(), "ou_position");
-  EXPECT_EQ(ou_velocity<2>(1.0, 1.0).name(), "ou_velocity");
-  EXPECT_EQ(singer<2>(1.0, 1.0).name(), "singer");
+TEST(OrnsteinUhlenbeck, ShowsItsParameters) {
   EXPECT_EQ(singer<2>(0.25, 1.5).law().theta(), 0.25);
   EXPECT_EQ(singer<2>(0.25, 1.5).law().sigma(), 1.5);
 }

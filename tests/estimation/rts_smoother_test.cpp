@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <vector>
 
 #include <sigmax/estimation/any_model.hpp>
@@ -10,6 +9,7 @@
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
 #include "support/matrices.hpp"
+#include "support/nonlinear_restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
@@ -17,65 +17,50 @@ namespace {
 
 using namespace support;
 
-using Model = FixedStepMotion<2>;
-using Record = std::vector<FilteredStep<Gaussian<2>>>;
-
-/// The whole trajectory at once: the normal equations of its prior, its motion and its measurements.
-TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
+/// The whole trajectory at once: its Gaussian, and all measurements as one.
+TEST(RtsSmoother, IsTheUpdateOfTheWholeTrajectoryByAllMeasurements) {
   holds([] {
-    const Model model{"any",
-                      {"a", "b"},
-                      1.0,
-                      generated_matrix<2, 2>(),
-                      fixed<2, 2>(generated_covariance(2)),
-                      generated_matrix<2, 1>()};
-    const LinearSensor<1, 2> sensor{generated_matrix<1, 2>()};
-    Record record{{0.0, generated_gaussian<2>()}};
-    std::vector<std::optional<Gaussian<1>>> measurements(7);
-    for (auto& z : measurements) {
+    using restatement::transposed;
+    constexpr std::size_t steps = 7, n = 2 * (steps + 1);
+    const auto F = generated(2, 2), Q = generated_covariance(2), u = generated(2, 1), H = generated(1, 2);
+    const FixedStepMotion<2> model("any", {"a", "b"}, 1.0, fixed<2, 2>(F), fixed<2, 2>(Q), fixed<2, 1>(u));
+    const LinearSensor<1, 2> sensor{fixed<1, 2>(H)};
+
+    // x_k = Σ Fᵏ⁻ʲ ξ_j of the independent ξ_0 = x_0 and ξ_j = u + w_j.
+    std::vector<FilteredStep<Gaussian<2>>> record{{0.0, generated_gaussian<2>()}};
+    restatement::Matrix A(n, n), D(n, n), seen(steps, n), R(steps, steps);
+    restatement::Vector mean(n), z(steps);
+    for (std::size_t j = 0; j <= steps; ++j) {
+      auto power = restatement::identity(2);
+      for (std::size_t k = j; k <= steps; ++k, power = F * power)
+        for (std::size_t i = 0; i < 4; ++i) A(2 * k + i / 2, 2 * j + i % 2) = power.values[i];
+      const auto covariance = j == 0 ? dense(record.front().state.covariance) : Q;
+      for (std::size_t i = 0; i < 4; ++i) D(2 * j + i / 2, 2 * j + i % 2) = covariance.values[i];
+      for (std::size_t i = 0; i < 2; ++i) mean[2 * j + i] = j == 0 ? record.front().state.mean(i == 1) : u.values[i];
+    }
+    restatement::State all{A * mean, A * D * transposed(A)};
+
+    for (std::size_t k = 0; k < steps; ++k) {
       auto estimate = predict(model, record.back().state, 1.0);
-      if (*rc::gen::inRange(0, 4) > 0) {
-        z = generated_gaussian<1>();
-        estimate = update(model, estimate, *z, sensor);
+      R(k, k) = 1.0;
+      if (*rc::gen::inRange(0, 4) > 0) {  // else nothing is seen of the step
+        const auto measured = generated_gaussian<1>();
+        z[k] = measured.mean(0);
+        R(k, k) = measured.covariance(0);
+        for (std::size_t i = 0; i < 2; ++i) seen(k, 2 * k + 2 + i) = H(0, i);
+        estimate = update(model, estimate, measured, sensor);
       }
       record.push_back({1.0, estimate});
     }
+    all = restatement::corrected(all, restatement::difference(z, seen * all.mean),
+                                 seen * all.covariance * transposed(seen) + R, all.covariance * transposed(seen))
+              .posterior;
     const auto smoothed = smooth(model, record);
-    RC_ASSERT(smoothed.size() == record.size());
-    RC_ASSERT(smoothed.back().mean == record.back().state.mean);
     RC_ASSERT(smoothed.back().covariance == record.back().state.covariance);
-
-    const std::size_t n = 2 * record.size();
-    restatement::Matrix information(n, n);
-    restatement::Vector vector(n, 0.0);
-    // Adds (A x − b)ᵀ C⁻¹ (A x − b).
-    const auto add = [&](const restatement::Matrix& A, const restatement::Vector& b, const restatement::Matrix& C) {
-      const auto weighted = restatement::transposed(A) * restatement::inverse(C).matrix;
-      information = information + weighted * A;
-      const auto more = weighted * b;
-      for (std::size_t i = 0; i < n; ++i) vector[i] += more[i];
-    };
-    const auto placed = [&](const restatement::Matrix& block, std::size_t k, restatement::Matrix A) {
-      for (std::size_t i = 0; i < block.rows; ++i)
-        for (std::size_t j = 0; j < 2; ++j) A(i, 2 * k + j) += block(i, j);
-      return A;
-    };
-    const auto I = restatement::identity(2);
-    const auto& start = record.front().state;
-    add(placed(I, 0, {2, n}), {start.mean(0), start.mean(1)}, dense(start.covariance));
-    for (std::size_t k = 0; k < measurements.size(); ++k) {
-      const auto& u = model.known_input(1.0);
-      add(placed(I, k + 1, placed(-1.0 * dense(model.transition(1.0)), k, {2, n})), {u(0), u(1)},
-          dense(model.process_covariance(1.0)));
-      if (const auto& z = measurements[k])
-        add(placed(dense(sensor.measurement_matrix()), k + 1, {1, n}), {z->mean(0)}, dense(z->covariance));
-    }
-    const auto covariance = matrix_of(restatement::inverse(information).matrix);
-    const auto mean = (covariance * vector_of(vector)).eval();
-    for (std::size_t k = 0; k < smoothed.size(); ++k) {
+    for (std::size_t k = 0; k <= steps; ++k) {
       const auto at = static_cast<Eigen::Index>(2 * k);
-      require_near_matrix(smoothed[k].mean, mean.segment(at, 2), 1e-9);
-      require_near_matrix(smoothed[k].covariance, covariance.block(at, at, 2, 2), 1e-9);
+      require_near_matrix(smoothed[k].mean, vector_of(all.mean).segment(at, 2), 1e-8);
+      require_near_matrix(smoothed[k].covariance, matrix_of(all.covariance).block(at, at, 2, 2), 1e-8);
     }
   });
 }
