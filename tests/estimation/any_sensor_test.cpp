@@ -37,8 +37,7 @@ void expect_as(const Sensor& sensor, const MeasurementOf<Sensor>& z) {
     EstimateOf<AnyModel> expected, found;
     const auto innovation = update(member, start, z, sensor, expected);
     const auto of_any = update(member, start, same, any, found);
-    EXPECT_EQ(found.mean, expected.mean);
-    EXPECT_EQ(found.covariance, expected.covariance);
+    EXPECT_PRED_FORMAT3(near, found, expected, 0.0);
     EXPECT_EQ(of_any.residual, innovation.residual);
     EXPECT_EQ(of_any.covariance, innovation.covariance);
     EXPECT_EQ(of_any.log_likelihood, innovation.log_likelihood);

@@ -28,8 +28,7 @@ TEST(Member, OfALinearModelIsTheKalmanFilter) {
     const auto of_kalman = update(kalman, predict(kalman, start, 1.0), z, OwnSensor{hidden.model}, expected);
     for (const AnyModel& member : every_member(hidden)) {
       const auto innovation = update(member, predict(member, start, 1.0), z, OwnSensor{hidden.model}, found);
-      EXPECT_PRED_FORMAT3(near_matrix, found.mean, expected.mean, 1e-9);
-      EXPECT_PRED_FORMAT3(near_matrix, found.covariance, expected.covariance, 1e-9);
+      EXPECT_PRED_FORMAT3(near, found, expected, 1e-9);
       EXPECT_PRED_FORMAT3(near, innovation.log_likelihood, of_kalman.log_likelihood, 1e-9);
       EXPECT_PRED_FORMAT3(near_matrix, prediction_covariance(member, start, 1.0),
                           prediction_covariance(kalman, start, 1.0), 1e-9);

@@ -10,6 +10,7 @@
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
 #include "support/matrices.hpp"
@@ -148,11 +149,30 @@ std::vector<AnyModel> every_member(const Moves& motion) {
           Cubature{motion}};
 }
 
-/// EXPECT_PRED_FORMAT3(near_state, found, expected, tolerance).
-inline testing::AssertionResult near_state(const char* a, const char* b, const char* t, const Estimate& found,
-                                           const restatement::State& expected, double tolerance) {
-  if (auto result = near_matrix(a, b, t, found.mean, vector_of(expected.mean), tolerance); !result) return result;
-  return near_matrix(a, b, t, found.covariance, matrix_of(expected.covariance), tolerance);
+/// All that a filter or smoother asks of two models is the same to the bit.
+template <class Found, class Expected>
+void expect_the_same(const Found& found, const Expected& expected) {
+  SCOPED_TRACE(testing::Message() << expected.name() << ", " << expected.size() << " states");
+  const auto n = expected.size();
+  ASSERT_EQ(found.size(), n);
+  EXPECT_EQ(found.name(), expected.name());
+  EXPECT_EQ(found.components(), expected.components());
+  EstimateOf<Expected> start{StateOf<Expected>::LinSpaced(n, 40.0, 1.0), StateMatrixOf<Expected>::Constant(n, n, 0.5)};
+  start.covariance.diagonal().setLinSpaced(n, 1.0, 2.0);
+  const EstimateOf<Found> same{start.mean, start.covariance};
+  EXPECT_PRED_FORMAT3(near, predict(found, same, 0.7), predict(expected, start, 0.7), 0.0);
+  EXPECT_EQ(prediction_covariance(found, same, 0.7), prediction_covariance(expected, start, 0.7));
+  const auto step = linearised_step(found, same, 0.7);
+  const auto expected_step = linearised_step(expected, start, 0.7);
+  EXPECT_EQ(step.mean, expected_step.mean);
+  EXPECT_EQ(step.F, expected_step.F);
+  EXPECT_EQ(step.Q, expected_step.Q);
+}
+
+/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance).
+inline testing::AssertionResult near(const char* a, const char* b, const char* t, const Estimate& found,
+                                     const restatement::State& expected, double tolerance) {
+  return near(a, b, t, found, estimate_of(expected), tolerance);
 }
 
 }  // namespace sigmax::support

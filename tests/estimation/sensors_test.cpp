@@ -96,8 +96,7 @@ TEST(Sensors, LinearOnesAreThoseOfTheirMatrices) {
       Gaussian<6> found, expected;
       const auto innovation = update(motion, prior, {z.mean, z.covariance}, sensor, found);
       const auto of_matrix = update(motion, prior, z, matrix, expected);
-      require_near_matrix(found.mean, expected.mean, 1e-11);
-      require_near_matrix(found.covariance, expected.covariance, 1e-11);
+      require_near(found, expected, 1e-11);
       require_near(innovation.log_likelihood, of_matrix.log_likelihood, 1e-11);
     };
     same(PositionSensor<3>{}, LinearSensor<3, 3>{SquareMatrix<3>::Identity()});

@@ -56,6 +56,15 @@ inline testing::AssertionResult near_matrix(const char* a_text, const char* b_te
   return near(a_text, b_text, tolerance_text, entries(a), entries(b), tolerance);
 }
 
+/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance) for Gaussians; to the bit if the tolerance is zero.
+template <int N, int MaxN, int OtherN, int OtherMaxN>
+testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text,
+                              const Gaussian<N, MaxN>& a, const Gaussian<OtherN, OtherMaxN>& b, double tolerance) {
+  const auto mean = near_matrix(a_text, b_text, tolerance_text, a.mean, b.mean, tolerance);
+  if (!mean) return testing::AssertionResult(mean) << ", of the mean";
+  return near_matrix(a_text, b_text, tolerance_text, a.covariance, b.covariance, tolerance);
+}
+
 /// Fails the current case of a property unless the matrices are of one shape and near entry by entry.
 inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expected, double tolerance = 1e-9) {
   if (const auto result = near_matrix("found", "expected", "", found, expected, tolerance); !result)
@@ -63,6 +72,12 @@ inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expecte
 }
 inline void require_near_matrix(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
   require_near_matrix(found, matrix_of(expected), tolerance);
+}
+
+template <int N, int MaxN, int OtherN, int OtherMaxN>
+void require_near(const Gaussian<N, MaxN>& found, const Gaussian<OtherN, OtherMaxN>& expected, double tolerance) {
+  require_near_matrix(found.mean, expected.mean, tolerance);
+  require_near_matrix(found.covariance, expected.covariance, tolerance);
 }
 
 /// A generated number between two, in steps fine enough to be generic.
