@@ -62,16 +62,13 @@ TEST(AnyModel, SharesTheModelThatItWasMadeOf) {
 
 TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
   const EstimateOf<AnyModel> wrong{Vector<4>::Ones(), SquareMatrix<4>::Identity()};
+  const Gaussian<2> z{Vector<2>::Ones(), SquareMatrix<2>::Identity()};
   EstimateOf<AnyModel> x;
   for (const AnyModel& turn : every_member(CoordinatedTurn<2>{1.0, 0.01})) {
     const std::initializer_list<std::string_view> words{"coordinated_turn", "4 components", "5"};
     EXPECT_TRUE(throws<std::invalid_argument>([&] { predict(turn, wrong, 1.0, x); }, words));
     EXPECT_TRUE(throws<std::invalid_argument>([&] { prediction_covariance(turn, wrong, 1.0); }, words));
-    EXPECT_TRUE(throws<std::invalid_argument>(
-        [&] {
-          update(turn, wrong, {Vector<2>::Ones(), SquareMatrix<2>::Identity()}, PositionSensor<2>{}, x);
-        },
-        words));
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { update(turn, wrong, z, PositionSensor<2>{}, x); }, words));
     const EstimateOf<AnyModel> right{Vector<5>::Ones(), SquareMatrix<5>::Identity()};
     EXPECT_TRUE(throws<std::invalid_argument>([&] { smooth_step(turn, right, 1.0, wrong, x); }, words));
     EXPECT_TRUE(throws<std::invalid_argument>([&] { smooth_step(turn, wrong, 1.0, right, x); }, words));
@@ -82,11 +79,8 @@ TEST(AnyModel, RefusesASensorOfMoreThanThereIs) {
   const AnyModel dwna_now = dwna<2>(3.0);
   EstimateOf<AnyModel> x{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
   const LinearSensor<1, 5> acceleration{RectangularMatrix<1, 5>(0.0, 0.0, 0.0, 0.0, 1.0)};
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        update(dwna_now, x, {Vector<1>(0.0), SquareMatrix<1>(1.0)}, acceleration, x);
-      },
-      {"sees 5", "dwna", "4"}));
+  const Gaussian<1> z{Vector<1>(0.0), SquareMatrix<1>(1.0)};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { update(dwna_now, x, z, acceleration, x); }, {"sees 5", "dwna", "4"}));
 }
 
 TEST(AnyModel, HasAtMost32States) {

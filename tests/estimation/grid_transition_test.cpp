@@ -63,11 +63,8 @@ TEST(GridNoise, IsAsWideAlongAnAxisAsTheOtherComponentLeavesIt) {
 }
 
 TEST(GridNoise, NeedsAPositiveDefiniteCovariance) {
-  EXPECT_TRUE(throws<std::domain_error>(
-      [] {
-        GridNoise<2>(SquareMatrix<2>{{1.0, 1.0}, {1.0, 1.0}}, 1e-12);
-      },
-      {"process covariance", "not positive definite"}));
+  EXPECT_TRUE(throws<std::domain_error>([] { GridNoise<2>(SquareMatrix<2>::Ones(), 1e-12); },
+                                        {"process covariance", "not positive definite"}));
 }
 
 }  // namespace

@@ -150,16 +150,12 @@ TEST(Kalman, WhatIsBeyondAllNumbersIsInfinitelyFar) {
 TEST(Kalman, RefusesAnInnovationCovarianceThatIsNotPositiveDefiniteAndNamesTheModel) {
   const Gaussian<4> certain{Vector<4>::Zero(), SquareMatrix<4>::Zero()};
   Gaussian<4> x;
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        update(dwna<2>(1.0), certain, {Vector<2>::Zero(), SquareMatrix<2>::Zero()}, x);
-      },
-      {"innovation covariance", "dwna", "not positive definite"}));
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        update(still, certain, {Vector<1>(1.0), SquareMatrix<1>(-1.0)}, first, x);
-      },
-      {"innovation covariance", "model", "not positive definite"}));
+  const Gaussian<2> exact{Vector<2>::Zero(), SquareMatrix<2>::Zero()};
+  const Gaussian<1> impossible{Vector<1>(1.0), SquareMatrix<1>(-1.0)};
+  EXPECT_TRUE(throws<std::domain_error>([&] { update(dwna<2>(1.0), certain, exact, x); },
+                                        {"innovation covariance", "dwna", "not positive definite"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { update(still, certain, impossible, first, x); },
+                                        {"innovation covariance", "model", "not positive definite"}));
 }
 
 }  // namespace

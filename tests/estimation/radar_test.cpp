@@ -61,13 +61,10 @@ TEST(Radar, TheValidityOfTheConversionIsThatOfTheScenarios) {
 
 TEST(Radar, RefusesARangeThatIsNotPositive) {
   const Polar sigma{10.0, 0.001, 0.001};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { to_cartesian({0.0, 0.1, 0.1}, sigma); }, {"range", "0.0"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { to_cartesian({-5.0, 0.1, 0.1}, sigma); }, {"range", "-5.0"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        to_cartesian({std::numeric_limits<double>::quiet_NaN(), 0.1, 0.1}, sigma);
-      },
-      {"range", "nan"}));
+  for (const double range : {0.0, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const Polar seen{range, 0.1, 0.1};
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { to_cartesian(seen, sigma); }, {"range", std::to_string(range)}));
+  }
 }
 
 TEST(Radar, RefusesANegativeDeviation) {

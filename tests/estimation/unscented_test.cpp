@@ -41,21 +41,16 @@ TEST(Unscented, OfASquareIsExactByDefaultAndWithTheFourthMomentMatched) {
   }
 }
 
-TEST(Unscented, ItsDefaultWeightsAreNotNegative) {
-  const auto weights = Unscented{OwnMotion{{}, 3}}.weights();
-  EXPECT_EQ(weights.spread, 3.0);
-  EXPECT_EQ(weights.centre_of_mean, 0.0);
-  EXPECT_EQ(weights.centre_of_covariance, 2.0);
-}
-
 TEST(Unscented, WeightsAreThoseOfWanAndVanDerMerwe) {
-  const double n = 3.0, alpha = 0.5, beta = 2.0, kappa = 1.0, lambda = alpha * alpha * (n + kappa) - n;
-  const Unscented filter{OwnMotion{{}, 3}, {alpha, beta, kappa}};
-  const auto weights = filter.weights();
-  EXPECT_PRED_FORMAT3(near, weights.spread, n + lambda, 1e-15);
-  EXPECT_PRED_FORMAT3(near, weights.centre_of_mean, lambda / (n + lambda), 1e-15);
-  EXPECT_PRED_FORMAT3(near, weights.centre_of_covariance, lambda / (n + lambda) + 1.0 - alpha * alpha + beta, 1e-15);
-  EXPECT_EQ(filter.scaling().kappa, kappa);
+  for (const auto& [alpha, beta, kappa] : {UnscentedScaling{}, UnscentedScaling{0.5, 2.0, 1.0}}) {
+    const double n = 3.0, lambda = alpha * alpha * (n + kappa) - n;
+    const Unscented filter{OwnMotion{{}, 3}, {alpha, beta, kappa}};
+    const auto weights = filter.weights();
+    EXPECT_PRED_FORMAT3(near, weights.spread, n + lambda, 1e-15);
+    EXPECT_PRED_FORMAT3(near, weights.centre_of_mean, lambda / (n + lambda), 1e-15);
+    EXPECT_PRED_FORMAT3(near, weights.centre_of_covariance, lambda / (n + lambda) + 1.0 - alpha * alpha + beta, 1e-15);
+    EXPECT_EQ(filter.scaling().kappa, kappa);
+  }
 }
 
 TEST(Unscented, ANegativeWeightThatTakesTheDefinitenessAwayIsRefused) {
