@@ -33,19 +33,16 @@ Estimates anywhere(const std::vector<AnyModel>& models) {
 /// act(stored, known) for every number of a track's estimates, in the order of kinematic_plan.hpp, and where its
 /// weights follow.
 template <class Stored, class Known, class Act>
-Stored* for_each_number(Stored* at, std::size_t lanes, int axes, Known& estimates, const Act& act) {
+Stored* for_each_number(Stored* at, std::size_t lanes, Known& estimates, const Act& act) {
+  const auto pass = [&](auto& known) {
+    act(*at, known);
+    at += lanes;
+  };
   for (std::size_t j = 0; j < estimates.size(); ++j) {
     const auto estimate = estimates.view(j);
-    const int n = estimate.n;
-    const auto pass = [&](auto& known) {
-      act(*at, known);
-      at += lanes;
-    };
-    for (int i = 0; i < n; ++i) pass(estimate.mean[i]);
-    for (int a = 0; a < n; a += axes)
-      for (int b = 0; b <= a; b += axes)
-        for (int k = 0; k < axes; ++k)
-          for (int i = a == b ? k : 0; i < axes; ++i) pass(estimate.covariance[a + i + (b + k) * n]);
+    for (int i = 0; i < estimate.n; ++i) pass(estimate.mean[i]);
+    for (int i = 0; i < estimate.n; ++i)
+      for (int k = 0; k <= i; ++k) pass(estimate.covariance[i + k * estimate.n]);
   }
   return at;
 }
@@ -149,8 +146,7 @@ HybridEstimate<Kind> TrackBank<Kind, Number>::state(std::size_t track) const {
 
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::read(std::size_t track, State& state) const {
-  const Number* const at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, shortcut_.axes(),
-                                           state.estimates, [](Number stored, double& known) { known = stored; });
+  const Number* const at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates, [](Number stored, double& known) { known = stored; });
   for (std::size_t j = 0; j < state.estimates.size(); ++j) {
     const detail::View estimate = state.estimates.view(j);
     detail::mirror_lower(estimate.covariance, estimate.n);
@@ -164,7 +160,7 @@ void TrackBank<Kind, Number>::write(std::size_t track, const State& state) {
   for (std::size_t j = 0; j < state.estimates.size(); ++j)
     if (!fits<Number>(state.estimates.view(j)))
       throw std::domain_error("track " + std::to_string(track) + " is too far or too uncertain for the bank's numbers");
-  Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, shortcut_.axes(), state.estimates,
+  Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates,
                                [](Number& stored, double known) { stored = static_cast<Number>(known); });
   for (const double log : state.belief.logs()) {  // however small, what is not excluded can come back
     *at = log == log_zero ? Number{} : std::max(static_cast<Number>(std::exp(log)), std::numeric_limits<Number>::min());

@@ -42,12 +42,14 @@ FixedIntervalSmoother<Kind>::FixedIntervalSmoother(const MultipleModelFilter<Kin
       log_weight_(modes()),
       weights_(modes()),
       joint_(modes(), modes()) {
+  int greatest = 0;
+  for (std::size_t i = 0; i < modes(); ++i) greatest = std::max(greatest, filtered_.view(i).n);
   for (std::size_t i = 0; i < modes(); ++i) {
     const int n = filtered_.view(i).n;
-    evidence_.emplace_back(n);
+    evidence_.emplace_back(greatest);  // room for what the largest model tells
     nothing_.emplace_back(n);
-    parts_.emplace_back(modes(), FutureEvidence(n));
-    for (FutureEvidence& part : parts_.back()) part.clear(n);  // with room
+    parts_.emplace_back(modes());
+    for (FutureEvidence& part : parts_.back()) part.clear(greatest);
     roots_.emplace_back(static_cast<std::size_t>(n * n));
   }
 }

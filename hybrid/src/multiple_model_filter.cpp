@@ -20,6 +20,7 @@ MultipleModelFilter<Kind>::MultipleModelFilter(const std::vector<AnyModel>& mode
       prior_(uninformative(system_.mode_variable())),
       entries_(detail::estimates_of(models)),
       laws_(modes()),
+      weights_(modes()),
       shortcut_(models, interaction),
       states_{State{start, prior_}, State{start, prior_}} {
   check::starts(models, start);
@@ -33,6 +34,7 @@ void MultipleModelFilter<Kind>::restore(const State& state) {
   check::starts(system_.models(), state.estimates);
   check::same(system_.mode_variable(), state.belief.variable(), "restore");
   states_[current_] = state;
+  read_weights(belief(), weights_.data());
   measured_ = false;
 }
 
@@ -53,6 +55,7 @@ void MultipleModelFilter<Kind>::restart(ConstView start) {
 template <ScalableUncertainty Kind>
 void MultipleModelFilter<Kind>::forget_mode() {
   states_[current_].belief = Belief{uninformative(system_.mode_variable())};
+  read_weights(belief(), weights_.data());
   states_[current_].most_likely_mode = detail::select(modes(), logs_of(belief()), 0, interaction_.output_tie);
   measured_ = false;
 }
@@ -87,8 +90,12 @@ void MultipleModelFilter<Kind>::output_receiver(const State& state, View result)
 template <ScalableUncertainty Kind>
 template <class Rule>
 void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& state, View result) const {
-  detail::OfModes weights(static_cast<int>(modes()));
-  for (std::size_t j = 0; j < modes(); ++j) weights[j] = state.belief[j];
+  detail::OfModes of_state(&state == states_.data() + current_ ? 0 : static_cast<int>(modes()));
+  const double* weights = weights_.data();
+  if (&state != states_.data() + current_) {
+    read_weights(state.belief, of_state);
+    weights = of_state;
+  }
   if (shortcut_.output(rule, state.estimates, weights, state.most_likely_mode, result)) return;
   const int n = component_count();
   detail::Scratch mean(n), covariance(n * n);
@@ -116,7 +123,7 @@ double MultipleModelFilter<Kind>::beta() const requires SelectiveAlgebra<Algebra
   output_receiver(state(), receiver);
   detail::Parts parts(static_cast<int>(modes()));
   detail::OfModes weights(static_cast<int>(modes()));
-  for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief()[j];
+  read_weights(belief(), weights);
   return detail::match_envelope(mixture(receiver, components_.of_all(), estimates(), parts), weights,
                                 {of_envelope, covariance_of_envelope, n});
 }
@@ -133,7 +140,7 @@ template <ScalableUncertainty Kind>
 int MultipleModelFilter<Kind>::normalized_innovation(double* numbers) const {
   if (!measured_) throw std::logic_error("nis() after a step without a measurement");
   detail::OfModes weights(static_cast<int>(modes()));
-  for (std::size_t j = 0; j < modes(); ++j) weights[j] = prior_[j];
+  read_weights(prior_, weights);
   const AnyInnovation innovation = collapsed(innovations_, weights, predicted_mode_);
   normalize(innovation, numbers);
   return innovation.size;
@@ -206,42 +213,39 @@ bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double ga
   describe_models(dt);
   if (!shortcut_.prepare(laws_, dt, transition)) return false;
   detail::kinematic::Told told;
-  detail::OfModes weights(static_cast<int>(modes()));
-  for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief()[j];
-  const auto take = [&](const Seen* taken) {
-    if (!shortcut_.step(estimates(), weights, most_likely_mode(), taken ? taken->z.mean : nullptr,
-                        taken ? taken->z.covariance : nullptr, next().estimates, told))
-      return false;
-    const auto prior = prior_.logs(detail::ByLaw{});
-    const auto posterior = next().belief.logs(detail::ByLaw{});
-    for (std::size_t j = 0; j < modes(); ++j) {
-      prior[j] = told.log_prior[j];
-      posterior[j] = told.log_posterior[j];
-      const View mean_of_j = predicted.view(j);
-      std::copy_n(told.predicted[j].begin(), mean_of_j.n, mean_of_j.mean);
-    }
-    return true;
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const View result = next().estimates.view(j);
+    told.mean[j] = result.mean;
+    told.covariance[j] = result.covariance;
+    told.predicted[j] = predicted.view(j).mean;
+    told.residual[j] = innovations_[j].residual_numbers.data();
+    told.S[j] = innovations_[j].covariance_numbers.data();
+  }
+  const auto take = [&](const double* z, const double* R) {
+    return shortcut_.step(estimates(), weights_.data(), most_likely_mode(), z, R, told);
   };
-  if (!take(seen)) return false;
+  if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
+  const auto prior = prior_.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
   predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
   bool taken = seen != nullptr;
   if (seen) {
-    const int A = seen->z.n;
     for (std::size_t j = 0; j < modes(); ++j) {
       AnyInnovation& innovation = innovations_[j];
-      innovation.size = A;
-      std::copy_n(told.residual[j].begin(), A, innovation.residual_numbers.begin());
-      std::copy_n(told.S[j].begin(), A * A, innovation.covariance_numbers.begin());
+      innovation.size = seen->z.n;
       innovation.squared_distance = told.squared_distance[j];
       innovation.log_likelihood = -0.5 * told.squared_distance[j];
       if (interaction_.likelihood == LikelihoodForm::density)
-        innovation.log_likelihood -= 0.5 * (told.log_determinant[j] + A * std::log(2.0 * std::numbers::pi));
+        innovation.log_likelihood -=
+            0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
     }
     gate_distance_.reset();
     taken = gate == no_gate || gate_distance() <= gate;
   }
-  if (seen && !taken && !take(nullptr)) return false;
-  conclude(taken);
+  if (seen && !taken && !take(nullptr, nullptr)) return false;
+  const auto posterior = next().belief.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
+  conclude(taken, told.posterior);
   return true;
 }
 
@@ -275,10 +279,14 @@ RecordedStep<Kind> MultipleModelFilter<Kind>::recorded_by(double dt, const Seen*
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::conclude(bool measured) {
+void MultipleModelFilter<Kind>::conclude(bool measured, const double* weights) {
   next().most_likely_mode =
       detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
   current_ = 1 - current_;
+  if (weights)
+    std::copy_n(weights, modes(), weights_.begin());
+  else
+    read_weights(belief(), weights_.data());
   measured_ = measured;
   ++steps_;
 }

@@ -13,11 +13,12 @@ void starts(const std::vector<AnyModel>& models, const Estimates& starts) {
                                 std::to_string(starts.size()) + " starts");
   for (std::size_t j = 0; j < models.size(); ++j) {
     const detail::ConstView start = starts.view(j);
-    const std::string of_model = "the start of model '" + std::string(models[j].name()) + "' ";
+    const auto refuse = [&](const std::string& what) {
+      throw std::invalid_argument("the start of model '" + std::string(models[j].name()) + "' " + what);
+    };
     if (start.n != models[j].size())
-      throw std::invalid_argument(of_model + "has " + std::to_string(start.n) + " components; expected " +
-                                  std::to_string(models[j].size()));
-    if (!finite(start)) throw std::invalid_argument(of_model + "is not finite");
+      refuse("has " + std::to_string(start.n) + " components; expected " + std::to_string(models[j].size()));
+    if (!finite(start)) refuse("is not finite");
   }
 }
 

@@ -8,6 +8,7 @@ namespace {
 /// Whether F_s is made of shears and a scale, and the law in those terms.
 bool written(const AxisLaw& from, int axes, Law& law) {
   const int order = from.order;
+  if (order < 2 || order > max_order) return false;
   const auto F = [&](int a, int b) { return from.F[a + b * order]; };
   for (int a = 0; a + 1 < order; ++a)
     if (F(a, a) != 1.0) return false;
@@ -29,15 +30,14 @@ bool written(const AxisLaw& from, int axes, Law& law) {
   return true;
 }
 
-/// A view: the compiled step writes into the one that it is given to write to, and no other.
 Track track_of(const Estimates& estimates, const double* weights, std::size_t most_likely) {
   Track track;
   for (std::size_t j = 0; j < estimates.size(); ++j) {
     const ConstView estimate = estimates.view(j);
-    track.mean[j] = const_cast<double*>(estimate.mean);
-    track.covariance[j] = const_cast<double*>(estimate.covariance);
-    if (weights) track.weight[j] = weights[j];
+    track.mean[j] = estimate.mean;
+    track.covariance[j] = estimate.covariance;
   }
+  track.weight = weights;
   track.most_likely = most_likely;
   return track;
 }
@@ -92,9 +92,8 @@ bool Shortcut::prepare(const std::vector<AxisLaw>& laws, double dt, const double
 }
 
 bool Shortcut::step(const Estimates& now, const double* weights, std::size_t most_likely, const double* z,
-                    const double* R, Estimates& next, Told& told) const {
-  Track before = track_of(now, weights, most_likely), after = track_of(next, nullptr, 0);
-  return kinematic::step(plan_, selects_, before, z, R, after, told);
+                    const double* R, Told& told) const {
+  return kinematic::step(plan_, selects_, track_of(now, weights, most_likely), z, R, told);
 }
 
 bool Shortcut::output(const Selection&, const Estimates& estimates, const double* weights, std::size_t most_likely,

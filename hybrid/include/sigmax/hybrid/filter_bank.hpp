@@ -187,7 +187,7 @@ class FilterBank : public TrackBank<Kind, Number> {
   /// and the result does not depend on how many there are. Only starting threads allocates.
   /// Throws std::invalid_argument if dt or the size of a scan is wrong, and what the filter's step throws, with the
   /// number of the track; it keeps its state, and later tracks of the same thread may not have been stepped.
-  void step(double dt, const Scan& scan) { Tracks::run(dt, std::span<const ScanOfTracks<Number>>(&scan, 1), 1); }
+  void step(double dt, const Scan& scan) { run(dt, std::span<const Scan>(&scan, 1)); }
   void run(double dt, std::span<const Scan> scans, std::size_t threads = 1) {
     static_assert(sizeof(Scan) == sizeof(ScanOfTracks<Number>));
     const ScanOfTracks<Number>* const first = scans.data();

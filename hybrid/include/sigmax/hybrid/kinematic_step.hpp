@@ -33,7 +33,7 @@ class Shortcut {
   /// One step with the measurement z and its R, or none; `weights` are of the modes. False if it must be the general
   /// one.
   bool step(const Estimates& now, const double* weights, std::size_t most_likely, const double* z, const double* R,
-            Estimates& next, Told& told) const;
+            Told& told) const;
 
   /// One step of a block of tracks; see the function of this name.
   template <class Number>

@@ -186,8 +186,8 @@ class MultipleModelFilter {
   /// What a lift of the output borrows: for each component from the most likely model that has it.
   void output_receiver(const State& state, detail::View result) const;
 
-  /// The next state becomes the state; its most likely mode is (64).
-  void conclude(bool measured);
+  /// The next state becomes the state; its most likely mode is (64). `weights` are those of its belief, if known.
+  void conclude(bool measured, const double* weights = nullptr);
 
   /// One Gaussian for innovations, as the mode's kind asks.
   static AnyInnovation collapsed(std::span<const AnyInnovation> innovations, const double* weights, std::size_t winner);
@@ -214,11 +214,15 @@ class MultipleModelFilter {
   template <class Rule>
   void write_output(const Rule& rule, const State& state, detail::View result) const;
   void forget_mode();
+  void read_weights(const Belief<Kind>& belief, double* weights) const {
+    for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief[j];
+  }
   void describe_models(double dt);
   std::string this_step(double dt) const;
 
   Estimates entries_;                  ///< what Lift::prior knows of each model's components
   std::vector<detail::AxisLaw> laws_;  ///< of the models along independent axes, for steps of laws_dt_ seconds
+  std::vector<double> weights_;        ///< of the belief, linear
   double laws_dt_ = std::numeric_limits<double>::quiet_NaN();
   detail::kinematic::Shortcut shortcut_;
   std::array<State, 2> states_;

@@ -26,8 +26,10 @@ class Plot {
       : Plot(t, detail::view(z), sensor, number) {}
 
   /// A position along as many axes as z has.
-  template <int N>
-  Plot(double t, const Gaussian<N>& z, std::size_t number = 0) : Plot(t, z, PositionSensor<N>{}, number) {}
+  template <int N, int MaxN>
+    requires(MaxN <= 3)
+  Plot(double t, const Gaussian<N, MaxN>& z, std::size_t number = 0)
+      : Plot(t, detail::view(z), position_sensor(z.size()), number) {}
 
   /// The same with numbers.
   Plot(double t, detail::ConstView z, AnySensor sensor, std::size_t number = 0)
@@ -42,20 +44,27 @@ class Plot {
   detail::ConstView measurement() const { return {z_.data(), covariance_.data(), size_}; }
   const AnySensor& sensor() const { return *sensor_; }
 
-  /// The position that the measurement tells by itself, if the sensor has one to tell along so many axes: what a start
-  /// is made of.
+  /// The position that the measurement tells by itself, if the sensor has one to tell along so many axes, or along any
+  /// if that is Eigen::Dynamic: what a start is made of.
   template <int Axes>
-  std::optional<Gaussian<Axes>> position() const {
+  std::optional<Gaussian<Axes, Axes == Eigen::Dynamic ? 3 : Axes>> position() const {
     Gaussian<3> room;
-    if (!seen() || sensor_->position(measurement(), room.mean.data(), room.covariance.data()) != Axes)
-      return std::nullopt;
-    Gaussian<Axes> result;
-    std::copy_n(room.mean.data(), Axes, result.mean.data());
-    std::copy_n(room.covariance.data(), Axes * Axes, result.covariance.data());
+    const int axes = seen() ? sensor_->position(measurement(), room.mean.data(), room.covariance.data()) : 0;
+    if (axes == 0 || (Axes != Eigen::Dynamic && axes != Axes)) return std::nullopt;
+    Gaussian<Axes, Axes == Eigen::Dynamic ? 3 : Axes> result;
+    const detail::View numbers = detail::sized_view(result, axes);
+    std::copy_n(room.mean.data(), axes, numbers.mean);
+    std::copy_n(room.covariance.data(), axes * axes, numbers.covariance);
     return result;
   }
 
  private:
+  static AnySensor position_sensor(Eigen::Index axes) {
+    if (axes == 1) return PositionSensor<1>{};
+    if (axes == 2) return PositionSensor<2>{};
+    return PositionSensor<3>{};
+  }
+
   int size_ = 0;
   std::array<double, max_measurement_size> z_{};
   std::array<double, max_measurement_size * max_measurement_size> covariance_{};

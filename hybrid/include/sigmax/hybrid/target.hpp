@@ -21,8 +21,8 @@ namespace sigmax {
 /// asked with the plots that wait, the newest last, and how often it has started before, `start(std::span<const Plot>,
 /// std::size_t)`, and gives an optional StartAt: nothing if it wants more of them. A late plot is retrodicted exactly:
 /// the buffer is rolled back and what came after is taken again, so that the result is to the bit that of the right
-/// order. `take` allocates nothing, if `start` does not and nothing is recorded. References that are returned live as
-/// long as the target.
+/// order. `take` allocates only for a start and for what is recorded. References that are returned live as long as the
+/// target.
 template <class Filter>
 class Target {
   using Core = typename Filter::FilterType;
@@ -60,7 +60,7 @@ class Target {
   Verdict take(const Plot& plot) {
     return take(plot, [](const Plot&, bool) {});
   }
-  Verdict take(double time, const Measurement& z) requires(Filter::axes > 0) { return take(Plot(time, z)); }
+  Verdict take(double time, const Measurement& z) requires(Filter::axes != 0) { return take(Plot(time, z)); }
   Verdict take(double time) { return take(Plot(time)); }
   /// @}
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-namespace sigmax::support {
+namespace sigmax::bench {
 
 /// The Kalman filter as one writes it down: a dense H, and Joseph's form with whole matrices.
 struct PlainUpdate {
@@ -121,4 +121,4 @@ struct BareImm {
   }
 };
 
-}  // namespace sigmax::support
+}  // namespace sigmax::bench
