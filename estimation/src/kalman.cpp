@@ -35,9 +35,12 @@ void require_size(const ModelRef& model, int n) {
                                 " components; expected " + std::to_string(model.size()));
 }
 
-/// The number of components that a sensor sees of a model: leading ones, or all.
-int seen_of(const SensorRef& sensor, const ModelRef& model, int n) {
+/// The number of components that a sensor of m quantities sees of a model: leading ones, or all.
+int seen_of(const SensorRef& sensor, const ModelRef& model, int n, int m) {
   const int seen = sensor.table->seen(sensor.sensor);
+  if (sensor.table->leading && seen != m)
+    throw std::invalid_argument("a measurement of " + std::to_string(m) + " quantities by a sensor of " +
+                                std::to_string(seen));
   if (seen > n)
     throw std::invalid_argument("a sensor sees " + std::to_string(seen) + " components, but model '" + model.name() +
                                 "' has " + std::to_string(n));
@@ -283,12 +286,11 @@ void update(const ModelRef& model, ConstView prior, ConstView z, const SensorRef
             InnovationView& innovation) {
   require_size(model, prior.n);
   const int m = z.n;
+  const int seen = seen_of(sensor, model, prior.n, m);
   if (sensor.table->leading) {
-    const int seen = seen_of(sensor, model, prior.n);
     for (int i = 0; i < m; ++i) innovation.residual[i] = z.mean[i] - prior.mean[i];
     return update_by(model, nullptr, seen, prior, z, posterior, innovation);
   }
-  const int seen = seen_of(sensor, model, prior.n);
   if (!sensor.table->linear && model.by_points())
     return update_by_points(model, prior, z, sensor, posterior, innovation);
   Scratch<64> H(m * seen);
@@ -311,6 +313,7 @@ void prediction_covariance(const ModelRef& model, ConstView prior, double dt, do
 
 void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView next, View result) {
   const int n = filtered.n;
+  require_size(model, next.n);
   Scratch mean(n), covariance(n * n), cross(n * n), root(n * n), gain(n * n), product(n * n);
   predict(model, filtered, dt, {mean, covariance, n});
   prediction_covariance(model, filtered, dt, cross);
@@ -342,7 +345,7 @@ void linearised_measurement(const ModelRef& model, ConstView predicted, ConstVie
                             double* residual, double* H, double* R) {
   const int n = predicted.n, m = z.n;
   require_size(model, n);
-  const int seen = seen_of(sensor, model, n);
+  const int seen = seen_of(sensor, model, n, m);
   if (!sensor.table->linear && model.by_points())
     return regressed_measurement(model, predicted, z, sensor, residual, H, R);
   std::copy_n(z.covariance, m * m, R);
@@ -358,7 +361,7 @@ void linearised_measurement(const ModelRef& model, ConstView predicted, ConstVie
 }
 
 void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z) {
-  const int n = model.size(), seen = seen_of(sensor, model, n);
+  const int n = model.size(), seen = seen_of(sensor, model, n, m);
   const SensorTable& table = *sensor.table;
   if (table.leading) {
     std::copy_n(x, m, z);
@@ -373,7 +376,7 @@ void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x
 }
 
 void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H) {
-  const int n = model.size(), seen = seen_of(sensor, model, n);
+  const int n = model.size(), seen = seen_of(sensor, model, n, m);
   std::fill_n(H, m * n, 0.0);
   if (sensor.table->leading)
     for (int i = 0; i < m; ++i) H[i + i * m] = 1.0;

@@ -37,7 +37,8 @@ class AnySensor {
   }
 
   /// What a measurement, with its covariance, tells of the position, if the sensor can tell it by itself: along how
-  /// many axes, or none, and as many numbers, at most three and nine.
+  /// many axes, or none, and as many numbers, at most three and nine. Throws std::invalid_argument for a measurement of
+  /// another number of quantities.
   int position(detail::ConstView z, double* mean, double* covariance) const {
     return position_(sensor(), z, mean, covariance);
   }
@@ -59,6 +60,7 @@ class AnySensor {
   template <class Sensor>
   static int position_of(const void* pointer, detail::ConstView z, double* mean, double* covariance) {
     if constexpr (requires(const Sensor& own, const MeasurementOf<Sensor>& measured) { own.position(measured); }) {
+      if constexpr (Sensor::measurement_size != Eigen::Dynamic) detail::require_measured(Sensor::measurement_size, z.n);
       MeasurementOf<Sensor> measured;
       const detail::View numbers = detail::sized_view(measured, z.n);
       std::copy_n(z.mean, z.n, numbers.mean);

@@ -30,6 +30,7 @@ struct SensorFunctions {
 
   static void measure(const void* pointer, const void* model, const double* x, int n, int m, double* z, double* H) {
     const Sensor& own = sensor(pointer);
+    if constexpr (Sensor::measurement_size != Eigen::Dynamic) require_measured(Sensor::measurement_size, m);
     if constexpr (ComputesItself<Sensor>) {
       own.compute(x, m, z, H);
     } else if constexpr (requires { own.measurement_matrix(); }) {

@@ -70,9 +70,11 @@ class ComponentSensor {
     if (position_size_ < axes) position_size_ = 0;
   }
 
-  /// What a measurement tells of the position by itself, if all its axes were measured.
+  /// What a measurement tells of the position by itself, if all its axes were measured. Throws std::invalid_argument
+  /// for a measurement of another number of quantities.
   std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<Eigen::Dynamic, MaxSize>& z) const {
     if (position_size_ == 0) return std::nullopt;
+    detail::require_measured(size_, static_cast<int>(z.size()));
     return Gaussian<Eigen::Dynamic, 3>{z.mean.head(position_size_),
                                        z.covariance.topLeftCorner(position_size_, position_size_)};
   }
