@@ -4,6 +4,7 @@ function(sigmax_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
     -Woverloaded-virtual -Wcast-align -Wimplicit-fallthrough
+    $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier>
     $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wuseless-cast -Wno-restrict>
     $<$<BOOL:${SIGMAX_WERROR}>:-Werror>)
 endfunction()
