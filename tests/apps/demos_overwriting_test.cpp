@@ -6,23 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/gnuplot.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
 namespace {
 
 const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
-
-bool has_gnuplot() {
-  try {
-    Gnuplot{};
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
 
 /// A command of which the file `input`, and what names it, must stay as it is. FILE, LINK, TWIN and DIR are the input,
 /// links to it and their directory.

@@ -12,7 +12,7 @@ namespace {
 TEST(OptionPages, AreWhatTheProgramsPrint) {
   const std::filesystem::path source = SIGMAX_SOURCE;
   for (const std::filesystem::path program : {SIGMAX_HIMM_DEMO, SIGMAX_RECOGNITION_DEMO}) {
-    const auto page = program::run(source / "scripts" / "option_pages", {"--print", program});
+    const auto page = program::run(source / "scripts" / "option_pages", {"--print", program::chosen(program)});
     ASSERT_EQ(page.status, 0) << page.output;
     EXPECT_EQ(contents(source / "docs" / (program.filename().string() + "_options.md")), page.output)
         << "run scripts/option_pages";

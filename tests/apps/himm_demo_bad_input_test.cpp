@@ -310,7 +310,7 @@ TEST_P(BadInput, IsExplainedAndNothingIsWritten) {
   const std::string config = directory.write("settings.toml", c.config);
   const auto fill = [&](const std::string& text) {
     const std::string filled = replaced(replaced(text, "FILE", file), "CONFIG", config);
-    return replaced(replaced(filled, "DIR", directory.path()), "PROGRAM", SIGMAX_HIMM_DEMO);
+    return replaced(replaced(filled, "DIR", directory.path()), "PROGRAM", program::chosen(SIGMAX_HIMM_DEMO));
   };
   std::vector<std::string> arguments;
   std::transform(c.arguments.begin(), c.arguments.end(), std::back_inserter(arguments), fill);
@@ -342,7 +342,7 @@ class Interrupted : public testing::TestWithParam<int> {};
 TEST_P(Interrupted, LeavesNoHalfWrittenFile) {
   const TemporaryDirectory directory;
   const std::string out = directory.path() / "out";
-  const std::string complaints = directory.path() / "complaints";
+  const std::string complaints = directory.path() / "complaints", himm_demo = program::chosen(SIGMAX_HIMM_DEMO);
   std::array<int, 2> input{};
   ASSERT_EQ(::pipe(input.data()), 0);
   const pid_t child = ::fork();
@@ -352,7 +352,7 @@ TEST_P(Interrupted, LeavesNoHalfWrittenFile) {
     ::dup2(input[0], STDIN_FILENO);
     ::close(input[1]);
     ::dup2(::open(complaints.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
-    ::execl(SIGMAX_HIMM_DEMO, SIGMAX_HIMM_DEMO, "track", "-", "--out", out.c_str(), static_cast<char*>(nullptr));
+    ::execl(himm_demo.c_str(), "himm_demo", "track", "-", "--out", out.c_str(), static_cast<char*>(nullptr));
     ::_exit(127);
   }
   ::close(input[0]);
@@ -372,7 +372,7 @@ TEST_P(Interrupted, LeavesNoHalfWrittenFile) {
 }
 
 INSTANTIATE_TEST_SUITE_P(HimmDemo, Interrupted, testing::Values(SIGINT, SIGTERM, SIGHUP),
-                         [](const auto& test) { return "BySignal" + std::to_string(test.param); });
+                         [](const auto& test) { return std::string("BySIG") + ::sigabbrev_np(test.param); });
 
 }  // namespace
 }  // namespace sigmax::apps
