@@ -51,7 +51,8 @@ AnyPlot plot_of(double time, const std::optional<Reading<Axes>>& reading, std::s
     plot.sensor = reading->range_rate ? AnyPlot::Sensor::doppler : AnyPlot::Sensor::polar;
     lead(reading->seen->z);
     if (reading->range_rate) add(*reading->range_rate);
-    std::copy(reading->seen->radar.origin().begin(), reading->seen->radar.origin().end(), plot.origin.begin());
+    const auto& origin = reading->seen->radar.origin();
+    std::copy(origin.begin(), origin.end(), plot.origin.begin());
   } else {
     const auto missing = std::count(reading->missing.begin(), reading->missing.end(), true);
     const auto moving = std::count_if(reading->velocity.begin(), reading->velocity.end(),
