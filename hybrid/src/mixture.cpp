@@ -101,7 +101,7 @@ void match_moments(const Mixture& mixture, const double* weights, const double* 
 double match_envelope(const Mixture& mixture, const double* weights, View result) {
   const int n = mixture.size();
   Scratch<> mean(n), covariance(n * n);
-  Envelope& envelope = Envelope::of_this_thread();
+  thread_local Envelope envelope;  // keeps its memory
   envelope.clear(n);
   for (std::size_t l = 0; l < mixture.parts.size(); ++l) {
     if (!(weights[l] > 0.0)) continue;

@@ -9,6 +9,11 @@
 #include <sigmax/estimation/filtering.hpp>
 
 namespace sigmax::detail {
+namespace {
+
+Seen seen_of(const Plot& plot) { return {plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())}; }
+
+}  // namespace
 
 template <class Filter>
 double TargetLife<Filter>::Life::latest() const {
@@ -112,12 +117,10 @@ Verdict TargetLife<Filter>::process(Filter& filter, const Plot& plot, const Step
 template <class Filter>
 Verdict TargetLife<Filter>::step(Filter& filter, const Plot& plot) {
   const double dt = plot.time - now_.time;
-  if (plot.seen()) {
-    const Seen seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())};
-    filter.step(dt, seen, gates_[static_cast<std::size_t>(plot.size())]);
-  } else {
+  if (plot.seen())
+    filter.step(dt, seen_of(plot), gates_[static_cast<std::size_t>(plot.size())]);
+  else
     filter.step(dt);
-  }
   now_.time = plot.time;
   if (filter.measured()) {
     now_.accepted_time = plot.time;
@@ -174,12 +177,12 @@ template <class Filter>
 void TargetLife<Filter>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
   if (!rules_.record) return;
   const bool measured = filter.measured();
-  const auto recorded = [&] {
-    if (!measured) return filter.recorded(dt);
-    return filter.recorded(dt, Seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())});
-  };
-  record_.push_back(
-      {now_.time, plot.tag, is_start, measured ? std::optional(filter.nis()) : std::nullopt, recorded(), {}});
+  record_.push_back({now_.time,
+                     plot.tag,
+                     is_start,
+                     measured ? std::optional(filter.nis()) : std::nullopt,
+                     measured ? filter.recorded(dt, seen_of(plot)) : filter.recorded(dt),
+                     {}});
   if constexpr (KeepsHistories<Filter>) record_.back().links = filter.state().links();
   now_.recorded = record_.size();
 }
