@@ -28,8 +28,7 @@ void InteractingFilter<Kind>::step(double dt, const Seen& seen, double gate) {
       this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
       this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
     }
-    taken = this->passes(gate, modes(),
-                         [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; });
+    taken = this->passes(gate);
     if (!taken) {
       concluded = this->shortened(dt, nullptr, no_gate, predicted_);
       if (!concluded) coast();

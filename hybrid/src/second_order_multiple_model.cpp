@@ -46,7 +46,8 @@ void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
       }
       summarize(j);
     }
-    taken = this->passes(gate, log_fit_.size(), [this](std::size_t each) { return log_fit_[each]; });
+    const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
+    taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
     if (taken) merge(pairs_, next().estimates);
   });
   if (!taken) return step(dt);
@@ -114,7 +115,7 @@ void SecondOrderFilter<Kind>::collapse_predecessors(const Estimates& pairs, Esti
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::weigh(std::size_t j) {
   const auto log = [&](std::size_t l) { return joint_(j, l); };
-  log_weight_[j] = detail::log_combine<AlgebraOf<Kind>>(modes(), log, detail::unit);
+  log_weight_[j] = detail::log_total<Kind>(modes(), log);
   for (std::size_t l = 0; l < modes(); ++l)
     if (log_weight_[j] != log_zero)
       predecessor_(j, l) = std::exp(log(l) - log_weight_[j]);
@@ -140,9 +141,7 @@ void SecondOrderFilter<Kind>::summarize(std::size_t j) {
   innovation = Filter::collapsed(pair_innovations_, predecessor_.row(j).data(), winner);
   weigh(j);
   double whitened[max_measurement_size];
-  Filter::normalize(innovation, whitened);
-  innovation.squared_distance = 0.0;
-  for (int i = 0; i < innovation.size; ++i) innovation.squared_distance += whitened[i] * whitened[i];
+  innovation.squared_distance = Filter::normalize(innovation, whitened);
   innovation.log_likelihood = before == log_zero ? own : log_weight_[j] - before;
 }
 
