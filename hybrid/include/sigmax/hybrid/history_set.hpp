@@ -49,10 +49,7 @@ class HistorySet {
 
   /// @{
   /// The estimate of a history, in the components of its last mode.
-  EstimateAt<const double> estimate(std::size_t h) const {
-    const detail::ConstView at = view(h);
-    return {{at.mean, at.n}, {at.covariance, at.n, at.n}};
-  }
+  EstimateAt<const double> estimate(std::size_t h) const { return view(h); }
   detail::ConstView view(std::size_t h) const {
     const double* const at = numbers_.data() + h * stride_;
     const int n = sizes_[histories_[h].mode];
