@@ -21,13 +21,6 @@ void write_root(const double* covariance, int n, const AnyModel& model, double* 
     detail::refuse_covariance(model.name(), component);
 }
 
-Estimates pairs_of(const Estimates& estimates) {
-  Estimates pairs;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    for (std::size_t j = 0; j < estimates.size(); ++j) pairs.add(estimates.view(i).n);
-  return pairs;
-}
-
 }  // namespace
 
 template <ScalableUncertainty Kind>
@@ -37,7 +30,7 @@ FixedIntervalSmoother<Kind>::FixedIntervalSmoother(const MultipleModelFilter<Kin
       components_(system_.models()),
       entries_(filter.lenders(filter.estimates())),
       state_(filter.by_modes()),
-      pairs_(pairs_of(filter.estimates())),
+      pairs_(detail::pairs_of(filter.estimates())),
       filtered_(filter.estimates()),
       log_weight_(modes()),
       weights_(modes()),

@@ -220,11 +220,16 @@ void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, con
 }
 
 template <ScalableUncertainty Kind>
-bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double gate, Estimates& predicted) {
-  if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
+bool MultipleModelFilter<Kind>::shortens(double dt) {
   const Relation<Kind, Kind>& transition = system_.transition(dt);
   describe_models(dt);
-  if (!shortcut_.prepare(laws_, dt, transition)) return false;
+  return shortcut_.prepare(laws_, dt, transition);
+}
+
+template <ScalableUncertainty Kind>
+bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double gate, Estimates& predicted) {
+  if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
+  if (!shortens(dt)) return false;
   detail::kinematic::Told told;
   for (std::size_t j = 0; j < modes(); ++j) {
     const View result = next().estimates.view(j);
@@ -342,4 +347,16 @@ std::string MultipleModelFilter<Kind>::this_step(double dt) const {
 template class MultipleModelFilter<Random>;
 template class MultipleModelFilter<Fuzzy>;
 
+namespace detail {
+
+SensorOfModels position_sensor(int axes) {
+  static constexpr PositionSensor<1> line;
+  static constexpr PositionSensor<2> plane;
+  static constexpr PositionSensor<3> space;
+  using Models = std::vector<AnyModel>;
+  if (axes == 1) return sensor_of_models<Models>(line);
+  return axes == 2 ? sensor_of_models<Models>(plane) : sensor_of_models<Models>(space);
+}
+
+}  // namespace detail
 }  // namespace sigmax

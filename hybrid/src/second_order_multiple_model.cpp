@@ -5,23 +5,12 @@
 #include "multiple_model_filter.hpp"
 
 namespace sigmax {
-namespace {
-
-/// For each model as many estimates as there are modes, at j · modes + l.
-Estimates pairs_of(const std::vector<AnyModel>& models) {
-  Estimates pairs;
-  for (const AnyModel& model : models)
-    for (std::size_t l = 0; l < models.size(); ++l) pairs.add(static_cast<int>(model.size()));
-  return pairs;
-}
-
-}  // namespace
 
 template <ScalableUncertainty Kind>
 SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
                                            const Estimates& start, const Interaction<Kind>& interaction)
     : Filter(models, std::move(transition), start, interaction),
-      predicted_(pairs_of(models)),
+      predicted_(detail::pairs_of(start)),
       pairs_(predicted_),
       pair_innovations_(modes()),
       log_fit_(modes() * modes()),

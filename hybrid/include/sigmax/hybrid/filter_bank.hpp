@@ -69,7 +69,7 @@ class TrackBank {
   bool lives(std::size_t track) const { return track < lives_.size() && lives_[track]; }
 
   /// An empty scan with room for the tracks that there are.
-  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, shortcut_.axes()}; }
+  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, general_.shortcut().axes()}; }
 
   void run(double dt, std::span<const ScanOfTracks<Number>> scans, std::size_t threads);
 
@@ -94,9 +94,6 @@ class TrackBank {
   void step_generally(double dt, std::size_t track, const ScanOfTracks<Number>& scan, Filter& general);
 
   Filter general_;  ///< takes the steps that are not short
-  ModeTransition<Kind> transition_;
-  detail::kinematic::Shortcut shortcut_;
-  std::vector<detail::AxisLaw> laws_;
   std::size_t lanes_;
   std::size_t numbers_ = 0;  ///< of a track
   std::size_t lines_of_block_ = 0;

@@ -136,6 +136,9 @@ class MultipleModelFilter {
   /// What the smoother and other compiled code ask.
   /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; its size.
   int normalized_innovation(double* numbers) const;
+  /// The short step, made ready for `dt` seconds; false if it must be the general one.
+  bool shortens(double dt);
+  const detail::kinematic::Shortcut& shortcut() const { return shortcut_; }
   const detail::Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
   /// The estimates that a lift borrows from: those of the receiving models, or what Lift::prior knows before.
   const Estimates& lenders(const Estimates& estimates) const {
