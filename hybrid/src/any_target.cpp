@@ -49,9 +49,7 @@ std::vector<AnyModel> chosen_models(const TargetChoice& choice) {
 class ChosenStart {
  public:
   ChosenStart(const TargetChoice& choice, const std::vector<AnyModel>& models)
-      : choice_(choice), nowhere_(detail::estimates_of(models)) {
-    for (std::size_t j = 0; j < models.size(); ++j) nowhere_[j].covariance.setIdentity();
-  }
+      : choice_(choice), nowhere_(detail::anywhere(models)) {}
 
   std::optional<StartAt<Estimates>> operator()(std::span<const Plot> plots, std::size_t starts) const {
     return choice_.start == StartRule::given && starts == 0 ? given(plots) : from_points(plots);
@@ -248,6 +246,10 @@ struct AnyTarget::Chosen {
     return std::visit(act, followed);
   }
 
+  const detail::Life& now() const {
+    return std::visit([](const auto& target) -> const detail::Life& { return target.life.now(); }, followed);
+  }
+
   /// Writes an output of the filter, its own or that of another state by modes.
   template <class Filter>
   void tell(const Filter& filter, const HybridEstimate<typename Filter::kind>* state, TargetPoint& result) const {
@@ -287,21 +289,11 @@ Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) {
   });
 }
 
-bool AnyTarget::running() const {
-  return chosen_->visit([](const auto& target) { return target.life.running(); });
-}
-std::size_t AnyTarget::starts() const {
-  return chosen_->visit([](const auto& target) { return target.life.starts(); });
-}
-std::size_t AnyTarget::rejected() const {
-  return chosen_->visit([](const auto& target) { return target.life.rejected(); });
-}
-double AnyTarget::time() const {
-  return chosen_->visit([](const auto& target) { return target.life.time(); });
-}
-double AnyTarget::accepted_time() const {
-  return chosen_->visit([](const auto& target) { return target.life.accepted_time(); });
-}
+bool AnyTarget::running() const { return chosen_->now().running; }
+std::size_t AnyTarget::starts() const { return chosen_->now().starts; }
+std::size_t AnyTarget::rejected() const { return chosen_->now().rejected; }
+double AnyTarget::time() const { return chosen_->now().time; }
+double AnyTarget::accepted_time() const { return chosen_->now().accepted_time; }
 const std::vector<std::string>& AnyTarget::components() const {
   return chosen_->visit([](const auto& target) -> const auto& { return target.filter.components(); });
 }
@@ -326,7 +318,7 @@ TargetPoint AnyTarget::output() const {
 void AnyTarget::output(TargetPoint& result) const {
   chosen_->visit([&](const auto& target) {
     const auto& filter = target.filter;
-    result.time = target.life.time();
+    result.time = target.life.now().time;
     result.nis.reset();
     result.normalized_innovation.clear();
     if (filter.measured()) {

@@ -16,11 +16,6 @@ Seen seen_of(const Plot& plot) { return {plot.measurement(), sensor_of_models<st
 }  // namespace
 
 template <class Filter>
-double TargetLife<Filter>::Life::latest() const {
-  return waiting.empty() ? time : std::max(time, waiting.back().time);
-}
-
-template <class Filter>
 TargetLife<Filter>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
     : start_(std::move(start)), rules_(rules) {
   if (!(rules.longest_gap > 0.0)) throw std::invalid_argument("the longest gap of a target is not positive");
@@ -205,8 +200,8 @@ bool TargetLife<Filter>::transform(Filter& filter, const double* A, const double
 
 template <class Filter>
 void TargetLife<Filter>::smoothed(const Filter& filter,
-                                  const FunctionRef<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                                  const FunctionRef<void(const Kept&, const Table&, bool)>& paired) const {
+                                  const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                                  const std::function<void(const Kept&, const Table&, bool)>& paired) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -229,7 +224,7 @@ void TargetLife<Filter>::smoothed(const Filter& filter,
 }
 
 template <class Filter>
-void TargetLife<Filter>::explained(const FunctionRef<void(const Kept&, std::size_t)>& visit) const {
+void TargetLife<Filter>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
   std::vector<std::size_t> modes(record_.size());
   std::size_t h = 0;
   for (std::size_t k = record_.size(); k-- > 0;) {
