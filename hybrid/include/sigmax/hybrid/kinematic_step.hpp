@@ -15,8 +15,8 @@ namespace sigmax::detail::kinematic {
 /// The short step and output of a bank, where it has them: of up to four models along the same independent axes.
 class Shortcut {
  public:
-  Shortcut(const std::vector<AnyModel>& models, const Interaction<Random>& interaction);
-  Shortcut(const std::vector<AnyModel>& models, const Interaction<Fuzzy>& interaction);
+  template <ScalableUncertainty Kind>
+  Shortcut(const std::vector<AnyModel>& models, const Interaction<Kind>& interaction);
 
   /// Whether the step may be short, with a measurement of the position along all axes or none; see `prepare`.
   bool takes(const SensorOfModels* sensor, int m) const {
@@ -35,24 +35,20 @@ class Shortcut {
   bool step(const Estimates& now, const double* weights, std::size_t most_likely, const double* z, const double* R,
             Told& told) const;
 
-  /// One step of a block of tracks; see the function of this name.
-  template <class Number>
-  unsigned step_block(Number* block, const Number* measurements) const {
-    return kinematic::step_block(plan_, selects_, block, measurements);
-  }
+  /// @{
+  /// One step of a block of tracks, see Kernels.
+  unsigned step_block(double* block, const double* measurements) const;
+  unsigned step_block(float* block, const float* measurements) const;
+  /// @}
 
   /// The output of a state by selection or by moment matching; false if it must be the general one.
-  bool output(const Selection& rule, const Estimates& estimates, const double* weights, std::size_t most_likely,
-              View result) const;
-  bool output(const MomentMatching& rule, const Estimates& estimates, const double* weights, std::size_t most_likely,
+  template <class Rule>
+  bool output(const Rule& rule, const Estimates& estimates, const double* weights, std::size_t most_likely,
               View result) const;
 
   int axes() const { return plan_.axes; }
-  /// Whether there is a short step at all.
-  bool possible() const { return steps_; }
 
  private:
-  void describe(const std::vector<AnyModel>& models);
   bool prepare(const std::vector<AxisLaw>& laws, double dt, const double* transition);
 
   Plan plan_;
@@ -62,5 +58,8 @@ class Shortcut {
   bool outputs_ = false;
   bool described_ = false;
 };
+
+/// How many bytes a vector of this processor has; a block has as many tracks as it has numbers.
+std::size_t lane_bytes();
 
 }  // namespace sigmax::detail::kinematic
