@@ -78,21 +78,18 @@ class ChosenStart {
 
   /// From the last three positions at different times.
   std::optional<StartAt<Estimates>> from_points(std::span<const Plot> plots) const {
-    struct Point {
-      double time, mean[3], covariance[9];
-    };
     const int axes = choice_.axes;
-    std::vector<Point> points;
+    std::vector<std::pair<double, Gaussian<Eigen::Dynamic, 3>>> points;
     for (const Plot& plot : plots) {
-      Point point{plot.time, {}, {}};
-      if (!plot.seen() || plot.sensor().position(plot.measurement(), point.mean, point.covariance) != axes) continue;
-      if (!points.empty() && points.back().time == point.time) points.pop_back();
-      points.push_back(point);
+      const auto position = plot.position<Eigen::Dynamic>();
+      if (!position || position->size() != axes) continue;
+      if (!points.empty() && points.back().first == plot.time) points.pop_back();
+      points.emplace_back(plot.time, *position);
     }
     if (points.size() < 3) return std::nullopt;
     const auto view = [&](std::size_t back) {
-      const Point& point = points[points.size() - back];
-      return detail::TimedView{point.time, {point.mean, point.covariance, axes}};
+      const auto& [time, position] = points[points.size() - back];
+      return detail::TimedView{time, detail::view(position)};
     };
     const bool released = choice_.start == StartRule::released;
     const int all = 3 * axes;
@@ -100,7 +97,7 @@ class ChosenStart {
     (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1),
                                                                     {wide_mean, wide_covariance, all});
     detail::two_point_start(view(2), view(1), {narrow_mean, narrow_covariance, 2 * axes});
-    return StartAt<Estimates>{points.back().time, estimates([&](int n, EstimateAt<double>& own) {
+    return StartAt<Estimates>{points.back().first, estimates([&](int n, EstimateAt<double>& own) {
                                 const bool wide = n == all || released;
                                 const int size = wide ? all : 2 * axes;
                                 for (int k = 0; k < n; ++k) {
@@ -133,15 +130,15 @@ class ChosenStart {
 template <class Filter>
 Filter chosen_filter(const TargetChoice& choice, const std::vector<AnyModel>& models, const Estimates& nowhere) {
   using Kind = typename Filter::kind;
-  if constexpr (KeepsHistories<Filter>) {
-    HistoryRules<Kind> rules;
-    rules.histories = choice.histories;
-    rules.cut = choice.cut;
-    rules.tempering = choice.tempering;
-    return {models, chosen_transition<Kind>(choice), nowhere, rules, chosen_interaction<Kind>(choice)};
-  } else {
-    return {models, chosen_transition<Kind>(choice), nowhere, chosen_interaction<Kind>(choice)};
-  }
+  const auto interaction = chosen_interaction<Kind>(choice);
+  if constexpr (KeepsHistories<Filter>)
+    return {models,
+            chosen_transition<Kind>(choice),
+            nowhere,
+            {.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering},
+            interaction};
+  else
+    return {models, chosen_transition<Kind>(choice), nowhere, interaction};
 }
 
 template <class Filter>

@@ -37,7 +37,7 @@ void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
     }
     const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
     taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
-    if (taken) merge(pairs_, next().estimates);
+    if (taken) merge(pairs_);
   });
   if (!taken) return step(dt);
   this->conclude(true);
@@ -48,7 +48,7 @@ void SecondOrderFilter<Kind>::step(double dt) {
   this->require(dt, nullptr);
   this->located(dt, [&] {
     branch(dt);
-    merge(predicted_, next().estimates);
+    merge(predicted_);
   });
   this->conclude(false);
 }
@@ -82,7 +82,8 @@ void SecondOrderFilter<Kind>::branch(double dt) {
 
 /// The belief is the ⊕ of the pairs' weights, and the predecessors of each mode collapse.
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::merge(const Estimates& pairs, Estimates& merged) {
+void SecondOrderFilter<Kind>::merge(const Estimates& pairs) {
+  Estimates& merged = next().estimates;
   next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
   collapse_predecessors(pairs, merged);
   for (std::size_t j = 0; j < modes(); ++j) check::sound(this->model(j), merged.view(j));

@@ -124,13 +124,7 @@ class Target {
   Life life_;
 };
 
-template <class Filter, class Start>
-Target(Filter, Start) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, Start, TargetRules) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, double, Start) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, double, Start, TargetRules) -> Target<Filter>;
+template <class Filter, class Start, class... Rest>
+Target(Filter, Start, Rest...) -> Target<Filter>;
 
 }  // namespace sigmax
