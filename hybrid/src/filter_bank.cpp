@@ -9,20 +9,10 @@
 #include <thread>
 
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/hybrid/sound.hpp>
 
 namespace sigmax {
 namespace {
-
-/// Whether all are finite as the bank's numbers.
-template <class Number>
-bool fit(const double* numbers, int count) {
-  return std::all_of(numbers, numbers + count,
-                     [](double number) { return std::isfinite(static_cast<Number>(number)); });
-}
-template <class Number>
-bool fits(detail::ConstView estimate) {
-  return fit<Number>(estimate.mean, estimate.n) && fit<Number>(estimate.covariance, estimate.n * estimate.n);
-}
 
 /// act(stored, known) for every number of a track's estimates, in the order of kinematic_plan.hpp, and where its
 /// weights follow.
@@ -51,7 +41,7 @@ void ScanOfTracks<Number>::set(std::size_t track, detail::ConstView z) {
   if (z.n != axes_)
     throw std::invalid_argument("the measurement of track " + std::to_string(track) + " has " + std::to_string(z.n) +
                                 " quantities; expected " + std::to_string(axes_));
-  if (!fits<Number>(z))
+  if (!check::finite(z, std::numeric_limits<Number>::max()))
     throw std::invalid_argument("the measurement of track " + std::to_string(track) +
                                 " is not finite, or too great for the bank's numbers");
   Number* to = numbers_.data() + track / lanes_ * lanes_ * size_ + track % lanes_;
@@ -86,17 +76,6 @@ TrackBank<Kind, Number>::TrackBank(const std::vector<AnyModel>& models, ModeTran
     numbers_ += n + n * (n + 1) / 2;
   }
   lines_of_block_ = (numbers_ * lanes_ + Line{}.size() - 1) / Line{}.size();
-}
-
-template <ScalableUncertainty Kind, std::floating_point Number>
-std::size_t TrackBank<Kind, Number>::add(detail::ConstView start) {
-  general_.restart(start);
-  return add_started();
-}
-template <ScalableUncertainty Kind, std::floating_point Number>
-std::size_t TrackBank<Kind, Number>::add(const Estimates& starts) {
-  general_.restart(starts);
-  return add_started();
 }
 
 template <ScalableUncertainty Kind, std::floating_point Number>
@@ -150,7 +129,7 @@ void TrackBank<Kind, Number>::read(std::size_t track, State& state) const {
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::write(std::size_t track, const State& state) {
   for (std::size_t j = 0; j < state.estimates.size(); ++j)
-    if (!fits<Number>(state.estimates.view(j)))
+    if (!check::finite(state.estimates.view(j), std::numeric_limits<Number>::max()))
       throw std::domain_error("track " + std::to_string(track) + " is too far or too uncertain for the bank's numbers");
   Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates,
                                [](Number& stored, double known) { stored = static_cast<Number>(known); });

@@ -133,17 +133,6 @@ void HistoriesOfModes<Kind>::restore(const State& state) {
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::restart(const Estimates& starts) {
-  Filter::restart(starts);
-  begin();
-}
-template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::restart(ConstView start) {
-  Filter::restart(start);
-  begin();
-}
-
-template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::transform(const double* A, const double* b, int axes) {
   Filter::transform(A, b, axes);
   State& set = sets_[current_];

@@ -43,6 +43,7 @@ void MultipleModelFilter<Kind>::restart(const Estimates& starts) {
   check::starts(system_.models(), starts);
   states_[current_].estimates = starts;
   forget_mode();
+  begin();
 }
 
 template <ScalableUncertainty Kind>
@@ -50,6 +51,7 @@ void MultipleModelFilter<Kind>::restart(ConstView start) {
   if (!check::finite(start)) throw std::invalid_argument("the start is not finite");
   components_.share(start, states_[current_].estimates);
   forget_mode();
+  begin();
 }
 
 template <ScalableUncertainty Kind>
@@ -221,9 +223,9 @@ void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, con
 
 template <ScalableUncertainty Kind>
 bool MultipleModelFilter<Kind>::shortens(double dt) {
-  const Relation<Kind, Kind>& transition = system_.transition(dt);
+  const auto* const transition = std::get_if<Table>(&system_.transition(dt).rows());
   describe_models(dt);
-  return shortcut_.prepare(laws_, dt, transition);
+  return transition && shortcut_.prepare(laws_, dt, transition->data());
 }
 
 template <ScalableUncertainty Kind>

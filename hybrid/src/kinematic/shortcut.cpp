@@ -108,6 +108,7 @@ Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Kind>&
 }
 
 bool Shortcut::prepare(const std::vector<AxisLaw>& laws, double dt, const double* transition) {
+  if (!steps_) return false;
   std::copy_n(transition, plan_.modes * plan_.modes, plan_.transition.begin());
   if (dt != dt_) {
     dt_ = dt;

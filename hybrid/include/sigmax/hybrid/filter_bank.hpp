@@ -57,8 +57,12 @@ class TrackBank {
   /// independent axes.
   TrackBank(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Interaction<Kind>& interaction);
 
-  std::size_t add(detail::ConstView start);
-  std::size_t add(const Estimates& starts);
+  /// Begins a track from one estimate in the order of the components, or from one for each model.
+  template <class Start>
+  std::size_t add(const Start& start) {
+    general_.restart(start);
+    return add_started();
+  }
 
   /// Ends a track. Throws std::invalid_argument if there is none of that number.
   void remove(std::size_t track);
@@ -200,13 +204,9 @@ class FilterBank : public TrackBank<Kind, Number> {
   }
 };
 
-template <class Models, ScalableUncertainty Kind>
-FilterBank(Models, Relation<Kind, Kind>) -> FilterBank<Models, Kind>;
-template <class Models, ScalableUncertainty Kind>
-FilterBank(Models, Relation<Kind, Kind>, Interaction<Kind>) -> FilterBank<Models, Kind>;
-template <class Models, class Transition>
-FilterBank(Models, Transition) -> FilterBank<Models, typename Transition::kind>;
-template <class Models, class Transition, ScalableUncertainty Kind>
-FilterBank(Models, Transition, Interaction<Kind>) -> FilterBank<Models, Kind>;
+template <class Models, ScalableUncertainty Kind, class... Rules>
+FilterBank(Models, Relation<Kind, Kind>, Rules...) -> FilterBank<Models, Kind>;
+template <class Models, class Transition, class... Rules>
+FilterBank(Models, Transition, Rules...) -> FilterBank<Models, typename Transition::kind>;
 
 }  // namespace sigmax

@@ -46,8 +46,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   /// @{
   /// As of the other filters.
   void restore(const State& state);
-  void restart(const Estimates& starts);
-  void restart(detail::ConstView start);
   void transform(const double* A, const double* b, int axes);
   /// @}
 
@@ -79,7 +77,7 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   /// The histories: of the innovation's distance, the evidence and the score, in which tempering does not enter.
   typename Filter::Predictors predictors() const override;
   State& next_set() { return sets_[1 - current_]; }
-  void begin();
+  void begin() override;
   void branch(double dt, State& predicted);
   void propose();
   std::size_t last_of(std::size_t j) const;
@@ -128,7 +126,6 @@ extern template class HistoriesOfModes<Fuzzy>;
 template <class Models, ScalableUncertainty Kind>
 class HistoryFilter : public BankFilter<Models, HistoriesOfModes<Kind>> {
  public:
-  using Rules = HistoryRules<Kind>;
   using BankFilter<Models, HistoriesOfModes<Kind>>::BankFilter;
 };
 

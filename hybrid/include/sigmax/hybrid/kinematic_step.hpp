@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include <sigmax/core/relation.hpp>
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/interaction.hpp>
 #include <sigmax/hybrid/kinematic_plan.hpp>
@@ -23,12 +22,8 @@ class Shortcut {
     return steps_ && (!sensor || (sensor->tables[0]->leading && m == plan_.axes));
   }
 
-  /// Makes ready for a step by these laws; false if it must be the general one.
-  template <ScalableUncertainty Kind>
-  bool prepare(const std::vector<AxisLaw>& laws, double dt, const Relation<Kind, Kind>& transition) {
-    const Table* const table = std::get_if<Table>(&transition.rows());
-    return steps_ && table && prepare(laws, dt, table->data());
-  }
+  /// Makes ready for a step by these laws and this transition, in rows; false if it must be the general one.
+  bool prepare(const std::vector<AxisLaw>& laws, double dt, const double* transition);
 
   /// One step with the measurement z and its R, or none; `weights` are of the modes. False if it must be the general
   /// one.
@@ -49,8 +44,6 @@ class Shortcut {
   int axes() const { return plan_.axes; }
 
  private:
-  bool prepare(const std::vector<AxisLaw>& laws, double dt, const double* transition);
-
   Plan plan_;
   double dt_ = std::numeric_limits<double>::quiet_NaN();
   bool selects_ = false;

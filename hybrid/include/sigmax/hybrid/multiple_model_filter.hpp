@@ -155,6 +155,9 @@ class MultipleModelFilter {
 
   const AnyModel& model(std::size_t j) const { return system_.models()[j]; }
 
+  /// After a restart.
+  virtual void begin() {}
+
   /// What the step is writing: until `conclude`, all that is public shows the state before.
   State& next() { return states_[1 - current_]; }
 
