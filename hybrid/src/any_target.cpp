@@ -163,48 +163,31 @@ AnyFollowed followed(const TargetChoice& choice) {
   return Followed<InteractingFilter<Kind>>(choice, models, start);
 }
 
-void require_size(int size, int expected) {
-  if (size != expected)
-    throw std::invalid_argument("a plot has " + std::to_string(size) + " measured quantities; expected " +
-                                std::to_string(expected));
-}
-
-/// The sensor of a plot that has one; a case here is all that a new one needs beside its name in AnyPlot. Throws
+/// The sensor of a plot that has one; a branch here is all that a new one needs beside its name in AnyPlot. Throws
 /// std::invalid_argument if the numbers of the plot do not fit it.
-template <int Axes>
-AnySensor sensor_of(const AnyPlot& plot) {
-  const Vector<Axes> origin(plot.origin.data());
-  switch (plot.sensor) {
-    case AnyPlot::Sensor::polar:
-      require_size(plot.size, Axes);
-      return PolarSensor<Axes>(origin);
-    case AnyPlot::Sensor::bearing:
-      require_size(plot.size, 1);
-      return BearingSensor(Vector<2>(plot.origin.data()));
-    case AnyPlot::Sensor::doppler:
-      require_size(plot.size, Axes + 1);
-      return DopplerSensor<Axes>(origin);
-    case AnyPlot::Sensor::components:
-    case AnyPlot::Sensor::none:
-    case AnyPlot::Sensor::position:
-      break;
-  }
-  require_size(plot.size, Axes);
-  return PositionSensor<Axes>{};
-}
-
 AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
+  using enum AnyPlot::Sensor;
   if (plot.size < 1 || plot.size > max_measurement_size)
     throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected 1 to 6");
-  if (plot.sensor == AnyPlot::Sensor::components)
+  if (plot.sensor == components)
     return ComponentSensor<max_measurement_size>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)),
                                                  axes);
-  if (axes == 2) return sensor_of<2>(plot);
-  if (axes == 3) return sensor_of<3>(plot);
-  if (plot.sensor != AnyPlot::Sensor::position)
+  if (axes == 1 && plot.sensor != position)
     throw std::invalid_argument("along one axis a plot is a position or components; a radar needs a plane");
-  require_size(plot.size, 1);
-  return PositionSensor<1>{};
+  const int expected = plot.sensor == bearing ? 1 : plot.sensor == doppler ? axes + 1 : axes;
+  if (plot.size != expected)
+    throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected " +
+                                std::to_string(expected));
+  const Vector<2> below(plot.origin.data());
+  const Vector<3> origin(plot.origin.data());
+  if (plot.sensor == bearing) return BearingSensor(below);
+  if (plot.sensor == polar && axes == 2) return PolarSensor<2>(below);
+  if (plot.sensor == polar) return PolarSensor<3>(origin);
+  if (plot.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
+  if (plot.sensor == doppler) return DopplerSensor<3>(origin);
+  if (axes == 1) return PositionSensor<1>{};
+  if (axes == 2) return PositionSensor<2>{};
+  return PositionSensor<3>{};
 }
 
 Plot chosen_plot(const AnyPlot& plot, int axes) {
