@@ -33,17 +33,11 @@ HistorySet& HistorySet::operator=(const HistorySet& other) {
   return *this;
 }
 
-std::size_t HistorySet::best() const {
+std::size_t best_of(std::span<const History> histories) {
   std::size_t best = 0;
-  for (std::size_t h = 1; h < size(); ++h)
-    if (histories_[h].log_weight > histories_[best].log_weight) best = h;
+  for (std::size_t h = 1; h < histories.size(); ++h)
+    if (histories[h].log_weight > histories[best].log_weight) best = h;
   return best;
-}
-
-HistoryLinks HistorySet::links() const {
-  HistoryLinks links{{}, best()};
-  for (std::size_t h = 0; h < size(); ++h) links.all.push_back({histories_[h].mode, histories_[h].parent});
-  return links;
 }
 
 template <ScalableUncertainty Kind>
@@ -146,7 +140,7 @@ void HistoriesOfModes<Kind>::output(View result) const {
   detail::Scratch mean(result.n), covariance(result.n * result.n);
   const View receiver{mean, covariance, result.n};
   this->output_receiver(this->by_modes(), receiver);
-  const double greatest = set[set.best()].log_weight;
+  const double greatest = set[best_of(set.all())].log_weight;
   detail::OfModes weights(count);
   detail::Parts parts(count);
   double total = 0.0;

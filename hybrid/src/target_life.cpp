@@ -178,7 +178,10 @@ void TargetLife<Filter>::record(const Filter& filter, double dt, const Plot& plo
                      measured ? std::optional(filter.nis()) : std::nullopt,
                      measured ? filter.recorded(dt, seen_of(plot)) : filter.recorded(dt),
                      {}});
-  if constexpr (KeepsHistories<Filter>) record_.back().links = filter.state().links();
+  if constexpr (KeepsHistories<Filter>) {
+    const auto all = filter.state().all();
+    record_.back().histories.assign(all.begin(), all.end());
+  }
   now_.recorded = record_.size();
 }
 
@@ -228,10 +231,10 @@ void TargetLife<Filter>::explained(const std::function<void(const Kept&, std::si
   std::vector<std::size_t> modes(record_.size());
   std::size_t h = 0;
   for (std::size_t k = record_.size(); k-- > 0;) {
-    const HistoryLinks& links = record_[k].links;
-    if (k + 1 == record_.size() || record_[k + 1].is_start) h = links.best;
-    modes[k] = links.all[h].mode;
-    h = links.all[h].parent;
+    const std::vector<History>& histories = record_[k].histories;
+    if (k + 1 == record_.size() || record_[k + 1].is_start) h = best_of(histories);
+    modes[k] = histories[h].mode;
+    h = histories[h].parent;
   }
   for (std::size_t k = 0; k < record_.size(); ++k)
     if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);

@@ -31,7 +31,7 @@ struct KeptStep {
   bool is_start;
   std::optional<double> nis;
   RecordedStep<Kind> step;
-  HistoryLinks links;  ///< of a filter that keeps histories
+  std::vector<History> histories;  ///< of a filter that keeps them
 };
 
 namespace detail {
