@@ -39,12 +39,6 @@ Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
   return interaction;
 }
 
-std::vector<AnyModel> chosen_models(const TargetChoice& choice) {
-  std::vector<AnyModel> models;
-  for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
-  return models;
-}
-
 /// The start rule of a choice: an estimate for each model, or nothing as long as it wants more plots.
 class ChosenStart {
  public:
@@ -156,7 +150,8 @@ using AnyFollowed = std::variant<Followed<InteractingFilter<Random>>, Followed<I
 
 template <ScalableUncertainty Kind>
 AnyFollowed followed(const TargetChoice& choice) {
-  const auto models = chosen_models(choice);
+  std::vector<AnyModel> models;
+  for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
   const ChosenStart start(choice, models);
   if (choice.scheme == Scheme::histories) return Followed<HistoriesOfModes<Kind>>(choice, models, start);
   if (choice.scheme == Scheme::second_order) return Followed<SecondOrderFilter<Kind>>(choice, models, start);

@@ -8,7 +8,6 @@
 
 namespace sigmax {
 
-using detail::ConstView;
 using detail::View;
 
 HistorySet::HistorySet(const Estimates& starts, std::size_t room) : histories_(room) {
@@ -98,7 +97,9 @@ void HistoriesOfModes<Kind>::step(double dt, const Seen& seen, double gate) {
       next[h].log_weight += rules_.tempering * innovation.log_likelihood;
     }
     taken = this->passes(gate);
-    if (taken) weigh(next);
+    if (!taken) return;
+    normalize(next);
+    summarize(next);
   });
   if (!taken) return step(dt);
   show_innovations();
@@ -110,7 +111,8 @@ void HistoriesOfModes<Kind>::step(double dt) {
   this->require(dt, nullptr);
   this->located(dt, [&] {
     branch(dt, next_set());
-    weigh(next_set());
+    normalize(next_set());
+    summarize(next_set());
   });
   conclude(false);
 }
@@ -271,12 +273,6 @@ void HistoriesOfModes<Kind>::normalize(State& set) const {
   const double total = detail::log_total<Kind>(set.size(), [&](std::size_t h) { return set[h].log_weight; });
   if (total == log_zero) check::excluded(system_.mode_variable());
   for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
-}
-
-template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::weigh(State& set) {
-  normalize(set);
-  summarize(set);
 }
 
 /// The histories by modes: what the other filters have.

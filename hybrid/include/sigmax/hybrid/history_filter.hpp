@@ -83,7 +83,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   std::size_t last_of(std::size_t j) const;
   void keep();
   void normalize(State& set) const;
-  void weigh(State& set);
   void summarize(const State& set);
   void collapse_modes(const State& set, const State& source, Estimates& collapsed) const;
   void show_innovations();
