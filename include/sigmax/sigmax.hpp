@@ -8,6 +8,7 @@
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/cholesky.hpp>
+#include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -29,6 +30,7 @@
 #include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/radar.hpp>
+#include <sigmax/estimation/root_mean_square.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
 #include <sigmax/estimation/sensing.hpp>
 #include <sigmax/estimation/sensors.hpp>
@@ -42,6 +44,7 @@
 #include <sigmax/hybrid/bank.hpp>
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/cross_validation.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
