@@ -155,18 +155,16 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
     std::vector<double> times;
     for (int number = 0; number < std::min(most_runs, experiment.runs); ++number) {
       RandomStream random(experiment.seed, static_cast<std::uint64_t>(number));
-      std::vector<Reading<3>> measurements;
-      for (const Polar& seen : simulate(experiment.scenario, experiment.group.data, random).measured)
-        measurements.push_back(reading(seen, filter));
-      Tracker<3> tracker(filter);
+      const auto plots = plots_of(filter, experiment.scenario.step_s,
+                                  simulate(experiment.scenario, experiment.group.data, random).measured);
+      AnyTarget target(choice_of(filter, 3));
       double start = 0.0;
       int steps = -1;  // the first only warms up
-      for (std::size_t k = 0; k < measurements.size(); ++k) {
+      for (const AnyPlot& plot : plots) {
         if (steps == 0) start = cpu_time();
-        tracker.take(experiment.scenario.step_s * static_cast<double>(k), measurements[k], k,
-                     [&](std::size_t) { ++steps; });
+        target.take(plot, [&](std::size_t, bool is_start) { steps += is_start ? 0 : 1; });
       }
-      tracker.finish();
+      if (filter.smooth) target.smoothed([](const TargetPoint&) {});
       times.push_back((cpu_time() - start) / steps);
     }
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());

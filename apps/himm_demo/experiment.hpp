@@ -8,7 +8,7 @@
 
 #include <sigmax/core/mean_interval.hpp>
 
-#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/scenario.hpp"
 #include "himm_demo/trace.hpp"
 

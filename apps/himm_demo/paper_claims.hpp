@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "himm_demo/experiment.hpp"
-#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/sentences.hpp"
 
 namespace sigmax::apps {

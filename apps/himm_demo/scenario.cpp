@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "recording/plots.hpp"
 #include "support/angle.hpp"
 
 namespace sigmax::apps {
@@ -54,14 +55,6 @@ Group group(int number, int scenario_number) {
   }
 }
 
-Polar measure(const Polar& exact, const Polar& sigma, RandomStream& random) {
-  Polar measured = exact;
-  measured.azimuth += sigma.azimuth * random.normal();
-  measured.elevation += sigma.elevation * random.normal();
-  measured.range += sigma.range * random.normal();
-  return measured;
-}
-
 Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random) {
   const double T = scenario.step_s;
   Recording recording;
@@ -69,7 +62,10 @@ Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& r
   state << scenario.position, scenario.velocity;
   for (int k = 1; k <= scenario.samples; ++k) {
     recording.truth.push_back(state);
-    recording.measured.push_back(measure(to_polar(state.head<3>()), sigma, random));
+    const Polar exact = to_polar(state.head<3>());
+    const auto [range, azimuth, elevation] = measured({exact.range, exact.azimuth, exact.elevation},
+                                                      {sigma.range, sigma.azimuth, sigma.elevation}, random);
+    recording.measured.push_back({range, azimuth, elevation});
     Vector<3> acceleration = Vector<3>::Zero();
     if (k >= scenario.first_accelerated && k <= scenario.last_accelerated) acceleration = scenario.acceleration;
     Vector<3> noise;

@@ -58,7 +58,4 @@ struct Recording {
 /// Draws a target with process noise of 3 m/s² and its measurements.
 Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random);
 
-/// A measurement with noise added.
-Polar measure(const Polar& exact, const Polar& sigma, RandomStream& random);
-
 }  // namespace sigmax::apps

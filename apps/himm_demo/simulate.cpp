@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "himm_demo/experiment.hpp"
-#include "himm_demo/filter_options.hpp"
+#include "himm_demo/filters/keys.hpp"
 #include "himm_demo/simulate_page.hpp"
 #include "himm_demo/simulate_report.hpp"
 #include "support/braille.hpp"

@@ -33,8 +33,8 @@ void add_squares(const Scenario& scenario, const std::vector<Vector<3>>& error, 
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
   std::vector<Vector<3>> error(recording.truth.size(), Vector<3>::Constant(std::numeric_limits<double>::quiet_NaN()));
-  follow(filter, scenario.step_s, recording, [&](const TrackPoint<3>& point, std::size_t k) {
-    error[k] = point.estimate.mean.head<3>() - recording.truth[k].head<3>();
+  follow(filter, scenario.step_s, recording, [&](const TargetPoint& point) {
+    error[point.tag] = Eigen::Map<const Vector<3>>(point.mean.data()) - recording.truth[point.tag].head<3>();
   });
   add_squares(scenario, error, sums);
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "himm_demo/filter_settings.hpp"
+#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/scenario.hpp"
 #include "himm_demo/sweep_lattice.hpp"
 #include "support/campaign.hpp"

@@ -26,6 +26,7 @@ bool without_bounds(const Interval& interval) {
 }
 
 std::string text_of(const Cell& cell, const ResultColumn& column) {
+  if (!cell.shown().empty()) return cell.shown();
   const auto shown = [&](double value, bool sign) {
     return column.sized ? sized_text(column.scale * value, column.digits, sign)
                         : number_text(column.scale * value, column.digits, sign);

@@ -33,6 +33,8 @@ class Cell {
   Cell(std::string_view words) : value_(std::string(words)) {}
   Cell(const char* words) : value_(std::string(words)) {}
   Cell(double number) : value_(number) {}
+  /// A number that the terminal and a page show like this, whatever its column says.
+  Cell(double number, std::string shown) : value_(number), shown_(std::move(shown)) {}
   Cell(Interval interval) : value_(interval) {}
   template <std::integral Count>
   Cell(Count count) : value_(static_cast<std::int64_t>(count)) {}
@@ -43,9 +45,11 @@ class Cell {
 
   using Value = std::variant<std::monostate, std::string, double, std::int64_t, Interval>;
   const Value& value() const { return value_; }
+  const std::string& shown() const { return shown_; }
 
  private:
   Value value_;
+  std::string shown_;
 };
 
 /// How a column is named, and how its numbers are shown.

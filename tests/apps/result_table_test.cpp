@@ -54,6 +54,14 @@ TEST(ResultTable, PrintsItselfAsJson) {
             R"("same":{"rmse_m":0.001,"right":1.0,"difference":{"mean":0.0,"lower":null,"upper":null}}})");
 }
 
+TEST(ResultTable, ShowsANumberAsItsCellSays) {
+  ResultTable table{{{.key = "a", .header = "a", .align = Align::left}, {.key = "b", .header = "b"}}};
+  table.row({"x", Cell(1.23456, "1.2 ± 0.1")});
+  EXPECT_EQ(table.text(), "a          b\n─  ─────────\nx  1.2 ± 0.1\n");
+  EXPECT_EQ(table.csv(), "a,b\nx,1.23456\n");
+  EXPECT_EQ(table.json().dump(), R"({"x":{"b":1.23456}})");
+}
+
 TEST(ResultTable, NeedsACellAColumn) {
   ResultTable table = example();
   EXPECT_THROW(table.row({"1", 2}), std::invalid_argument);
