@@ -12,9 +12,9 @@
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/hybrid/any_target.hpp>
 
+#include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/motion.hpp"
 #include "himm_demo/reading.hpp"
-#include "himm_demo/scenario.hpp"
 #include "support/settings.hpp"
 
 namespace sigmax::apps {

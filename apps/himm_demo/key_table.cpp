@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "himm_demo/filter_keys.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -10,11 +10,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "himm_demo/reproduce.hpp"
-#include "himm_demo/sweep.hpp"
+#include "himm_demo/reproduce/reproduce.hpp"
+#include "himm_demo/sweep/sweep.hpp"
+#include "result/result.hpp"
+#include "study/journal.hpp"
+#include "study/study.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
-#include "support/result_files.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

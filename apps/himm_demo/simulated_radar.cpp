@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "himm_demo/scenario.hpp"
+#include "himm_demo/experiment/scenario.hpp"
 #include "support/angle.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/filter_settings.hpp"
-#include "himm_demo/scenario.hpp"
 #include "himm_demo/tracker.hpp"
 
 namespace sigmax::apps {

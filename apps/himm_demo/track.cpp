@@ -13,8 +13,8 @@
 #include "himm_demo/track_report.hpp"
 #include "himm_demo/track_run.hpp"
 #include "himm_demo/track_shares.hpp"
-#include "support/braille.hpp"
-#include "support/result_files.hpp"
+#include "result/braille.hpp"
+#include "result/result.hpp"
 #include "support/run.hpp"
 #include "support/timestamp.hpp"
 

@@ -37,7 +37,7 @@ class TrackLedger {
   TrackOutcome outcome;
 
  private:
-  const TrackOptions& options_;
+  [[maybe_unused]] const TrackOptions& options_;
   const std::vector<FilterSettings>& filters_;
   int axes_;
   TrackSinks sinks_;

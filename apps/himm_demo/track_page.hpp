@@ -10,7 +10,7 @@
 #include "himm_demo/filter_settings.hpp"
 #include "himm_demo/recording.hpp"
 #include "himm_demo/said.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {

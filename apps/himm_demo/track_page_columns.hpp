@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "himm_demo/page_names.hpp"
 #include "himm_demo/track_page.hpp"
 
 /// What collecting and drawing a recording's page agree on.

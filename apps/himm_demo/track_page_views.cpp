@@ -7,7 +7,7 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 
-#include "himm_demo/scenario.hpp"
+#include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/track_page.hpp"
 #include "himm_demo/track_page_columns.hpp"
 #include "support/missing.hpp"

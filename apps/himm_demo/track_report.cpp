@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "result/table.hpp"
 #include "support/json.hpp"
 #include "support/output.hpp"
-#include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

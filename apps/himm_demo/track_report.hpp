@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "himm_demo/track_run.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "study/ranks.hpp"
 #include "support/packed.hpp"
-#include "support/ranks.hpp"
 
 namespace sigmax::apps {
 

@@ -15,11 +15,11 @@
 #include "himm_demo/tune_page.hpp"
 #include "himm_demo/tune_report.hpp"
 #include "himm_demo/tune_search.hpp"
+#include "result/result.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
 
 namespace sigmax::apps {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "himm_demo/recording.hpp"
+#include "result/output_options.hpp"
 #include "support/command_line.hpp"
 
 namespace sigmax::apps {

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "himm_demo/tune_report.hpp"
+#include "result/table.hpp"
 #include "support/json.hpp"
 #include "support/missing.hpp"
-#include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

@@ -8,7 +8,7 @@
 
 #include "himm_demo/tune_diagnosis.hpp"
 #include "himm_demo/tune_fit.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 

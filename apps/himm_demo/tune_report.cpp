@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "himm_demo/filter_keys.hpp"
+#include "result/table.hpp"
 #include "support/error.hpp"
-#include "support/table.hpp"
 
 namespace sigmax::apps {
 namespace {

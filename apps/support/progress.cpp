@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 
 #include "support/error.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "support/braille.hpp"
+#include "result/braille.hpp"
 
 #include <gtest/gtest.h>
 
