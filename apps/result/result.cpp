@@ -49,15 +49,15 @@ ResultFiles::ResultFiles(const OutputOptions& options) {
     throw UsageError(message({.what = "--report: this program was built without charts",
                               .remedy = "install libjs-dygraphs and node-d3, and build again"}));
   if (!options.plots.empty()) need_gnuplot();
-  if (!options.out.empty()) directory_.emplace(options.out);
+  if (!options.out.empty()) directory_ = output_directory(options.out);
   if (!options.report.empty()) report_.emplace(options.report);
-  if (!options.plots.empty()) plots_.emplace(options.plots);
+  if (!options.plots.empty()) plots_ = output_directory(options.plots);
 }
 
 AtomicFile* ResultFiles::open(const std::string& name) {
   if (!wanted()) return nullptr;
   names_.push_back(name);
-  return &files_.emplace_back(directory_->file(name));
+  return &files_.emplace_back(directory_ / name);
 }
 
 void ResultFiles::write(const std::string& name, std::string_view text) {
@@ -68,7 +68,7 @@ void ResultFiles::write_json(const std::string& name, const Json& json) {
   if (wanted()) write(name, json.dump(2) + "\n");
 }
 
-bool ResultFiles::report_wanted() const { return report_ || plots_ || (wanted() && has_reports()); }
+bool ResultFiles::report_wanted() const { return report_ || !plots_.empty() || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
   write(report_data_name, data_of(report).dump() + "\n");
@@ -76,7 +76,7 @@ void ResultFiles::write_report(const Report& report) {
     report_->write(html(report));
   else if (has_reports())
     write(report_name, html(report));
-  if (!plots_) return;
+  if (plots_.empty()) return;
   for (const Picture& picture : pictures_of(report)) {
     pictures_.emplace_back(picture.name + ".svg", svg_of(picture));
     pictures_.emplace_back(picture.name + ".pdf", pdf_of(picture));
@@ -84,23 +84,23 @@ void ResultFiles::write_report(const Report& report) {
 }
 
 void ResultFiles::commit() {
-  if (files_.empty() && !report_ && !plots_) return;
+  if (files_.empty() && !report_ && plots_.empty()) return;
   for (AtomicFile& file : files_) file.store();
   if (report_) report_->store();
   for (AtomicFile& file : files_) file.commit();
   if (report_) report_->commit();
   for (const auto& [name, document] : pictures_) {
-    AtomicFile file = plots_->file(name);
+    AtomicFile file(plots_ / name);
     file.write(document);
     file.commit();
   }
   std::vector<std::string> written;
   if (!names_.empty())
     written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
-                                  names_.size() > 1 ? " and " : "", names_.back(), directory_->path().native()));
+                                  names_.size() > 1 ? " and " : "", names_.back(), directory_.native()));
   if (report_) written.push_back(report_->path().native());
-  if (plots_)
-    written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_->path().native()));
+  if (!plots_.empty())
+    written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_.native()));
   fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
 }
 

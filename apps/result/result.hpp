@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <list>
 #include <memory>
 #include <optional>
@@ -35,7 +36,7 @@ class ResultFiles {
   explicit ResultFiles(const OutputOptions& options);
 
   /// Whether there is a directory to write to.
-  bool wanted() const { return directory_.has_value(); }
+  bool wanted() const { return !directory_.empty(); }
 
   /// A file to be filled bit by bit, or null where nothing is wanted. It stays valid as long as this.
   AtomicFile* open(const std::string& name);
@@ -55,11 +56,11 @@ class ResultFiles {
   void commit();
 
  private:
-  std::optional<OutputDirectory> directory_;
+  std::filesystem::path directory_;  // empty: none
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
-  std::optional<AtomicFile> report_;  // where it is not in the directory
-  std::optional<OutputDirectory> plots_;
+  std::optional<AtomicFile> report_;                           // where it is not in the directory
+  std::filesystem::path plots_;                                // empty: none
   std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
 };
 

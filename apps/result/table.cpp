@@ -250,6 +250,15 @@ void ResultTable::row(std::vector<Cell> cells) {
   rows_.push_back(std::move(cells));
 }
 
+void ResultTable::row_of(const std::vector<Field>& fields) {
+  std::vector<Cell> cells;
+  for (const Field& field : fields) {
+    if (rows_.empty()) columns_.push_back(field.column);
+    cells.push_back(field.cell);
+  }
+  row(std::move(cells));
+}
+
 ResultTable ResultTable::part(unsigned part, const std::string& header, std::size_t first_row, std::size_t rows) const {
   const auto chosen = [&](const auto& all) {
     std::decay_t<decltype(all)> some;

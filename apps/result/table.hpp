@@ -108,6 +108,12 @@ struct ResultColumn {
   static constexpr unsigned all_parts = ~0U;
 };
 
+/// A cell with its column.
+struct Field {
+  ResultColumn column;
+  Cell cell;
+};
+
 /// Results as rows, which print themselves as text, CSV and JSON.
 ///
 ///     ResultTable table{{{.key = "filter", .header = "filter", .align = Align::left},
@@ -124,6 +130,10 @@ class ResultTable {
 
   /// Adds a row with a cell a column; throws std::invalid_argument for another number.
   void row(std::vector<Cell> cells);
+
+  /// A table to which all rows are added as fields: the columns are those of the first one.
+  ResultTable() = default;
+  void row_of(const std::vector<Field>& fields);
 
   /// Adds a rule below the rows so far; it is for the terminal only.
   void rule() { rows_.emplace_back(); }

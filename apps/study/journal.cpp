@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,13 +18,6 @@
 
 namespace sigmax::apps {
 namespace {
-
-InputError bad_line(const std::filesystem::path& path, std::size_t line, std::string_view found) {
-  return InputError(message({.where = fmt::format("{}:{}", path.native(), line),
-                             .found = in_quotes(found),
-                             .expected = "the number of a cell and what it gave, with commas between",
-                             .remedy = "delete the file, and the work starts anew"}));
-}
 
 /// Reads one "cell,number,number,…" into the rows; false if it is something else.
 bool read_line(std::string_view line, CellRows& rows) {
@@ -46,17 +40,20 @@ bool read_line(std::string_view line, CellRows& rows) {
 }
 
 /// The journal in a text, and how much of the text its whole lines are.
-std::pair<ReadJournal, std::size_t> parsed(const std::filesystem::path& path, std::string_view text) {
-  ReadJournal journal;
+std::pair<Journaled, std::size_t> parsed(const std::filesystem::path& path, std::string_view text) {
+  Journaled journal;
   std::size_t begin = 0;
   for (std::size_t line = 1;; ++line) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string_view::npos) return {std::move(journal), begin};
     const std::string_view found = text.substr(begin, end - begin);
     if (line == 1)
-      journal.campaign = found;
+      journal.study = found;
     else if (!read_line(found, journal.rows))
-      throw bad_line(path, line, found);
+      throw InputError(message({.where = fmt::format("{}:{}", path.native(), line),
+                                .found = in_quotes(found),
+                                .expected = "the number of a cell and what it gave, with commas between",
+                                .remedy = "delete the file, and the work starts anew"}));
     begin = end + 1;
   }
 }
@@ -69,34 +66,31 @@ std::string journal_line(std::size_t cell, const std::vector<double>& row) {
   return line + "\n";
 }
 
-ReadJournal read_journal(const std::filesystem::path& path) {
+Journaled read_journal(const std::filesystem::path& path) {
   auto journal = parsed(path, read_text(path)).first;
-  if (journal.campaign.empty())
+  if (journal.study.empty())
     throw InputError(message({.where = path.native(), .what = "is empty", .expected = "the journal of a campaign"}));
   return journal;
 }
 
-Journal::Journal(std::filesystem::path path, std::string campaign)
-    : path_(std::move(path)), campaign_(std::move(campaign)) {
+Journal::Journal(std::filesystem::path path, std::string study) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail();
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw InputError(message({.where = path_.native(),
                               .what = "another program is writing this journal",
                               .remedy = "wait until it ends, or give another --out"}));
-  auto [journal, whole] = parsed(path_, read_text(path_));
+  std::size_t whole = 0;
+  std::tie(all_, whole) = parsed(path_, read_text(path_));
   if (::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) fail();
-  if (whole == 0) {
-    write(campaign_ + "\n");
-    store();
-  } else if (journal.campaign != campaign_) {
+  if (whole > 0 && all_.study != study)
     throw InputError(message({.where = path_.native() + ":1",
                               .what = "the directory holds another campaign",
-                              .found = in_quotes(journal.campaign),
-                              .expected = in_quotes(campaign_),
+                              .found = in_quotes(all_.study),
+                              .expected = in_quotes(study),
                               .remedy = "give the same options, or another --out"}));
-  }
-  rows_ = std::move(journal.rows);
+  all_.study = std::move(study);
+  if (whole == 0) write(all_.study + "\n");
 }
 
 Journal::~Journal() {
@@ -110,28 +104,23 @@ void Journal::fail() const {
 }
 
 void Journal::write(const std::string& text) {
-  for (std::string_view rest = text; !rest.empty();) {
-    const auto written = ::write(descriptor_, rest.data(), rest.size());
-    if (written >= 0)
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      fail();
-  }
-}
-
-void Journal::append(std::size_t cell, std::vector<double> row) {
-  write(journal_line(cell, row));
-  rows_.insert_or_assign(cell, std::move(row));
-}
-
-void Journal::store() {
+  if (!write_all(descriptor_, text)) fail();
   if (::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) fail();
+}
+
+void Journal::append(const CellRows& rows) {
+  std::string text;
+  for (const auto& [cell, row] : rows) {
+    text += journal_line(cell, row);
+    all_.rows.insert_or_assign(cell, row);
+  }
+  if (!text.empty()) write(text);
 }
 
 void Journal::finish() {
   AtomicFile sorted(path_);
-  sorted.write(campaign_ + "\n");
-  for (const auto& [cell, row] : rows_) sorted.write(journal_line(cell, row));
+  sorted.write(all_.study + "\n");
+  for (const auto& [cell, row] : all_.rows) sorted.write(journal_line(cell, row));
   sorted.commit();
 }
 

@@ -34,8 +34,6 @@ struct Sharing {
   std::size_t shard = 0;
   std::size_t shards = 1;
   bool finished = false;  ///< everything must have been done before
-
-  bool has(std::size_t cell) const { return cell % shards == shard; }
 };
 
 /// The name of the journal in the directory of the results.

@@ -14,6 +14,7 @@ inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
 
 /// Which of two accounts of the experiment is followed, where print and program differ.
 enum class Preset { paper_text, released };
+inline constexpr std::array both_presets = {Preset::paper_text, Preset::released};
 inline const char* name_of(Preset preset) { return preset == Preset::released ? "released" : "paper_text"; }
 
 /// Samples first … last, counted from one.

@@ -1,6 +1,5 @@
-#include "himm_demo/reproduce/reproduce.hpp"
+#include "himm_demo/subcommands.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "result/result.hpp"
 #include "support/command_line.hpp"
 #include "support/missing.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -97,33 +97,35 @@ std::size_t least_favourable(const std::vector<Measured>& all) {
 
 /// Parts of the table of sentences: with a verdict for each preset, HIMM being what the preset takes for it; and with
 /// one for each reading of (57).
-struct Part {
+struct SentencePart {
   enum : unsigned { claims = 1, readings = 2 };
 };
 
 ResultTable sentences_table(const Judgements& all) {
-  std::vector<ResultColumn> columns = {
-      {.key = "sentence", .header = "no."},
-      {.key = "place", .header = "where", .align = Align::left, .parts = Part::claims},
-      {.key = "words", .header = "the paper says", .align = Align::left, .parts = Part::claims}};
-  for (const auto& [preset, header] : {std::pair{Preset::paper_text, "as printed"}, {Preset::released, "as released"}})
-    columns.push_back({.key = name_of(preset), .header = header, .align = Align::left, .parts = Part::claims});
-  for (const Preset preset : both_presets)
-    for (const std::string reading : himm_readings) {  // of whose name three letters fit into 80 columns
-      const std::string word = reading.substr(reading.rfind('_') + 1);
-      columns.push_back({.key = fmt::format("{}_{}", name_of(preset), reading),
-                         .header = word.size() <= 3 ? word : word.substr(0, 3) + ".",
-                         .align = Align::left,
-                         .parts = Part::readings});
-    }
-  ResultTable table(columns);
+  ResultTable table;
   for (std::size_t s = 0; s < sentences().size(); ++s) {
-    std::vector<Cell> cells = {std::to_string(s + 1), sentences()[s].place, sentences()[s].words};
+    std::vector<Field> fields = {
+        {{.key = "sentence", .header = "no."}, std::to_string(s + 1)},
+        {{.key = "place", .header = "where", .align = Align::left, .parts = SentencePart::claims},
+         sentences()[s].place},
+        {{.key = "words", .header = "the paper says", .align = Align::left, .parts = SentencePart::claims},
+         sentences()[s].words}};
     for (const Preset preset : both_presets)
-      cells.emplace_back(words_of(all.at(preset).at(reading_of(preset))[s].verdict()));
+      fields.push_back({{.key = name_of(preset),
+                         .header = preset == Preset::released ? "as released" : "as printed",
+                         .align = Align::left,
+                         .parts = SentencePart::claims},
+                        words_of(all.at(preset).at(reading_of(preset))[s].verdict())});
     for (const Preset preset : both_presets)
-      for (const char* reading : himm_readings) cells.emplace_back(letter_of(all.at(preset).at(reading)[s].verdict()));
-    table.row(std::move(cells));
+      for (const std::string reading : himm_readings) {  // of whose name three letters fit into 80 columns
+        const std::string word = reading.substr(reading.rfind('_') + 1);
+        fields.push_back({{.key = fmt::format("{}_{}", name_of(preset), reading),
+                           .header = word.size() <= 3 ? word : word.substr(0, 3) + ".",
+                           .align = Align::left,
+                           .parts = SentencePart::readings},
+                          letter_of(all.at(preset).at(reading)[s].verdict())});
+      }
+    table.row_of(fields);
   }
   return table;
 }
@@ -149,21 +151,7 @@ ResultTable deciding_figures(const std::vector<Judged>& all) {
 /// Every figure of every sentence.
 ResultTable figures_table(const Judgements& all) {
   constexpr std::array finding_names = {"inside", "outside", "open"};
-  ResultTable table({{.key = "sentence"},
-                     {.key = "preset"},
-                     {.key = "reading"},
-                     {.key = "imm"},
-                     {.key = "scenario"},
-                     {.key = "group"},
-                     {.key = "phase"},
-                     {.key = "axis"},
-                     {.key = "figure"},
-                     {.key = "of"},
-                     {.key = "against"},
-                     {.key = "value", .interval = true},
-                     {.key = "wanted_above"},
-                     {.key = "wanted_below"},
-                     {.key = "finding"}});
+  ResultTable table;
   for (const auto& [preset, by_reading] : all)
     for (const auto& [reading, judged] : by_reading)
       for (std::size_t s = 0; s < judged.size(); ++s)
@@ -171,34 +159,47 @@ ResultTable figures_table(const Judgements& all) {
           for (const Measured& measured : released ? judged[s].against_released : judged[s].against_correct) {
             const Statement& statement = *measured.statement;
             const Cast cast{reading, released};
-            table.row({s + 1, name_of(preset), reading, released ? "released" : "correct", statement.scenario,
-                       statement.group, measured.phase ? Cell(phase_names[*measured.phase]) : Cell(),
-                       measured.axis ? Cell(axis_names[*measured.axis]) : Cell(), name_of(statement.figure),
-                       cast.filter(statement.of), cast.filter(statement.against), measured.interval,
-                       statement.region.above, statement.region.below,
-                       finding_names[static_cast<std::size_t>(measured.finding)]});
+            table.row_of({{{.key = "sentence"}, s + 1},
+                          {{.key = "preset"}, name_of(preset)},
+                          {{.key = "reading"}, reading},
+                          {{.key = "imm"}, released ? "released" : "correct"},
+                          {{.key = "scenario"}, statement.scenario},
+                          {{.key = "group"}, statement.group},
+                          {{.key = "phase"}, measured.phase ? Cell(phase_names[*measured.phase]) : Cell()},
+                          {{.key = "axis"}, measured.axis ? Cell(axis_names[*measured.axis]) : Cell()},
+                          {{.key = "figure"}, name_of(statement.figure)},
+                          {{.key = "of"}, cast.filter(statement.of)},
+                          {{.key = "against"}, cast.filter(statement.against)},
+                          {{.key = "value", .interval = true}, measured.interval},
+                          {{.key = "wanted_above"}, statement.region.above},
+                          {{.key = "wanted_below"}, statement.region.below},
+                          {{.key = "finding"}, finding_names[static_cast<std::size_t>(measured.finding)]}});
           }
   return table;
 }
 
-/// RMSE of the measurement and every filter, by phase and axis, in some conditions.
-ResultTable rmse_table(std::span<const Condition> conditions) {
-  std::vector<ResultColumn> columns = {{.key = "preset"}, {.key = "scenario"}, {.key = "group"}, {.key = "filter"}};
-  if (conditions.size() == 1) columns.erase(columns.begin(), columns.begin() + 3);
-  for (const char* phase : phase_names)
-    for (const char* axis : axis_names)
-      columns.push_back({.key = fmt::format("rmse_{}_{}_m", phase, axis), .interval = true});
-  ResultTable table(columns);
-  for (const Condition& condition : conditions) {
-    std::vector<std::string> names = {measurement_name};
-    for (const auto& filter : condition.experiment.filters) names.push_back(filter.name);
-    for (const auto& name : names) {
-      std::vector<Cell> cells = {name_of(condition.preset), condition.scenario, condition.group, name};
-      if (conditions.size() == 1) cells.erase(cells.begin(), cells.begin() + 3);
-      for (std::size_t i = 0; i < squares; ++i) cells.emplace_back(condition.rmse(name, i / 3, i % 3).interval());
-      table.row(std::move(cells));
+/// All filters; some come first.
+std::vector<std::string> names_of(std::span<const Condition> conditions, std::vector<std::string> names = {}) {
+  for (const auto& condition : conditions)
+    for (const auto& filter : condition.experiment.filters)
+      if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
+  return names;
+}
+
+/// RMSE of the measurement and every filter, by phase and axis, in all conditions; a part has what is of one of them.
+ResultTable rmse_table(const std::vector<Condition>& conditions) {
+  ResultTable table;
+  for (const Condition& condition : conditions)
+    for (const auto& name : names_of({&condition, 1}, {measurement_name})) {
+      std::vector<Field> fields = {{{.key = "preset", .parts = 0}, name_of(condition.preset)},
+                                   {{.key = "scenario", .parts = 0}, condition.scenario},
+                                   {{.key = "group", .parts = 0}, condition.group},
+                                   {{.key = "filter"}, name}};
+      for (std::size_t i = 0; i < squares; ++i)
+        fields.push_back({{.key = fmt::format("rmse_{}_{}_m", phase_names[i / 3], axis_names[i % 3]), .interval = true},
+                          condition.rmse(name, i / 3, i % 3).interval()});
+      table.row_of(fields);
     }
-  }
   return table;
 }
 
@@ -211,27 +212,16 @@ double over_measurement(const Condition& condition, std::string_view filter) {
   return sum / static_cast<double>(squares);
 }
 
-/// All filters; some come first.
-std::vector<std::string> names_of(const std::vector<Condition>& conditions, std::vector<std::string> names = {}) {
-  for (const auto& condition : conditions)
-    for (const auto& filter : condition.experiment.filters)
-      if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
-  return names;
-}
-
 /// That of every filter in every scenario and group.
 ResultTable overview_table(const std::vector<Condition>& conditions, Preset preset) {
-  std::vector<ResultColumn> columns = {{.key = "filter", .header = "filter", .align = Align::left}};
-  for (const auto& condition : conditions)
-    if (condition.preset == preset)
-      columns.push_back({.key = name_of(condition), .header = name_of(condition), .digits = 3});
-  ResultTable table(columns);
+  ResultTable table;
   for (const auto& name : names_of(conditions)) {
-    std::vector<Cell> cells = {name};
+    std::vector<Field> fields = {{{.key = "filter", .header = "filter", .align = Align::left}, name}};
     for (const auto& condition : conditions)
       if (condition.preset == preset)
-        cells.push_back(condition.has(name) ? Cell(over_measurement(condition, name)) : Cell());
-    table.row(std::move(cells));
+        fields.push_back({{.key = name_of(condition), .header = name_of(condition), .digits = 3},
+                          condition.has(name) ? Cell(over_measurement(condition, name)) : Cell()});
+    table.row_of(fields);
   }
   return table;
 }
@@ -333,8 +323,8 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   Result result(options.output);
   const Judgements all = judge(conditions);
   const auto of = [&](Preset preset) -> const std::vector<Judged>& { return all.at(preset).at(reading_of(preset)); };
-  const ResultTable sentences = sentences_table(all), claims = sentences.part(Part::claims, "no."),
-                    readings = sentences.part(Part::readings, "no.");
+  const ResultTable sentences = sentences_table(all), claims = sentences.part(SentencePart::claims, "no."),
+                    readings = sentences.part(SentencePart::readings, "no.");
   const std::string each_reading = "Each reading of (57), as printed and then as released";
   result.fact({"runs"}, options.choice.runs);
   result.fact({"seed"}, options.choice.seed);
@@ -350,7 +340,8 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
       "((yes): only against the released IMM. ?: undecided. sel., rec., rel., env.: selected, own_recentred, released, "
       "and envelope, which is (A-1) without (A-4).)");
   result.add(figures_table(all), {.printed = false, .csv = "figures.csv"});
-  result.add(rmse_table(conditions), {.printed = false, .csv = "filters.csv"});
+  const ResultTable rmse = rmse_table(conditions);
+  result.add(rmse, {.printed = false, .csv = "filters.csv"});
 
   Report& page = result.page;
   page.title = "Section VI of the paper, sentence by sentence";
@@ -392,9 +383,13 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
          .summary = {"over_measurement", name_of(preset)}});
   result.say("(Filters whose names end with 5 have sigma_w = 5.)");
   result.add(readings, {.printed = false, .title = each_reading, .note = "(yes): only against the released IMM."});
-  for (const auto& condition : conditions)
-    result.add(rmse_table({&condition, 1}),
+  std::size_t row = 0;
+  for (const auto& condition : conditions) {
+    const std::size_t rows = condition.experiment.filters.size() + 1;
+    result.add(rmse.part(1, "", row, rows),
                {.printed = false, .summary = {"rmse", name_of(condition.preset), name_of(condition)}});
+    row += rows;
+  }
   for (const Preset preset : both_presets)
     for (std::size_t s = 0; s < of(preset).size(); ++s)
       for (std::size_t i = 0; i < of(preset)[s].against_correct.size(); ++i) {
@@ -412,12 +407,12 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
 }  // namespace
 
 void add_reproduce(CLI::App& program, const std::string& command) {
-  CLI::App& app = *program.add_subcommand("reproduce", "What section VI of the paper says, sentence by sentence.");
+  Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
   const auto options = std::make_shared<ReproduceOptions>();
   options->output.command = command;
-  app.add_option("--runs", options->choice.runs, "Monte Carlo runs of each scenario, group and preset")
-      ->check(CLI::Range(2, 100000000))
-      ->capture_default_str();
+  app.option("--runs", options->choice.runs, "Monte Carlo runs of each scenario, group and preset")
+      .in(2, 100000000)
+      .shows_default();
   add_threads(app, options->sharing.threads);
   add_seed(app, options->choice.seed);
   add_shard(app, options->sharing);
@@ -430,7 +425,7 @@ void add_reproduce(CLI::App& program, const std::string& command) {
       "  himm_demo reproduce --runs 10000 --shard 1/4 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
-  app.callback([options] {
+  app.run([options] {
     auto all = conditions(options->choice);
     if (run(options->choice, options->sharing, options->output, all)) report(*options, all);
   });

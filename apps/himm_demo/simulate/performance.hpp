@@ -10,6 +10,7 @@
 #include <sigmax/core/mean_interval.hpp>
 
 #include "himm_demo/experiment/figures.hpp"
+#include "result/report.hpp"
 #include "study/study.hpp"
 
 namespace sigmax::apps {
@@ -75,5 +76,15 @@ class Performance {
 std::vector<Performance> performances(const Experiment& experiment);
 Study::Row row_of(const std::vector<Performance>& performances, const TracedRun& run);
 void add(std::span<const double> row, std::vector<Performance>& performances);
+
+/// So many filters that not all can be told apart at once.
+inline bool crowded(const Experiment& experiment) { return experiment.filters.size() > 6; }
+
+/// The experiment as the views of a page: curves over the samples of all runs (Figs. 2–11), of the measurement and all
+/// filters, and of the first runs each, up to 8, fewer if many filters would make the page great.
+std::vector<View> views_of(const Experiment& experiment, const std::vector<Performance>& found);
+
+/// Of the first view what ends the output on a terminal: the RMSE in x, and the weights.
+std::vector<LineChart> charts_of(const View& view);
 
 }  // namespace sigmax::apps

@@ -1,6 +1,5 @@
-#include "himm_demo/simulate/simulate.hpp"
+#include "himm_demo/subcommands.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <map>
@@ -10,12 +9,13 @@
 
 #include "himm_demo/experiment/sentences.hpp"
 #include "himm_demo/filter_options.hpp"
-#include "himm_demo/simulate/views.hpp"
+#include "himm_demo/simulate/performance.hpp"
 #include "himm_demo/tracker.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "support/command_line.hpp"
 #include "support/missing.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -37,19 +37,19 @@ struct SimulateOptions {
 struct Found {
   const SimulateOptions& options;
   const Experiment& experiment;
-  std::vector<Performance> performances;  ///< of the measurement, then of the filters
-  std::vector<double> ns_per_step;        ///< of each filter; empty unless all filters were asked for
+  std::vector<Performance> performances;      ///< of the measurement, then of the filters
+  std::map<std::string, double> ns_per_step;  ///< of each filter; empty unless all filters were asked for
 };
 
 /// CPU time of a step of each filter in ns, on one thread: the median over some of the runs. Not reproducible.
-std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
+std::map<std::string, double> nanoseconds_per_step(const Experiment& experiment) {
   constexpr int most_runs = 15;
   const auto cpu_time = [] {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
   };
-  std::vector<double> medians;
+  std::map<std::string, double> medians;
   for (const auto& filter : experiment.filters) {
     std::vector<double> times;
     for (int number = 0; number < std::min(most_runs, experiment.runs); ++number) {
@@ -69,87 +69,77 @@ std::vector<double> nanoseconds_per_step(const Experiment& experiment) {
       times.push_back((cpu_time() - start) / steps);
     }
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-    medians.push_back(times[times.size() / 2]);
+    medians[filter.name] = times[times.size() / 2];
   }
   return medians;
 }
 
 /// Parts of the table of figures: RMSE by phase and axis; NEES; cross-times; a few figures of many filters.
-struct Part {
+struct FigurePart {
   enum : unsigned { rmse = 1, nees = 2, cross_times = 4, overview = 8 };
 };
 
-struct Consistency {
-  Performance::Figure figure;
-  std::string key, group, name;
-};
-const Consistency consistencies[] = {
-    {Performance::nees_position, "nees_position", "position:", "position"},
-    {Performance::nees_velocity, "nees_position_velocity", "and velocity:", "and velocity"},
-    {Performance::nis, "nis", "", "NIS"}};
-
-std::vector<ResultColumn> figure_columns(const Scenario& scenario) {
-  std::vector<ResultColumn> columns = {{.key = "filter", .header = "filter", .align = Align::left}};
-  const auto add = [&](ResultColumn column) { columns.push_back(std::move(column)); };
-  const auto add_rmse = [&](const std::string& key, const std::string& group) {
-    for (const std::string axis : axis_names)
-      add({.key = key + "_" + axis + "_m", .header = axis, .sized = true, .group = group, .parts = Part::rmse});
+/// All figures of all runs of a filter, or of the measurement, as far as it has them.
+std::vector<Field> figures_of(const Found& found, const Performance& of) {
+  std::vector<Field> all = {{{.key = "filter", .header = "filter", .align = Align::left}, of.name()}};
+  const auto add = [&](ResultColumn column, const Cell& cell) { all.push_back({std::move(column), cell}); };
+  const auto add_of_filter = [&](const ResultColumn& column, const Cell& cell) {
+    add(column, of.filter() ? cell : Cell());
   };
-  for (const auto& [phase, first, last] : scenario.phases) {
-    const std::string name(phase);
-    add({.key = "rmse_" + name + "_m", .header = name, .sized = true, .group = "RMSE, m:", .parts = Part::overview});
-    add_rmse("rmse_" + name, name);
-  }
-  add_rmse("peak", "peak");
-  for (const auto& [figure, key, group, name] : consistencies) {
-    for (const auto& [phase, first, last] : scenario.phases)
-      add({.key = fmt::format("{}_{}", key, phase),
-           .header = group.empty() ? "" : std::string(phase),
+  const auto add_rmse = [&](const std::string& key, const std::string& group, const auto& value) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      add({.key = fmt::format("{}_{}_m", key, axis_names[axis]),
+           .header = axis_names[axis],
+           .sized = true,
            .group = group,
-           .parts = group.empty() ? 0U : Part::nees});
-    add({.header = name, .group = group.empty() ? "" : "NEES:", .parts = Part::overview});
+           .parts = FigurePart::rmse},
+          value(axis));
+  };
+  std::array<std::string, 3> phases;
+  for (std::size_t p = 0; p < 3; ++p) phases[p] = found.experiment.scenario.phases[p].name;
+  for (std::size_t p = 0; p < 3; ++p) {
+    add({.key = "rmse_" + phases[p] + "_m",
+         .header = phases[p],
+         .sized = true,
+         .group = "RMSE, m:",
+         .parts = FigurePart::overview},
+        of.phase_rmse(p));
+    add_rmse("rmse_" + phases[p], phases[p], [&](std::size_t axis) { return of.phase_rmse(p, axis); });
   }
-  add({.key = "cross_time_of_runs", .header = "mean of runs", .interval = true, .parts = Part::cross_times});
-  add({.header = "runs", .group = "cross-time:", .parts = Part::overview});
-  add({.key = "runs_crossed", .parts = 0});
-  add({.header = "runs that crossed", .parts = Part::cross_times});
-  add({.key = "cross_time_of_curves", .header = "of the averaged curves", .parts = Part::cross_times});
-  add({.header = "curves", .group = "cross-time:", .parts = Part::overview});
-  add({.key = "cross_time_of_paper", .header = "paper", .parts = Part::cross_times});
-  add({.header = "ns/step", .digits = 0, .parts = Part::overview});
-  return columns;
-}
+  add_rmse("peak", "peak", [&](std::size_t axis) { return of.peak_rmse(axis); });
+  const auto add_consistency = [&](Performance::Figure figure, const std::string& key, const std::string& group,
+                                   const std::string& name) {
+    const bool nees = !group.empty();  // whose phases have a table on the terminal
+    for (std::size_t p = 0; p < 3; ++p)
+      add_of_filter(
+          {.key = key + "_" + phases[p], .header = phases[p], .group = group, .parts = nees ? FigurePart::nees : 0U},
+          of.mean(figure, p));
+    add_of_filter({.header = name, .group = nees ? "NEES:" : "", .parts = FigurePart::overview}, of.mean(figure));
+  };
+  add_consistency(Performance::nees_position, "nees_position", "position:", "position");
+  add_consistency(Performance::nees_velocity, "nees_position_velocity", "and velocity:", "and velocity");
+  add_consistency(Performance::nis, "nis", "", "NIS");
 
-/// All figures of all runs: a row for the measurement, as far as it has them, and for each filter.
-ResultTable figures_table(const Found& found) {
-  const std::vector<ResultColumn> columns = figure_columns(found.experiment.scenario);
-  ResultTable table(columns);
-  for (const Performance& of : found.performances) {
-    std::vector<Cell> cells = {of.name()};
-    for (std::size_t p = 0; p < 3; ++p) {
-      cells.emplace_back(of.phase_rmse(p));
-      for (std::size_t axis = 0; axis < 3; ++axis) cells.emplace_back(of.phase_rmse(p, axis));
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) cells.emplace_back(of.peak_rmse(axis));
-    for (const Consistency& kind : consistencies) {
-      for (std::size_t p = 0; p < 3 && of.filter(); ++p) cells.emplace_back(of.mean(kind.figure, p));
-      if (of.filter()) cells.emplace_back(of.mean(kind.figure));
-    }
-    if (of.filter()) {
-      const auto runs = of.cross_time_of_runs();
-      const auto crossed = of.runs_crossed();
-      const auto curves = of.cross_time_of_curves();
-      const auto f = static_cast<std::size_t>(of.filter() - found.experiment.filters.data());
-      for (Cell cell : {Cell(runs), Cell(runs ? runs->mean : nan), Cell(crossed),
-                        Cell(crossed ? fmt::format("{} of {}", *crossed, found.experiment.runs) : "–"), Cell(curves),
-                        Cell(curves), Cell(paper_cross_time(found.options.scenario, found.options.group, *of.filter())),
-                        found.ns_per_step.empty() ? Cell() : Cell(found.ns_per_step[f])})
-        cells.push_back(std::move(cell));
-    }
-    cells.resize(columns.size());
-    table.row(std::move(cells));
-  }
-  return table;
+  const auto runs = of.cross_time_of_runs();
+  const auto crossed = of.runs_crossed();
+  const std::string of_all = crossed ? fmt::format("{} of {}", *crossed, found.experiment.runs) : "–";
+  const auto curves = of.cross_time_of_curves();
+  const auto paper =
+      of.filter() ? paper_cross_time(found.options.scenario, found.options.group, *of.filter()) : std::nullopt;
+  const auto ns = found.ns_per_step.find(of.name());
+  add_of_filter(
+      {.key = "cross_time_of_runs", .header = "mean of runs", .interval = true, .parts = FigurePart::cross_times},
+      runs);
+  add_of_filter({.header = "runs", .group = "cross-time:", .parts = FigurePart::overview}, runs ? runs->mean : nan);
+  add_of_filter({.key = "runs_crossed", .parts = 0}, crossed);
+  add_of_filter({.header = "runs that crossed", .parts = FigurePart::cross_times}, of_all);
+  add_of_filter({.key = "cross_time_of_curves", .header = "of the averaged curves", .parts = FigurePart::cross_times},
+                curves);
+  add_of_filter({.header = "curves", .group = "cross-time:", .parts = FigurePart::overview}, curves);
+  add_of_filter({.key = "cross_time_of_paper", .header = "paper", .parts = FigurePart::cross_times}, paper);
+  add_of_filter({.header = "ns/step", .digits = 0, .parts = FigurePart::overview},
+                ns == found.ns_per_step.end() ? Cell() : Cell(ns->second));
+  return all;
 }
 
 /// One filter against another: a row for each phase with the differences of RMSE by axis, and what the paper claims.
@@ -265,9 +255,11 @@ void report(const Found& found, ResultFiles& files) {
                          phases[2].first, phases[2].last));
 
   const bool brief = !found.ns_per_step.empty();
-  const ResultTable figures = figures_table(found);
+  ResultTable figures;
+  for (const Performance& of : found.performances) figures.row_of(figures_of(found, of));
   const auto compared = comparisons(found);
-  ResultTable few = figures.part(Part::overview, "filter"), consistency = figures.part(Part::nees, "mean NEES", 1);
+  ResultTable few = figures.part(FigurePart::overview, "filter"),
+              consistency = figures.part(FigurePart::nees, "mean NEES", 1);
   few.rule();
   few.row({"if consistent", {}, {}, {}, "3", "6", "3", {}, {}, {}});
   consistency.rule();
@@ -276,7 +268,8 @@ void report(const Found& found, ResultFiles& files) {
   result.add(rmse_by_sample(found), {.printed = false, .csv = "rmse.csv"});
   result.add(weights_by_sample(found), {.printed = false, .csv = "weights.csv"});
   result.add(few, {.printed = brief});
-  result.add(figures.part(Part::rmse, "position RMSE, m"), {.printed = !brief, .title = "Position RMSE by phase"});
+  result.add(figures.part(FigurePart::rmse, "position RMSE, m"),
+             {.printed = !brief, .title = "Position RMSE by phase"});
   for (std::size_t i = 0; i < compared.size(); ++i) {
     result.fact({"comparisons", i, "filter"}, compared[i].filter);
     result.fact({"comparisons", i, "minus"}, compared[i].reference);
@@ -295,12 +288,12 @@ void report(const Found& found, ResultFiles& files) {
         fmt::format("(RMSE differences ± 95 % by paired runs; negative is better. \"Competitive\": within {:.0f} %.)",
                     100.0 * competitive_fraction)}});
   result.add(consistency, {.printed = !brief, .title = "Mean NEES"});
-  result.add(figures.part(Part::cross_times, "cross-time, sample", 1),
+  result.add(figures.part(FigurePart::cross_times, "cross-time, sample", 1),
              {.printed = !brief, .title = "Cross-time: when the manoeuvre model overtakes"});
   result.say({{!brief && experiment.mode_sample_shift != 0,
                "(As in the released program, mode weights are counted one sample early.)"}});
-  for (std::size_t f = 0; f < found.ns_per_step.size(); ++f)
-    result.fact({"not_reproducible", "ns_per_step", experiment.filters[f].name}, found.ns_per_step[f]);
+  for (const auto& filter : experiment.filters)
+    if (brief) result.fact({"not_reproducible", "ns_per_step", filter.name}, found.ns_per_step.at(filter.name));
 
   Report& page = result.page;
   page.verdict.push_back(fmt::format("Preset {}, seed {}; a sample is {} s. The manoeuvre is in samples {} to {}.",
@@ -345,23 +338,21 @@ void simulate_and_report(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& program, const std::string& command) {
-  CLI::App& app =
-      *program.add_subcommand("simulate", "The paper's experiment (section VI) on simulated radar targets.");
+  Subcommand app(program, "simulate", "The paper's experiment (section VI) on simulated radar targets.");
   const auto options = std::make_shared<SimulateOptions>();
   options->output.command = command;
-  app.add_option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar")
-      ->check(CLI::IsMember({1, 2}))
-      ->capture_default_str();
-  app.add_option("--group", options->group, "Group of data and model parameters, section VI.C")
-      ->check(CLI::IsMember({1, 2, 3, 4}))
-      ->capture_default_str();
-  app.add_option("--preset", options->preset,
-                 "The experiment as printed (paper_text) or as the authors' program has it (released)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Preset>{{"paper_text", Preset::paper_text}, {"released", Preset::released}}))
-      ->option_text("paper_text|released [paper_text]");
-  app.add_option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]")
-      ->check(CLI::Range(1, 100000000));
+  app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar")
+      .one_of({1, 2})
+      .shows_default();
+  app.option("--group", options->group, "Group of data and model parameters, section VI.C")
+      .one_of({1, 2, 3, 4})
+      .shows_default();
+  app.choice(
+         "--preset", {"paper_text", "released"},
+         [options](int preset) { options->preset = both_presets.at(static_cast<std::size_t>(preset)); },
+         "The experiment as printed (paper_text) or as the authors' program has it (released)")
+      .text("paper_text|released [paper_text]");
+  app.option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]").in(1, 100000000);
   add_threads(app, options->threads);
   app.footer(
       "Examples:\n"
@@ -373,7 +364,7 @@ void add_simulate(CLI::App& program, const std::string& command) {
   add_output(app, options->output);
   add_report(app, options->output);
   add_no_chart(app, options->output.no_chart);
-  app.callback([options] { simulate_and_report(*options); });
+  app.run([options] { simulate_and_report(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,4 +1,4 @@
-#include "himm_demo/simulate/views.hpp"
+#include "himm_demo/simulate/performance.hpp"
 
 #include <algorithm>
 #include <cmath>

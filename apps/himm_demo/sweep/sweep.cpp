@@ -1,6 +1,5 @@
-#include "himm_demo/sweep/sweep.hpp"
+#include "himm_demo/subcommands.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "himm_demo/sweep/world.hpp"
 #include "result/result.hpp"
 #include "support/command_line.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -57,7 +57,7 @@ std::string searched(const SweepWorld& world) {
   std::string text = fmt::format("{} filters, {} settings each", world.filters().size(), world.listed_settings(0));
   if (choice.beyond > 0) {
     std::size_t tried = 0;
-    for (const Tuned& tuned : world.all_tuned()) tried += tuned.best.tried;
+    for (const Tuned& tuned : world.all_tuned()) tried += tuned.tried;
     text += fmt::format(
         " and about {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
         tried / world.all_tuned().size(), choice.beyond);
@@ -68,9 +68,8 @@ std::string searched(const SweepWorld& world) {
 
 /// How many of the tuned filters are at the limit of the search; empty if none is.
 std::string limits(const SweepWorld& world) {
-  std::size_t stopped = 0;
-  for (std::size_t c = 0; c < world.conditions().size(); ++c)
-    for (std::size_t f = 0; f < world.filters().size(); ++f) stopped += world.at_the_limit(c, f) ? 1U : 0U;
+  const auto stopped = std::count_if(world.all_tuned().begin(), world.all_tuned().end(),
+                                     [](const Tuned& tuned) { return tuned.at_the_limit; });
   if (stopped == 0) return "";
   return fmt::format(
       "{} of {} tuned filters {}: there may be better ones beyond.", stopped, world.all_tuned().size(),
@@ -78,41 +77,40 @@ std::string limits(const SweepWorld& world) {
 }
 
 /// Parts of the table of all filters in all conditions: with the numbers or the name of the condition, or for one.
-struct Part {
+struct ConditionPart {
   enum : unsigned { numbers = 1, name = 2 };
 };
 
 ResultTable filters_table(const SweepWorld& world) {
-  std::vector<ResultColumn> columns;
-  for (const char* key : {"scenario", "noise", "period", "strength", "length"})
-    columns.push_back({.key = key, .parts = Part::numbers});
-  columns.push_back({.key = "condition", .header = "scenario", .align = Align::left, .parts = Part::name});
-  const std::vector<ResultColumn> of_a_filter = {
-      {.key = "filter", .header = "filter", .align = Align::left},
-      {.key = "leaving", .header = "leaving", .digits = 3, .sized = true},
-      {.key = "returning", .header = "returning", .digits = 3, .sized = true},
-      {.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"},
-      {.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"},
-      {.key = "lift", .header = "lift", .align = Align::left},
-      {.key = "at_the_limit"},
-      {.key = "settings_tried"},
-      {.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"},
-      {.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
-      {.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true},
-      {.key = "is_himm"}};
-  columns.insert(columns.end(), of_a_filter.begin(), of_a_filter.end());
-  ResultTable table(columns);
+  ResultTable table;
   for (std::size_t c = 0; c < world.conditions().size(); ++c)
     for (std::size_t f = 0; f < world.filters().size(); ++f) {
       const SweepCondition& condition = world.conditions()[c];
       const Tuned& tuned = world.tuned(c, f);
       const FilterSettings settings = world.settings(c, f);
       const auto sigma_w = [&](std::size_t model) { return settings.motions[model][MotionParameter::sigma_w]; };
-      table.row({condition.scenario, condition.mismatch, condition.period, condition.strength, condition.length,
-                 words_of(condition), settings.name, settings.transition[0][1], settings.transition[1][0], sigma_w(0),
-                 sigma_w(1), name_of(settings.lift), world.at_the_limit(c, f) ? 1 : 0, tuned.best.tried,
-                 tuned.best.score, tuned.score.interval(), world.imm() ? Cell(world.against_imm(c, f)) : Cell(),
-                 world.himm(c) == f ? 1 : 0});
+      const Cell above_imm = world.imm() ? Cell(world.against_imm(c, f)) : Cell();
+      table.row_of(
+          {{{.key = "scenario", .parts = ConditionPart::numbers}, condition.scenario},
+           {{.key = "noise", .parts = ConditionPart::numbers}, condition.mismatch},
+           {{.key = "period", .parts = ConditionPart::numbers}, condition.period},
+           {{.key = "strength", .parts = ConditionPart::numbers}, condition.strength},
+           {{.key = "length", .parts = ConditionPart::numbers}, condition.length},
+           {{.key = "condition", .header = "scenario", .align = Align::left, .parts = ConditionPart::name},
+            words_of(condition)},
+           {{.key = "filter", .header = "filter", .align = Align::left}, settings.name},
+           {{.key = "leaving", .header = "leaving", .digits = 3, .sized = true}, settings.transition[0][1]},
+           {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, settings.transition[1][0]},
+           {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(0)},
+           {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(1)},
+           {{.key = "lift", .header = "lift", .align = Align::left}, name_of(settings.lift)},
+           {{.key = "at_the_limit"}, tuned.at_the_limit ? 1 : 0},
+           {{.key = "settings_tried"}, tuned.tried},
+           {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
+           {{.key = "score", .header = "judged", .digits = 3, .interval = true, .group = "score:"},
+            tuned.score.interval()},
+           {{.key = "above_imm", .header = "% above imm", .digits = 1, .scale = 100.0, .interval = true}, above_imm},
+           {{.key = "is_himm"}, world.himm(c) == f ? 1 : 0}});
     }
   return table;
 }
@@ -227,7 +225,7 @@ class Maps {
         number_text(100.0 * above.half_width, 1), number_text(score.mean, 3), number_text(score.half_width, 3),
         settings.name, settings.transition[0][1], settings.transition[1][0],
         settings.motions[0][MotionParameter::sigma_w], settings.motions[1][MotionParameter::sigma_w],
-        name_of(settings.lift), world_.at_the_limit(c, f) ? ", at the limit of the search" : ""));
+        name_of(settings.lift), world_.tuned(c, f).at_the_limit ? ", at the limit of the search" : ""));
   }
 
   HeatMap crossed(const Choice& choice, int scenario) const {
@@ -274,12 +272,12 @@ void report(const SweepOptions& options, const SweepWorld& world) {
   }
   if (!answered.empty()) result.fact({"answer"}, answered);
   result.say({{!answered.empty(), answered}, {!stopped.empty(), stopped}});
-  result.add(filters.part(Part::numbers, ""), {.printed = false, .csv = "tuned.csv"});
+  result.add(filters.part(ConditionPart::numbers, ""), {.printed = false, .csv = "tuned.csv"});
   for (std::size_t c = 0; c < world.conditions().size(); ++c)
-    result.add(filters.part(ResultColumn::all_parts ^ (Part::numbers | Part::name), "", c * world.filters().size(),
-                            world.filters().size()),
+    result.add(filters.part(ResultColumn::all_parts ^ (ConditionPart::numbers | ConditionPart::name), "",
+                            c * world.filters().size(), world.filters().size()),
                {.printed = false, .summary = {"conditions", words_of(world.conditions()[c])}});
-  result.add(filters.part(Part::name, "scenario"),
+  result.add(filters.part(ConditionPart::name, "scenario"),
              {.printed = false, .title = all_shown ? "The best settings" : "", .filtered_by = {"condition", "filter"}});
   Report& page = result.page;
   page.title = "Every filter at its best settings, against the tuned IMM";
@@ -302,53 +300,49 @@ void report(const SweepOptions& options, const SweepWorld& world) {
 }
 
 template <class Value>
-CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<Value>& values, const std::string& meaning) {
-  return app.add_option(name, values, fmt::format("{} [{}]", meaning, fmt::join(values, ", ")))
-      ->delimiter(',')
-      ->option_text("A,B,…");
+Option add_list(Subcommand& app, const std::string& name, std::vector<Value>& values, const std::string& meaning) {
+  return app.option(name, values, fmt::format("{} [{}]", meaning, fmt::join(values, ", "))).list().text("A,B,…");
 }
 
-void add_conditions(CLI::App& app, SweepChoice& choice) {
-  const auto factor = number_in(0.05, 20.0);
-  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar")
-      ->check(CLI::IsMember({1, 2}));
-  add_list(app, "--mismatch", choice.mismatch, "Noise of the radar, believed over true")->check(factor);
-  add_list(app, "--period", choice.period, "Sampling period, times the paper's")->check(factor);
-  add_list(app, "--strength", choice.strength, "Acceleration, times the paper's")->check(factor);
-  add_list(app, "--length", choice.length, "Length of the manoeuvre, times the paper's")->check(factor);
-  app.add_flag("--cross", choice.cross, "Every combination of these four, rather than each alone with the others 1");
+void add_conditions(Subcommand& app, SweepChoice& choice) {
+  const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
+    add_list(app, name, values, meaning).number_in(0.05, 20.0);
+  };
+  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").one_of({1, 2});
+  add_factors("--mismatch", choice.mismatch, "Noise of the radar, believed over true");
+  add_factors("--period", choice.period, "Sampling period, times the paper's");
+  add_factors("--strength", choice.strength, "Acceleration, times the paper's");
+  add_factors("--length", choice.length, "Length of the manoeuvre, times the paper's");
+  app.flag("--cross", choice.cross, "Every combination of these four, rather than each alone with the others 1");
 }
 
-void add_settings(CLI::App& app, SweepChoice& choice) {
+void add_settings(Subcommand& app, SweepChoice& choice) {
   add_list(app, "--filters", choice.filters, "Names as of the setting filters; the others are compared with imm");
-  add_list(app, "--probability", choice.probability, "Off-diagonals of P, the two rows apart")
-      ->check(number_in(1e-12, 1.0));
+  add_list(app, "--probability", choice.probability, "Off-diagonals of P, the two rows apart").number_in(1e-12, 1.0);
   add_list(app, "--possibility", choice.possibility, "Off-diagonals of the matrix of possibilities, the two rows apart")
-      ->check(number_in(1e-12, 1.0));
-  add_list(app, "--sigma-w", choice.sigma_w, "sigma_w in m/s², the two models apart")->check(number_in(1e-6, 1e6));
+      .number_in(1e-12, 1.0);
+  add_list(app, "--sigma-w", choice.sigma_w, "sigma_w in m/s², the two models apart").number_in(1e-6, 1e6);
   add_list(app, "--lift", choice.lifts, "What stands for a component that a model lacks")
-      ->check(CLI::IsMember({"zero", "borrowed_variance", "unbiased"}));
-  app.add_option("--beyond", choice.beyond,
-                 "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; "
-                 "0: only what is listed")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
+      .one_of({"zero", "borrowed_variance", "unbiased"});
+  app.option("--beyond", choice.beyond,
+             "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; 0: "
+             "only what is listed")
+      .in(0, 100)
+      .shows_default();
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& program, const std::string& command) {
-  CLI::App& app = *program.add_subcommand("sweep", "Every filter at its best settings, in many conditions.");
+  Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
   const auto options = std::make_shared<SweepOptions>();
   options->output.command = command;
   add_conditions(app, options->choice);
   add_settings(app, options->choice);
-  app.add_option("--tuning-runs", options->choice.tuning_runs, "Runs by which the best settings are chosen")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--runs", options->choice.runs, "Other runs by which they are judged")
-      ->check(CLI::Range(2, 1000000))
-      ->capture_default_str();
+  app.option("--tuning-runs", options->choice.tuning_runs, "Runs by which the best settings are chosen")
+      .in(1, 1000000)
+      .shows_default();
+  app.option("--runs", options->choice.runs, "Other runs by which they are judged").in(2, 1000000).shows_default();
   add_seed(app, options->choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
@@ -361,7 +355,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
       "  himm_demo sweep --cross --shard 1/16 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
-  app.callback([options] {
+  app.run([options] {
     SweepWorld world(options->choice);
     const auto add = [&](std::size_t, const Study::Row& row) { world.add(row); };
     if (run(world.study(), options->sharing, options->output, add)) report(*options, world);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -13,9 +14,69 @@
 #include "version.hpp"
 
 namespace sigmax::apps {
+
+/// What may be tried of one setting: a list of numbers in ascending order, continued at both ends, or things without an
+/// order.
+struct Axis {
+  std::vector<double> numbers;
+  std::size_t first = 0, last = numbers.size() - 1;  ///< of the list itself
+  bool more_below = false, more_above = false;       ///< whether such numbers were left out
+  bool ordered = true;
+};
+
 namespace {
 
-constexpr std::size_t of_a_place = SweepLattice::axes + 1;
+/// The list, beyond each end by the ratio of the last two numbers, as many steps, in six digits, so that what a table
+/// says can be given again. One number is fixed and has no continuation.
+Axis continued(const std::vector<double>& list, double least, double greatest, int steps) {
+  Axis axis{.numbers = list};
+  if (list.size() == 1) return axis;
+  auto& numbers = axis.numbers;
+  const auto in_six_digits = [](double value) { return std::stod(fmt::format("{:.6g}", value)); };
+  const double down = list[0] / list[1], up = list.back() / list[list.size() - 2];
+  for (int i = 0; i < steps && numbers.back() < greatest; ++i)
+    numbers.push_back(std::min(in_six_digits(numbers.back() * up), greatest));
+  for (int i = 0; i < steps && numbers.front() > least; ++i, ++axis.first, ++axis.last)
+    numbers.insert(numbers.begin(), std::max(in_six_digits(numbers.front() * down), least));
+  axis.more_below = numbers.front() > least;
+  axis.more_above = numbers.back() < greatest;
+  return axis;
+}
+
+/// Every combination of the lists. The last axis changes fastest.
+std::vector<Place> grid(const std::vector<Axis>& lattice) {
+  std::vector<Place> all = {Place{}};
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    std::vector<Place> more;
+    for (Place place : all)
+      for (place[i] = lattice[i].first; place[i] <= lattice[i].last; ++place[i]) more.push_back(place);
+    all = std::move(more);
+  }
+  return all;
+}
+
+/// The places one step along one axis.
+std::vector<Place> neighbours(const std::vector<Axis>& lattice, const Place& place) {
+  std::vector<Place> all;
+  for (std::size_t i = 0; i < lattice.size(); ++i)
+    for (std::size_t at = 0; at < lattice[i].numbers.size(); ++at)
+      if (lattice[i].ordered ? at + 1 == place[i] || at == place[i] + 1 : at != place[i]) {
+        all.push_back(place);
+        all.back()[i] = at;
+      }
+  return all;
+}
+
+/// Whether a number is the last one before those left out, so that better ones may be beyond.
+bool at_the_limit(const std::vector<Axis>& lattice, const Place& place) {
+  for (std::size_t i = 0; i < lattice.size(); ++i)
+    if ((place[i] == 0 && lattice[i].more_below) ||
+        (place[i] + 1 == lattice[i].numbers.size() && lattice[i].more_above))
+      return true;
+  return false;
+}
+
+constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
@@ -120,25 +181,30 @@ SweepWorld::SweepWorld(const SweepChoice& choice) : choice_(choice), conditions_
   filters_ = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
 }
 
-SweepLattice SweepWorld::lattice(std::size_t f) const {
-  const AxisRange off_diagonal =
-      filters_[f].fuzzy ? AxisRange{choice_.possibility, 1e-12, 1.0} : AxisRange{choice_.probability, 1e-12, 0.9};
-  const AxisRange sigma_w{choice_.sigma_w, 1e-6, 1e6};
-  return {{off_diagonal, off_diagonal, sigma_w, sigma_w}, choice_.lifts.size(), choice_.beyond};
+std::vector<Axis> SweepWorld::lattice(std::size_t f) const {
+  const bool fuzzy = filters_[f].fuzzy;
+  const Axis off_diagonal =
+      continued(fuzzy ? choice_.possibility : choice_.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice_.beyond);
+  const Axis sigma_w = continued(choice_.sigma_w, 1e-6, 1e6, choice_.beyond);
+  Axis lift{.numbers = std::vector<double>(choice_.lifts.size())};
+  lift.ordered = false;
+  return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
 }
 
-FilterSettings SweepWorld::settings(std::size_t condition, std::size_t f, const SweepLattice::Place& place) const {
-  const SweepLattice lattice = this->lattice(f);
-  const double leaving = lattice.number(0, place), returning = lattice.number(1, place);
+std::size_t SweepWorld::listed_settings(std::size_t f) const { return grid(lattice(f)).size(); }
+
+FilterSettings SweepWorld::settings(std::size_t condition, std::size_t f, const Place& place) const {
+  const std::vector<Axis> lattice = this->lattice(f);
+  const auto number = [&](std::size_t axis) { return lattice[axis].numbers[place[axis]]; };
+  const double leaving = number(0), returning = number(1);
   const double mismatch = conditions_[condition].mismatch;
   const Polar sigma = group(1, conditions_[condition].scenario).data;
   FilterSettings own = filters_[f];
   own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
   own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
-  for (const std::size_t model : {0U, 1U})
-    own.motions[model][MotionParameter::sigma_w] = lattice.number(2 + model, place);
+  for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
   own.lift = *std::find_if(lifts.begin(), lifts.end(),
-                           [&](Lift lift) { return name_of(lift) == choice_.lifts[place[SweepLattice::axes]]; });
+                           [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
   return own;
 }
 
@@ -147,26 +213,25 @@ Recording SweepWorld::recording(std::size_t condition, int number) const {
   return simulate(scenario_of(conditions_[condition]), group(1, conditions_[condition].scenario).data, random);
 }
 
-BestPlace SweepWorld::tune(std::size_t condition, std::size_t f) const {
+std::vector<double> SweepWorld::scores_of(std::size_t condition, std::size_t f,
+                                          const std::vector<Place>& places) const {
   const Scenario scenario = scenario_of(conditions_[condition]);
-  return search(lattice(f), [&](const std::vector<SweepLattice::Place>& places) {
-    std::vector<FilterSettings> tried;
-    for (const auto& place : places) tried.push_back(settings(condition, f, place));
-    Squares measured{};
-    std::vector<Squares> sums(places.size(), Squares{});
-    for (int run = 0; run < choice_.tuning_runs; ++run) {
-      const Recording one = recording(condition, run);
-      add_measurement(scenario, one, measured);
-      for (std::size_t i = 0; i < places.size(); ++i) try {
-          add_run(scenario, tried[i], one, sums[i]);
-        } catch (const std::exception&) {
-          sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
-        }
-    }
-    std::vector<double> scores;
-    for (const auto& own : sums) scores.push_back(score(own, measured));
-    return scores;
-  });
+  std::vector<FilterSettings> tried;
+  for (const Place& place : places) tried.push_back(settings(condition, f, place));
+  Squares measured{};
+  std::vector<Squares> sums(places.size(), Squares{});
+  for (int run = 0; run < choice_.tuning_runs; ++run) {
+    const Recording one = recording(condition, run);
+    add_measurement(scenario, one, measured);
+    for (std::size_t i = 0; i < places.size(); ++i) try {
+        add_run(scenario, tried[i], one, sums[i]);
+      } catch (const std::exception&) {
+        sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
+      }
+  }
+  std::vector<double> scores;
+  for (const Squares& own : sums) scores.push_back(score(own, measured));
+  return scores;
 }
 
 /// The best place with its score and how many were tried; then of each batch of runs their number, and the squares of
@@ -174,10 +239,24 @@ BestPlace SweepWorld::tune(std::size_t condition, std::size_t f) const {
 Study::Row SweepWorld::work(std::size_t condition, std::size_t f) const {
   constexpr int most_batches = 25;
   const Scenario scenario = scenario_of(conditions_[condition]);
-  const BestPlace best = tune(condition, f);
-  const FilterSettings tuned = settings(condition, f, best.place);
-  Study::Row row(best.place.begin(), best.place.end());
-  row.insert(row.end(), {best.score, static_cast<double>(best.tried)});
+  // The best of the grid, then from neighbour to better neighbour until none is better; the first of equals is taken.
+  Place best{};
+  double best_score = infinity;
+  std::set<Place> tried;
+  for (auto places = grid(lattice(f)); !places.empty();) {
+    const auto scores = scores_of(condition, f, places);
+    const auto least = std::min_element(scores.begin(), scores.end());
+    const bool first = tried.empty();
+    tried.insert(places.begin(), places.end());
+    if (!first && *least >= best_score) break;
+    best = places[static_cast<std::size_t>(least - scores.begin())];
+    best_score = *least;
+    places = neighbours(lattice(f), best);
+    std::erase_if(places, [&](const Place& one) { return tried.contains(one); });
+  }
+  const FilterSettings tuned = settings(condition, f, best);
+  Study::Row row(best.begin(), best.end());
+  row.insert(row.end(), {best_score, static_cast<double>(tried.size())});
   const int batches = std::min(most_batches, choice_.runs);
   for (int batch = 0; batch < batches; ++batch) {
     Squares own{}, raw{};
@@ -201,10 +280,8 @@ Study SweepWorld::study() const {
 }
 
 void SweepWorld::add(const Study::Row& row) {
-  BestPlace best{};
-  for (std::size_t i = 0; i < of_a_place; ++i) best.place[i] = static_cast<std::size_t>(row[i]);
-  best.score = row[of_a_place];
-  best.tried = static_cast<std::size_t>(row[of_a_place + 1]);
+  Place place{};
+  for (std::size_t i = 0; i < of_a_place; ++i) place[i] = static_cast<std::size_t>(row[i]);
   constexpr std::size_t of_a_batch = 1 + 2 * squares;
   Batches batches(of_a_batch);
   for (auto rest = std::span(row).subspan(of_a_place + 2); !rest.empty(); rest = rest.subspan(of_a_batch))
@@ -212,7 +289,8 @@ void SweepWorld::add(const Study::Row& row) {
   const auto ratio = [&](std::size_t i) { return sqrt(batches.mean(1 + squares + i)) / sqrt(batches.mean(1 + i)); };
   Statistic sum = ratio(0);
   for (std::size_t i = 1; i < squares; ++i) sum = sum + ratio(i);
-  tuned_.push_back({best, sum * (1.0 / squares)});
+  tuned_.push_back({place, at_the_limit(lattice(tuned_.size() % filters_.size()), place), row[of_a_place],
+                    static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
 }
 
 std::optional<std::size_t> SweepWorld::imm() const {
@@ -225,7 +303,7 @@ std::optional<std::size_t> SweepWorld::himm(std::size_t condition) const {
   std::optional<std::size_t> best;
   for (std::size_t f = 0; f < filters_.size(); ++f)
     if (filters_[f].fuzzy && filters_[f].scheme == Scheme::interacting &&
-        (!best || tuned(condition, f).best.score < tuned(condition, *best).best.score))
+        (!best || tuned(condition, f).tuning_score < tuned(condition, *best).tuning_score))
       best = f;
   return best;
 }

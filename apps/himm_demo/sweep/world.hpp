@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "himm_demo/experiment/figures.hpp"
-#include "himm_demo/sweep/lattice.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
 
@@ -40,10 +40,17 @@ struct SweepCondition {
   bool operator==(const SweepCondition&) const = default;
 };
 
-/// What a tuned filter did on runs that it was not tuned on.
+/// Where settings of a filter are on its lattice: of four numbers, and of the lift.
+using Place = std::array<std::size_t, 5>;
+struct Axis;
+
+/// The settings of a filter that did best on the tuning runs, and what they did on others.
 struct Tuned {
-  BestPlace best;   ///< on the lattice of the filter, by the tuning runs
-  Statistic score;  ///< the mean over axes and phases of RMSE over that of the measurement
+  Place place;
+  bool at_the_limit;    ///< whether the search for them ended where it was not allowed to go on
+  double tuning_score;  ///< the mean over axes and phases of RMSE over that of the measurement
+  std::size_t tried;    ///< how many settings were
+  Statistic score;      ///< the same as the tuning score, of other runs
 };
 
 /// All conditions and filters, and what was found of them.
@@ -63,14 +70,11 @@ class SweepWorld {
   const Tuned& tuned(std::size_t condition, std::size_t f) const { return tuned_[condition * filters_.size() + f]; }
 
   /// How many settings are on the lists of a filter.
-  std::size_t listed_settings(std::size_t f) const { return lattice(f).grid().size(); }
+  std::size_t listed_settings(std::size_t f) const;
 
-  /// The settings that were chosen, and whether the search for them ended where it was not allowed to go on.
+  /// The settings that were chosen.
   FilterSettings settings(std::size_t condition, std::size_t f) const {
-    return settings(condition, f, tuned(condition, f).best.place);
-  }
-  bool at_the_limit(std::size_t condition, std::size_t f) const {
-    return lattice(f).at_the_limit(tuned(condition, f).best.place);
+    return settings(condition, f, tuned(condition, f).place);
   }
 
   /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
@@ -83,10 +87,10 @@ class SweepWorld {
   Interval against_imm(std::size_t condition, std::size_t f) const;
 
  private:
-  SweepLattice lattice(std::size_t f) const;
-  FilterSettings settings(std::size_t condition, std::size_t f, const SweepLattice::Place& place) const;
+  std::vector<Axis> lattice(std::size_t f) const;
+  FilterSettings settings(std::size_t condition, std::size_t f, const Place& place) const;
   Recording recording(std::size_t condition, int number) const;
-  BestPlace tune(std::size_t condition, std::size_t f) const;
+  std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const;
   Study::Row work(std::size_t condition, std::size_t f) const;
 
   SweepChoice choice_;
