@@ -1,9 +1,13 @@
 #include "result/result.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "apps/temporary_directory.hpp"
+#include "support/error.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -44,6 +48,23 @@ TEST(ResultFiles, LeaveNothingUnlessTheyAreCommitted) {
     files.write("curves.csv", "x\n");
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(ResultFiles, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
+  const TemporaryDirectory directory;
+  ResultFiles files({.out = directory.path().string()});
+  files.write("small", "1");
+  files.write("large", std::string(60'000, 'x'));  // stays in memory until it is stored
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit limit{20'000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const std::string refusal = message_of<InputError>([&] { files.commit(); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(refusal.find("large: cannot be written: File too large"), std::string::npos) << refusal;
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "small"));
 }
 
 TEST(ResultFiles, SummariesBeginWithTheCommand) {
