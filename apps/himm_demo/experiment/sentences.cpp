@@ -14,7 +14,7 @@ namespace {
 using Phases = std::vector<std::size_t>;
 using Statements = std::vector<Statement>;
 
-const Phases before = {0}, during = {1}, after = {2}, quiet = {0, 2}, always = {0, 1, 2};
+const Phases earlier = {0}, meanwhile = {1}, afterwards = {2}, quiet = {0, 2}, always = {0, 1, 2};
 constexpr Region below_zero{.below = 0.0}, above_zero{.above = 0.0};
 constexpr Region competitive{-competitive_fraction, competitive_fraction}, close{-close_fraction, close_fraction};
 
@@ -71,7 +71,7 @@ std::vector<Sentence> of_group_1() {
            {figure(cross_time_curves, himm, 1, 1, {}, {83.27, 84.27}),
             figure(cross_time_curves, imm, 1, 1, {}, {85.42, 86.42})}},
           {"VI.D 2/1", "The HIMM is better before and by the end of the maneuvering", {error(2, 1, quiet, below_zero)}},
-          {"VI.D 2/1", "During the maneuvering the IMM is slightly better", {error(2, 1, during, above_zero)}},
+          {"VI.D 2/1", "During the maneuvering the IMM is slightly better", {error(2, 1, meanwhile, above_zero)}},
           {"VI.D 2/1",
            "the HIMM responds slightly faster to the mode switch",
            {figure(cross_time, himm, 2, 1, {}, below_zero, imm)}},
@@ -84,35 +84,39 @@ std::vector<Sentence> of_group_1() {
            {error(2, 1, quiet, above_zero, himm_wide, himm)}},
           {"VI.D 2/1",
            "and we observed that the HIMM outperforms the IMM (here: during the maneuvering)",
-           {error(2, 1, during, below_zero, himm_wide, imm)}}};
+           {error(2, 1, meanwhile, below_zero, himm_wide, imm)}}};
 }
 
 std::vector<Sentence> of_groups_2_and_3() {
   using enum FigureOf;
   using enum Actor;
-  return {
-      {"VI.D 1/2",
-       "the HIMM is significantly better before and by the end of the maneuvering",
-       {error(1, 2, quiet, below_zero)}},
-      {"VI.D 1/2", "During the maneuvering, the HIMM and the IMM are competitive", {error(1, 2, during, competitive)}},
-      {"VI.D 2/2", "before the maneuvering, the HIMM is better", {error(2, 2, before, below_zero)}},
-      {"VI.D 2/2", "During the maneuvering, the IMM is better", {error(2, 2, during, above_zero)}},
-      {"VI.D 2/2", "By the end of the maneuvering, they are competitive", {error(2, 2, after, competitive)}},
-      {"VI.D */2", "the two algorithms run stably with good filtering effects and model switches observed",
-       joined({both_filter(1, 2), both_switch(1, 2), both_filter(2, 2), both_switch(2, 2)})},
-      {"VI.D */3", "the two algorithms run stably with good filtering effects and model switches observed",
-       joined({both_filter(1, 3), both_switch(1, 3), both_filter(2, 3), both_switch(2, 3)})},
-      {"VI.D */3",
-       "The HIMM is better before the maneuvering",
-       {error(1, 3, before, below_zero), error(2, 3, before, below_zero)}},
-      {"VI.D */3",
-       "and significantly worse during the maneuvering",
-       {error(1, 3, during, above_zero), error(2, 3, during, above_zero)}},
-      {"VI.D 1/3", "By the end of the maneuvering, the HIMM is better than the IMM", {error(1, 3, after, below_zero)}},
-      {"VI.D 2/3", "or competitive with the IMM", {error(2, 3, after, competitive)}},
-      {"VI.D */3",
-       "During the maneuvering, models of the HIMM switch frequently (here: more often than the IMM's)",
-       {figure(switches, himm, 1, 3, during, above_zero, imm), figure(switches, himm, 2, 3, during, above_zero, imm)}}};
+  return {{"VI.D 1/2",
+           "the HIMM is significantly better before and by the end of the maneuvering",
+           {error(1, 2, quiet, below_zero)}},
+          {"VI.D 1/2",
+           "During the maneuvering, the HIMM and the IMM are competitive",
+           {error(1, 2, meanwhile, competitive)}},
+          {"VI.D 2/2", "before the maneuvering, the HIMM is better", {error(2, 2, earlier, below_zero)}},
+          {"VI.D 2/2", "During the maneuvering, the IMM is better", {error(2, 2, meanwhile, above_zero)}},
+          {"VI.D 2/2", "By the end of the maneuvering, they are competitive", {error(2, 2, afterwards, competitive)}},
+          {"VI.D */2", "the two algorithms run stably with good filtering effects and model switches observed",
+           joined({both_filter(1, 2), both_switch(1, 2), both_filter(2, 2), both_switch(2, 2)})},
+          {"VI.D */3", "the two algorithms run stably with good filtering effects and model switches observed",
+           joined({both_filter(1, 3), both_switch(1, 3), both_filter(2, 3), both_switch(2, 3)})},
+          {"VI.D */3",
+           "The HIMM is better before the maneuvering",
+           {error(1, 3, earlier, below_zero), error(2, 3, earlier, below_zero)}},
+          {"VI.D */3",
+           "and significantly worse during the maneuvering",
+           {error(1, 3, meanwhile, above_zero), error(2, 3, meanwhile, above_zero)}},
+          {"VI.D 1/3",
+           "By the end of the maneuvering, the HIMM is better than the IMM",
+           {error(1, 3, afterwards, below_zero)}},
+          {"VI.D 2/3", "or competitive with the IMM", {error(2, 3, afterwards, competitive)}},
+          {"VI.D */3",
+           "During the maneuvering, models of the HIMM switch frequently (here: more often than the IMM's)",
+           {figure(switches, himm, 1, 3, meanwhile, above_zero, imm),
+            figure(switches, himm, 2, 3, meanwhile, above_zero, imm)}}};
 }
 
 std::vector<Sentence> of_group_4() {
@@ -124,12 +128,12 @@ std::vector<Sentence> of_group_4() {
       {"VI.D 1/4", "The overall performances of the two methods are competitive", {error(1, 4, always, competitive)}},
       {"VI.D 1/4",
        "Once the maneuvering starts, the estimation error of the IMM filter would approach the measurement error",
-       {error(1, 4, during, competitive, imm, measurement)}},
+       {error(1, 4, meanwhile, competitive, imm, measurement)}},
       {"VI.D 2/4", "model switches disappeared as well. The IMM/HIMM always identifies the mode as DWNA/DWPA",
        joined({each_keeps_its_model(2), both_switch(2, 4, {.below = 1.0})})},
-      {"VI.D 2/4", "Before the maneuvering, the IMM is better", {error(2, 4, before, above_zero)}},
-      {"VI.D 2/4", "During the maneuvering, the HIMM is better", {error(2, 4, during, below_zero)}},
-      {"VI.D 2/4", "By the end of maneuvering, they are competitive", {error(2, 4, after, competitive)}}};
+      {"VI.D 2/4", "Before the maneuvering, the IMM is better", {error(2, 4, earlier, above_zero)}},
+      {"VI.D 2/4", "During the maneuvering, the HIMM is better", {error(2, 4, meanwhile, below_zero)}},
+      {"VI.D 2/4", "By the end of maneuvering, they are competitive", {error(2, 4, afterwards, competitive)}}};
 }
 
 std::vector<Sentence> of_the_discussion() {
