@@ -48,7 +48,7 @@ function(sigmax_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIGMAX_UNITY} UNITY_BUILD_BATCH_SIZE 6)
 endfunction()
 
-# sigmax_program(NAME LIBRARIES …): NAME/**/*.cpp as one program, which is installed; with a manual page made of its --help
+# sigmax_program(NAME LIBRARIES …): all .cpp in NAME as one program, which is installed; with a manual page made of its --help
 # where there is help2man.
 function(sigmax_program name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${name}/*.cpp)

@@ -9,8 +9,8 @@
 
 #include <sigmax/estimation/gaussian.hpp>
 
+#include "result/report.hpp"
 #include "support/angle.hpp"
-#include "support/report.hpp"
 
 namespace sigmax::apps {
 

@@ -10,8 +10,8 @@
 
 #include <sigmax/estimation/gaussian.hpp>
 
+#include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/filters/settings.hpp"
-#include "himm_demo/scenario.hpp"
 
 namespace sigmax::apps {
 

@@ -13,12 +13,12 @@
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/json.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,5 +1,6 @@
 #include "recognition_demo/contest_report.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include <fmt/format.h>

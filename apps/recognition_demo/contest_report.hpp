@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "recognition_demo/contest.hpp"
+#include "result/output_options.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/command_line.hpp"
 #include "support/json.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 

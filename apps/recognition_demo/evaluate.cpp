@@ -17,11 +17,11 @@
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/json.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 #include "support/scratch.hpp"
 
 namespace sigmax::apps {

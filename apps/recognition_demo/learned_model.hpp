@@ -14,6 +14,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
+#include "result/output_options.hpp"
 #include "support/command_line.hpp"
 
 namespace sigmax::apps {

@@ -11,7 +11,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 

@@ -14,7 +14,7 @@
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 
 namespace sigmax::apps {
 namespace {

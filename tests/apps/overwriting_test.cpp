@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/temporary_directory.hpp"
-#include "support/gnuplot.hpp"
+#include "result/pictures.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
@@ -17,7 +17,7 @@ const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps"
 
 bool has_gnuplot() {
   try {
-    Gnuplot{};
+    need_gnuplot();
     return true;
   } catch (const std::exception&) {
     return false;

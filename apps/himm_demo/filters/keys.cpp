@@ -1,6 +1,5 @@
 #include "himm_demo/filters/keys.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -10,10 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "himm_demo/scenario.hpp"
+#include "himm_demo/experiment/scenario.hpp"
 #include "support/angle.hpp"
+#include "support/options.hpp"
 #include "support/output.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -535,19 +535,17 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
   return filters;
 }
 
-void add_filter_options(CLI::App& app, std::string& config, std::vector<std::string>& sets, bool& print_config) {
-  app.add_option("--config", config, "Settings in TOML")->type_name("FILE.toml");
-  app.add_option("--set", sets, "One setting, as lift=unbiased; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_flag("--print-config", print_config, "Print the settings in force and stop");
+void add_filter_options(CLI::App& program, std::string& config, std::vector<std::string>& sets, bool& print_config) {
+  Subcommand app(program);
+  app.option("--config", config, "Settings in TOML").type("FILE.toml");
+  app.option("--set", sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
+  app.flag("--print-config", print_config, "Print the settings in force and stop");
 }
 
 void add_keys(CLI::App& program, const std::string&) {
-  CLI::App& app = *program.add_subcommand("keys", "Lists the keys of --config and --set.");
+  Subcommand app(program, "keys", "Lists the keys of --config and --set.");
   app.footer("Examples:\n  himm_demo keys\n  himm_demo keys | grep -A 3 gate");
-  app.callback([] { fmt::print("{}", key_table()); });
+  app.run([] { fmt::print("{}", key_table()); });
 }
 
 }  // namespace sigmax::apps

@@ -11,8 +11,8 @@
 
 #include <sigmax/estimation/converted_measurement.hpp>
 
+#include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/filters/keys.hpp"
-#include "himm_demo/scenario.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
@@ -292,7 +292,7 @@ std::vector<std::string> names_of(const std::vector<MotionChoice>& motions) {
   std::vector<std::string> names;
   for (auto motion = motions.begin(); motion != motions.end(); ++motion) {
     const auto before =
-        std::count_if(motions.begin(), motion, [&](const auto& earlier) { return earlier.name == motion->name; });
+        std::count_if(motions.begin(), motion, [&](const auto& other) { return other.name == motion->name; });
     names.push_back(before == 0 ? motion->name : fmt::format("{}_{}", motion->name, before + 1));
   }
   return names;

@@ -8,7 +8,6 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 
-#include "himm_demo/page_names.hpp"
 #include "recording/plots.hpp"
 #include "support/missing.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "himm_demo/filters/settings.hpp"
 #include "recording/recording.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {

@@ -3,23 +3,14 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "himm_demo/track/run.hpp"
-#include "support/report.hpp"
+#include "result/result.hpp"
 
 namespace sigmax::apps {
 
-/// What a run found, as text for people and as data, and what may be wrong.
-struct TrackReport {
-  std::string text;
-  std::string description;          ///< the beginning of the text, up to the tables
-  std::vector<ReportTable> tables;  ///< those of the text
-  nlohmann::ordered_json summary;
-  std::vector<std::string> warnings;
-};
-
-TrackReport report(const TrackOptions& options, const RecordingReader& recording,
-                   const std::vector<FilterSettings>& filters, const TrackOutcome& outcome);
+/// Puts what a run found into a result: in words, as facts and as tables. Returns what may be wrong.
+std::vector<std::string> report(const TrackOptions& options, const RecordingReader& recording,
+                                const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
+                                Result& result);
 
 }  // namespace sigmax::apps

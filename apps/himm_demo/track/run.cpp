@@ -13,11 +13,11 @@
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/shares.hpp"
 #include "recording/plots.hpp"
+#include "result/table.hpp"
 #include "support/angle.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
-#include "support/result_table.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {

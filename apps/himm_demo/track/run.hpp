@@ -15,7 +15,7 @@
 
 #include "himm_demo/filters/settings.hpp"
 #include "recording/options.hpp"
-#include "support/command_line.hpp"
+#include "result/output_options.hpp"
 
 namespace sigmax::apps {
 

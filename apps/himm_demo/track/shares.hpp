@@ -11,8 +11,8 @@
 
 #include <sigmax/hybrid/any_target.hpp>
 
+#include "study/ranks.hpp"
 #include "support/geodesy.hpp"
-#include "support/ranks.hpp"
 
 namespace sigmax::apps {
 

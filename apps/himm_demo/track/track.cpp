@@ -1,18 +1,18 @@
-#include "himm_demo/track/track.hpp"
-
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "himm_demo/filters/keys.hpp"
+#include "himm_demo/subcommands.hpp"
 #include "himm_demo/track/page.hpp"
 #include "himm_demo/track/report.hpp"
 #include "himm_demo/track/run.hpp"
 #include "himm_demo/track/shares.hpp"
-#include "support/braille.hpp"
-#include "support/result_files.hpp"
+#include "result/braille.hpp"
+#include "result/result.hpp"
+#include "support/command_line.hpp"
+#include "support/options.hpp"
 #include "support/run.hpp"
 #include "support/timestamp.hpp"
 
@@ -24,17 +24,6 @@ void refuse_what_means_nothing(const TrackOptions& options, const RecordingReade
     throw UsageError("--radar-at is for --radar, for radar input and for bearings, but " + recording.file() +
                      " has no range_m and no azimuth_deg");
   refuse_radar(options.radar, recording);
-}
-
-Report page_of(const TrackOptions& options, const std::vector<FilterSettings>& filters, const TrackReport& found,
-               const TrackPage& tracks) {
-  Report page{.title = "Tracks of " + options.recording.file, .command = options.output.command};
-  for (const std::string& warning : found.warnings) page.verdict.push_back("Warning: " + warning);
-  tracks.add_to(page);
-  page.panels.emplace_back(Words{"The recording", found.description});
-  for (const ReportTable& table : found.tables) page.last.emplace_back(table);
-  page.last.emplace_back(Words{"Settings in force", as_toml(filters), true});
-  return page;
 }
 
 /// Each rank reads the recording for itself.
@@ -73,24 +62,22 @@ void track_and_report(const TrackOptions& options, TrackShares& shares) {
   const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
   for (std::size_t f = 0; tracks && f < filters.size(); ++f)
     for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
-  TrackReport found = report(options, recording, filters, outcome);
-  if (files.report_wanted()) found.summary["report_data"] = report_data_name;
-  files.write_json("summary.json", found.summary);
-  if (files.report_wanted()) files.write_report(page_of(options, filters, found, *tracks));
-  fmt::print("{}", found.text);
-  if (charts) print_charts(options.output, tracks->charts_of_the_first());
-  files.commit();
-  if (!found.warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
-  for (const auto& warning : found.warnings) complain("himm_demo: warning: " + warning);
+  Result result(options.output);
+  const auto warnings = report(options, recording, filters, outcome, result);
+  if (tracks) tracks->add_to(result.page);
+  if (charts) result.on_terminal = tracks->charts_of_the_first();
+  result.publish(files);
+  if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one
+  for (const auto& warning : warnings) complain("himm_demo: warning: " + warning);
 }
 
 }  // namespace
 
 void add_track(CLI::App& program, const std::string& command) {
-  CLI::App& app = *program.add_subcommand("track", "Tracks the targets of a recording, a headed CSV file.");
+  Subcommand app(program, "track", "Tracks the targets of a recording, a headed CSV file.");
   const auto options = std::make_shared<TrackOptions>();
   options->output.command = command;
-  app.add_option("file", options->recording.file, "A recording as below; - is the standard input")->required();
+  app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
   app.footer(
       "Recordings are told apart by their columns; others are ignored:\n"
@@ -118,7 +105,7 @@ void add_track(CLI::App& program, const std::string& command) {
       "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
       "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
       "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
-  app.add_option_function<std::string>(
+  app.option(
          "--predict-to",
          [options](const std::string& text) {
            options->predict_to = parse_timestamp(text);
@@ -128,15 +115,15 @@ void add_track(CLI::App& program, const std::string& command) {
                  message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
          },
          "A time up to which each target is predicted after its last row")
-      ->type_name("TIME");
-  app.add_flag("--iso-times", options->iso_times,
-               "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
+      .type("TIME");
+  app.flag("--iso-times", options->iso_times,
+           "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);
   add_report(app, options->output);
   add_no_chart(app, options->output.no_chart);
-  app.callback([options] {
+  app.run([options] {
     TrackShares shares;
     shares.run([&] { track_and_report(*options, shares); });
   });

@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 
 #include "himm_demo/filters/keys.hpp"
+#include "result/table.hpp"
 #include "support/json.hpp"
 #include "support/missing.hpp"
 #include "support/output.hpp"
-#include "support/result_table.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

@@ -9,7 +9,7 @@
 #include <sigmax/estimation/consistency.hpp>
 
 #include "himm_demo/tune/fit.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 

@@ -1,6 +1,3 @@
-#include "himm_demo/tune/tune.hpp"
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -10,12 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "himm_demo/filters/keys.hpp"
+#include "himm_demo/subcommands.hpp"
 #include "himm_demo/tune/report.hpp"
+#include "result/result.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
+#include "support/options.hpp"
 #include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
 
 namespace sigmax::apps {
 
@@ -131,36 +131,31 @@ void tune_and_write(TuneOptions options) {
 }  // namespace
 
 void add_tune(CLI::App& program, const std::string& command) {
-  CLI::App& app = *program.add_subcommand("tune", "Fits the settings of filters to recordings.");
+  Subcommand app(program, "tune", "Fits the settings of filters to recordings.");
   const auto options = std::make_shared<TuneOptions>();
   options->page.command = command;
-  app.add_option("file", options->files, "Recordings, as track reads them")->required()->type_name("FILE.csv");
+  app.option("file", options->files, "Recordings, as track reads them").required().type("FILE.csv");
   add_recording(app, options->recording, options->radar);
-  app.add_flag("--truth{rmse}", options->truth,
-               "Judge by the truth that the recording has: by its RMSE, or by its density with --truth=density");
-  app.add_option("--models", options->models,
-                 "Sets of models to choose from, as dwna,dwna+dwpa [the filter's, and each of them alone]")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("SET,…");
-  app.add_option("--keep", options->fixed, "What is left as it is: models, sensors, transition, lift")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember({"models", "sensors", "transition", "lift"}))
-      ->type_name("WHAT,…");
-  app.add_option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once")
-      ->check(CLI::Range(2, 20))
-      ->capture_default_str();
-  app.add_option("--starts", options->starts, "Searches from different places")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  app.flag("--truth{rmse}", options->truth,
+           "Judge by the truth that the recording has: by its RMSE, or by its density with --truth=density");
+  app.option("--models", options->models,
+             "Sets of models to choose from, as dwna,dwna+dwpa [the filter's, and each of them alone]")
+      .list_alone()
+      .type("SET,…");
+  app.option("--keep", options->fixed, "What is left as it is: models, sensors, transition, lift")
+      .list_alone()
+      .one_of({"models", "sensors", "transition", "lift"})
+      .type("WHAT,…");
+  app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once")
+      .in(2, 20)
+      .shows_default();
+  app.option("--starts", options->starts, "Searches from different places").in(1, 100).shows_default();
   add_threads(app, options->threads);
   add_seed(app, options->seed, "of the starts, and of a simulated radar");
   add_filter_options(app, options->config, options->sets, options->print_config);
-  app.add_option("--out", options->out, "Write the settings found, for track --config")->type_name("FILE.toml");
-  app.add_option("--summary", options->summary, "Write what was found as data")->type_name("FILE.json");
-  app.add_option("--report", options->page.report, "Write it as a page of charts for a browser")
-      ->type_name("FILE.html");
+  app.option("--out", options->out, "Write the settings found, for track --config").type("FILE.toml");
+  app.option("--summary", options->summary, "Write what was found as data").type("FILE.json");
+  app.option("--report", options->page.report, "Write it as a page of charts for a browser").type("FILE.html");
   add_quiet(app, options->page.quiet);
   add_wide(app, options->page.wide);
   app.footer(
@@ -168,7 +163,7 @@ void add_tune(CLI::App& program, const std::string& command) {
       "  himm_demo tune flight.csv --out best.toml\n"
       "  himm_demo tune flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --truth\n"
       "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
-  app.callback([options] { tune_and_write(*options); });
+  app.run([options] { tune_and_write(*options); });
 }
 
 }  // namespace sigmax::apps
