@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -203,6 +204,50 @@ void limit_axis(LineChart& chart) {
 
 std::string sound_text(std::string_view text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+Json ResultTable::json() const {
+  Json all = Json::object();
+  for (const auto& row : rows_) {
+    if (row.empty()) continue;
+    Json& one = all[std::get<std::string>(row.front().value())] = Json::object();
+    for (std::size_t i = 1; i < row.size(); ++i)
+      if (!columns_[i].key.empty() && row[i].value().index() != 0) one[columns_[i].key] = as_json(row[i]);
+  }
+  return all;
+}
+
+Json ResultTable::page() const {
+  Json columns = Json::array(), rows = Json::array();
+  for (const ResultColumn& column : columns_)
+    if (!column.header.empty())
+      columns.push_back({{"header", column.full_header()},
+                         {"group", column.group},
+                         {"left", column.align == Align::left},
+                         {"key", column.key}});
+  for (const auto& row : rows_) {
+    Json cells = Json::array();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (!columns_[i].header.empty())
+        cells.push_back({{"text", shown_in(columns_[i], row[i])}, {"value", as_json(row[i])}});
+    rows.push_back(std::move(cells));
+  }
+  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+Json as_json(const Cell& cell) {
+  const auto* const interval = std::get_if<Interval>(&cell.value());
+  if (interval == nullptr)
+    return std::visit(
+        [](const auto& value) {
+          if constexpr (std::is_constructible_v<Json, decltype(value)>) return Json(value);
+          return Json();
+        },
+        cell.value());
+  const bool open = without_bounds(*interval);
+  return {{"mean", interval->mean},
+          {"lower", open ? Json() : Json(interval->lower())},
+          {"upper", open ? Json() : Json(interval->upper())}};
 }
 
 bool has_reports() { return !report_assets::script.empty(); }

@@ -9,7 +9,6 @@
 
 #include "support/csv.hpp"
 #include "support/error.hpp"
-#include "support/json.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
@@ -126,28 +125,6 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-/// Whether nothing is known of the spread: one number alone, or zeros only.
-bool without_bounds(const Interval& interval) {
-  return std::isinf(interval.half_width) || (interval.mean == 0.0 && interval.half_width == 0.0);
-}
-
-std::string text_of(const Cell& cell, const ResultColumn& column) {
-  if (!cell.shown().empty()) return cell.shown();
-  const auto shown = [&](double value, bool sign) {
-    return (column.sized ? sized_text : number_text)(column.scale * value, column.digits, sign);
-  };
-  return std::visit(
-      Overloaded{[](std::monostate) { return std::string(); }, [](const std::string& words) { return words; },
-                 [&](double value) { return shown(value, column.sign); },
-                 [](auto whole) { return fmt::format("{}", whole); },
-                 [&](const Interval& interval) {
-                   if (column.sign && interval.mean == 0.0 && interval.half_width == 0.0)
-                     return std::string("none differs");
-                   return shown(interval.mean, column.sign) + " ± " + shown(interval.half_width, false);
-                 }},
-      cell.value());
-}
-
 std::string csv_number(double value) { return std::isfinite(value) ? shortest(value) : ""; }
 
 std::string csv_of(const Cell& cell, const ResultColumn& column) {
@@ -163,10 +140,6 @@ std::string csv_of(const Cell& cell, const ResultColumn& column) {
                                                     shortest(interval.upper()));
                                }},
                     cell.value());
-}
-
-std::string full_header(const ResultColumn& column) {
-  return column.unit.empty() ? column.header : column.header + ", " + column.unit;
 }
 
 /// Throws unless there is a cell for each column, and a column.
@@ -242,6 +215,27 @@ std::string sized_text(double value, int digits, bool sign) {
   return sign ? fmt::format("{:+.2g}", value) : fmt::format("{:.2g}", value);
 }
 
+bool without_bounds(const Interval& interval) {
+  return std::isinf(interval.half_width) || (interval.mean == 0.0 && interval.half_width == 0.0);
+}
+
+std::string shown_in(const ResultColumn& column, const Cell& cell) {
+  if (!cell.shown().empty()) return cell.shown();
+  const auto shown = [&](double value, bool sign) {
+    return (column.sized ? sized_text : number_text)(column.scale * value, column.digits, sign);
+  };
+  return std::visit(
+      Overloaded{[](std::monostate) { return std::string(); }, [](const std::string& words) { return words; },
+                 [&](double value) { return shown(value, column.sign); },
+                 [](auto whole) { return fmt::format("{}", whole); },
+                 [&](const Interval& interval) {
+                   if (column.sign && interval.mean == 0.0 && interval.half_width == 0.0)
+                     return std::string("none differs");
+                   return shown(interval.mean, column.sign) + " ± " + shown(interval.half_width, false);
+                 }},
+      cell.value());
+}
+
 ResultTable::ResultTable(std::vector<ResultColumn> columns) : columns_(std::move(columns)) {
   check(columns_, columns_);
 }
@@ -277,12 +271,12 @@ ResultTable ResultTable::part(unsigned part, const std::string& header, std::siz
 std::string ResultTable::text(std::size_t width) const {
   std::vector<TextTable::Column> shown;
   for (const ResultColumn& column : columns_)
-    if (!column.header.empty()) shown.push_back({full_header(column), column.align, column.group});
+    if (!column.header.empty()) shown.push_back({column.full_header(), column.align, column.group});
   TextTable table(std::move(shown));
   for (const auto& row : rows_) {
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < row.size(); ++i)
-      if (!columns_[i].header.empty()) cells.push_back(text_of(row[i], columns_[i]));
+      if (!columns_[i].header.empty()) cells.push_back(shown_in(columns_[i], row[i]));
     if (row.empty())
       table.rule();
     else
@@ -317,46 +311,6 @@ std::string ResultTable::csv_line(const std::vector<Cell>& cells) const {
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (!columns_[i].key.empty()) text += (std::exchange(first, false) ? "" : ",") + csv_of(cells[i], columns_[i]);
   return text + "\n";
-}
-
-Json ResultTable::json() const {
-  Json all = Json::object();
-  for (const auto& row : rows_) {
-    if (row.empty()) continue;
-    Json& one = all[std::get<std::string>(row.front().value())] = Json::object();
-    for (std::size_t i = 1; i < row.size(); ++i)
-      if (!columns_[i].key.empty() && row[i].value().index() != 0) one[columns_[i].key] = as_json(row[i]);
-  }
-  return all;
-}
-
-Json ResultTable::page() const {
-  Json columns = Json::array(), rows = Json::array();
-  for (const ResultColumn& column : columns_)
-    if (!column.header.empty())
-      columns.push_back({{"header", full_header(column)},
-                         {"group", column.group},
-                         {"left", column.align == Align::left},
-                         {"key", column.key}});
-  for (const auto& row : rows_) {
-    Json cells = Json::array();
-    for (std::size_t i = 0; i < row.size(); ++i)
-      if (!columns_[i].header.empty())
-        cells.push_back({{"text", text_of(row[i], columns_[i])}, {"value", as_json(row[i])}});
-    rows.push_back(std::move(cells));
-  }
-  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
-}
-
-Json as_json(const Cell& cell) {
-  return std::visit(Overloaded{[](std::monostate) { return Json(); }, [](const auto& value) { return Json(value); },
-                               [](const Interval& interval) {
-                                 const bool open = without_bounds(interval);
-                                 return Json{{"mean", interval.mean},
-                                             {"lower", open ? Json() : Json(interval.lower())},
-                                             {"upper", open ? Json() : Json(interval.upper())}};
-                               }},
-                    cell.value());
 }
 
 }  // namespace sigmax::apps

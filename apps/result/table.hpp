@@ -112,7 +112,14 @@ struct ResultColumn {
   unsigned parts = all_parts;  ///< see `ResultTable::part`
 
   static constexpr unsigned all_parts = ~0U;
+  std::string full_header() const { return unit.empty() ? header : header + ", " + unit; }
 };
+
+/// What the terminal shows of a cell.
+std::string shown_in(const ResultColumn& column, const Cell& cell);
+
+/// Whether nothing is known of the spread: one number alone, or zeros only.
+bool without_bounds(const Interval& interval);
 
 /// A cell with its column.
 struct Field {

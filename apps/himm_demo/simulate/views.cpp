@@ -8,13 +8,27 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 
-#include "himm_demo/error_ellipse.hpp"
+#include "support/angle.hpp"
 #include "support/missing.hpp"
 
 namespace sigmax::apps {
 namespace {
 
 using Samples = std::vector<double>;
+
+/// Where a position in plan lies with a probability of 95 %, if it is normal.
+ErrorEllipse error_ellipse(const std::string& group, const Vector<3>& centre, const SquareMatrix<3>& covariance) {
+  const double chi_square = -2.0 * std::log(0.05);  // the 95 % quantile with two degrees of freedom
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1)), apart = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  const double radius = std::hypot(apart, covariance(0, 1));  // of Mohr's circle: variances are mean ± radius
+  const double angle = 0.5 * std::atan2(covariance(0, 1), apart) / degree;
+  return {group,
+          centre.x(),
+          centre.y(),
+          std::sqrt(chi_square * (mean + radius)),
+          std::sqrt(chi_square * std::max(0.0, mean - radius)),
+          angle > 45.0 ? angle - 180.0 : angle};  // of both directions of the axis the one from −135° on
+}
 
 /// Makes the panels of all runs and of one run alike.
 class Views {
@@ -146,8 +160,7 @@ class Views {
       for (std::size_t k = 4; !crowded(experiment_) && k < run.truth.size(); k += 5) {
         const auto& covariance = run.filters[f].covariance[k];
         if (!std::isnan(covariance(0, 0)))
-          plan.ellipses.push_back(
-              error_ellipse(name(f), seen_by(run.filters[f])(k).head<2>(), covariance.topLeftCorner<2, 2>()));
+          plan.ellipses.push_back(error_ellipse(name(f), seen_by(run.filters[f])(k), covariance));
       }
     }
     // The corners of the target's way from a little before the manoeuvre on.
