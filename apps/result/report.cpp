@@ -183,6 +183,21 @@ std::string escaped(std::string_view text, std::string_view less, std::string_vi
 
 }  // namespace
 
+void HeatMap::fill(const std::function<Cell(std::size_t row, std::size_t column)>& cell) {
+  values.assign(rows.size(), {});
+  texts = {};
+  marked = {};
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      Cell one = cell(r, c);
+      values[r].push_back(one.value);
+      if (!one.text.empty()) texts.resize(rows.size(), std::vector<std::string>(columns.size()));
+      if (one.marked) marked.resize(rows.size(), std::vector<bool>(columns.size()));
+      if (!texts.empty()) texts[r][c] = std::move(one.text);
+      if (!marked.empty()) marked[r][c] = one.marked;
+    }
+}
+
 std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
   const std::string number = sized_text(map.scale * map.values[row][column], map.digits, map.sign);
   return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;

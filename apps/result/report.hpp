@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -157,6 +158,14 @@ struct HeatMap {
   std::vector<std::vector<std::string>> texts{};
   std::vector<std::vector<bool>> marked{};  ///< cells with a star
   std::string note{};
+
+  /// Gives all rows and columns what cell(row, column) says of them.
+  struct Cell {
+    double value;
+    std::string text{};
+    bool marked = false;
+  };
+  void fill(const std::function<Cell(std::size_t row, std::size_t column)>& cell);
 };
 
 /// What a cell of the map says: its number, with a star if it is marked.

@@ -107,13 +107,13 @@ void ResultFiles::commit() {
 Json summary_of(const OutputOptions& options) { return {{"version", version}, {"command", options.command}}; }
 
 Result::Result(const OutputOptions& options)
-    : options_(options), summary_(std::make_unique<Json>(summary_of(options))) {
+    : words_width(options.width()), options_(options), summary_(std::make_unique<Json>(summary_of(options))) {
   page.command = options.command;
 }
 
 Result::~Result() = default;
 
-void Result::say(std::string_view words) { text += wrapped(words, options_.width()); }
+void Result::say(std::string_view words) { text += wrapped(words, words_width); }
 
 void Result::say(const std::vector<std::pair<bool, std::string>>& notes) {
   for (const auto& [holds, words] : notes)

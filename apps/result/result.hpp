@@ -92,7 +92,7 @@ class Result {
   explicit Result(const OutputOptions& options);
   ~Result();
 
-  /// Prints words, broken to the width of the tables.
+  /// Prints words, broken to `words_width`.
   void say(std::string_view words);
 
   /// Prints those words whose condition holds.
@@ -105,6 +105,7 @@ class Result {
   void fact(const Path& path, const Cell& value);
   void fact(const Path& path, const std::vector<std::string>& words);
 
+  std::size_t words_width;             ///< that of the tables, unless another one is set
   std::string text;                    ///< what was said and added so far, for the terminal
   Report page;                         ///< with the command, and the tables that have a title
   std::vector<LineChart> on_terminal;  ///< what ends the output on a terminal

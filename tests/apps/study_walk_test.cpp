@@ -33,8 +33,8 @@ TEST(StudyWalk, WritesWhatItFound) {
   testing::internal::CaptureStdout();
   result.publish(files);
   std::fflush(stdout);
-  EXPECT_TRUE(
-      testing::internal::GetCapturedStdout().starts_with("\ncoin           heads\n────  ─────────────\nbent  0."));
+  const std::string shown = testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(shown.starts_with("\ncoin          heads\n────  ─────────────\nbent  0.")) << shown;
   EXPECT_TRUE(contents(directory.path() / "coins.csv").starts_with("coin,heads,heads_lower,heads_upper\nbent,0."));
   EXPECT_NE(contents(directory.path() / "summary.json").find("\"coins\": {\n    \"bent\": {\n      \"heads\": {"),
             std::string::npos);

@@ -232,14 +232,16 @@ HeatMap overview_map(const std::vector<Condition>& conditions, const std::vector
               .column_label = "scenario/group",
               .rows = names,
               .columns = {},
-              .values = std::vector<std::vector<double>>(names.size()),
+              .values = {},
               .value_label = "ratio, mean over axes and phases",
               .digits = 3};
-  for (const auto& condition : conditions) {
+  std::vector<const Condition*> own;
+  for (const Condition& condition : conditions) {
     if (condition.preset != preset) continue;
+    own.push_back(&condition);
     map.columns.push_back(name_of(condition));
-    for (std::size_t i = 0; i < names.size(); ++i) map.values[i].push_back(over_measurement(condition, names[i]));
   }
+  map.fill([&](std::size_t r, std::size_t c) { return HeatMap::Cell{over_measurement(*own[c], names[r])}; });
   return map;
 }
 

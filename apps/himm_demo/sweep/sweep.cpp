@@ -138,7 +138,17 @@ ResultTable above_imm_table(const SweepWorld& world) {
   return table;
 }
 
-/// Makes the maps; a column or a view stands for a filter, or for HIMM, which is another one in each condition.
+/// Whom a column or a view of maps is of: a filter, or HIMM, which is another one in each condition.
+struct Choice {
+  std::string name;
+  std::optional<std::size_t> filter;
+
+  std::size_t in(const SweepWorld& world, std::size_t condition) const {
+    return filter ? *filter : *world.himm(condition);
+  }
+};
+
+/// Makes maps of by how much filters are above the tuned IMM.
 class Maps {
  public:
   explicit Maps(const SweepWorld& world) : world_(world) {
@@ -157,38 +167,52 @@ class Maps {
     std::vector<Panel> panels;
     for (const int scenario : world_.choice().scenarios) {
       HeatMap map = empty(fmt::format("Scenario {}", scenario), "condition", "filter");
-      for (const auto& choice : choices_) map.columns.push_back(choice.name);
+      for (const Choice& choice : choices_) map.columns.push_back(choice.name);
+      std::vector<std::size_t> own;
       for (std::size_t c = 0; c < world_.conditions().size(); ++c) {
         if (world_.conditions()[c].scenario != scenario) continue;
         const std::string words = words_of(world_.conditions()[c]);
-        add_row(map, words.size() > 3 ? words.substr(3) : "as in the paper");
-        for (const auto& choice : choices_) add_cell(map, c, choice);
+        map.rows.push_back(words.size() > 3 ? words.substr(3) : "as in the paper");
+        own.push_back(c);
       }
+      map.fill([&](std::size_t r, std::size_t column) { return cell(own[r], choices_[column]); });
       panels.emplace_back(std::move(map));
     }
     return panels;
   }
 
-  /// All conditions of a scenario: strength and length by noise and period.
+  /// All conditions of a scenario, a view for each filter: strength and length by noise and period.
   std::vector<View> of_each_filter() const {
+    const SweepChoice& all = world_.choice();
+    const std::size_t lengths = all.length.size(), periods = all.period.size();
+    const auto names = [](const std::vector<double>& first, const std::vector<double>& second) {
+      std::vector<std::string> names;
+      for (const double a : first)
+        for (const double b : second) names.push_back(fmt::format("×{:g}, ×{:g}", a, b));
+      return names;
+    };
     std::vector<View> views;
-    for (const auto& choice : choices_) {
+    for (const Choice& choice : choices_) {
       View& view = views.emplace_back(View{choice.name, {}});
-      for (const int scenario : world_.choice().scenarios) view.panels.emplace_back(crossed(choice, scenario));
+      for (const int scenario : all.scenarios) {
+        HeatMap map = empty(fmt::format("{}, scenario {}", choice.name, scenario), "strength, length of the manoeuvre",
+                            "noise, period");
+        map.rows = names(all.strength, all.length);
+        map.columns = names(all.mismatch, all.period);
+        map.fill([&](std::size_t r, std::size_t c) {
+          const auto& conditions = world_.conditions();
+          const SweepCondition here{scenario, all.mismatch[c / periods], all.period[c % periods],
+                                    all.strength[r / lengths], all.length[r % lengths]};
+          const auto found = std::find(conditions.begin(), conditions.end(), here);
+          return cell(static_cast<std::size_t>(found - conditions.begin()), choice);
+        });
+        view.panels.emplace_back(std::move(map));
+      }
     }
     return views;
   }
 
  private:
-  struct Choice {
-    std::string name;
-    std::optional<std::size_t> filter;
-
-    std::size_t in(const SweepWorld& world, std::size_t condition) const {
-      return filter ? *filter : *world.himm(condition);
-    }
-  };
-
   HeatMap empty(std::string title, std::string row_label, std::string column_label) const {
     return {.title = std::move(title),
             .row_label = std::move(row_label),
@@ -207,45 +231,18 @@ class Maps {
                 number_text(100.0 * most_, 1))};
   }
 
-  static void add_row(HeatMap& map, std::string name) {
-    map.rows.push_back(std::move(name));
-    map.values.emplace_back();
-    map.texts.emplace_back();
-    map.marked.emplace_back();
-  }
-
-  void add_cell(HeatMap& map, std::size_t c, const Choice& choice) const {
+  HeatMap::Cell cell(std::size_t c, const Choice& choice) const {
     const std::size_t f = choice.in(world_, c);
     const FilterSettings settings = world_.settings(c, f);
     const Interval above = world_.against_imm(c, f), score = world_.tuned(c, f).score.interval();
-    map.values.back().push_back(above.mean);
-    map.marked.back().push_back(sure(above));
-    map.texts.back().push_back(fmt::format(
-        "± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, lift {}{}",
-        number_text(100.0 * above.half_width, 1), number_text(score.mean, 3), number_text(score.half_width, 3),
-        settings.name, settings.transition[0][1], settings.transition[1][0],
-        settings.motions[0][MotionParameter::sigma_w], settings.motions[1][MotionParameter::sigma_w],
-        name_of(settings.lift), world_.tuned(c, f).at_the_limit ? ", at the limit of the search" : ""));
-  }
-
-  HeatMap crossed(const Choice& choice, int scenario) const {
-    const SweepChoice& factors = world_.choice();
-    HeatMap map = empty(fmt::format("{}, scenario {}", choice.name, scenario), "strength, length of the manoeuvre",
-                        "noise, period");
-    const auto name = [](double first, double second) { return fmt::format("×{:g}, ×{:g}", first, second); };
-    for (const double mismatch : factors.mismatch)
-      for (const double period : factors.period) map.columns.push_back(name(mismatch, period));
-    for (const double strength : factors.strength)
-      for (const double length : factors.length) {
-        add_row(map, name(strength, length));
-        for (const double mismatch : factors.mismatch)
-          for (const double period : factors.period) {
-            const auto& all = world_.conditions();
-            const SweepCondition here{scenario, mismatch, period, strength, length};
-            add_cell(map, static_cast<std::size_t>(std::find(all.begin(), all.end(), here) - all.begin()), choice);
-          }
-      }
-    return map;
+    return {above.mean,
+            fmt::format("± {} %, score {} ± {}; {}: leaving {}, returning {}, sigma_w {} and {}, lift {}{}",
+                        number_text(100.0 * above.half_width, 1), number_text(score.mean, 3),
+                        number_text(score.half_width, 3), settings.name, settings.transition[0][1],
+                        settings.transition[1][0], settings.motions[0][MotionParameter::sigma_w],
+                        settings.motions[1][MotionParameter::sigma_w], name_of(settings.lift),
+                        world_.tuned(c, f).at_the_limit ? ", at the limit of the search" : ""),
+            sure(above)};
   }
 
   const SweepWorld& world_;
