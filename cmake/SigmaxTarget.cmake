@@ -4,13 +4,14 @@ function(sigmax_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
     -Woverloaded-virtual -Wcast-align -Wimplicit-fallthrough
+    $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier>
     $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op -Wuseless-cast -Wno-restrict>
     $<$<BOOL:${SIGMAX_WERROR}>:-Werror>)
 endfunction()
 option(SIGMAX_WERROR "Treat warnings as errors (CI does)" OFF)
 
 # sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
-# headers below it are the room's file set: they are installed, and each must compile alone.
+# headers below it are the room's file set: they are installed, and each must compile alone (scripts/headers).
 function(sigmax_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
   set(target sigmax_${name})
@@ -45,7 +46,9 @@ endfunction()
 # file is being worked at.
 option(SIGMAX_UNITY "Compile several files of the programs as one" ON)
 function(sigmax_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIGMAX_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+  if(SIGMAX_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
 endfunction()
 
 # sigmax_program(NAME LIBRARIES …): all .cpp in NAME as one program, which is installed; with a manual page made of its --help

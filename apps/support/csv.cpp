@@ -23,6 +23,29 @@ constexpr std::size_t longest_record = std::size_t{1} << 20;
 
 bool is_blank(std::string_view text) { return trimmed(text).empty(); }
 
+/// A tab if the header has tabs and no comma, both outside quotes, which open at the beginning of a field only.
+char separator_of(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos) text.remove_prefix(text.find_last_of("\r\n", first) + 1);
+  char found = ',';
+  bool quoted = false, in_field = false;
+  for (const char byte : text) {
+    if (quoted) {
+      quoted = byte != '"';
+    } else if (byte == '"' && !in_field) {
+      quoted = true;
+    } else if (byte == ',' || byte == '\n' || byte == '\r') {
+      return byte == ',' ? ',' : found;
+    } else if (byte == '\t') {
+      found = '\t';
+      in_field = false;
+    } else {
+      in_field = in_field || byte != ' ';
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string_view CsvRow::operator[](std::size_t column) const {
@@ -112,9 +135,7 @@ void CsvReader::read_header() {
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
     throw InputError(message({.where = file(), .found = "UTF-16 text", .expected = "UTF-8", .remedy = "convert it"}));
 
-  const std::string_view first_line = start.substr(0, start.find_first_of("\r\n", start.find_first_not_of("\r\n")));
-  if (first_line.find(',') == std::string_view::npos && first_line.find('\t') != std::string_view::npos)
-    separator_ = '\t';
+  separator_ = separator_of(start.substr(position_));
   CsvRow row;
   if (!read_record(row))
     throw InputError(message({.where = file(),

@@ -100,7 +100,7 @@ double time_of_day_after(double before, double time_of_day) {
 
 std::string iso_time(double seconds) {
   using namespace std::chrono;
-  if (!(seconds >= -62167219200.0 && seconds < 253402300799.0)) throw std::out_of_range("iso_time: no year 0 to 9999");
+  if (!(seconds >= -62167219200.0 && seconds < 253402300800.0)) throw std::out_of_range("iso_time: no year 0 to 9999");
   const microseconds total{std::llround(seconds * 1e6)};
   const auto day = floor<days>(total);
   const year_month_day date{sys_days{day}};

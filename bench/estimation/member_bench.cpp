@@ -82,10 +82,25 @@ BENCHMARK(Converted<Conversion::standard>)->Name("Step/dwna/kalman_converted");
 BENCHMARK(Converted<Conversion::unbiased>)->Name("Step/dwna/kalman_unbiased");
 BENCHMARK(Converted<Conversion::debiased>)->Name("Step/dwna/kalman_debiased");
 
-/// The turn without its Jacobians.
+/// The turn by a function of any scalar, which is differentiated automatically.
 struct Undifferentiated : CoordinatedTurn<3> {
   using CoordinatedTurn<3>::CoordinatedTurn;
   void transition_jacobian() const {}
+
+  template <class Scalar>
+  Eigen::Matrix<Scalar, 7, 1> propagate(const Eigen::Matrix<Scalar, 7, 1>& x, double dt) const {
+    using std::cos, std::sin;
+    const Scalar half = 0.5 * dt * x(6), s = sin(half), c = cos(half);
+    const Scalar ratio = half * half < 1e-8 ? Scalar(1.0 - half * half / 6.0) : Scalar(s / half);
+    const Scalar along = dt * ratio * c, across = dt * ratio * s, cosine = 1.0 - 2.0 * s * s, sine = 2.0 * s * c;
+    Eigen::Matrix<Scalar, 7, 1> image = x;
+    image(0) += along * x(3) - across * x(4);
+    image(1) += across * x(3) + along * x(4);
+    image(2) += dt * x(5);
+    image(3) = cosine * x(3) - sine * x(4);
+    image(4) = sine * x(3) + cosine * x(4);
+    return image;
+  }
 };
 
 constexpr double q = 9.0, q_omega = 0.01;

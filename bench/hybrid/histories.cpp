@@ -25,6 +25,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <Eigen/Cholesky>
+
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/start.hpp>
@@ -229,8 +231,9 @@ struct ImmOfScales final : Runner {
   template <int N>
   static Gaussian<N> moments(const std::vector<double>& weights, const std::vector<Gaussian<N>>& parts) {
     Gaussian<N> result;
-    const auto weight = [&](std::size_t l) { return weights[l]; };
-    detail::match_moments(EstimateMixture<Gaussian<N>>{parts}, weight, weight, result);
+    std::vector<detail::Mixture::Part> all;
+    for (const auto& part : parts) all.push_back({detail::view(part)});
+    detail::match_moments({detail::view(parts[0]), all}, weights.data(), weights.data(), detail::view(result));
     return result;
   }
 

@@ -16,7 +16,6 @@ using namespace sigmax;
 
 constexpr double T = 0.2;
 const std::tuple models{dwna<3>(3.0), dwpa<3>(3.0)};
-using Models = std::remove_const_t<decltype(models)>;
 
 /// A target that turns now and then; what is measured is exact, which costs a filter nothing.
 std::vector<Gaussian<3>> measurements() {
@@ -103,7 +102,7 @@ void StepBack(benchmark::State& state) {
     filter.step(T, z);
     record.push_back(filter.recorded(T, z));
   }
-  FixedIntervalSmoother<Models, Kind> smoother{filter};
+  FixedIntervalSmoother<Kind> smoother{filter};
   smoother.begin(record.back());
   std::size_t k = record.size() - 1;
   for (auto _ : state) {

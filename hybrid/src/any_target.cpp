@@ -1,15 +1,224 @@
 #include <sigmax/hybrid/any_target.hpp>
 
+#include <algorithm>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
-#include "chosen_target.hpp"
+#include <sigmax/estimation/doppler_sensor.hpp>
+#include <sigmax/estimation/start.hpp>
+#include <sigmax/hybrid/known_model.hpp>
+#include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/target_life.hpp>
 
 namespace sigmax {
 namespace {
 
-std::unique_ptr<detail::ChosenTarget> chosen(const TargetChoice& choice) {
+template <ScalableUncertainty Kind>
+ModeTransition<Kind> chosen_transition(const TargetChoice& choice) {
+  const Variable<Kind> mode{"mode", choice.models};
+  if (choice.scheme == Scheme::independent) return identity(mode);
+  if (!choice.sojourn_s.empty()) return TimedTransition<Kind>(mode, rates_of_sojourns(choice.sojourn_s));
+  return Relation<Kind, Kind>{mode, mode, choice.transition};
+}
+
+template <ScalableUncertainty Kind>
+Interaction<Kind> chosen_interaction(const TargetChoice& choice) {
+  Interaction<Kind> interaction;
+  interaction.lift = choice.lift;
+  interaction.entry = choice.entry;
+  interaction.output_tie = choice.output_tie;
+  interaction.mixed_start = choice.scheme == Scheme::common_start ? MixedStart::common : MixedStart::of_each_mode;
+  interaction.likelihood = choice.likelihood;
+  if constexpr (std::is_same_v<Kind, Fuzzy>)
+    interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
+  else
+    interaction.collapse = {choice.imm_mixing, choice.output_spread};
+  return interaction;
+}
+
+std::vector<AnyModel> chosen_models(const TargetChoice& choice) {
+  std::vector<AnyModel> models;
+  for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
+  return models;
+}
+
+/// The start rule of a choice: an estimate for each model, or nothing as long as it wants more plots.
+class ChosenStart {
+ public:
+  ChosenStart(const TargetChoice& choice, const std::vector<AnyModel>& models)
+      : choice_(choice), nowhere_(detail::estimates_of(models)) {
+    for (std::size_t j = 0; j < models.size(); ++j) nowhere_[j].covariance.setIdentity();
+  }
+
+  std::optional<StartAt<Estimates>> operator()(std::span<const Plot> plots, std::size_t starts) const {
+    return choice_.start == StartRule::given && starts == 0 ? given(plots) : from_points(plots);
+  }
+
+  /// An estimate of its size for every model, without meaning: what a filter holds before it starts.
+  const Estimates& nowhere() const { return nowhere_; }
+
+ private:
+  /// Of a model's n leading components, and of the rate of turn behind them, which no start tells.
+  template <class Leading>
+  Estimates estimates(const Leading& leading) const {
+    const double sigma_turn = choice_.start_sigma_turn_deg_s * std::numbers::pi / 180.0;
+    Estimates result = nowhere_;
+    for (std::size_t j = 0; j < result.size(); ++j) {
+      const KnownMotion& motion = choice_.motions[j].known();
+      const int n = motion.derivatives * choice_.axes;
+      auto own = result[j];
+      own.mean.setZero();
+      own.covariance.setZero();
+      leading(n, own);
+      if (!motion.linear) own.covariance(n, n) = sigma_turn * sigma_turn;
+    }
+    return result;
+  }
+
+  /// From the last three positions at different times.
+  std::optional<StartAt<Estimates>> from_points(std::span<const Plot> plots) const {
+    struct Point {
+      double time, mean[3], covariance[9];
+    };
+    const int axes = choice_.axes;
+    std::vector<Point> points;
+    for (const Plot& plot : plots) {
+      Point point{plot.time, {}, {}};
+      if (!plot.seen() || plot.sensor().position(plot.measurement(), point.mean, point.covariance) != axes) continue;
+      if (!points.empty() && points.back().time == point.time) points.pop_back();
+      points.push_back(point);
+    }
+    if (points.size() < 3) return std::nullopt;
+    const auto view = [&](std::size_t back) {
+      const Point& point = points[points.size() - back];
+      return detail::TimedView{point.time, {point.mean, point.covariance, axes}};
+    };
+    const bool released = choice_.start == StartRule::released;
+    const int all = 3 * axes;
+    double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
+    (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1),
+                                                                    {wide_mean, wide_covariance, all});
+    detail::two_point_start(view(2), view(1), {narrow_mean, narrow_covariance, 2 * axes});
+    return StartAt<Estimates>{points.back().time, estimates([&](int n, EstimateAt<double>& own) {
+                                const bool wide = n == all || released;
+                                const int size = wide ? all : 2 * axes;
+                                for (int k = 0; k < n; ++k) {
+                                  own.mean(k) = (wide ? wide_mean : narrow_mean)[k];
+                                  for (int i = 0; i < n; ++i)
+                                    own.covariance(i, k) = (wide ? wide_covariance : narrow_covariance)[i + k * size];
+                                }
+                              })};
+  }
+
+  /// A given start without a time waits for the second plot: it is one step before the first.
+  std::optional<StartAt<Estimates>> given(std::span<const Plot> plots) const {
+    if (!choice_.start_time_s && plots.size() < 2) return std::nullopt;
+    const double time = choice_.start_time_s ? *choice_.start_time_s : 2.0 * plots[0].time - plots[1].time;
+    return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
+                                for (int k = 0; k < n; ++k) {  // what is given always speaks of three axes
+                                  const auto place = static_cast<std::size_t>(k / choice_.axes * 3 + k % choice_.axes);
+                                  own.mean(k) = choice_.start_mean[place];
+                                  own.covariance(k, k) = choice_.start_covariance_diagonal[place];
+                                }
+                              }),
+                              false};
+  }
+
+  TargetChoice choice_;
+  Estimates nowhere_;
+};
+
+/// The filter of a choice; what it holds before it starts means nothing.
+template <class Filter>
+Filter chosen_filter(const TargetChoice& choice, const std::vector<AnyModel>& models, const Estimates& nowhere) {
+  using Kind = typename Filter::kind;
+  if constexpr (KeepsHistories<Filter>) {
+    HistoryRules<Kind> rules;
+    rules.histories = choice.histories;
+    rules.cut = choice.cut;
+    rules.tempering = choice.tempering;
+    return {models, chosen_transition<Kind>(choice), nowhere, rules, chosen_interaction<Kind>(choice)};
+  } else {
+    return {models, chosen_transition<Kind>(choice), nowhere, chosen_interaction<Kind>(choice)};
+  }
+}
+
+template <class Filter>
+struct Followed {
+  Filter filter;
+  detail::TargetLife<Filter> life;
+
+  Followed(const TargetChoice& choice, const std::vector<AnyModel>& models, const ChosenStart& start)
+      : filter(chosen_filter<Filter>(choice, models, start.nowhere())), life(filter, start, choice.rules) {}
+};
+
+using AnyFollowed = std::variant<Followed<InteractingFilter<Random>>, Followed<InteractingFilter<Fuzzy>>,
+                                 Followed<SecondOrderFilter<Random>>, Followed<SecondOrderFilter<Fuzzy>>,
+                                 Followed<HistoriesOfModes<Random>>, Followed<HistoriesOfModes<Fuzzy>>>;
+
+template <ScalableUncertainty Kind>
+AnyFollowed followed(const TargetChoice& choice) {
+  const auto models = chosen_models(choice);
+  const ChosenStart start(choice, models);
+  if (choice.scheme == Scheme::histories) return Followed<HistoriesOfModes<Kind>>(choice, models, start);
+  if (choice.scheme == Scheme::second_order) return Followed<SecondOrderFilter<Kind>>(choice, models, start);
+  return Followed<InteractingFilter<Kind>>(choice, models, start);
+}
+
+void require_size(int size, int expected) {
+  if (size != expected)
+    throw std::invalid_argument("a plot has " + std::to_string(size) + " measured quantities; expected " +
+                                std::to_string(expected));
+}
+
+/// The sensor of a plot that has one; a case here is all that a new one needs beside its name in AnyPlot. Throws
+/// std::invalid_argument if the numbers of the plot do not fit it.
+template <int Axes>
+AnySensor sensor_of(const AnyPlot& plot) {
+  const Vector<Axes> origin(plot.origin.data());
+  switch (plot.sensor) {
+    case AnyPlot::Sensor::polar:
+      require_size(plot.size, Axes);
+      return PolarSensor<Axes>(origin);
+    case AnyPlot::Sensor::bearing:
+      require_size(plot.size, 1);
+      return BearingSensor(Vector<2>(plot.origin.data()));
+    case AnyPlot::Sensor::doppler:
+      require_size(plot.size, Axes + 1);
+      return DopplerSensor<Axes>(origin);
+    case AnyPlot::Sensor::components:
+    case AnyPlot::Sensor::none:
+    case AnyPlot::Sensor::position:
+      break;
+  }
+  require_size(plot.size, Axes);
+  return PositionSensor<Axes>{};
+}
+
+AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
+  if (plot.size < 1 || plot.size > max_measurement_size)
+    throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected 1 to 6");
+  if (plot.sensor == AnyPlot::Sensor::components)
+    return ComponentSensor<max_measurement_size>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)),
+                                                 axes);
+  if (axes == 2) return sensor_of<2>(plot);
+  if (axes == 3) return sensor_of<3>(plot);
+  if (plot.sensor != AnyPlot::Sensor::position)
+    throw std::invalid_argument("along one axis a plot is a position or components; a radar needs a plane");
+  require_size(plot.size, 1);
+  return PositionSensor<1>{};
+}
+
+Plot chosen_plot(const AnyPlot& plot, int axes) {
+  if (plot.sensor == AnyPlot::Sensor::none) return Plot(plot.time, plot.tag);
+  return Plot(plot.time, detail::ConstView{plot.z.data(), plot.covariance.data(), plot.size}, chosen_sensor(plot, axes),
+              plot.tag);
+}
+
+const TargetChoice& checked(const TargetChoice& choice) {
   if (choice.axes < 1 || choice.axes > 3)
     throw std::invalid_argument("a target along " + std::to_string(choice.axes) + " axes; expected 1, 2 or 3");
   if (choice.motions.empty() || choice.motions.size() != choice.models.size())
@@ -18,38 +227,148 @@ std::unique_ptr<detail::ChosenTarget> chosen(const TargetChoice& choice) {
   if (choice.start == StartRule::given &&
       (choice.start_mean.size() != 9 || choice.start_covariance_diagonal.size() != 9))
     throw std::invalid_argument("a given start has nine numbers and nine variances: x, y, z, vx, vy, vz, ax, ay, az");
-  return detail::chosen_target(choice);
+  return choice;
 }
 
 }  // namespace
 
-AnyTarget::AnyTarget(const TargetChoice& choice) : target_(chosen(choice)) {}
-AnyTarget::AnyTarget(const AnyTarget& other) : target_(other.target_->clone()) {}
+struct AnyTarget::Chosen {
+  AnyFollowed followed;
+  int axes;
+  bool most_likely_output;
+  bool compared = false;  ///< whether the last step had a measurement, taken or not
+
+  explicit Chosen(const TargetChoice& choice)
+      : followed(choice.fuzzy ? sigmax::followed<Fuzzy>(choice) : sigmax::followed<Random>(choice)),
+        axes(choice.axes),
+        most_likely_output(choice.most_likely_output) {}
+
+  template <class Visit>
+  decltype(auto) visit(const Visit& act) {
+    return std::visit(act, followed);
+  }
+
+  /// Writes an output of the filter, its own or that of another state by modes.
+  template <class Filter>
+  void tell(const Filter& filter, const HybridEstimate<typename Filter::kind>* state, TargetPoint& result) const {
+    const auto n = static_cast<std::size_t>(filter.component_count());
+    result.mean.resize(n);
+    result.covariance.resize(n * n);
+    const detail::View output{result.mean.data(), result.covariance.data(), filter.component_count()};
+    const auto& by_modes = state ? *state : filter.by_modes();
+    if (most_likely_output)
+      filter.most_likely_output(by_modes, output);
+    else if (state)
+      filter.output(*state, output);
+    else
+      filter.output(output);
+    result.weights.resize(by_modes.belief.size());
+    for (std::size_t j = 0; j < result.weights.size(); ++j) result.weights[j] = by_modes.belief[j];
+    result.most_likely_mode = by_modes.most_likely_mode;
+  }
+};
+
+AnyTarget::AnyTarget(const TargetChoice& choice) : chosen_(std::make_unique<Chosen>(checked(choice))) {}
+AnyTarget::AnyTarget(const AnyTarget& other) : chosen_(std::make_unique<Chosen>(*other.chosen_)) {}
 AnyTarget::AnyTarget(AnyTarget&&) noexcept = default;
 AnyTarget& AnyTarget::operator=(AnyTarget other) noexcept {
-  target_ = std::move(other.target_);
+  chosen_ = std::move(other.chosen_);
   return *this;
 }
 AnyTarget::~AnyTarget() = default;
 
-Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) { return target_->take(plot, stepped); }
-bool AnyTarget::running() const { return target_->running(); }
-std::size_t AnyTarget::starts() const { return target_->starts(); }
-std::size_t AnyTarget::rejected() const { return target_->rejected(); }
-double AnyTarget::time() const { return target_->time(); }
-double AnyTarget::accepted_time() const { return target_->accepted_time(); }
-bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) { return target_->transform(A, b); }
-const std::vector<std::string>& AnyTarget::components() const { return target_->components(); }
+Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) {
+  const Plot own = chosen_plot(plot, chosen_->axes);
+  return chosen_->visit([&](auto& target) {
+    return target.life.take(target.filter, own, [&](const Plot& taken, bool is_start) {
+      chosen_->compared = !is_start && taken.seen();
+      if (stepped) stepped(taken.tag, is_start);
+    });
+  });
+}
+
+bool AnyTarget::running() const {
+  return chosen_->visit([](const auto& target) { return target.life.running(); });
+}
+std::size_t AnyTarget::starts() const {
+  return chosen_->visit([](const auto& target) { return target.life.starts(); });
+}
+std::size_t AnyTarget::rejected() const {
+  return chosen_->visit([](const auto& target) { return target.life.rejected(); });
+}
+double AnyTarget::time() const {
+  return chosen_->visit([](const auto& target) { return target.life.time(); });
+}
+double AnyTarget::accepted_time() const {
+  return chosen_->visit([](const auto& target) { return target.life.accepted_time(); });
+}
+const std::vector<std::string>& AnyTarget::components() const {
+  return chosen_->visit([](const auto& target) -> const auto& { return target.filter.components(); });
+}
+
+bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) {
+  const int axes = chosen_->axes;
+  const auto n = static_cast<std::size_t>(axes);
+  if (A.size() != n * n || b.size() != n)
+    throw std::invalid_argument("a transformation of " + std::to_string(axes) + " axes has as many rows and columns");
+  double by_columns[9];
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) by_columns[i + k * n] = A[i * n + k];
+  return chosen_->visit([&](auto& target) { return target.life.transform(target.filter, by_columns, b.data(), axes); });
+}
+
 TargetPoint AnyTarget::output() const {
   TargetPoint result;
   output(result);
   return result;
 }
-void AnyTarget::output(TargetPoint& result) const { target_->output(result); }
-std::vector<ModeStay> AnyTarget::explained() const { return target_->explained(); }
+
+void AnyTarget::output(TargetPoint& result) const {
+  chosen_->visit([&](const auto& target) {
+    const auto& filter = target.filter;
+    result.time = target.life.time();
+    result.nis.reset();
+    result.normalized_innovation.clear();
+    if (filter.measured()) {
+      double numbers[max_measurement_size];
+      const int m = filter.normalized_innovation(numbers);
+      result.normalized_innovation.assign(numbers, numbers + m);
+      result.nis = filter.nis();
+    }
+    result.log_evidence = chosen_->compared ? std::optional(filter.log_evidence()) : std::nullopt;
+    result.log_score = chosen_->compared ? std::optional(filter.log_score()) : std::nullopt;
+    chosen_->tell(filter, nullptr, result);
+  });
+}
+
 void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
                          const std::function<void(const ModePairs&)>& paired) const {
-  target_->smoothed(visit, paired);
+  chosen_->visit([&](const auto& target) {
+    TargetPoint point;
+    const auto tell_point = [&](const auto& kept, const auto& state) {
+      if (!visit) return;
+      point.time = kept.time;
+      point.tag = kept.tag;
+      point.is_start = kept.is_start;
+      point.nis = kept.nis;
+      chosen_->tell(target.filter, &state, point);
+      visit(point);
+    };
+    target.life.smoothed(target.filter, tell_point, [&](const auto& kept, const Table& log_pairs, bool is_last) {
+      if (paired) paired({kept.tag, kept.step.dt, is_last, {log_pairs.data(), log_pairs.size()}});
+    });
+  });
+}
+
+std::vector<ModeStay> AnyTarget::explained() const {
+  std::vector<ModeStay> stays;
+  chosen_->visit([&]<class Target>(const Target& target) {
+    if constexpr (KeepsHistories<decltype(target.filter)>)
+      target.life.explained([&](const auto& kept, std::size_t mode) {
+        stays.push_back({kept.time, kept.tag, mode, kept.is_start});
+      });
+  });
+  return stays;
 }
 
 void AnyTarget::follow(std::span<const AnyPlot> plots, const std::function<void(const TargetPoint&)>& visit) {

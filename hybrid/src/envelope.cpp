@@ -1,49 +1,63 @@
+#include <sigmax/hybrid/envelope.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <boost/math/special_functions/erf.hpp>
 
-#include <sigmax/hybrid/envelope.hpp>
+#include <sigmax/estimation/covariance_root.hpp>
+#include <sigmax/estimation/dense.hpp>
 
 namespace sigmax {
+namespace {
 
-/// Points of n components that look like a standard normal variable: a lattice of irrational steps (the powers of the
-/// root of x^{n+1} = x + 1), each point with its mirror image, straightened so that mean and covariance are exact. Made
-/// once for each n.
-const Envelope::AtPoints& Envelope::normal_points(Eigen::Index n) {
-  static std::array<AtPoints, max_size + 1> all;
+constexpr int max_size = 32;
+constexpr int points = 128;
+
+/// Points of n components that look like a standard normal variable, a column each: a lattice of irrational steps (the
+/// powers of the root of x^{n+1} = x + 1), each point with its mirror image, straightened so that mean and covariance
+/// are exact. Made once for each n.
+const double* normal_points(int n) {
+  static std::array<std::vector<double>, max_size + 1> all;
   static std::array<std::once_flag, max_size + 1> made;
   const auto at = static_cast<std::size_t>(n);
   std::call_once(made[at], [&] {
     double ratio = 2.0;
-    for (int i = 0; i < 64; ++i) ratio = std::pow(1.0 + ratio, 1.0 / static_cast<double>(n + 1));
-    AtPoints lattice(n, points);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double step = std::pow(ratio, -static_cast<double>(i + 1));
-      for (Eigen::Index k = 0; k < points / 2; ++k) {
-        const double u = std::fmod(0.5 + static_cast<double>(k + 1) * step, 1.0);
-        lattice(i, k) = std::numbers::sqrt2 * boost::math::erf_inv(2.0 * u - 1.0);
-        lattice(i, points / 2 + k) = -lattice(i, k);
+    for (int i = 0; i < 64; ++i) ratio = std::pow(1.0 + ratio, 1.0 / (n + 1));
+    std::vector<double> lattice(static_cast<std::size_t>(n * points)), spread(static_cast<std::size_t>(n * n)),
+        root(spread.size());
+    for (int i = 0; i < n; ++i) {
+      const double step = std::pow(ratio, -(i + 1));
+      for (int k = 0; k < points / 2; ++k) {
+        const double u = std::fmod(0.5 + (k + 1) * step, 1.0);
+        const double x = std::numbers::sqrt2 * boost::math::erf_inv(2.0 * u - 1.0);
+        lattice[static_cast<std::size_t>(i + k * n)] = x;
+        lattice[static_cast<std::size_t>(i + (points / 2 + k) * n)] = -x;
       }
     }
-    const Square spread = lattice * lattice.transpose() / static_cast<double>(points);
-    all[at] = Eigen::LLT<Square>(spread).matrixL().solve(lattice);
+    detail::multiply(lattice.data(), n, detail::transposed(lattice.data(), n), spread.data(), n, n, points, n);
+    for (double& each : spread) each /= points;
+    detail::cholesky_factor(spread.data(), n, root.data());
+    for (int k = 0; k < points; ++k) detail::lower_solve(root.data(), n, lattice.data() + k * n);
+    all[at] = std::move(lattice);
   });
-  return all[at];
+  return all[at].data();
 }
+
+}  // namespace
 
 Envelope& Envelope::of_this_thread() {
   thread_local Envelope envelope;
   return envelope;
 }
 
-void Envelope::clear(Eigen::Index n) {
+void Envelope::clear(int n) {
   if (n < 1 || n > max_size)
     throw std::invalid_argument("an envelope of " + std::to_string(n) + " components; expected 1 to " +
                                 std::to_string(max_size));
@@ -51,37 +65,44 @@ void Envelope::clear(Eigen::Index n) {
   count_ = 0;
 }
 
-void Envelope::add(double weight, const Eigen::Ref<const Eigen::VectorXd>& mean,
-                   const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
+void Envelope::add(double weight, detail::ConstView estimate) {
   if (!(weight > 0.0)) return;
-  if (count_ == parts_.size()) parts_.emplace_back().varies.reserve(max_size);
+  if (count_ == parts_.size()) {
+    Part& part = parts_.emplace_back();
+    part.varies.reserve(max_size);
+    for (auto* room : {&part.mean, &part.shift}) room->reserve(max_size);
+    for (auto* room : {&part.root, &part.second}) room->reserve(max_size * max_size);
+  }
   Part& part = parts_[count_];
   part.weight = weight;
-  part.mean = mean;
+  part.mean.assign(estimate.mean, estimate.mean + size_);
   part.varies.clear();
-  for (Eigen::Index i = 0; i < size_; ++i)
-    if (covariance(i, i) != 0.0) part.varies.push_back(i);
-  const auto n = static_cast<Eigen::Index>(part.varies.size());
-  part.root.resize(n, n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (Eigen::Index i = 0; i < n; ++i)
-      part.root(i, k) =
-          i < k ? 0.0 : covariance(part.varies[static_cast<std::size_t>(i)], part.varies[static_cast<std::size_t>(k)]);
-  if (Eigen::LLT<Eigen::Ref<Square>>(part.root).info() != Eigen::Success)
+  for (int i = 0; i < size_; ++i)
+    if (estimate.covariance[i + i * size_] != 0.0) part.varies.push_back(i);
+  const auto n = static_cast<int>(part.varies.size());
+  detail::Scratch<1024> varying(n * n);
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i)
+      varying[i + k * n] =
+          estimate
+              .covariance[part.varies[static_cast<std::size_t>(i)] + part.varies[static_cast<std::size_t>(k)] * size_];
+  part.root.resize(static_cast<std::size_t>(n * n));
+  if (!detail::cholesky_factor(varying, n, part.root.data()))
     throw std::domain_error(
         "a covariance in an envelope is certain of a combination of components that each have a variance (it is not "
         "positive definite); expected only single components to be certain");
-  part.log_scale = std::log(weight) - part.root.diagonal().array().log().sum();
+  part.log_scale = std::log(weight);
+  for (int i = 0; i < n; ++i) part.log_scale -= std::log(part.root[static_cast<std::size_t>(i + i * n)]);
   ++count_;
 }
 
 bool Envelope::Part::comparable(const Part& other) const {
   if (varies != other.varies) return false;
   auto free = varies.begin();
-  for (Eigen::Index i = 0; i < mean.size(); ++i) {
-    if (free != varies.end() && *free == i)
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    if (free != varies.end() && *free == static_cast<int>(i))
       ++free;
-    else if (mean(i) != other.mean(i))
+    else if (mean[i] != other.mean[i])
       return false;
   }
   return true;
@@ -89,66 +110,90 @@ bool Envelope::Part::comparable(const Part& other) const {
 
 /// How much of a part the envelope keeps, and the moments of what it keeps.
 void Envelope::weigh(Part& part) {
-  const auto n = static_cast<Eigen::Index>(part.varies.size());
-  const AtPoints& deviations = normal_points(n);
+  const auto n = static_cast<int>(part.varies.size());
+  const double* const deviations = normal_points(n);
+  detail::Scratch<1024> step(n * n), second(n * n);
+  detail::Scratch<max_size> apart(n), whitened(n);
   log_densities_.clear();
-  for (const Part& other : *this) {
+  for (std::size_t l = 0; l < count_; ++l) {
+    const Part& other = parts_[l];
     if (!part.comparable(other)) continue;
-    step_ = part.root;  // a point x = m_l + L_l ξ is L_m⁻¹(x − m_m) = step ξ + apart in the other's own deviations
-    apart_.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index at = part.varies[static_cast<std::size_t>(i)];
-      apart_(i) = part.mean(at) - other.mean(at);
+    // A point x = m_l + L_l ξ is L_m⁻¹(x − m_m) = step ξ + apart in the other's own deviations.
+    std::copy(part.root.begin(), part.root.end(), step.data());
+    for (int i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(part.varies[static_cast<std::size_t>(i)]);
+      apart[i] = part.mean[at] - other.mean[at];
     }
-    other.root.triangularView<Eigen::Lower>().solveInPlace(step_);
-    other.root.triangularView<Eigen::Lower>().solveInPlace(apart_);
-    whitened_.noalias() = step_ * deviations;
-    whitened_.colwise() += apart_;
-    log_densities_.emplace_back(
-        (other.log_scale - 0.5 * whitened_.colwise().squaredNorm().array()).matrix().transpose());
+    for (int k = 0; k < n; ++k) detail::lower_solve(other.root.data(), n, step + k * n);
+    detail::lower_solve(other.root.data(), n, apart);
+    for (int k = 0; k < points; ++k) {
+      std::copy_n(apart.data(), n, whitened.data());
+      detail::multiply(step, n, detail::columns_of(deviations + k * n, n), whitened, n, n, n, 1, detail::Into::plus);
+      double squared = 0.0;
+      for (int i = 0; i < n; ++i) squared += whitened[i] * whitened[i];
+      log_densities_.push_back(other.log_scale - 0.5 * squared);
+    }
   }
-  Vector<points> greatest = log_densities_.front(), sum = Vector<points>::Zero();
-  for (const auto& one : log_densities_) greatest = greatest.cwiseMax(one);
-  for (const auto& one : log_densities_) sum.array() += (one - greatest).array().exp();
-  const Vector<points> masses = part.weight / points * sum.cwiseInverse();
-  part.mass = masses.sum();
-  apart_.noalias() = deviations * masses;
-  part.shift.noalias() = part.root * apart_;
-  whitened_ = deviations * masses.asDiagonal();
-  step_.noalias() = whitened_ * deviations.transpose();
-  part.second.noalias() = part.root * step_;
-  step_.noalias() = part.second * part.root.transpose();
-  part.second = step_;
+  double masses[points];
+  part.mass = 0.0;
+  for (std::size_t k = 0; k < points; ++k) {
+    double greatest = -std::numeric_limits<double>::infinity(), sum = 0.0;
+    for (std::size_t at = k; at < log_densities_.size(); at += points)
+      greatest = std::max(greatest, log_densities_[at]);
+    for (std::size_t at = k; at < log_densities_.size(); at += points) sum += std::exp(log_densities_[at] - greatest);
+    masses[k] = part.weight / points / sum;
+    part.mass += masses[k];
+  }
+  // E ξ and E ξξᵀ under these masses, in the components.
+  std::fill_n(apart.data(), n, 0.0);
+  std::fill_n(second.data(), n * n, 0.0);
+  for (int k = 0; k < points; ++k)
+    for (int i = 0; i < n; ++i) {
+      const double scaled = masses[k] * deviations[i + k * n];
+      apart[i] += scaled;
+      for (int j = 0; j < n; ++j) second[j + i * n] += scaled * deviations[j + k * n];
+    }
+  const double* const root = part.root.data();
+  part.shift.resize(static_cast<std::size_t>(n));
+  part.second.resize(static_cast<std::size_t>(n * n));
+  detail::multiply(root, n, detail::columns_of(apart, n), part.shift.data(), n, n, n, 1);
+  detail::multiply(root, n, detail::columns_of(second, n), step, n, n, n, n);
+  detail::multiply(step, n, detail::transposed(root, n), part.second.data(), n, n, n, n);
 }
 
-double Envelope::match(Eigen::Ref<Eigen::VectorXd> mean, Eigen::Ref<Eigen::MatrixXd> covariance) {
+double Envelope::match(detail::View result) {
   if (count_ == 0) throw std::logic_error("an envelope without a part of positive weight");
+  const int n = size_;
   double mass = 0.0, greatest = 0.0, total = 0.0;
-  mean.setZero();
+  std::fill_n(result.mean, n, 0.0);
+  std::fill_n(result.covariance, n * n, 0.0);
   for (std::size_t l = 0; l < count_; ++l) {
     Part& part = parts_[l];
     weigh(part);
     mass += part.mass;
     greatest = std::max(greatest, part.weight);
     total += part.weight;
-    mean += part.mass * part.mean;
-    for (std::size_t i = 0; i < part.varies.size(); ++i)
-      mean(part.varies[i]) += part.shift(static_cast<Eigen::Index>(i));
+    for (int i = 0; i < n; ++i) result.mean[i] += part.mass * part.mean[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < part.varies.size(); ++i) result.mean[part.varies[i]] += part.shift[i];
   }
-  mean /= mass;
-  covariance.setZero();
-  for (const Part& part : *this) {
-    apart_ = part.mean - mean;
-    covariance.noalias() += part.mass * apart_ * apart_.transpose();
+  for (int i = 0; i < n; ++i) result.mean[i] /= mass;
+  double apart[max_size];
+  for (std::size_t l = 0; l < count_; ++l) {
+    const Part& part = parts_[l];
+    for (int i = 0; i < n; ++i) apart[i] = part.mean[static_cast<std::size_t>(i)] - result.mean[i];
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < n; ++i) result.covariance[i + k * n] += part.mass * apart[i] * apart[k];
     for (std::size_t k = 0; k < part.varies.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      covariance.col(part.varies[k]) += part.shift(column) * apart_;
-      covariance.row(part.varies[k]) += part.shift(column) * apart_.transpose();
+      const int column = part.varies[k];
+      for (int i = 0; i < n; ++i) {
+        result.covariance[i + column * n] += part.shift[k] * apart[i];
+        result.covariance[column + i * n] += part.shift[k] * apart[i];
+      }
       for (std::size_t i = 0; i < part.varies.size(); ++i)
-        covariance(part.varies[i], part.varies[k]) += part.second(static_cast<Eigen::Index>(i), column);
+        result.covariance[part.varies[i] + column * n] += part.second[i + k * part.varies.size()];
     }
   }
-  covariance /= mass;
+  for (int i = 0; i < n * n; ++i) result.covariance[i] /= mass;
   return std::clamp(mass, greatest, total);  // which sampling may miss by a little
 }
 

@@ -87,25 +87,5 @@ TEST(Braille, NamesDoNotCommandTheTerminal) {
   EXPECT_NE(text.find("imm\\x1B[2J"), std::string::npos);
 }
 
-/// Runs in a terminal of so many columns, by `script`, which gives the program one.
-program::Ending in_terminal(int columns, const std::string& command) {
-  return program::run("/usr/bin/script",
-                      {"-qec", "stty cols " + std::to_string(columns) + "; TERM=xterm " + command, "/dev/null"});
-}
-
-TEST(Braille, EndsTheOutputOfAWideTerminalOnly) {
-  if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "no script";
-  const std::string command = program::quoted(SIGMAX_HIMM_DEMO) + " simulate --quiet --runs 2";
-  EXPECT_NE(in_terminal(80, command).output.find("⠉"), std::string::npos);
-  EXPECT_EQ(in_terminal(79, command).output.find("Mode weights"), std::string::npos);
-  EXPECT_EQ(in_terminal(80, command + " --no-chart").output.find("Mode weights"), std::string::npos);
-  EXPECT_EQ(in_terminal(80, "env TERM=dumb " + command).output.find("Mode weights"), std::string::npos);
-  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "2"}).output.find("Mode weights"),
-            std::string::npos);
-  const std::string track =
-      program::quoted(SIGMAX_HIMM_DEMO) + " track --quiet " SIGMAX_SOURCE "/apps/examples/data/drone.csv";
-  EXPECT_NE(in_terminal(120, track).output.find("Mode weights"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace sigmax::apps

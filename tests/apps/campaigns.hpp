@@ -105,7 +105,7 @@ inline void campaign_with_kills(const std::filesystem::path& out, const Argument
   std::filesystem::create_directories(out);
   const auto journal = out / "cells.journal";
   for (const long lines : {3L, 6L}) {
-    Running running(Arguments{SIGMAX_HIMM_DEMO} + arguments + Arguments{"--quiet", "--out", out});
+    Running running(Arguments{program::chosen(SIGMAX_HIMM_DEMO)} + arguments + Arguments{"--quiet", "--out", out});
     ASSERT_TRUE(running.has_written(journal, lines)) << "the work ended before it could be interrupted";
     ASSERT_EQ(running.end(SIGKILL), 128 + SIGKILL);
     std::ofstream(journal, std::ios::app) << "7,0.25,0.1";  // as if killed in the middle of a line
@@ -116,7 +116,8 @@ inline void campaign_with_kills(const std::filesystem::path& out, const Argument
 inline bool has_mpirun() { return std::system("mpirun --version >/dev/null 2>&1") == 0; }
 
 inline Arguments mpirun(const Arguments& arguments) {
-  return Arguments{"mpirun", "--oversubscribe", "--allow-run-as-root", "-n", "3", SIGMAX_HIMM_DEMO} + arguments;
+  return Arguments{"mpirun", "--oversubscribe", "--allow-run-as-root", "-n", "3"} +
+         Arguments{program::chosen(SIGMAX_HIMM_DEMO)} + arguments;
 }
 
 /// Runs three ranks to their end; 124 if they do not come to one.

@@ -52,6 +52,12 @@ TEST(Csv, SkipsBlankLinesAndCountsThem) {
   EXPECT_EQ(rows, (std::vector<std::pair<std::size_t, std::string>>{{5, "1"}, {8, "2"}, {9, ""}}));
 }
 
+TEST(Csv, TheSeparatorIsThatOfTheHeaderOutsideQuotes) {
+  EXPECT_EQ(records(" \n\"a,b\"\tc\n1,5\t2"), (Records{{"a,b", "c"}, {"1,5", "2"}}));
+  EXPECT_EQ(records("\"a\tx\ny\",b\n1,2"), (Records{{"a\tx\ny", "b"}, {"1", "2"}}));
+  EXPECT_EQ(records(" \n\"a\tb\"\n1\n"), (Records{{"a\tb"}, {"1"}}));
+}
+
 TEST(Csv, TrimsTheHeaderOnly) { EXPECT_EQ(records(" a ,\tb\n 1 , 2"), (Records{{"a", "b"}, {" 1 ", " 2"}})); }
 
 TEST(Csv, DropsTheByteOrderMark) {

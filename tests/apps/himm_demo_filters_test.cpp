@@ -19,7 +19,7 @@
 #include "support/enveloped.hpp"
 #include "support/near.hpp"
 #include "support/program.hpp"
-#include "support/second_order_restatement.hpp"
+#include "support/restatement.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -30,12 +30,12 @@ using support::near;
 struct Named {
   std::string name;
   restatement::Options options;
-  bool second_order = false;
   bool independent = false;
 };
 
 std::vector<Named> named_filters() {
-  using restatement::Kind, restatement::Lift, restatement::MixedCovariance, restatement::Options, restatement::Weights;
+  using restatement::Kind, restatement::Lift, restatement::MixedCovariance, restatement::Options, restatement::Order,
+      restatement::Weights;
   const auto filter = [](Kind kind, auto change) {
     Options options;
     options.kind = kind;
@@ -47,14 +47,15 @@ std::vector<Named> named_filters() {
   const auto imm = [&](auto change) { return filter(Kind::imm, change); };
   const auto himm = [&](auto change) { return filter(Kind::himm, change); };
   const auto as_it_is = [](Options&) {};
+  const auto second_order = [](Options& own) { own.order = Order::second_order; };
   return {
       {"imm", imm(as_it_is)},
       {"imm_correct", imm(as_it_is)},
       {"imm_released", imm([](Options& own) { own.mixing_weights = Weights::released; })},
       {"imm_as_printed", imm([](Options& own) { own.output_spread_omitted = true; })},
       {"gpb1", imm([](Options& own) { own.common_start = true; })},
-      {"gpb2", imm(as_it_is), true},
-      {"static_random", imm(as_it_is), false, true},
+      {"gpb2", imm(second_order)},
+      {"static_random", imm(as_it_is), true},
       {"himm", himm(as_it_is)},
       {"himm_selected", himm([](Options& own) { own.mixed_covariance = MixedCovariance::selected; })},
       {"himm_own", himm([](Options& own) { own.mixed_covariance = MixedCovariance::own; })},
@@ -66,12 +67,11 @@ std::vector<Named> named_filters() {
        })},
       {"himm_global", himm([](Options& own) { own.common_start = true; })},
       {"himm_possibility", himm([](Options& own) { own.possibilistic = true; })},
-      {"viterbi", himm(as_it_is), true},
-      {"static_fuzzy", himm(as_it_is), false, true},
+      {"viterbi", himm(second_order)},
+      {"static_fuzzy", himm(as_it_is), true},
   };
 }
 
-template <class Filter>
 void expect_restated(const Named& named, const std::vector<Point>& points, const std::vector<TextRow>& found) {
   using restatement::Index;
   const std::vector starts = {restated_start(6), restated_start(9)};
@@ -80,7 +80,8 @@ void expect_restated(const Named& named, const std::vector<Point>& points, const
       named.independent
           ? restatement::identity(2)
           : restatement::Matrix(2, 2, fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9});
-  Filter filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition, starts, {1.0, 1.0}, named.options);
+  restatement::Filter filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition, starts, {1.0, 1.0},
+                             named.options);
   restatement::Matrix R(3, 3);
   for (Index i = 0; i < 3; ++i) R(i, i) = 100.0;
 
@@ -120,12 +121,7 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
                  "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"});
   ASSERT_EQ(ending.status, 0) << ending.output;
   const auto found = rows(contents(out / "estimates.csv"));
-  for (const auto& named : named_filters()) {
-    if (named.second_order)
-      expect_restated<restatement::SecondOrderFilter>(named, points, of_filter(found, named.name));
-    else
-      expect_restated<restatement::Filter>(named, points, of_filter(found, named.name));
-  }
+  for (const auto& named : named_filters()) expect_restated(named, points, of_filter(found, named.name));
   // The one that the restatement does not know: the estimate of the more likely mode, with the IMM's weights.
   const auto imm = of_filter(found, "imm");
   const auto likely = of_filter(found, "imm_most_likely");

@@ -77,7 +77,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Arguments{"--set", "filters=[imm,imm_smoothed]", "--set", "filter.imm_smoothed.smooth=true",
                               "--set", "gate_probability=0.999", "--predict-to", "300"},
                     Arguments{"--set", "scheme=histories", "--set", "explain=true", "--set", "gate_probability=0.999"},
-                    Arguments{"--radar", "20,0.1,0.1", "--set", "gate_probability=0.999"}));
+                    Arguments{"--radar", "20,0.1,0.1", "--set", "gate_probability=0.999"}),
+    [](const auto& test) {
+      return (std::vector<std::string>{"Filtered", "Smoothed", "TwoFilters", "Histories", "Radar"})[test.index];
+    });
 
 /// Tracks at rest from a to f; a radar's row that no model can take follows for the second, on line 183, unless it is
 /// among positions.

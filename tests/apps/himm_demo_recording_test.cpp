@@ -159,6 +159,11 @@ struct RadarCase {
   std::size_t axes;
   bool from_north;
   std::array<double, 3> at;
+
+  friend void PrintTo(const RadarCase& test, std::ostream* text) {
+    *text << test.axes << " axes, azimuth from " << (test.from_north ? "north" : "east") << ", a radar at "
+          << testing::PrintToString(test.at);
+  }
 };
 
 class RadarInput : public testing::TestWithParam<RadarCase> {};
@@ -473,7 +478,7 @@ TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
   const std::string input = directory.write("input.csv", text);
   const std::string out = directory.path() / "out";
   const auto ending = program::run("/bin/sh", {"-c", "exec \"$1\" track - --track-id ship --out \"$2\" < \"$3\"", "sh",
-                                               SIGMAX_HIMM_DEMO, out, input});
+                                               program::chosen(SIGMAX_HIMM_DEMO), out, input});
   ASSERT_EQ(ending.status, 0) << ending.output;
   EXPECT_TRUE(ending.output.starts_with("standard input: 300 rows")) << ending.output;
   EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), estimates(text, {"--track-id", "ship"}));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "apps/manoeuvring_targets.hpp"
@@ -14,7 +15,6 @@
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
 #include "support/program.hpp"
-#include "support/second_order_restatement.hpp"
 #include "support/smoother_restatement.hpp"
 
 namespace sigmax::apps {
@@ -40,7 +40,6 @@ std::string estimates(const std::string& text, const std::vector<std::string>& s
 }
 
 /// `found` are the rows of a filter that started at `start_time`.
-template <class Order>
 void expect_restated(const restatement::Options& options, const std::vector<Point>& points,
                      const std::vector<TextRow>& found) {
   using restatement::Index;
@@ -48,8 +47,8 @@ void expect_restated(const restatement::Options& options, const std::vector<Poin
   const bool fuzzy = options.kind == restatement::Kind::himm;
   const restatement::Matrix transition(2, 2,
                                        fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9});
-  restatement::Smoother<Order> smoother{
-      Order({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition, starts, {1.0, 1.0}, options)};
+  restatement::Smoother smoother{restatement::Filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition,
+                                                     starts, {1.0, 1.0}, options)};
   restatement::Matrix R(3, 3);
   for (Index i = 0; i < 3; ++i) R(i, i) = 100.0;
   std::vector<double> nis;
@@ -87,15 +86,18 @@ TEST(HimmDemoSmoothing, EqualsThePlainRestatementAtEveryStep) {
                     "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
                     "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]", "start_time_s=2.5", "sigma_w=[3,4]",
                     "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"}));
-  restatement::Options imm;
-  imm.lift = restatement::Lift::borrowed_variance;
-  restatement::Options himm = imm;
-  himm.kind = restatement::Kind::himm;
-  himm.mixed_covariance = restatement::MixedCovariance::own_recentred;
-  expect_restated<restatement::Filter>(imm, points, of_filter(found, "imm"));
-  expect_restated<restatement::Filter>(himm, points, of_filter(found, "himm"));
-  expect_restated<restatement::SecondOrderFilter>(imm, points, of_filter(found, "gpb2"));
-  expect_restated<restatement::SecondOrderFilter>(himm, points, of_filter(found, "viterbi"));
+  using restatement::Kind, restatement::Order;
+  for (const auto& [name, kind, order] :
+       {std::tuple{"imm", Kind::imm, Order::interacting}, std::tuple{"himm", Kind::himm, Order::interacting},
+        std::tuple{"gpb2", Kind::imm, Order::second_order}, std::tuple{"viterbi", Kind::himm, Order::second_order}}) {
+    SCOPED_TRACE(name);
+    restatement::Options options;
+    options.kind = kind;
+    options.order = order;
+    options.lift = restatement::Lift::borrowed_variance;
+    options.mixed_covariance = restatement::MixedCovariance::own_recentred;
+    expect_restated(options, points, of_filter(found, name));
+  }
 }
 
 TEST(HimmDemoSmoothing, IsOfEachFilterThatAsksForIt) {

@@ -23,6 +23,8 @@ struct Case {
   restatement::Options options;
   std::string start = "given";
   std::size_t axes = 3;
+
+  friend void PrintTo(const Case& test, std::ostream* text) { *text << test.name; }
 };
 
 std::vector<Case> cases() {

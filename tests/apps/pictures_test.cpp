@@ -163,38 +163,6 @@ TEST_F(InstalledGnuplot, HandsOnWhatGnuplotComplainsOf) {
   EXPECT_TRUE(throws<std::runtime_error>([&] { svg_of({"", "plot nothing\n"}); }, {"gnuplot", "undefined"}));
 }
 
-TEST(Gnuplot, IsAskedForWhereItIsNotInstalled) {
-  const TemporaryDirectory directory;
-  const auto plots = directory.path() / "plots";
-  const auto ending = program::run("/usr/bin/env", {"PATH=/nowhere", program::chosen(SIGMAX_HIMM_DEMO), "simulate",
-                                                    "--quiet", "--runs", "2", "--plots", plots});
-  EXPECT_EQ(ending.status, 2);
-  for (const char* part : {"gnuplot", "cannot be started", "install it", "gnuplot-nox"})
-    EXPECT_NE(ending.on_one_line().find(part), std::string::npos) << ending.output;
-  EXPECT_FALSE(std::filesystem::exists(plots));
-}
-
-TEST_F(InstalledGnuplot, DrawsTheChartsOfSimulate) {
-  const TemporaryDirectory directory;
-  const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--plots", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.on_one_line().find("charts as SVG and PDF to"), std::string::npos) << ending.output;
-  for (const char* name : {"rmse_in_x", "rmse_in_y", "rmse_in_z", "mode_weights", "nees_of_the_position", "nis",
-                           "track_of_run_1", "track_of_run_1_in_space"}) {
-    EXPECT_TRUE(contents(directory.path() / (std::string(name) + ".svg")).ends_with("</svg>\n\n")) << name;
-    EXPECT_TRUE(contents(directory.path() / (std::string(name) + ".pdf")).starts_with("%PDF")) << name;
-  }
-  const auto files = std::filesystem::directory_iterator(directory.path());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 16);
-}
-
-TEST_F(InstalledGnuplot, DrawsNothingWhereItCannotBeWritten) {
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--plots", "/proc/nowhere"});
-  EXPECT_EQ(ending.status, 3);
-  EXPECT_NE(ending.output.find("/proc/nowhere: the directory cannot be created"), std::string::npos) << ending.output;
-}
-
 /// Every kind of picture with labels that gnuplot, SVG and shells take for their own.
 TEST_F(InstalledGnuplot, TakesAnyText) {
   const std::string nasty = "</script><b> 'q' \"r\" \\ _{@} `id` ^2\n%s \xFF";

@@ -29,6 +29,8 @@ struct Case {
   std::vector<std::string> arguments;  ///< with DATA, MODEL and OUT for the paths
   int status;
   std::vector<std::string> said;
+
+  friend void PrintTo(const Case& test, std::ostream* text) { *text << test.name; }
 };
 
 const std::vector<std::string> train = {"train", "DATA", "--label", "kind", "--model", "OUT"};

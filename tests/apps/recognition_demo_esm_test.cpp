@@ -111,7 +111,8 @@ TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
   EXPECT_EQ(compared, 6U * 15U);
 }
 
-INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("uniform", "dirichlet"));
+INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("uniform", "dirichlet"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(RecognitionDemoEsm, TheNumberOfThreadsChangesNoByte) {
   const TemporaryDirectory directory;

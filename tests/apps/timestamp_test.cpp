@@ -45,6 +45,7 @@ TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {
 TEST(Timestamp, ATimeOfDayIsSecondsSinceMidnight) {
   EXPECT_EQ(parse_timestamp("00:00:00"), 0.0);
   EXPECT_EQ(parse_timestamp(" 10:15:08.5 "), 36908.5);
+  EXPECT_EQ(parse_timestamp("23:51:59.9999999"), 85919.9999999);
   EXPECT_TRUE(is_time_of_day(" 10:15:08.5 "));
   for (const char* text : {"36908.5", "2016-01-12T10:15:08Z", "24:00:00"}) EXPECT_FALSE(is_time_of_day(text)) << text;
   EXPECT_FALSE(parse_timestamp("24:00:00"));
@@ -54,8 +55,10 @@ TEST(Timestamp, ATimeOfDayIsSecondsSinceMidnight) {
 
 TEST(Timestamp, WrittenDatesReadBack) {
   EXPECT_EQ(iso_time(0.0), "1970-01-01T00:00:00Z");
-  for (const char* text : {"2016-02-29T23:59:59.25Z", "1969-12-31T23:59:59.999999Z", "0000-01-01T00:00:00Z"})
+  for (const char* text :
+       {"2016-02-29T23:59:59.25Z", "1969-12-31T23:59:59.999999Z", "0000-01-01T00:00:00Z", "9999-12-31T23:59:59.5Z"})
     EXPECT_EQ(iso_time(*parse_timestamp(text)), text);
+  EXPECT_THROW(iso_time(253402300800.0), std::out_of_range);
   EXPECT_THROW(iso_time(1e300), std::out_of_range);
 }
 

@@ -15,7 +15,7 @@ using support::allocations_of;
 
 /// The verbs that write into an existing result, for tables stored inline and on the heap.
 class InPlace : public testing::TestWithParam<std::size_t> {};
-INSTANTIATE_TEST_SUITE_P(Sizes, InPlace, testing::Values(1U, 2U, 4U, 5U, 40U));
+INSTANTIATE_TEST_SUITE_P(Sizes, InPlace, testing::Values(1U, 2U, 4U, 5U, 40U), testing::PrintToStringParamName());
 
 TEST(Allocations, AreCounted) {
   EXPECT_EQ(allocations_of([] { const std::vector<double> some(100); }), 1U);

@@ -37,6 +37,14 @@ std::vector<std::int64_t> instruction_sets() {
   return sets;
 }
 
+std::string name_of([[maybe_unused]] std::int64_t set) {
+#ifdef SIGMAX_WITH_HIGHWAY
+  return hwy::TargetName(set);
+#else
+  return "PlainLoops";
+#endif
+}
+
 class Tiled : public testing::TestWithParam<std::int64_t> {
  protected:
 #ifdef SIGMAX_WITH_HIGHWAY
@@ -47,7 +55,8 @@ class Tiled : public testing::TestWithParam<std::int64_t> {
   void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
 #endif
 };
-INSTANTIATE_TEST_SUITE_P(InstructionSets, Tiled, testing::ValuesIn(instruction_sets()));
+INSTANTIATE_TEST_SUITE_P(InstructionSets, Tiled, testing::ValuesIn(instruction_sets()),
+                         [](const auto& test) { return name_of(test.param); });
 
 struct Size {
   std::size_t rows, inner, columns;

@@ -19,6 +19,7 @@
 #include "laws/generate.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax {
 namespace {
@@ -206,7 +207,7 @@ Relation<To, From> any_stored_relation(const Variable<To>& to, const Variable<Fr
 template <class Kind>
 class StoredRelations : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy, Ordinal>;
-TYPED_TEST_SUITE(StoredRelations, Kinds);
+TYPED_TEST_SUITE(StoredRelations, Kinds, support::TypeNames);
 
 template <class Kind>
 struct Any {

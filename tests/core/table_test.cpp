@@ -26,7 +26,10 @@ class TableOfAnyShape : public testing::TestWithParam<std::pair<std::size_t, std
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TableOfAnyShape,
                          testing::Values(std::pair{1U, 1U}, std::pair{4U, 4U}, std::pair{1U, 16U}, std::pair{1U, 17U},
-                                         std::pair{5U, 5U}, std::pair{17U, 1U}, std::pair{100U, 30U}));
+                                         std::pair{5U, 5U}, std::pair{17U, 1U}, std::pair{100U, 30U}),
+                         [](const auto& test) {
+                           return std::to_string(test.param.first) + "x" + std::to_string(test.param.second);
+                         });
 
 TEST_P(TableOfAnyShape, IsFilledWithOneValue) {
   const Table table(GetParam().first, GetParam().second, 0.25);

@@ -6,65 +6,101 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/sensors.hpp>
+#include <sigmax/estimation/doppler_sensor.hpp>
+#include <sigmax/estimation/linearised.hpp>
 
-#include "estimation/members.hpp"
+#include "estimation/restated.hpp"
+#include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::generated_gaussian;
-using support::holds;
-using support::near;
-using support::require_near;
-using support::require_near_gaussian;
-using support::require_near_matrix;
-using support::with_every_member;
+using namespace support;
 
-using Any = AnySensor<PositionSensor<2>, PolarSensor<2>, BearingSensor, LinearSensor<3, 4>>;
-using Turn = CoordinatedTurn<2>;
+static_assert(Sensing<AnySensor> && SensorOf<AnySensor, AnyModel> && SensorOf<AnySensor, CoordinatedTurn<2>>);
+static_assert(AnySensor::measurement_size == Eigen::Dynamic && AnySensor::max_measurement_size == 6);
+static_assert(std::is_convertible_v<BearingSensor, AnySensor>);
+static_assert(!std::is_convertible_v<LinearSensor<7, 9>, AnySensor>, "more than six quantities");
 
-static_assert(Sensing<Any> && Any::measurement_size == Eigen::Dynamic && Any::max_measurement_size == 3);
-static_assert(SensorOf<Any, Turn> && !LinearSensorOf<Any, Turn>);
-static_assert(std::is_convertible_v<BearingSensor, Any> && !std::is_convertible_v<PositionSensor<3>, Any>);
+const EstimateOf<AnyModel> start{Vector<5>(400.0, 300.0, 5.0, -3.0, 0.1), SquareMatrix<5>{{9.0, 1.0, 0.5, 0.0, 0.1},
+                                                                                          {1.0, 8.0, 0.0, 0.3, 0.0},
+                                                                                          {0.5, 0.0, 4.0, 0.0, 0.1},
+                                                                                          {0.0, 0.3, 0.0, 3.0, 0.0},
+                                                                                          {0.1, 0.0, 0.1, 0.0, 0.2}}};
 
 /// Every member updates with the sensor as with that which it is.
 template <class Sensor>
-void updates_as(const Sensor& sensor) {
-  holds([&] {
-    constexpr int M = Sensor::measurement_size;
-    const Turn turn{0.5, 0.01};
-    auto prior = generated_gaussian<5>();
-    prior.mean.head<2>() += Vector<2>(400.0, 300.0);  // away from the radar
-    auto z = generated_gaussian<M>();
-    z.mean += predicted_measurement(turn, sensor, prior.mean);
-    const Any any = sensor;
-    const MeasurementOf<Any> same{z.mean, z.covariance};
-    with_every_member(turn, [&](const auto& member) {
-      Gaussian<5> expected, found;
-      const auto innovation = update(member, prior, z, sensor, expected);
-      const auto of_any = update(member, prior, same, any, found);
-      require_near_gaussian(found, expected);
-      require_near_matrix(of_any.residual, innovation.residual, 1e-9);
-      require_near_matrix(of_any.covariance, innovation.covariance, 1e-9);
-      require_near(of_any.log_likelihood, innovation.log_likelihood, 1e-9);
-    });
-  });
+void expect_as(const Sensor& sensor, const MeasurementOf<Sensor>& z) {
+  const AnySensor any = sensor;
+  const MeasurementOf<AnySensor> same{z.mean, z.covariance};
+  for (const AnyModel& member : every_member(CoordinatedTurn<2>{0.5, 0.01})) {
+    EstimateOf<AnyModel> expected, found;
+    const auto innovation = update(member, start, z, sensor, expected);
+    const auto of_any = update(member, start, same, any, found);
+    EXPECT_PRED_FORMAT3(near, found, expected, 0.0);
+    EXPECT_EQ(of_any.residual, innovation.residual);
+    EXPECT_EQ(of_any.covariance, innovation.covariance);
+    EXPECT_EQ(of_any.log_likelihood, innovation.log_likelihood);
+    const auto linear = linearised_measurement(member, start, z, sensor);
+    EXPECT_EQ(linearised_measurement(member, start, same, any).H, linear.H);
+
+    // A measurement of another number of quantities is refused.
+    const Vector<Eigen::Dynamic, 6> fewer = same.mean.head(z.size() - 1);
+    const Vector<Eigen::Dynamic, 6> more = Vector<Eigen::Dynamic, 6>::Zero(z.size() + 1);
+    for (const auto& other : {fewer, more}) {
+      const MeasurementOf<AnySensor> wrong{other,
+                                           SquareMatrix<Eigen::Dynamic, 6>::Identity(other.size(), other.size())};
+      const std::string words =
+          "a measurement of " + std::to_string(other.size()) + " quantities by a sensor of " + std::to_string(z.size());
+      EXPECT_TRUE(throws<std::invalid_argument>([&] { update(member, start, wrong, any, found); }, {words}));
+      EXPECT_TRUE(throws<std::invalid_argument>([&] { linearised_measurement(member, start, wrong, any); }, {words}));
+    }
+  }
 }
 
-TEST(AnySensor, UpdatesAsThePositionSensorThatItIs) { updates_as(PositionSensor<2>{}); }
-TEST(AnySensor, UpdatesAsTheRadarThatItIs) { updates_as(PolarSensor<2>{Vector<2>(-30.0, 20.0)}); }
-TEST(AnySensor, UpdatesAsTheBearingSensorThatItIs) { updates_as(BearingSensor{Vector<2>(-30.0, 20.0)}); }
-TEST(AnySensor, UpdatesAsTheLinearSensorThatItIs) {
-  updates_as(LinearSensor<3, 4>{RectangularMatrix<3, 4>{{1, 2, 0, 0}, {0, 1, 1, 0}, {0, 0, 1, -1}}});
+/// Asks the model how many states it has.
+struct LastSquared {
+  static constexpr int measurement_size = 1;
+  template <class Model, class State>
+  auto measure(const Model& model, const State& x) const {
+    const auto last = x(model.size() - 1);
+    return Eigen::Matrix<typename State::Scalar, 1, 1>(typename State::Scalar(last * last));
+  }
+};
+/// Large, and sees the first component.
+struct Large {
+  static constexpr int seen_size = 1;
+  static constexpr int measurement_size = 1;
+  std::array<double, 9> numbers{2.0};
+  Vector<1> measure(const Vector<1>& x) const { return numbers[0] * x; }
+  SquareMatrix<1> measurement_jacobian(const Vector<1>&) const { return SquareMatrix<1>(numbers[0]); }
+};
+
+TEST(AnySensor, UpdatesAsTheSensorThatItIs) {
+  const std::array<int, 2> places{3, 0};
+  const Vector<2> origin(-30.0, 20.0);
+  const Gaussian<1> angle{Vector<1>(0.6), SquareMatrix<1>(1e-3)}, number{Vector<1>(0.02), SquareMatrix<1>(0.1)};
+  const Gaussian<2> position{Vector<2>(403.0, 298.0), SquareMatrix<2>{{4.0, 0.5}, {0.5, 2.0}}};
+  const Gaussian<2> polar{Vector<2>(510.0, 0.6), SquareMatrix<2>{{4.0, 0.0}, {0.0, 1e-3}}};
+  const Gaussian<3> three{Vector<3>(505.0, 0.6, 2.0), SquareMatrix<3>{{4.0, 0, 0}, {0, 1e-3, 0}, {0, 0, 1.0}}};
+  expect_as(PositionSensor<2>{}, position);
+  expect_as(PolarSensor<2>{origin}, polar);
+  expect_as(BearingSensor{origin}, angle);
+  expect_as(DopplerSensor<2>{origin}, three);
+  expect_as(LinearSensor<3, 4>{RectangularMatrix<3, 4>{{1, 2, 0, 0}, {0, 1, 1, 0}, {0, 0, 1, -1}}}, three);
+  expect_as(ComponentSensor<2>{places}, {Vector<2>(2.0, 401.0), position.covariance});
+  expect_as(LastSquared{}, number);
+  expect_as(Large{}, Gaussian<1>{Vector<1>(800.0), SquareMatrix<1>(3.0)});
 }
 
-TEST(AnySensor, WrapsTheAnglesOfTheSensorThatItIs) {
-  const Any bearing = BearingSensor{}, position = PositionSensor<2>{};
-  const Any::Measured a = Vector<1>(3.0), b = Vector<1>(-3.0);
-  EXPECT_PRED_FORMAT3(near, bearing.measurement_difference(a, b)(0), 6.0 - 2.0 * std::numbers::pi, 1e-15);
-  const Any::Measured p = Vector<2>(3.0, 0.0), q = Vector<2>(-3.0, 0.0);
-  EXPECT_EQ(position.measurement_difference(p, q)(0), 6.0);
+TEST(AnySensor, MayBeAskedWithATypedModelUnlessItAsksBack) {
+  const CoordinatedTurn<2> turn{0.5, 0.01};
+  const Gaussian<5> prior{start.mean, start.covariance};
+  const MeasurementOf<AnySensor> z{Vector<1>(0.6), SquareMatrix<1>(1e-3)};
+  EXPECT_EQ(update(Extended{turn}, prior, z, AnySensor{BearingSensor{}}).mean,
+            update(Extended{turn}, prior, {z.mean, z.covariance}, BearingSensor{}).mean);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { update(Extended{turn}, prior, z, AnySensor{LastSquared{}}); },
+                                            {"asks its model", "AnyModel"}));
 }
 
 /// Says that its mean is 1, whatever the points are.
@@ -77,30 +113,31 @@ struct OneAlways : BearingSensor {
 };
 
 TEST(AnySensor, AveragesAsTheSensorThatItIs) {
-  const AnySensor<PositionSensor<2>, OneAlways, BearingSensor> one = OneAlways{}, angle = BearingSensor{},
-                                                               position = PositionSensor<2>{};
-  const Vector<2> weights(0.25, 0.75);
-  using Columns = RectangularMatrix<Eigen::Dynamic, 2, 2>;
-  const Columns angles = RectangularMatrix<1, 2>(3.0, -3.0), points = SquareMatrix<2>{{3.0, -3.0}, {1.0, 5.0}};
-  EXPECT_EQ(one.measurement_mean(angles, weights)(0), 1.0);
-  EXPECT_PRED_FORMAT3(near, angle.measurement_mean(angles, weights)(0), 3.0 + 0.75 * (2.0 * std::numbers::pi - 6.0),
-                      1e-15);
-  EXPECT_EQ(position.measurement_mean(points, weights), (Vector<2>(-1.5, 4.0)));
-
-  const Gaussian<4> prior{Vector<4>(100.0, 50.0, 0.0, 0.0), SquareMatrix<4>::Identity()};
-  Gaussian<4> x;
-  const Gaussian<Eigen::Dynamic, 2> z{Vector<1>(0.5), SquareMatrix<1>(0.01)};
-  EXPECT_PRED_FORMAT3(near, update(Unscented{dwna<2>(1.0)}, prior, z, one, x).residual(0), -0.5, 1e-15);
+  EstimateOf<AnyModel> x;
+  const MeasurementOf<AnySensor> z{Vector<1>(0.5), SquareMatrix<1>(0.01)};
+  const auto innovation =
+      update(AnyModel{Unscented{CoordinatedTurn<2>{0.5, 0.01}}}, start, z, AnySensor{OneAlways{}}, x);
+  EXPECT_PRED_FORMAT3(near, innovation.residual(0), -0.5, 1e-15);
 }
 
 TEST(AnySensor, TellsThePositionIfTheSensorThatItIsDoes) {
-  const MeasurementOf<Any> z{Vector<2>(100.0, 0.5), SquareMatrix<2>{{4.0, 0.0}, {0.0, 1e-4}}};
-  const Any position = PositionSensor<2>{}, radar = PolarSensor<2>{Vector<2>(5.0, 6.0)}, bearing = BearingSensor{};
-  EXPECT_EQ(position.position(z)->mean, (Vector<2>(100.0, 0.5)));
-  const Gaussian<2> expected = PolarSensor<2>{Vector<2>(5.0, 6.0)}.position({z.mean, z.covariance});
-  EXPECT_EQ(radar.position(z)->mean, expected.mean);
-  EXPECT_EQ(radar.position(z)->covariance, expected.covariance);
-  EXPECT_FALSE(bearing.position({Vector<1>(0.5), SquareMatrix<1>(1e-4)}).has_value());
+  const MeasurementOf<AnySensor> z{Vector<2>(100.0, 0.5), SquareMatrix<2>{{4.0, 0.0}, {0.0, 1e-4}}};
+  const PolarSensor<2> radar{Vector<2>(5.0, 6.0)};
+  const Gaussian<2> polar = radar.position({z.mean, z.covariance});
+  Vector<3> mean;
+  double covariance[9];
+  const auto told = [&](const AnySensor& sensor) { return sensor.position(detail::view(z), mean.data(), covariance); };
+  ASSERT_EQ(told(PositionSensor<2>{}), 2);
+  EXPECT_EQ(mean.head<2>(), z.mean);
+  ASSERT_EQ(told(radar), 2);
+  EXPECT_EQ(mean.head<2>(), polar.mean);
+  EXPECT_EQ((Eigen::Map<const SquareMatrix<2>>(covariance)), polar.covariance);
+  const std::array<int, 2> both{0, 1}, velocity{2, 3};
+  EXPECT_EQ(told(ComponentSensor<2>(both, 2)), 2);
+  EXPECT_EQ(told(ComponentSensor<2>(velocity, 2)), 0);
+  EXPECT_EQ(told(LinearSensor<2, 2>{SquareMatrix<2>::Identity()}), 0);
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { told(PositionSensor<3>{}); }, {"of 2 quantities", "of 3"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { told(PositionSensor<1>{}); }, {"of 2 quantities", "of 1"}));
 }
 
 }  // namespace

@@ -17,8 +17,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::near_matrix;
+using namespace support;
 
 /// Flies straight from east to west, past the cut of the azimuth, then in circles of 300 m.
 template <class Bare, class Member>

@@ -7,7 +7,7 @@
 namespace sigmax {
 namespace {
 
-using support::throws;
+using namespace support;
 using Glider = FixedStepMotion<2>;
 
 const SquareMatrix<2> F{{1.0, 0.5}, {0.0, 1.0}};

@@ -11,8 +11,7 @@
 namespace sigmax {
 namespace {
 
-using support::near_matrix;
-using support::throws;
+using namespace support;
 using Place = Grid<2>::Lattice;
 
 TEST(Grid, NumbersItsCellsRowByRow) {

@@ -10,8 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::near;
-using support::throws;
+using namespace support;
 
 const SquareMatrix<2> Q{{2.0, -0.6}, {-0.6, 0.5}};
 const Grid<2> grid{{-4.0, -3.0}, {5.0, 3.0}, {0.5, 0.25}};
@@ -64,11 +63,8 @@ TEST(GridNoise, IsAsWideAlongAnAxisAsTheOtherComponentLeavesIt) {
 }
 
 TEST(GridNoise, NeedsAPositiveDefiniteCovariance) {
-  EXPECT_TRUE(throws<std::domain_error>(
-      [] {
-        GridNoise<2>(SquareMatrix<2>{{1.0, 1.0}, {1.0, 1.0}}, 1e-12);
-      },
-      {"process covariance", "not positive definite"}));
+  EXPECT_TRUE(throws<std::domain_error>([] { GridNoise<2>(SquareMatrix<2>::Ones(), 1e-12); },
+                                        {"process covariance", "not positive definite"}));
 }
 
 }  // namespace

@@ -3,20 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/kalman.hpp>
 
-#include "estimation/motion_laws.hpp"
+#include "support/matrices.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::fixed;
-using support::generated;
-using support::generated_covariance;
-using support::generated_matrix;
-using support::holds;
-using support::number_between;
-using support::require_dense_prediction;
-using support::require_near_matrix;
+using restatement::kronecker;
+using restatement::transposed;
+using namespace support;
 
 /// A law of one's own: any upper triangular matrix.
 struct Law {
@@ -25,7 +21,7 @@ struct Law {
   std::string_view name() const { return "own"; }
   SquareMatrix<3> transition(double) const { return F; }
   SquareMatrix<3> process_covariance(double) const { return Q; }
-  Vector<3> input_gain(double dt) const { return Vector<3>::Constant(dt); }
+  Vector<3> input_gain(double dt) const { return Vector<3>(dt, 3.0, 1.0); }
 };
 static_assert(MotionLaw<Law>);
 static_assert(LinearMotion<IndependentAxes<2, Law>>);
@@ -36,31 +32,31 @@ struct OtherSize : Law {
 };
 static_assert(!MotionLaw<OtherSize>);
 
-Law generated_law() {
-  return {fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(), fixed<3, 3>(generated_covariance(3))};
-}
-
 TEST(IndependentAxes, EveryAxisFollowsTheLaw) {
   holds([] {
-    const Law law = generated_law();
-    const auto identity = restatement::identity(2);
+    const Law law{fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(), fixed<3, 3>(generated_covariance(3))};
     const IndependentAxes<2, Law> model{law, Vector<2>(3.0, -5.0)};
-    require_near_matrix(model.transition(1.0), restatement::kronecker(support::dense(law.F), identity), 0.0);
-    require_near_matrix(model.process_covariance(1.0), restatement::kronecker(support::dense(law.Q), identity), 0.0);
-    RC_ASSERT(model.known_input(2.0) == (Vector<6>{6, -10, 6, -10, 6, -10}));
+    const auto identity = restatement::identity(2);
+    const auto F = kronecker(dense(law.F), identity), Q = kronecker(dense(law.Q), identity);
+    require_near_matrix(model.transition(1.0), F, 0.0);
+    require_near_matrix(model.process_covariance(1.0), Q, 0.0);
+    const Vector<6> input(6, -10, 9, -15, 3, -5);
+    RC_ASSERT(model.known_input(2.0) == input);
+
+    const auto prior = generated_gaussian<6>();
+    const auto predicted = predict(model, prior, 2.0);
+    require_near_matrix(predicted.mean, F * dense(prior.mean) + dense(input), 1e-12);
+    require_near_matrix(predicted.covariance, F * dense(prior.covariance) * transposed(F) + Q, 1e-12);
   });
 }
 
-TEST(IndependentAxes, PredictionIsTheFormula) {
-  holds([] {
-    require_dense_prediction(IndependentAxes<1, Law>{generated_law(), generated_matrix<1, 1>()}, 0.7);
-    require_dense_prediction(IndependentAxes<3, Law>{generated_law(), generated_matrix<3, 1>()}, 0.7);
-  });
-}
-
-TEST(IndependentAxes, SharesTheNamesOfOthersOfItsOrder) {
-  EXPECT_EQ((IndependentAxes<3, Law>{Law{}}.components()), dwpa<3>(1.0).components());
-  EXPECT_EQ((IndependentAxes<3, Law>{Law{}}.name()), "own");
+TEST(IndependentAxes, OrdersItsStatesByDerivative) {
+  const IndependentAxes<3, Law> model{Law{}};
+  EXPECT_EQ(model.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"}));
+  EXPECT_EQ(dwna<2>(3.0).components(), (std::vector<std::string>{"x", "y", "vx", "vy"}));
+  EXPECT_EQ(model.name(), "own");
+  EXPECT_EQ(model.size(), 9);
+  EXPECT_EQ(model.input(), (Vector<3>::Zero()));
 }
 
 }  // namespace

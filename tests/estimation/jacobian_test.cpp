@@ -7,9 +7,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_matrix;
-using support::holds;
-using support::require_near_matrix;
+using namespace support;
 
 TEST(Jacobian, IsThatOfTheFormula) {
   holds([] {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include <sigmax/estimation/white_noise.hpp>
@@ -12,15 +13,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::number_between;
-using support::require_dense_prediction;
-using support::require_integral_of;
-using support::require_near_covariance;
-using support::require_near_matrix;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
 static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
@@ -28,17 +21,12 @@ static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
 TEST(KnownTurn, IsTheIntegral) {
   holds([] {
     const double w = number_between(-2.0, 2.0), q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    const Eigen::MatrixXd plane{{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 0, 0, -w}, {0, 0, w, 0}};
-    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(4, 4);
-    noise(2, 2) = noise(3, 3) = q;
-    require_integral_of(plane, noise, KnownTurn<2>{w, q}, dt);
-
-    Eigen::MatrixXd space = Eigen::MatrixXd::Zero(6, 6), noise_in_space = Eigen::MatrixXd::Zero(6, 6);
-    space.topRightCorner(3, 3).setIdentity();
-    space(3, 4) = -w;
-    space(4, 3) = w;
-    noise_in_space.bottomRightCorner(3, 3).diagonal().setConstant(q);
-    require_integral_of(space, noise_in_space, KnownTurn<3>{w, q}, dt);
+    restatement::Matrix A(6, 6), D(6, 6);
+    for (std::size_t i = 0; i < 3; ++i) A(i, 3 + i) = 1.0;
+    for (std::size_t i = 3; i < 6; ++i) D(i, i) = q;
+    A(3, 4) = -w;
+    A(4, 3) = w;
+    require_integral(A, D, KnownTurn<3>{w, q}, dt);
   });
 }
 
@@ -60,16 +48,16 @@ TEST(KnownTurn, WithoutARateItIsWhiteNoiseAcceleration) {
   });
 }
 
-TEST(KnownTurn, PredictionIsTheFormula) {
-  holds([] { require_dense_prediction(KnownTurn<3>{number_between(-2.0, 2.0), 1.0}, number_between(0.0, 3.0)); });
+TEST(KnownTurn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
+  const double omega = std::numbers::pi / 2.0, radius = 200.0, speed = radius * omega;
+  const Vector<6> start(0.0, 0.0, 10.0, speed, 0.0, 5.0);  // the centre is at (0, 200)
+  EXPECT_PRED_FORMAT3(near_matrix, (KnownTurn<3>{omega, 1.0}.transition(1.0) * start),
+                      (Vector<6>{radius, radius, 15.0, 0.0, speed, 5.0}), 1e-12);
 }
 
-TEST(KnownTurn, NamesItselfAndSharesTheComponentsOfOthers) {
-  const KnownTurn<2> model{0.1, 2.0};
-  EXPECT_EQ(model.name(), "known_turn");
-  EXPECT_EQ(model.components(), cwna<2>(1.0).components());
-  EXPECT_EQ(model.omega(), 0.1);
-  EXPECT_EQ(model.q(), 2.0);
+TEST(KnownTurn, ShowsItsParameters) {
+  EXPECT_EQ((KnownTurn<2>{0.1, 2.0}.omega()), 0.1);
+  EXPECT_EQ((KnownTurn<2>{0.1, 2.0}.q()), 2.0);
 }
 
 TEST(KnownTurn, RefusesParametersThatAreNone) {

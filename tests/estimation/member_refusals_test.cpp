@@ -5,115 +5,90 @@
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/sensors.hpp>
 
-#include "estimation/members.hpp"
+#include "estimation/restated.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::throws;
-using support::with_default_members;
+using namespace support;
+using Prior = EstimateOf<AnyModel>;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const PolarSensor<2> radar;
 
 TEST(MemberRefusals, OfAMeasurementThatIsNotFiniteAndNamesTheModel) {
-  const auto model = dwna<2>(1.0);
-  const PolarSensor<2> radar;
-  const Gaussian<4> prior{Vector<4>(100.0, 0.0, 0.0, 0.0), SquareMatrix<4>::Identity()};
-  const SquareMatrix<2> R = SquareMatrix<2>::Identity();
-  with_default_members(model, [&](const auto& member) {
-    Gaussian<4> x = prior;
+  const Prior prior{Vector<4>(100.0, 0.0, 0.0, 0.0), SquareMatrix<4>::Identity()};
+  auto filters = every_member(dwna<2>(1.0));
+  filters.emplace_back(dwna<2>(1.0));
+  for (const AnyModel& filter : filters)
     for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
-      EXPECT_TRUE(throws<std::invalid_argument>(
-          [&] {
-            update(member, prior, {Vector<2>(bad, 0.1), R}, radar, x);
-          },
-          {"measurement", "dwna", "not finite"}));
-      EXPECT_TRUE(throws<std::invalid_argument>(
-          [&] {
-            update(member, prior, {Vector<2>(1.0, 0.1), SquareMatrix<2>(bad * R)}, radar, x);
-          },
-          {"measurement", "dwna", "not finite"}));
+      const Gaussian<2> place{Vector<2>(bad, 0.1), SquareMatrix<2>::Identity()},
+          spread{Vector<2>(1.0, 0.1), bad * SquareMatrix<2>::Identity()};
+      for (const auto& z : {place, spread}) {
+        const std::initializer_list<std::string_view> words{"measurement", "dwna", "not finite"};
+        EXPECT_TRUE(throws<std::invalid_argument>([&] { update(filter, prior, z, radar); }, words));
+        EXPECT_TRUE(throws<std::invalid_argument>([&] { update(filter, prior, z, PositionSensor<2>{}); }, words));
+      }
     }
-    EXPECT_EQ(x.mean, prior.mean) << "the estimate is as it was";
-  });
-  Gaussian<4> x;
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        update(dwna<2>(1.0), prior, {Vector<2>(nan, 0.1), R}, x);
-      },
-      {"measurement", "dwna", "not finite"}));
 }
 
 TEST(MemberRefusals, OfACovarianceThatLostItsDefiniteness) {
   const CoordinatedTurn<2> model{1.0, 0.1};
-  const PolarSensor<2> radar;
-  Gaussian<5> prior{Vector<5>(100.0, 50.0, 1.0, 1.0, 0.1), SquareMatrix<5>::Identity()};
+  Prior prior{Vector<5>(100.0, 50.0, 1.0, 1.0, 0.1), SquareMatrix<5>::Identity()};
   prior.covariance(3, 3) = -1e-6;
   const Gaussian<2> z{Vector<2>(100.0, 0.5), SquareMatrix<2>::Identity()};
-  const auto refuses = [&](const auto& member) {
-    Gaussian<5> x;
-    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, prior, 1.0, x); },
-                                          {"covariance", "coordinated_turn", "not positive semi-definite", "4"}));
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, prior, z, radar, x); },
-                                          {"covariance", "coordinated_turn", "not positive semi-definite"}));
-  };
-  refuses(Unscented{model});
-  refuses(Cubature{model});
-
+  for (const AnyModel& member : {AnyModel{Unscented{model}}, AnyModel{Cubature{model}}}) {
+    const std::initializer_list<std::string_view> words{"covariance", "coordinated_turn", "not positive semi-definite",
+                                                        "component 4"};
+    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, prior, 1.0); }, words));
+    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, prior, z, radar); }, words));
+  }
   prior.covariance = -SquareMatrix<5>::Identity() * 100.0;
-  Gaussian<5> x;
-  EXPECT_TRUE(throws<std::domain_error>([&] { update(Extended{model}, prior, z, radar, x); },
+  EXPECT_TRUE(throws<std::domain_error>([&] { update(AnyModel{Extended{model}}, prior, z, radar); },
                                         {"innovation covariance", "coordinated_turn", "not positive definite"}));
 }
 
 TEST(MemberRefusals, OfAnEstimateThatIsNotFinite) {
-  const auto model = dwna<2>(1.0);
-  const PolarSensor<2> radar;
   const Gaussian<2> z{Vector<2>(100.0, 0.5), SquareMatrix<2>::Identity()};
-  const Gaussian<4> unknown{Vector<4>(nan, 50.0, 1.0, 1.0), SquareMatrix<4>::Identity()};
-  Gaussian<4> x;
-  with_default_members(model, [&](const auto& member) {
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, unknown, z, radar, x); }, {"dwna", "not finite"}));
-  });
-  EXPECT_TRUE(throws<std::domain_error>([&] { update(dwna<2>(1.0), unknown, z, x); }, {"estimate", "dwna"}));
+  const Prior unknown{Vector<4>(nan, 50.0, 1.0, 1.0), SquareMatrix<4>::Identity()};
+  for (const AnyModel& member : every_member(dwna<2>(1.0)))
+    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, unknown, z, radar); }, {"dwna", "not finite"}));
+  EXPECT_TRUE(throws<std::domain_error>([&] { update(AnyModel{dwna<2>(1.0)}, unknown, z, PositionSensor<2>{}); },
+                                        {"estimate", "dwna", "not finite"}));
 }
 
-/// f has a pole at 0 and h at 1.
-struct Poles {
-  static constexpr int state_size = 1;
-  static constexpr int max_state_size = 1;
-  static constexpr int seen_size = 1;
-  static constexpr int measurement_size = 1;
-  Eigen::Index size() const { return 1; }
-  std::string_view name() const { return "poles"; }
-  std::vector<std::string> components() const { return {"x"}; }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> propagate(const Eigen::Matrix<Scalar, 1, 1>& x, double) const {
-    return Eigen::Matrix<Scalar, 1, 1>(Scalar(1.0 / x(0)));
-  }
-  SquareMatrix<1> process_covariance(double) const { return SquareMatrix<1>(1.0); }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 1, 1>& x) const {
-    return Eigen::Matrix<Scalar, 1, 1>(Scalar(1.0 / (x(0) - 1.0)));
-  }
-};
-
+/// f has a pole at 0 and h at 1, and their slopes at 2 and at 3.
 TEST(MemberRefusals, OfAFunctionThatIsNotFiniteAndNamesTheState) {
-  const Gaussian<1> z{Vector<1>(1.0), SquareMatrix<1>(1.0)};
-  const auto at = [](double x) { return Gaussian<1>{Vector<1>(x), SquareMatrix<1>(1.0)}; };
-  Gaussian<1> x;
-  const auto refuses = [&](const auto& member, double pole_of_f, double pole_of_h) {
-    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, at(pole_of_f), 1.0, x); },
-                                          {"f", "poles", "not finite", "x = (0"}));
-    EXPECT_TRUE(throws<std::domain_error>([&] { update(member, at(pole_of_h), z, Poles{}, x); },
-                                          {"h", "poles", "not finite", "x = (1"}));
+  using restatement::Matrix, restatement::Vector;
+  const auto pole = [](double x, double at) { return 1.0 / std::abs(x - at); };
+  const OwnMotion poles{{[=](const Vector& x, double) -> Vector { return {pole(x[0], 0.0)}; },
+                         [=](const Vector& x, double) -> Matrix {
+                           return {1, 1, {pole(x[0], 2.0)}};
+                         },
+                         [](double) { return restatement::identity(1); },
+                         [=](const Vector& x) -> Vector { return {pole(x[0], 1.0)}; },
+                         [=](const Vector& x) -> Matrix {
+                           return {1, 1, {pole(x[0], 3.0)}};
+                         },
+                         {false}},
+                        1};
+  const Gaussian<1> z{sigmax::Vector<1>(1.0), SquareMatrix<1>(1.0)};
+  const auto refuses = [&](const AnyModel& member, double of_f, double of_h, const char* f, const char* h,
+                           const char* x_of_f, const char* x_of_h) {
+    const auto at = [](double x) { return Prior{sigmax::Vector<1>(x), SquareMatrix<1>(1.0)}; };
+    EXPECT_TRUE(throws<std::domain_error>([&] { predict(member, at(of_f), 1.0); }, {f, "own", "not finite", x_of_f}));
+    EXPECT_TRUE(throws<std::domain_error>(
+        [&] {
+          update(member, at(of_h), {z.mean, z.covariance}, OwnSensor{poles.model});
+        },
+        {h, "own", "not finite", x_of_h}));
   };
-  refuses(Extended{Poles{}}, 0.0, 1.0);
-  refuses(Unscented{Poles{}}, 0.0, 1.0);
-  refuses(Cubature{Poles{}}, 1.0, 2.0);  // its points are one deviation from the mean
+  refuses(Extended{poles}, 0.0, 1.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");
+  refuses(Extended{poles}, 2.0, 3.0, "the Jacobian of f", "the Jacobian of h", "x = (2.0", "x = (3.0");
+  refuses(Unscented{poles}, 0.0, 1.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");
+  refuses(Cubature{poles}, 1.0, 2.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");  // its points are one from the mean
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
@@ -27,38 +27,32 @@ struct Nameless : RandomWalk {
   void name() const {}
 };
 
-// A matrix of another size does not compile.
-struct WideTransition : RandomWalk {
-  RectangularMatrix<1, 2> transition(double) const { return RectangularMatrix<1, 2>::Zero(); }
+/// Of one state, with functions of these sizes: what is of another does not compile.
+template <int Columns, int Rows, int Input>
+struct Shaped : RandomWalk {
+  RectangularMatrix<1, Columns> transition(double) const { return {}; }
+  RectangularMatrix<Rows, 1> process_covariance(double) const { return {}; }
+  Vector<Input> known_input(double) const { return {}; }
 };
-struct TallNoise : RandomWalk {
-  RectangularMatrix<2, 1> process_covariance(double) const { return RectangularMatrix<2, 1>::Zero(); }
-};
-struct LongInput : RandomWalk {
-  Vector<2> known_input(double) const { return Vector<2>::Zero(); }
-};
-static_assert(!LinearMotion<WideTransition>);
-static_assert(!LinearMotion<TallNoise>);
-static_assert(!LinearMotion<LongInput>);
+static_assert(LinearMotion<Shaped<1, 1, 1>> && !LinearMotion<Shaped<2, 1, 1>>);
+static_assert(!LinearMotion<Shaped<1, 2, 1>> && !LinearMotion<Shaped<1, 1, 2>>);
 
 using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
-using RunTime = AnyMotion<9, Dwna, IndependentAxes<3, DiscreteWhiteNoise<3>>>;
 
 static_assert(LinearMotion<RandomWalk>);
 static_assert(LinearMotion<FixedStepMotion<4>>);
 static_assert(LinearMotion<Dwna>);
-static_assert(StateModel<RunTime> && !LinearMotion<RunTime>);
+static_assert(StateModel<AnyModel> && !LinearMotion<AnyModel>);
 static_assert(!StateModel<int> && !LinearMotion<int>);
 static_assert(!StateModel<Nameless> && !LinearMotion<Nameless>);
 
 static_assert(std::is_same_v<EstimateOf<Dwna>, Gaussian<6>>);
 static_assert(std::is_same_v<StateOf<Dwna>, Vector<6>>);
 static_assert(std::is_same_v<StateMatrixOf<Dwna>, SquareMatrix<6>>);
-static_assert(std::is_same_v<EstimateOf<RunTime>, Gaussian<Eigen::Dynamic, 9>>);
+static_assert(std::is_same_v<EstimateOf<AnyModel>, Gaussian<Eigen::Dynamic, 32>>);
 
 TEST(Model, SaysAlongHowManyAxesItKnowsItsPositionOrNothing) {
   EXPECT_EQ(axes_of<Dwna>, 3);
-  EXPECT_EQ(axes_of<RunTime>, 3);
   EXPECT_EQ(axes_of<RandomWalk>, 0);
   EXPECT_EQ(axes_of<FixedStepMotion<4>>, 0);
 }

@@ -2,14 +2,18 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
-
-#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/linearised.hpp>
 
 #include "support/matrices.hpp"
 
 namespace sigmax::support {
+
+/// F and Q of a linear motion for a step of dt seconds, and what its known input adds, as the mean.
+inline LinearisedStepOf<AnyModel> matrices_of(const AnyModel& model, double dt) {
+  const auto n = model.size();
+  return linearised_step(model, {StateOf<AnyModel>::Zero(n), StateMatrixOf<AnyModel>::Identity(n, n)}, dt);
+}
 
 /// Fails the current case of a property unless two covariances are near, each entry on the scale of its variances.
 inline void require_near_covariance(const AnyMatrix& found, const AnyMatrix& expected, double tolerance) {
@@ -29,48 +33,51 @@ inline double generated_step() { return std::pow(10.0, number_between(-6.0, 1.0)
 
 /// A step of s and one of t seconds are a step of s + t: F(s+t) = F(t) F(s), Q(s+t) = F(t) Q(s) F(t)ᵀ + Q(t),
 /// u(s+t) = F(t) u(s) + u(t).
-template <class Model>
-void require_steps_to_add_up(const Model& model, double s, double t) {
-  const auto F = model.transition(t);
-  require_near_matrix(model.transition(s + t), F * model.transition(s), 1e-12);
-  require_near_covariance(model.process_covariance(s + t),
-                          F * model.process_covariance(s) * F.transpose() + model.process_covariance(t), 1e-12);
-  require_near_matrix(model.known_input(s + t), F * model.known_input(s) + model.known_input(t), 1e-12);
+inline void require_steps_to_add_up(const AnyModel& model, double s, double t) {
+  const auto first = matrices_of(model, s), second = matrices_of(model, t), both = matrices_of(model, s + t);
+  require_near_matrix(both.F, second.F * first.F, 1e-12);
+  require_near_covariance(both.Q, second.F * first.Q * second.F.transpose() + second.Q, 1e-12);
+  require_near_matrix(both.mean, second.F * first.mean + second.mean, 1e-12);
 }
 
-/// F and Q are the numerical integrals of dx = A x dt + dw with E[dw dwᵀ] = D dt over dt seconds, by the exponential of
-/// one matrix (Van Loan 1978).
-inline void require_integral(const AnyMatrix& A, const AnyMatrix& D, double dt, const AnyMatrix& found_F,
-                             const AnyMatrix& found_Q) {
-  const Eigen::Index n = A.rows();
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  block.topLeftCorner(n, n) = -A * dt;
-  block.topRightCorner(n, n) = D * dt;
-  block.bottomRightCorner(n, n) = A.transpose() * dt;
-  const Eigen::MatrixXd exponential = block.exp();
-  const Eigen::MatrixXd F = exponential.bottomRightCorner(n, n).transpose();
-  require_near_matrix(found_F, F, 1e-9);
-  require_near_covariance(found_Q, F * exponential.topRightCorner(n, n), 1e-9);
-}
-template <class Model>
-void require_integral_of(const AnyMatrix& A, const AnyMatrix& D, const Model& model, double dt) {
-  require_integral(A, D, dt, model.transition(dt), model.process_covariance(dt));
+/// By its series, of a sixteenth or less of the matrix, squared.
+inline restatement::Matrix exponential(restatement::Matrix A) {
+  int squarings = 0;
+  for (double size = 0.0; squarings == 0 || size > 0.1; ++squarings) {
+    A = 0.5 * A;
+    size = 0.0;
+    for (const double value : A.values) size = std::max(size, std::abs(value));
+  }
+  restatement::Matrix term = restatement::identity(A.rows), sum = term;
+  for (int k = 1; k < 20; ++k) {
+    term = (1.0 / k) * (term * A);
+    sum = sum + term;
+  }
+  while (squarings-- > 0) sum = sum * sum;
+  return sum;
 }
 
-/// `predict`, which may use the structure of a model, is the formula.
-template <class Model>
-void require_dense_prediction(const Model& model, double dt) {
-  const auto prior = generated_gaussian<Model::state_size>();
-  const auto F = dense(model.transition(dt));
-  Gaussian<Model::state_size> predicted, in_place = prior;
-  predict(model, prior, dt, predicted);
-  predict(model, in_place, dt, in_place);
-  require_near_matrix(predicted.mean, F * dense(prior.mean) + dense(model.known_input(dt)), 1e-12);
-  require_near_matrix(predicted.covariance,
-                      F * dense(prior.covariance) * restatement::transposed(F) + dense(model.process_covariance(dt)),
-                      1e-12);
-  RC_ASSERT(predicted.covariance == predicted.covariance.transpose());
-  RC_ASSERT(in_place.mean == predicted.mean && in_place.covariance == predicted.covariance);
+/// F and Q are the integrals of dx = A x dt + dw with E[dw dwᵀ] = D dt over dt seconds, by the exponential of one
+/// matrix (Van Loan 1978). A and D may be of one axis of several.
+inline void require_integral(const restatement::Matrix& A, const restatement::Matrix& D, const AnyModel& model,
+                             double dt) {
+  const std::size_t n = A.rows;
+  restatement::Matrix block(2 * n, 2 * n), F(n, n), corner(n, n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) {
+      block(i, k) = -dt * A(i, k);
+      block(i, n + k) = dt * D(i, k);
+      block(n + i, n + k) = dt * A(k, i);
+    }
+  const auto power = exponential(block);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) {
+      F(k, i) = power(n + i, n + k);
+      corner(i, k) = power(i, n + k);
+    }
+  const auto found = matrices_of(model, dt);
+  require_near_matrix(found.F, F, 1e-9);
+  require_near_covariance(found.Q, matrix_of(F * corner), 1e-9);
 }
 
 }  // namespace sigmax::support

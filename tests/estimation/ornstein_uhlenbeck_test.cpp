@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
@@ -13,40 +12,10 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::near;
-using support::near_matrix;
-using support::number_between;
-using support::require_dense_prediction;
-using support::require_integral_of;
-using support::require_near;
-using support::require_near_covariance;
-using support::require_near_matrix;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 /// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
 double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
-
-TEST(OrnsteinUhlenbeck, ATailIsTheSumOfItsPowersOnBothSidesOfOne) {
-  // e⁻ᵘ − 1 + u over u², and 1 − e⁻²ᵘ + 2u + 2u³/3 − 2u² − 4u e⁻ᵘ over u⁵, in long double.
-  for (const double u : {0.0, 1e-8, 0.01, 0.5, 0.999, 1.0, 1.5, 20.0}) {
-    long double second = 0, fifth = 0, term = 1;  // term = (−1)ⁿ uⁿ/n!
-    for (int n = 0; n < 200; ++n) {
-      const auto from = [&](int k) {
-        return n < k ? 0.0L : u == 0.0 ? (n == k ? 1.0L : 0.0L) : term / std::pow(static_cast<long double>(u), k);
-      };
-      const auto factorial = u == 0.0 ? std::tgamma(n + 1.0L) * (n % 2 == 0 ? 1.0L : -1.0L) : 1.0L;
-      second += from(2) / factorial;
-      fifth += from(5) / factorial * (-std::pow(2.0L, n) + 4.0L * n);
-      term *= -static_cast<long double>(u) / (n + 1);
-    }
-    if (u > 15.0) continue;  // the alternating sum itself cancels
-    EXPECT_PRED_FORMAT3(near, detail::exponential_tail(u, 2, 0, 0, 1), static_cast<double>(second), 1e-13) << u;
-    EXPECT_PRED_FORMAT3(near, detail::exponential_tail(u, 5, -1, 4, 0), static_cast<double>(fifth), 1e-13) << u;
-  }
-}
 
 TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
   const double a = 0.7, T = 3.0, s2 = 4.0;  // Singer 1970; Bar-Shalom, Li, Kirubarajan 2001, (8.2.3-11)
@@ -69,11 +38,10 @@ TEST(OrnsteinUhlenbeck, IsTheIntegral) {
   holds([] {
     const double theta = number_between(0.01, 2.0), sigma = number_between(0.5, 3.0), dt = number_between(0.1, 2.0);
     const double q = 2.0 * theta * sigma * sigma;
-    require_integral_of(SquareMatrix<1>(-theta), SquareMatrix<1>(q), ou_position<1>(theta, sigma), dt);
-    require_integral_of(SquareMatrix<2>{{0, 1}, {0, -theta}}, SquareMatrix<2>{{0, 0}, {0, q}},
-                        ou_velocity<1>(theta, sigma), dt);
-    require_integral_of(SquareMatrix<3>{{0, 1, 0}, {0, 0, 1}, {0, 0, -theta}},
-                        SquareMatrix<3>{{0, 0, 0}, {0, 0, 0}, {0, 0, q}}, singer<1>(theta, sigma), dt);
+    require_integral({1, 1, {-theta}}, {1, 1, {q}}, ou_position<1>(theta, sigma), dt);
+    require_integral({2, 2, {0, 1, 0, -theta}}, {2, 2, {0, 0, 0, q}}, ou_velocity<1>(theta, sigma), dt);
+    require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, -theta}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}},
+                     singer<1>(theta, sigma), dt);
   });
 }
 
@@ -100,11 +68,10 @@ TEST(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
 }
 
 TEST(OrnsteinUhlenbeck, InTheLongRunItForgetsAndKeepsItsDeviation) {
-  const auto model = ou_velocity<2>(2.0, 3.0, Vector<2>(5.0, -7.0));
-  Gaussian<4> estimate{Vector<4>(0.0, 0.0, 100.0, 100.0), 50.0 * SquareMatrix<4>::Identity()};
-  predict(model, estimate, 1000.0, estimate);
-  EXPECT_PRED_FORMAT3(near_matrix, estimate.mean.tail<2>(), (Vector<2>(5.0, -7.0)), 1e-14);
-  EXPECT_PRED_FORMAT3(near_matrix, (estimate.covariance.bottomRightCorner<2, 2>()), (SquareMatrix<2>{{9, 0}, {0, 9}}),
+  const Gaussian<4> start{Vector<4>(0.0, 0.0, 100.0, 100.0), 50.0 * SquareMatrix<4>::Identity()};
+  const auto late = predict(ou_velocity<2>(2.0, 3.0, Vector<2>(5.0, -7.0)), start, 1000.0);
+  EXPECT_PRED_FORMAT3(near_matrix, late.mean.tail<2>(), (Vector<2>(5.0, -7.0)), 1e-14);
+  EXPECT_PRED_FORMAT3(near_matrix, (late.covariance.bottomRightCorner<2, 2>()), (SquareMatrix<2>{{9, 0}, {0, 9}}),
                       1e-14);
 }
 
@@ -113,21 +80,7 @@ TEST(OrnsteinUhlenbeck, AStepOfNoTimeIsNone) {
   EXPECT_EQ(singer<3>(0.5, 2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
 }
 
-TEST(OrnsteinUhlenbeck, PredictionIsTheFormula) {
-  holds([] {
-    const double theta = number_between(0.0, 2.0), sigma = number_between(0.0, 3.0), dt = number_between(0.0, 3.0);
-    require_dense_prediction(ou_position<3>(theta, sigma, Vector<3>(1.0, 2.0, 3.0)), dt);
-    require_dense_prediction(ou_velocity<2>(theta, sigma, Vector<2>(1.0, 2.0)), dt);
-    require_dense_prediction(singer<2>(theta, sigma), dt);
-  });
-}
-
-TEST(OrnsteinUhlenbeck, NamesItself) {
-  EXPECT_EQ(ou_position<2>(1.0, 1.0).name(), "ou_position");
-  EXPECT_EQ(ou_velocity<2>(1.0, 1.0).name(), "ou_velocity");
-  EXPECT_EQ(singer<2>(1.0, 1.0).name(), "singer");
-  EXPECT_EQ(ou_position<2>(1.0, 1.0).components(), (std::vector<std::string>{"x", "y"}));
-  EXPECT_EQ(singer<2>(1.0, 1.0).components(), dwpa<2>(1.0).components());
+TEST(OrnsteinUhlenbeck, ShowsItsParameters) {
   EXPECT_EQ(singer<2>(0.25, 1.5).law().theta(), 0.25);
   EXPECT_EQ(singer<2>(0.25, 1.5).law().sigma(), 1.5);
 }

@@ -1,72 +1,74 @@
 #pragma once
 
-#include <string_view>
-#include <vector>
+#include <functional>
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/nonlinear_motion.hpp>
-
-#include "estimation/members.hpp"
+#include "estimation/restated.hpp"
 
 namespace sigmax::support {
 
-/// The motion and the sensor of z = a + bᵀx + ½ xᵀAx, which sees all of the state; with one state f is the same
-/// function; Q = 1.
-template <int N>
-struct Quadratic {
-  static constexpr int state_size = N;
-  static constexpr int max_state_size = N;
-  static constexpr int seen_size = N;
-  static constexpr int measurement_size = 1;
-  double a = 0.0;
-  Vector<N> b = Vector<N>::Zero();
-  SquareMatrix<N> A = SquareMatrix<N>::Zero();
+/// z = a + bᵀx + ½ xᵀAx; with one state f is the same function, and else f(x) = x; Q = 1.
+inline OwnMotion quadratic(double a, const restatement::Vector& b, const restatement::Matrix& A) {
+  using restatement::Matrix, restatement::Vector;
+  const auto h = [=](const Vector& x) -> Vector {
+    return {a + restatement::dot(b, x) + 0.5 * restatement::dot(x, A * x)};
+  };
+  const auto H = [=](const Vector& x) -> Matrix {
+    Vector slope = A * x;
+    for (std::size_t i = 0; i < b.size(); ++i) slope[i] += b[i];
+    return {1, b.size(), slope};
+  };
+  const bool moves = b.size() == 1;
+  return {{[=](const Vector& x, double) { return moves ? h(x) : x; },
+           [=](const Vector& x, double) { return moves ? H(x) : restatement::identity(x.size()); },
+           [n = b.size()](double) { return restatement::identity(n); },
+           h,
+           H,
+           {false}},
+          b.size()};
+}
 
-  Eigen::Index size() const { return N; }
-  std::string_view name() const { return "quadratic"; }
-  std::vector<std::string> components() const { return std::vector<std::string>(N, "x"); }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, N, 1> propagate(const Eigen::Matrix<Scalar, N, 1>& x, double) const {
-    if constexpr (N == 1)
-      return measure(x);
-    else
-      return x;
+/// z = x² of one number with this mean and variance.
+inline const OwnMotion square = quadratic(0.0, {0.0}, {1, 1, {2.0}});
+inline EstimateOf<AnyModel> one_number(double mean, double variance) {
+  return {Vector<1>(mean), SquareMatrix<1>(variance)};
+}
+inline MeasurementOf<OwnSensor> measured_number(double mean, double variance) {
+  return {Vector<1>(mean), SquareMatrix<1>(variance)};
+}
+
+/// Drawn quadratics of drawn Gaussians, in whitened coordinates c + gᵀy + ½ yᵀBy: the member has the mean c + tr B/2,
+/// the covariance with x, L g, and the variance(g, B) claimed.
+inline void expect_quadratics(const std::function<AnyModel(const OwnMotion&)>& member_of,
+                              const std::function<double(const Vector<3>& g, const SquareMatrix<3>& B)>& variance,
+                              double curvature_in_mean = 1.0) {
+  Draws draws(1);
+  int compared = 0;
+  for (int run = 0; run < 100; ++run) {
+    const restatement::State state = draws.state(3);
+    const restatement::Vector b = draws.vector(3);
+    const restatement::Matrix A = restatement::symmetrised(draws.matrix(3, 3));
+    const OwnMotion model = quadratic(draws.number(), b, A);
+    const Gaussian<3> prior{vector_of(state.mean), matrix_of(state.covariance)};
+    const auto z = measured_number(draws.number(-9.0, 9.0), 20.0);
+    const SquareMatrix<3> L = Eigen::LLT<Eigen::MatrixXd>(prior.covariance).matrixL();
+    const Vector<3> g = L.transpose() * (vector_of(b) + matrix_of(A) * prior.mean);
+    const SquareMatrix<3> B = L.transpose() * matrix_of(A) * L;
+    const double mean = model.model.h(state.mean)[0] + curvature_in_mean * 0.5 * B.trace();
+    const double S = variance(g, B) + 20.0;
+    if (S < g.squaredNorm() + 1.0) continue;  // the posterior is no Gaussian
+    ++compared;
+
+    EstimateOf<AnyModel> x;
+    const auto innovation = update(member_of(model), {prior.mean, prior.covariance}, z, OwnSensor{model.model}, x);
+    EXPECT_PRED_FORMAT3(near, innovation.residual(0), z.mean(0) - mean, 1e-9);
+    EXPECT_PRED_FORMAT3(near, innovation.covariance(0), S, 1e-9);
+    const Vector<3> cross = L * g;
+    EXPECT_PRED_FORMAT3(near_matrix, x.mean, prior.mean + cross / S * innovation.residual, 1e-9);
+    EXPECT_PRED_FORMAT3(near_matrix, x.covariance, prior.covariance - cross * cross.transpose() / S, 1e-9);
   }
-  SquareMatrix<N> process_covariance(double) const { return SquareMatrix<N>::Identity(); }
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, N, 1>& x) const {
-    Scalar z(a);
-    for (int i = 0; i < N; ++i) {
-      z += b(i) * x(i);
-      for (int k = 0; k < N; ++k) z += 0.5 * A(i, k) * x(i) * x(k);
-    }
-    return Eigen::Matrix<Scalar, 1, 1>(z);
-  }
-};
-
-/// A generated quadratic of a generated Gaussian, in whitened coordinates c + gᵀy + ½ yᵀBy: the member has the mean
-/// c + tr B/2, the covariance with x, L g, and the variance(g, B) claimed. `member_of(model)` gives the member.
-template <class MemberOf, class Variance>
-void require_quadratic(const MemberOf& member_of, const Variance& variance, double curvature_in_mean = 1.0) {
-  const auto prior = generated_gaussian<3>();
-  const Quadratic<3> model{number_between(-1.0, 1.0), generated_matrix<3, 1>(),
-                           fixed<3, 3>(restatement::symmetrised(generated(3, 3)))};
-  const Gaussian<1> z{Vector<1>(number_between(-9.0, 9.0)), SquareMatrix<1>(20.0)};
-  const SquareMatrix<3> L = Eigen::LLT<SquareMatrix<3>>(prior.covariance).matrixL();
-  const Vector<3> g = L.transpose() * (model.b + model.A * prior.mean);
-  const SquareMatrix<3> B = L.transpose() * model.A * L;
-  const double mean = model.measure(prior.mean)(0) + curvature_in_mean * 0.5 * B.trace();
-  const double S = variance(g, B) + 20.0;
-
-  Gaussian<3> x;
-  RC_PRE(S > g.squaredNorm() + 1.0);  // else the posterior is no Gaussian
-  const auto innovation = update(member_of(model), prior, z, model, x);
-  require_near(innovation.residual(0), z.mean(0) - mean, 1e-9);
-  require_near(innovation.covariance(0), S, 1e-9);
-  const Vector<3> cross = L * g;
-  require_near_matrix(x.mean, prior.mean + cross / S * innovation.residual, 1e-9);
-  require_near_matrix(x.covariance, prior.covariance - cross * cross.transpose() / S, 1e-9);
+  EXPECT_GT(compared, 50);
 }
 
 }  // namespace sigmax::support

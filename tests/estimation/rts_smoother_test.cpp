@@ -2,175 +2,94 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <vector>
 
-#include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/sensors.hpp>
-#include <sigmax/estimation/unscented.hpp>
 
 #include "support/matrices.hpp"
+#include "support/nonlinear_restatement.hpp"
 #include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::dense;
-using support::fixed;
-using support::holds;
-using support::require_near_matrix;
-using support::throws;
+using namespace support;
 
-using Model = FixedStepMotion<2>;
-using Sensor = LinearSensor<1, 2>;
-using Estimate = Gaussian<2>;
-using Record = std::vector<FilteredStep<Estimate>>;
-
-Model generated_model() {
-  return {"any",
-          {"a", "b"},
-          1.0,
-          support::generated_matrix<2, 2>(),
-          fixed<2, 2>(support::generated_covariance(2)),
-          support::generated_matrix<2, 1>()};
-}
-
-/// The filtered estimates of a model, of which the first is `start`.
-template <class Moves, class Measures>
-std::vector<FilteredStep<EstimateOf<Moves>>> filtered(
-    const Moves& model, const Measures& sensor, const EstimateOf<Moves>& start,
-    const std::vector<std::optional<MeasurementOf<Measures>>>& measurements, double dt) {
-  std::vector<FilteredStep<EstimateOf<Moves>>> record{{0.0, start}};
-  for (const auto& z : measurements) {
-    auto estimate = record.back().state;
-    predict(model, estimate, dt, estimate);
-    if (z) update(model, estimate, *z, sensor, estimate);
-    record.push_back({dt, estimate});
-  }
-  return record;
-}
-
-std::vector<std::optional<Gaussian<1>>> generated_measurements(std::size_t count) {
-  std::vector<std::optional<Gaussian<1>>> result(count);
-  for (auto& z : result)
-    if (*rc::gen::inRange(0, 4) > 0) z = support::generated_gaussian<1>();
-  return result;
-}
-
-/// The whole trajectory at once: the normal equations of its prior, its motion and its measurements.
-TEST(RtsSmoother, IsTheLeastSquaresSolutionForTheWholeTrajectory) {
+/// The whole trajectory at once: its Gaussian, and all measurements as one.
+TEST(RtsSmoother, IsTheUpdateOfTheWholeTrajectoryByAllMeasurements) {
   holds([] {
-    const Model model = generated_model();
-    const auto start = support::generated_gaussian<2>();
-    const auto measurements = generated_measurements(7);
-    const Sensor sensor{support::generated_matrix<1, 2>()};
-    const auto smoothed = smooth(model, filtered(model, sensor, start, measurements, 1.0));
+    using restatement::transposed;
+    constexpr std::size_t steps = 7, n = 2 * (steps + 1);
+    const auto F = generated(2, 2), Q = generated_covariance(2), u = generated(2, 1), H = generated(1, 2);
+    const FixedStepMotion<2> model("any", {"a", "b"}, 1.0, fixed<2, 2>(F), fixed<2, 2>(Q), fixed<2, 1>(u));
+    const LinearSensor<1, 2> sensor{fixed<1, 2>(H)};
 
-    const std::size_t n = 2 * (measurements.size() + 1);
-    restatement::Matrix information(n, n);
-    restatement::Vector vector(n, 0.0);
-    // Adds (A x − b)ᵀ C⁻¹ (A x − b).
-    const auto add = [&](const restatement::Matrix& A, const restatement::Vector& b, const restatement::Matrix& C) {
-      const auto weighted = restatement::transposed(A) * restatement::inverse(C).matrix;
-      information = information + weighted * A;
-      const auto more = weighted * b;
-      for (std::size_t i = 0; i < n; ++i) vector[i] += more[i];
-    };
-    const auto placed = [&](const restatement::Matrix& block, std::size_t k, restatement::Matrix A) {
-      for (std::size_t i = 0; i < block.rows; ++i)
-        for (std::size_t j = 0; j < 2; ++j) A(i, 2 * k + j) += block(i, j);
-      return A;
-    };
-    const auto I = restatement::identity(2);
-    add(placed(I, 0, {2, n}), {start.mean(0), start.mean(1)}, dense(start.covariance));
-    for (std::size_t k = 0; k < measurements.size(); ++k) {
-      const auto& u = model.known_input(1.0);
-      add(placed(I, k + 1, placed(-1.0 * dense(model.transition(1.0)), k, {2, n})), {u(0), u(1)},
-          dense(model.process_covariance(1.0)));
-      if (const auto& z = measurements[k])
-        add(placed(dense(sensor.measurement_matrix()), k + 1, {1, n}), {z->mean(0)}, dense(z->covariance));
+    // x_k = Σ Fᵏ⁻ʲ ξ_j of the independent ξ_0 = x_0 and ξ_j = u + w_j.
+    std::vector<FilteredStep<Gaussian<2>>> record{{0.0, generated_gaussian<2>()}};
+    restatement::Matrix A(n, n), D(n, n), seen(steps, n), R(steps, steps);
+    restatement::Vector mean(n), z(steps);
+    for (std::size_t j = 0; j <= steps; ++j) {
+      auto power = restatement::identity(2);
+      for (std::size_t k = j; k <= steps; ++k, power = F * power)
+        for (std::size_t i = 0; i < 4; ++i) A(2 * k + i / 2, 2 * j + i % 2) = power.values[i];
+      const auto covariance = j == 0 ? dense(record.front().state.covariance) : Q;
+      for (std::size_t i = 0; i < 4; ++i) D(2 * j + i / 2, 2 * j + i % 2) = covariance.values[i];
+      for (std::size_t i = 0; i < 2; ++i) mean[2 * j + i] = j == 0 ? record.front().state.mean(i == 1) : u.values[i];
     }
-    const auto covariance = restatement::inverse(information).matrix;
-    const auto mean = covariance * vector;
-    for (std::size_t k = 0; k < smoothed.size(); ++k) {
-      require_near_matrix(smoothed[k].mean, restatement::Matrix(2, 1, {mean[2 * k], mean[2 * k + 1]}), 1e-9);
-      require_near_matrix(smoothed[k].covariance,
-                          restatement::Matrix(2, 2,
-                                              {covariance(2 * k, 2 * k), covariance(2 * k, 2 * k + 1),
-                                               covariance(2 * k + 1, 2 * k), covariance(2 * k + 1, 2 * k + 1)}),
-                          1e-9);
-    }
-  });
-}
+    restatement::State all{A * mean, A * D * transposed(A)};
 
-TEST(RtsSmoother, LeavesTheLastEstimateAndAnEmptyRecordAsTheyAre) {
-  holds([] {
-    const Model model = generated_model();
-    const Sensor sensor{support::generated_matrix<1, 2>()};
-    const auto record = filtered(model, sensor, support::generated_gaussian<2>(), generated_measurements(5), 1.0);
+    for (std::size_t k = 0; k < steps; ++k) {
+      auto estimate = predict(model, record.back().state, 1.0);
+      R(k, k) = 1.0;
+      if (*rc::gen::inRange(0, 4) > 0) {  // else nothing is seen of the step
+        const auto measured = generated_gaussian<1>();
+        z[k] = measured.mean(0);
+        R(k, k) = measured.covariance(0);
+        for (std::size_t i = 0; i < 2; ++i) seen(k, 2 * k + 2 + i) = H(0, i);
+        estimate = update(model, estimate, measured, sensor);
+      }
+      record.push_back({1.0, estimate});
+    }
+    all = restatement::corrected(all, restatement::difference(z, seen * all.mean),
+                                 seen * all.covariance * transposed(seen) + R, all.covariance * transposed(seen))
+              .posterior;
     const auto smoothed = smooth(model, record);
-    RC_ASSERT(smoothed.size() == record.size());
-    RC_ASSERT(smoothed.back().mean == record.back().state.mean);
     RC_ASSERT(smoothed.back().covariance == record.back().state.covariance);
+    for (std::size_t k = 0; k <= steps; ++k) {
+      const auto at = static_cast<Eigen::Index>(2 * k);
+      require_near_matrix(smoothed[k].mean, vector_of(all.mean).segment(at, 2), 1e-8);
+      require_near_matrix(smoothed[k].covariance, matrix_of(all.covariance).block(at, at, 2, 2), 1e-8);
+    }
   });
-  const SquareMatrix<2> I = SquareMatrix<2>::Identity();
-  EXPECT_TRUE(smooth(Model{"any", {"a", "b"}, 1.0, I, I}, Record{}).empty());
 }
+
+TEST(RtsSmoother, OfAnEmptyRecordIsNothing) { EXPECT_TRUE(smooth(AnyModel{dwna<1>(1.0)}, {}).empty()); }
 
 TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {
   const auto model = dwpa<2>(0.0);
-  Gaussian<6> start{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
-  std::vector<FilteredStep<Gaussian<6>>> record{{0.0, start}};
+  std::vector<FilteredStep<Gaussian<6>>> record{{0.0, {Vector<6>::Zero(), SquareMatrix<6>::Identity()}}};
   for (const double dt : {0.5, 0.0, 1.0}) {
-    auto estimate = record.back().state;
-    predict(model, estimate, dt, estimate);
-    update(model, estimate, Gaussian<2>{Vector<2>{dt, 1.0}, SquareMatrix<2>::Identity()}, estimate);
-    record.push_back({dt, estimate});
+    const auto predicted = predict(model, record.back().state, dt);
+    record.push_back({dt, update(model, predicted, {Vector<2>{dt, 1.0}, SquareMatrix<2>::Identity()})});
   }
   // Without noise the trajectory is its last state, taken back.
   const auto smoothed = smooth(model, record);
-  for (std::size_t k = 0; k < 3; ++k) {
-    double left = 0.0;
-    for (std::size_t later = k + 1; later < record.size(); ++later) left += record[later].dt;
-    const Vector<6> there = model.transition(left) * smoothed[k].mean;
-    EXPECT_PRED_FORMAT3(support::near_matrix, there, record.back().state.mean, 1e-12);
-    const SquareMatrix<6> spread = model.transition(left) * smoothed[k].covariance * model.transition(left).transpose();
-    EXPECT_PRED_FORMAT3(support::near_matrix, spread, record.back().state.covariance, 1e-12);
+  double left = 0.0;
+  for (std::size_t k = record.size(); k-- > 0;) {
+    const auto there = model.transition(left);
+    EXPECT_PRED_FORMAT3(near_matrix, there * smoothed[k].mean, record.back().state.mean, 1e-12);
+    EXPECT_PRED_FORMAT3(near_matrix, there * smoothed[k].covariance * there.transpose(), record.back().state.covariance,
+                        1e-12);
+    left += record[k].dt;
   }
 }
 
-/// Of a linear motion every member knows the same covariance of x_k and x_k+1.
-TEST(RtsSmoother, SmoothsALinearMotionAlikeThroughEveryMember) {
-  const auto motion = dwpa<2>(2.0);
-  const PositionSensor<2> sensor;
-  std::vector<std::optional<Gaussian<2>>> measurements;
-  for (int k = 0; k < 8; ++k)
-    if (k == 3)
-      measurements.push_back(std::nullopt);
-    else
-      measurements.push_back(Gaussian<2>{Vector<2>{std::sin(k), 2.0 * k}, 0.5 * SquareMatrix<2>::Identity()});
-  const Gaussian<6> start{Vector<6>::Ones(), 4.0 * SquareMatrix<6>::Identity()};
-  const auto expected = smooth(motion, filtered(motion, sensor, start, measurements, 0.7));
-  const auto equals = [&](const auto& member) {
-    const auto smoothed = smooth(member, filtered(member, sensor, start, measurements, 0.7));
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      EXPECT_PRED_FORMAT3(support::near_matrix, smoothed[k].mean, expected[k].mean, 1e-9);
-      EXPECT_PRED_FORMAT3(support::near_matrix, smoothed[k].covariance, expected[k].covariance, 1e-9);
-    }
-  };
-  equals(Extended{motion});
-  equals(Unscented{motion});
-  equals(Cubature{motion});
-}
-
 TEST(RtsSmoother, NamesTheModelWhoseCovarianceLostDefiniteness) {
-  const auto model = dwna<1>(1.0);
   const Gaussian<2> lost{Vector<2>::Zero(), SquareMatrix<2>{{1.0, 2.0}, {2.0, 1.0}}};
   Gaussian<2> result;
-  EXPECT_TRUE(throws<std::domain_error>([&] { smooth_step(model, lost, 0.0, lost, result); },
+  EXPECT_TRUE(throws<std::domain_error>([&] { smooth_step(dwna<1>(1.0), lost, 0.0, lost, result); },
                                         {"model 'dwna'", "not positive semi-definite"}));
 }
 

@@ -8,51 +8,13 @@
 namespace sigmax {
 namespace {
 
-using support::dense;
-using support::entries;
-using support::generated_gaussian;
-using support::holds;
-using support::near;
-using support::number_between;
-using support::require_near;
-using support::require_near_matrix;
-using support::throws;
+using namespace support;
 
 restatement::Position position(const Gaussian<2>& z) { return {entries(z.mean), dense(z.covariance)}; }
 
 /// A measurement in the plane whose axes are alike, but for the sign.
 TimedMeasurement<2> at(double time, double z, double R) {
   return {time, {Vector<2>{z, -z}, SquareMatrix<2>{{R, 0.0}, {0.0, R}}}};
-}
-
-template <int N>
-void is(const Gaussian<2 * N>& found, const Vector<N>& mean, const SquareMatrix<N>& covariance) {
-  for (Eigen::Index a = 0; a < N; ++a) {
-    EXPECT_PRED_FORMAT3(near, found.mean(2 * a), mean(a), 1e-13);
-    EXPECT_PRED_FORMAT3(near, found.mean(2 * a + 1), -mean(a), 1e-13);
-    for (Eigen::Index b = 0; b < N; ++b) {
-      EXPECT_PRED_FORMAT3(near, found.covariance(2 * a, 2 * b), covariance(a, b), 1e-13);
-      EXPECT_PRED_FORMAT3(near, found.covariance(2 * a + 1, 2 * b + 1), covariance(a, b), 1e-13);
-      EXPECT_EQ(found.covariance(2 * a, 2 * b + 1), 0.0);
-    }
-  }
-}
-
-TEST(Start, TwoPointsByHand) {
-  is<2>(two_point_start<2>(at(3.0, 10.0, 4.0), at(5.0, 16.0, 9.0)), {16.0, 3.0},
-        SquareMatrix<2>{{9.0, 4.5}, {4.5, 3.25}});
-}
-
-TEST(Start, ThreePointsByHand) {
-  // v = (3·16 − 4·10 + 6)/4, a = (16 − 20 + 6)/4; weights [1/4, −1, 3/4] and [1/4, −1/2, 1/4] on R = 16, 4, 8.
-  is<3>(three_point_start<2>(at(1.0, 6.0, 16.0), at(3.0, 10.0, 4.0), at(5.0, 16.0, 8.0)), {16.0, 3.5, 0.5},
-        SquareMatrix<3>{{8.0, 6.0, 2.0}, {6.0, 9.5, 4.5}, {2.0, 4.5, 2.5}});
-}
-
-TEST(Start, TheReleasedOneHasThePrintedCovariance) {
-  const double T = 0.25;
-  is<3>(released_start<2>(at(0.0, 6.0, 16.0), at(T, 10.0, 4.0), at(2 * T, 16.0, 1.0)), {16.0, 24.0, 32.0},
-        SquareMatrix<3>{{1.0, 4.0, 16.0}, {4.0, 32.0, 192.0}, {16.0, 192.0, 1536.0}});
 }
 
 TEST(Start, AllThreeEqualTheRestatement) {

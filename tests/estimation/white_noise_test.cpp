@@ -10,14 +10,7 @@
 namespace sigmax {
 namespace {
 
-using support::generated_step;
-using support::holds;
-using support::near_matrix;
-using support::number_between;
-using support::require_dense_prediction;
-using support::require_integral_of;
-using support::require_steps_to_add_up;
-using support::throws;
+using namespace support;
 
 TEST(WhiteNoise, AccelerationIsThatOfTheBook) {
   const auto model = cwna<1>(3.0);
@@ -35,9 +28,8 @@ TEST(WhiteNoise, JerkIsThatOfTheBook) {
 TEST(WhiteNoise, IsTheIntegral) {
   holds([] {
     const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    const Eigen::MatrixXd acceleration{{0, 1}, {0, 0}}, jerk{{0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
-    require_integral_of(acceleration, Eigen::MatrixXd{{0, 0}, {0, q}}, cwna<1>(q), dt);
-    require_integral_of(jerk, Eigen::MatrixXd{{0, 0, 0}, {0, 0, 0}, {0, 0, q}}, cwpa<1>(q), dt);
+    require_integral({2, 2, {0, 1, 0, 0}}, {2, 2, {0, 0, 0, q}}, cwna<1>(q), dt);
+    require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}}, cwpa<1>(q), dt);
   });
 }
 
@@ -54,24 +46,12 @@ TEST(WhiteNoise, AStepOfNoTimeIsNone) {
   EXPECT_EQ(cwpa<3>(2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
 }
 
-TEST(WhiteNoise, PredictionIsTheFormula) {
-  holds([] {
-    require_dense_prediction(cwna<3>(number_between(0.0, 5.0)), number_between(0.0, 3.0));
-    require_dense_prediction(cwpa<2>(number_between(0.0, 5.0)), number_between(0.0, 3.0));
-  });
-}
-
 TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
   const Vector<3> a(1.0, -2.0, 3.0);
   EXPECT_EQ(cwna<3>(1.0, a).known_input(2.0), dwna<3>(1.0, a).known_input(2.0));
 }
 
-TEST(WhiteNoise, NamesItself) {
-  EXPECT_EQ(cwna<2>(1.0).name(), "cwna");
-  EXPECT_EQ(cwpa<2>(1.0).name(), "cwpa");
-  EXPECT_EQ(cwpa<2>(1.0).components(), dwpa<2>(1.0).components());
-  EXPECT_EQ(cwpa<2>(1.5).law().q(), 1.5);
-}
+TEST(WhiteNoise, ShowsItsParameters) { EXPECT_EQ(cwpa<2>(1.5).law().q(), 1.5); }
 
 TEST(WhiteNoise, RefusesANoiseThatIsNone) {
   EXPECT_TRUE(throws<std::invalid_argument>([] { cwna<3>(-1.0); }, {"q", "cwna", "-1"}));

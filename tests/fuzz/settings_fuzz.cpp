@@ -1,8 +1,5 @@
 // Any bytes are settings, or an error. The bytes up to the first zero are a file, those between further zeros a `--set`
 // each.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,32 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "fuzz/memory_file.hpp"
 #include "fuzz/require.hpp"
 #include "support/settings.hpp"
 
 namespace {
 
 using namespace sigmax::apps;
+using sigmax::fuzz::MemoryFile;
 using sigmax::fuzz::require;
-
-/// A file in memory, so that reading a thousand of them in a second wears no disk.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(::memfd_create("settings", MFD_CLOEXEC)) { require(descriptor_ >= 0, "there is memory"); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { ::close(descriptor_); }
-
-  std::string holding(std::string_view text) const {
-    require(::ftruncate(descriptor_, 0) == 0, "a file in memory can be emptied");
-    require(::pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()),
-            "a file in memory can be written");
-    return fmt::format("/proc/self/fd/{}", descriptor_);
-  }
-
- private:
-  int descriptor_;
-};
 
 template <class Read>
 bool can(const Read& read) {

@@ -1,4 +1,5 @@
-// Any bytes are a finite time or none; a time agrees with the C library's, and reads the same when written out again.
+// Any bytes are a finite time or none; a time agrees with the C library's, and reads the same when written out again. A
+// time of day is that time on 1970-01-01.
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +16,8 @@
 
 namespace {
 
+using sigmax::apps::is_time_of_day;
+using sigmax::apps::iso_time;
 using sigmax::apps::parse_timestamp;
 using sigmax::fuzz::require;
 
@@ -72,6 +75,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   char* end = nullptr;
   if (const double number = std::strtod(bare.c_str(), &end); *end == '\0')
     require(number == *seconds, "a plain number is itself");
+  else if (is_time_of_day(text))
+    check_date_and_time("1970-01-01T" + bare, *seconds);
   else
     check_date_and_time(bare, *seconds);
 
@@ -83,6 +88,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(parse_timestamp(*again + ".5") == static_cast<double>(whole) + 0.5, "half a second later is later");
     require(parse_timestamp(*again + "-01:00") == static_cast<double>(whole) + 3600.0,
             "an hour behind UTC it is an hour later");
+    const auto printed = parse_timestamp(iso_time(*seconds));
+    require(printed && std::abs(*printed - *seconds) <= 1e-4, "a time is printed to the microsecond");
   }
   return 0;
 }

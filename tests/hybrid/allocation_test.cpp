@@ -3,20 +3,19 @@
 
 #include <cstddef>
 #include <memory>
+#include <tuple>
 #include <vector>
 
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
-#include <sigmax/hybrid/history_filter.hpp>
-#include <sigmax/hybrid/mode_transition.hpp>
-#include <sigmax/hybrid/target.hpp>
-
-#include "hybrid/banks.hpp"
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include "hybrid/targets.hpp"
 #include "support/allocations.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::allocations_of;
+using namespace support;
 
 TEST(Allocation, TheCounterCounts) {
   struct alignas(64) Aligned {
@@ -36,129 +35,104 @@ TEST(Allocation, TheCounterCounts) {
   EXPECT_EQ(allocations_of([&] { aligned = std::make_unique<Aligned>(); }), 1U);
 }
 
-template <Uncertainty Kind>
-Relation<Kind, Kind> transition() {
-  const Variable<Kind> motion{"motion", 3};
-  return std::is_same_v<Kind, Random>
-             ? Relation<Kind, Kind>{motion, motion, {{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}}}
-             : Relation<Kind, Kind>{motion, motion, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
+/// Steps, outputs, and steps back, over a flight.
+template <class Filter>
+void allocates_nothing(Filter& filter) {
+  auto other = filter;
+  for (const Scan& scan : manoeuvring_target(40)) {
+    const Gaussian<2> z = scan.z.value_or(Gaussian<2>{});
+    ASSERT_EQ(allocations_of([&] {
+                scan.z ? filter.step(scan.dt, z, PositionSensor<2>{}, 100.0) : filter.step(scan.dt);
+                if (filter.measured()) filter.nis();
+                filter.estimate();
+                filter.most_likely_estimate();
+                other.restore(filter.state());
+              }),
+              0U);
+  }
 }
 
-template <class Models>
-auto starts_of(const Models& models) {
-  auto starts = detail::estimates_for(models);
-  for_each_mode(models, [&](auto j) {
-    auto& start = mode(starts, j);
-    const auto n = mode(models, j).size();
-    start.mean.setZero(n);
-    start.mean.template head<4>() << 12000, 8000, -100, -100;
-    start.covariance.setZero(n, n);
-    start.covariance.diagonal().setConstant(100.0);
+TEST(Allocation, AStepOrAStepBackOfAnyFilterAllocatesNothingNorDoesItsOutput) {
+  auto choices = every_reading();
+  for (const bool fuzzy : {false, true}) choices.push_back(chosen(fuzzy, Scheme::histories));
+  for_each(choices, [](const TargetChoice& choice) {
+    AnyFilter filter(choice);
+    filter.do_with([](auto& one) { allocates_nothing(one); });
   });
-  return starts;
-}
-
-template <Uncertainty Kind, class Models, class Order = support::Interacting>
-void nothing_is_allocated(const Models& models, const Interaction<Kind>& interaction, Order = {}) {
-  typename Order::template Filter<Models, Kind> filter{models, transition<Kind>(), starts_of(models), interaction};
-  std::size_t measured = 0, missed = 0;
-  for (const auto& scan : support::manoeuvring_target(40)) {
-    if (scan.z) {
-      ++measured;
-      ASSERT_EQ(allocations_of([&] { filter.step(scan.dt, *scan.z); }), 0U);
-      ASSERT_EQ(allocations_of([&] { filter.nis(); }), 0U);
-    } else {
-      ++missed;
-      ASSERT_EQ(allocations_of([&] { filter.step(scan.dt); }), 0U);
-    }
-    ASSERT_EQ(allocations_of([&] { filter.estimate(); }), 0U);
-    ASSERT_EQ(allocations_of([&] { filter.most_likely_estimate(); }), 0U);
-  }
-  EXPECT_GT(measured, 0U);
-  EXPECT_GT(missed, 0U);
-}
-
-const VectorBank vector_bank{support::calm(1.0), support::calm(5.0), support::turning(4.0)};
-const TupleBank tuple_bank{dwna<2>(1.0), dwna<2>(5.0), dwpa<2>(4.0)};
-
-TEST(Allocation, AnImmAllocatesNothing) {
-  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
-    nothing_is_allocated<Random>(vector_bank, {lift, {}, Tie::stay});
-    nothing_is_allocated<Random>(tuple_bank, {lift, {}, Tie::stay});
-  }
-}
-
-TEST(Allocation, AHimmAllocatesNothing) {
-  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
-    nothing_is_allocated<Fuzzy>(vector_bank, {lift, {}, Tie::stay});
-    nothing_is_allocated<Fuzzy>(tuple_bank, {lift, {MixedCovariance::own_recentred, Tie::first}, Tie::last});
-  }
 }
 
 TEST(Allocation, AHimmByTheEnvelopeAllocatesNothingAfterTheFirstStepOfItsThread) {
-  using Himm = InteractingMultipleModel<VectorBank, Fuzzy>;
-  const Interaction<Fuzzy> interaction{Lift::borrowed_variance, {MixedCovariance::envelope}};
-  Himm{vector_bank, transition<Fuzzy>(), starts_of(vector_bank), interaction}.step(0.1);
-  nothing_is_allocated<Fuzzy>(vector_bank, interaction);
+  TargetChoice choice = chosen(true);
+  choice.mixed_covariance = MixedCovariance::envelope;
+  AnyFilter(choice).step(0.1);
+  AnyFilter filter(choice);
+  filter.do_with([](auto& one) { allocates_nothing(one); });
 }
 
-TEST(Allocation, ASecondOrderFilterAllocatesNothing) {
-  for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
-    nothing_is_allocated<Random>(vector_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
-    nothing_is_allocated<Random>(tuple_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
-    nothing_is_allocated<Fuzzy>(vector_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
-    nothing_is_allocated<Fuzzy>(tuple_bank, {lift, {}, Tie::stay}, support::SecondOrder{});
-  }
-}
-
-template <Uncertainty Kind>
-void smoothing_allocates_nothing() {
-  InteractingMultipleModel<VectorBank, Kind> filter{vector_bank, transition<Kind>(), starts_of(vector_bank)};
-  std::vector record{filter.recorded(0.0)};
-  for (const auto& scan : support::manoeuvring_target(20)) {
-    step(filter, scan);
-    record.push_back(recorded(filter, scan));
-  }
-  FixedIntervalSmoother<VectorBank, Kind> smoother{filter};
-  smoother.begin(record.back());
-  for (std::size_t k = record.size() - 1; k-- > 0;) ASSERT_EQ(allocations_of([&] { smoother.step(record[k]); }), 0U);
+TEST(Allocation, ATupleOfTypedModelsAllocatesNothing) {
+  const RandomVariable mode{"mode", 3};
+  Gaussian<7> start{Vector<7>(12e3, 8e3, -100.0, -100.0, 0.0, 0.0, 0.01), 100.0 * SquareMatrix<7>::Identity()};
+  start.covariance(6, 6) = 1e-4;
+  const CoordinatedTurn<2> turn{1.0, 1e-4};
+  InteractingMultipleModel filter{std::tuple{dwpa<2>(4.0), Extended{turn}, Unscented{turn}},
+                                  Relation{mode, mode, chosen(false).transition}, start};
+  allocates_nothing(filter);
 }
 
 TEST(Allocation, AStepOfTheSmootherAllocatesNothing) {
-  smoothing_allocates_nothing<Random>();
-  smoothing_allocates_nothing<Fuzzy>();
+  with_every_filter([](auto& filter) {
+    std::vector record{filter.recorded(0.0)};
+    for (const Scan& scan : manoeuvring_target(20)) {
+      scan.z ? filter.step(scan.dt, *scan.z, PositionSensor<2>{}) : filter.step(scan.dt);
+      record.push_back(scan.z ? filter.recorded(scan.dt, *scan.z, PositionSensor<2>{}) : filter.recorded(scan.dt));
+    }
+    FixedIntervalSmoother smoother{filter};
+    smoother.begin(record.back());
+    for (std::size_t k = record.size() - 1; k-- > 0;) ASSERT_EQ(allocations_of([&] { smoother.step(record[k]); }), 0U);
+  });
 }
 
 TEST(Allocation, ATargetAllocatesNothingWhateverBecomesOfAMeasurement) {
-  const auto start = [](const Gaussian<2>& z) {
-    Gaussian<6> result{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
-    result.mean.head<2>() = z.mean;
-    return result;
-  };
-  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, transition<Fuzzy>(), starts_of(vector_bank)};
-  Target target{filter, 0.0, start, TargetRules{0.999, 2, 1e9, 3}};
-  const Gaussian<2> z{Vector<2>{12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
-  const Gaussian<2> far{Vector<2>{-12000, 8000}, 1e4 * SquareMatrix<2>::Identity()};
+  const TargetChoice choice = chosen(true);
+  const InteractingMultipleModel filter{models_of(choice), transition_of<Fuzzy>(choice), starts()};
+  Target target{filter, 0.0, one_point_start, TargetRules{0.999, 2, 1e9, 3}};
+  const Gaussian<2> z = near_by, far = far_off;
   std::vector<Verdict> verdicts;
   verdicts.reserve(16);
-  const auto take = [&](double time, const Gaussian<2>& measured) {
-    ASSERT_EQ(allocations_of([&] { verdicts.push_back(target.take(time, measured)); }), 0U);
-  };
-  take(1.0, z);
-  take(2.0, z);
-  take(1.5, z);  // late
-  take(3.0, far);
-  take(4.0, far);
-  ASSERT_EQ(allocations_of([&] { verdicts.push_back(target.take(5.0)); }), 0U);
+  for (const Plot& plot : {Plot(1.0, z), Plot(2.0, z), Plot(1.5, z), Plot(3.0, far), Plot(4.0, far), Plot(5.0)}) {
+    const std::size_t allocations = allocations_of([&] { verdicts.push_back(target.take(plot)); });
+    if (verdicts.back() != Verdict::restarted) ASSERT_EQ(allocations, 0U);
+  }
   EXPECT_EQ(verdicts, (std::vector{Verdict::accepted, Verdict::accepted, Verdict::accepted, Verdict::rejected,
                                    Verdict::restarted, Verdict::missed}));
 }
 
+TEST(Allocation, AnAnyTargetAllocatesNothingOnceItsOutputHasRoom) {
+  for_each(every_filter(), [](TargetChoice choice) {
+    choice.rules = {.gate_probability = 0.999, .rejections = 0};
+    AnyTarget target(choice);
+    TargetPoint point;
+    double time = 0.0;
+    for (const Scan& scan : manoeuvring_target(30)) {
+      time += scan.dt + 0.01;
+      const auto plot = scan.z ? AnyPlot::position(time, {scan.z->mean.data(), 2}, {scan.z->covariance.data(), 4})
+                               : AnyPlot::missed(time);
+      const auto take = [&] {
+        target.take(plot);
+        target.output(point);
+      };
+      const std::size_t allocations = allocations_of(take);
+      if (time > 1.0) ASSERT_EQ(allocations, 0U);
+    }
+    EXPECT_TRUE(target.running());
+  });
+}
+
 TEST(Allocation, AnUnreachableModeAllocatesNothing) {
-  const FuzzyVariable motion{"motion", 3};
-  const Relation only_the_first{motion, motion, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
-  InteractingMultipleModel<VectorBank, Fuzzy> filter{vector_bank, only_the_first, starts_of(vector_bank)};
-  for (int k = 0; k < 3; ++k) ASSERT_EQ(allocations_of([&] { filter.step(0.2); }), 0U);
+  AnyFilter filter(with(chosen(true), chosen(true).motions, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}));
+  filter.do_with([](auto& one) {
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(allocations_of([&] { one.step(0.2); }), 0U);
+  });
 }
 
 TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
@@ -166,22 +140,6 @@ TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
   const TimedTransition transition{motion, rates_of_sojourns({20.0, 5.0, 3.0, 1.0})};
   Relation relation = transition(1.0);
   for (const double dt : {0.2, 0.0, 50.0}) ASSERT_EQ(allocations_of([&] { transition(dt, relation); }), 0U);
-}
-
-template <Uncertainty Kind>
-void histories_allocate_nothing() {
-  const VectorBank bank{support::calm(1.0), support::calm(5.0), support::turning()};
-  HistoryFilter<VectorBank, Kind> filter{bank, transition<Kind>(), support::starts()};
-  auto other = filter;
-  for (const auto& scan : support::manoeuvring_target(40)) {
-    ASSERT_EQ(allocations_of([&] { support::step(filter, scan); }), 0U);
-    ASSERT_EQ(allocations_of([&] { other.restore(filter.state()); }), 0U);
-  }
-}
-
-TEST(Allocation, AStepOverHistoriesAllocatesNothingNorDoesAStepBack) {
-  histories_allocate_nothing<Fuzzy>();
-  histories_allocate_nothing<Random>();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using support::throws;
 using Numbers = std::vector<double>;
 
-TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovariance) {
+TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovarianceOrItsVariancesAlone) {
   const AnyPlot two = AnyPlot::position(0.5, Numbers{1.0, 2.0}, Numbers{4.0, 1.0, 1.0, 9.0});
   EXPECT_EQ(two.time, 0.5);
   EXPECT_EQ(two.tag, 0U);
@@ -23,13 +23,9 @@ TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovariance) {
   EXPECT_EQ(two.z, (std::array<double, 6>{1.0, 2.0}));
   EXPECT_EQ(two.covariance, (std::array<double, 36>{4.0, 1.0, 1.0, 9.0}));
   EXPECT_EQ(two.variance(1), 9.0);
-  EXPECT_EQ(AnyPlot::position(0.5, Numbers{1.0}, Numbers{4.0}).size, 1);
-}
-
-TEST(AnyPlot, VariancesAloneAreADiagonal) {
-  const AnyPlot plot = AnyPlot::position(0.0, Numbers{1.0, 2.0, 3.0}, Numbers{4.0, 9.0, 16.0});
-  EXPECT_EQ(plot.covariance, (std::array<double, 36>{4.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 16.0}));
-  EXPECT_EQ(plot.variance(2), 16.0);
+  const AnyPlot three = AnyPlot::position(0.0, Numbers{1.0, 2.0, 3.0}, Numbers{4.0, 9.0, 16.0});
+  EXPECT_EQ(three.covariance, (std::array<double, 36>{4.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 16.0}));
+  EXPECT_EQ(AnyPlot::position(0.5, Numbers{1.0}, Numbers{4.0}).variance(0), 4.0);
 }
 
 TEST(AnyPlot, OfARadarAndOfABearingKnowWhereTheSensorStands) {

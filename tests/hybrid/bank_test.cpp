@@ -2,59 +2,55 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/any_member.hpp>
-#include <sigmax/estimation/any_motion.hpp>
+#include <string_view>
+
+#include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
+
+#include "support/throws.hpp"
 
 namespace sigmax {
 namespace {
 
-using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
-using Dwpa = IndependentAxes<3, DiscreteWhiteNoise<3>>;
-using Moves = AnyMotion<9, Dwna, Dwpa>;
-using RunTime = AnyMember<Moves>;
+using Dwna = IndependentAxes<2, DiscreteWhiteNoise<2>>;
+using Dwpa = IndependentAxes<2, DiscreteWhiteNoise<3>>;
+using Pair = std::tuple<Dwna, Dwpa>;
 
-static_assert(Bank<std::tuple<Dwna, Dwpa>>::axes == 3);
-static_assert(Bank<std::tuple<Dwna, Dwpa>>::max_components == 15);
-static_assert(std::is_same_v<Bank<std::tuple<Dwna, Dwpa>>::Estimates, std::tuple<Gaussian<6>, Gaussian<9>>>);
+static_assert(Bank<Pair>::axes == 2);
+static_assert(Bank<Pair>::max_components == 10);
+static_assert(std::is_same_v<Bank<Pair>::Estimates, std::tuple<Gaussian<4>, Gaussian<6>>>);
 static_assert(Bank<std::tuple<FixedStepMotion<4>>>::axes == 0);
+static_assert(Bank<std::vector<Dwpa>>::axes == 2 && Bank<std::vector<Dwpa>>::max_components == 6);
+static_assert(Bank<std::vector<AnyModel>>::axes == Eigen::Dynamic && Bank<std::vector<AnyModel>>::max_components == 32);
 
-static_assert(Bank<std::vector<RunTime>>::axes == 3);
-static_assert(Bank<std::vector<RunTime>>::max_components == 9);
-static_assert(std::is_same_v<Bank<std::vector<RunTime>>::Estimates, std::vector<Gaussian<Eigen::Dynamic, 9>>>);
+static_assert(SensorOfBank<PositionSensor<2>, Pair> && SensorOfBank<PositionSensor<2>, std::vector<AnyModel>>);
+static_assert(!SensorOfBank<PositionSensor<3>, Pair>);
+static_assert(SensorOfBank<LinearSensor<6, 4>, Pair>);
+static_assert(!SensorOfBank<LinearSensor<1, 5>, Pair>, "DWNA has four components");
+static_assert(!SensorOfBank<LinearSensor<7, 4>, Pair> && !SensorOfBank<LinearSensor<7, 4>, std::vector<AnyModel>>,
+              "seven quantities");
 
-TEST(Bank, CountsItsModes) {
-  static_assert(mode_count(std::tuple{1, 2.0, 'c'}) == 3);
-  EXPECT_EQ(mode_count(std::vector{1, 2}), 2U);
-  EXPECT_EQ(mode_count(std::vector<int>{}), 0U);
+TEST(Bank, IsOneVectorWhateverItWasFilledBy) {
+  const std::vector<AnyModel> of_tuple = detail::bank_of(Pair{dwna<2>(1.0), dwpa<2>(2.0)});
+  ASSERT_EQ(of_tuple.size(), 2U);
+  EXPECT_EQ(of_tuple[1].name(), "dwpa");
+  EXPECT_EQ(of_tuple[1].axes(), 2);
+  const std::vector<AnyModel> of_vector = detail::bank_of(std::vector{dwna<2>(1.0), dwna<2>(3.0)});
+  ASSERT_EQ(of_vector.size(), 2U);
+  EXPECT_EQ(of_vector[0].size(), 4);
+  EXPECT_EQ(detail::bank_of(of_vector)[0].ref().motion, of_vector[0].ref().motion) << "a handle";
 }
 
-TEST(Bank, VisitsEveryModeInOrder) {
-  std::vector<std::size_t> visited;
-  for_each_mode(std::tuple{'a', 2, 3.0}, [&](auto j) { visited.push_back(j); });
-  for_each_mode(std::vector{5, 6}, [&](auto j) { visited.push_back(j); });
-  EXPECT_EQ(visited, (std::vector<std::size_t>{0, 1, 2, 0, 1}));
+template <int N>
+FixedStepMotion<N> unmoving() {
+  return {"unmoving", std::vector<std::string>(N, "x"), 1.0, SquareMatrix<N>::Identity(), SquareMatrix<N>::Identity()};
 }
 
-TEST(Bank, GivesTheEntryOfEachMode) {
-  std::tuple<int, double> different{1, 2.5};
-  std::vector<int> alike{7, 8};
-  double sum = 0.0;
-  for_each_mode(different, [&](auto j) { sum += static_cast<double>(mode(different, j)); });
-  for_each_mode(alike, [&](auto j) { mode(alike, j) += 10; });
-  EXPECT_EQ(sum, 3.5);
-  EXPECT_EQ(alike, (std::vector{17, 18}));
-  const auto& constant = different;
-  EXPECT_EQ(mode(constant, std::integral_constant<std::size_t, 1>{}), 2.5);
-}
-
-TEST(Bank, MakesRoomForOneEstimateOfEachModel) {
-  static_assert(std::is_same_v<decltype(detail::estimates_for(std::declval<const std::tuple<Dwna, Dwpa>&>())),
-                               std::tuple<Gaussian<6>, Gaussian<9>>>);
-  EXPECT_EQ(
-      detail::estimates_for(std::vector<RunTime>{Extended<Moves>{dwna<3>(1.0)}, Extended<Moves>{dwpa<3>(1.0)}}).size(),
-      2U);
+TEST(Bank, HoldsModelsOf32StatesAndNoMore) {
+  EXPECT_EQ(AnyModel(unmoving<32>()).size(), 32);
+  EXPECT_TRUE(support::throws<std::invalid_argument>([] { AnyModel(unmoving<33>()); }, {"unmoving", "33", "32"}));
 }
 
 }  // namespace

@@ -3,57 +3,33 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <concepts>
 #include <numbers>
 #include <optional>
 #include <random>
-#include <tuple>
+#include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include <sigmax/estimation/any_member.hpp>
-#include <sigmax/estimation/any_motion.hpp>
+#include <sigmax/hybrid/any_target.hpp>
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/known_model.hpp>
+#include <sigmax/hybrid/mode_transition.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
 #include "support/enveloped.hpp"
 #include "support/matrices.hpp"
 #include "support/restatement.hpp"
-#include "support/second_order_restatement.hpp"
 
-namespace sigmax {
+/// The flights and the filters of these tests. Which filter it is, over which models and by which rules, is a value: a
+/// TargetChoice. So what is asked of all of them is written once, and compiled once.
+namespace sigmax::support {
 
-/// The banks of these tests: planar motion, as a vector of one run-time type and as a tuple.
-using PlanarMotion = AnyMotion<6, IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<3>>>;
-using Planar = AnyMember<PlanarMotion>;
-using VectorBank = std::vector<Planar>;
-using TupleBank = std::tuple<IndependentAxes<2, DiscreteWhiteNoise<2>>, IndependentAxes<2, DiscreteWhiteNoise<2>>,
-                             IndependentAxes<2, DiscreteWhiteNoise<3>>>;
-
-// Instantiated once, by interacting_multiple_model_test.cpp.
-extern template class InteractingMultipleModel<VectorBank, Random>;
-extern template class InteractingMultipleModel<VectorBank, Fuzzy>;
-extern template class InteractingMultipleModel<TupleBank, Random>;
-extern template class InteractingMultipleModel<TupleBank, Fuzzy>;
-
-// Instantiated once, by second_order_multiple_model_test.cpp.
-extern template class SecondOrderMultipleModel<VectorBank, Random>;
-extern template class SecondOrderMultipleModel<VectorBank, Fuzzy>;
-extern template class SecondOrderMultipleModel<TupleBank, Random>;
-extern template class SecondOrderMultipleModel<TupleBank, Fuzzy>;
-
-namespace support {
-
-/// The two filters, each with what restates it.
-struct Interacting {
-  template <class Models, class Kind>
-  using Filter = InteractingMultipleModel<Models, Kind>;
-  using Restated = restatement::Filter;
-};
-struct SecondOrder {
-  template <class Models, class Kind>
-  using Filter = SecondOrderMultipleModel<Models, Kind>;
-  using Restated = restatement::SecondOrderFilter;
-};
+using Models = std::vector<AnyModel>;
+using State = EstimateOf<AnyModel>;
+using Rows = std::vector<std::vector<double>>;
 
 /// One scan: seconds since the last, and what was measured, if anything.
 struct Scan {
@@ -90,33 +66,127 @@ inline std::vector<Scan> manoeuvring_target(std::size_t scans = 220) {
   return result;
 }
 
-using State = Gaussian<Eigen::Dynamic, 6>;
+inline MotionChoice motion(const char* name, double sigma_w) {
+  MotionChoice result{name};
+  result[MotionParameter::sigma_w] = sigma_w;
+  return result;
+}
+inline MotionChoice calm(double sigma_w = 1.0) { return motion("dwna", sigma_w); }
+inline MotionChoice turning(double sigma_w = 4.0) { return motion("dwpa", sigma_w); }
 
-inline const RandomVariable random_motion{"motion", {"calm", "rough", "turn"}};
-inline const FuzzyVariable fuzzy_motion{"motion", {"calm", "rough", "turn"}};
-inline const Relation random_transition{
-    random_motion, random_motion, {{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}}};
-inline const Relation fuzzy_transition{fuzzy_motion, fuzzy_motion, {{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}};
-
-template <Uncertainty Kind>
-const Relation<Kind, Kind>& transition_of() {
-  if constexpr (std::is_same_v<Kind, Random>)
-    return random_transition;
-  else
-    return fuzzy_transition;
+/// Three planar models and a transition for their kind of mode.
+inline TargetChoice chosen(bool fuzzy, Scheme scheme = Scheme::interacting) {
+  TargetChoice choice{.axes = 2, .fuzzy = fuzzy, .scheme = scheme};
+  choice.motions = {calm(1.0), calm(5.0), turning()};
+  choice.models = {"calm", "rough", "turn"};
+  choice.transition = fuzzy ? Rows{{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}
+                            : Rows{{0.90, 0.07, 0.03}, {0.10, 0.80, 0.10}, {0.02, 0.08, 0.90}};
+  if (scheme == Scheme::histories) choice.lift = Lift::prior;
+  return choice;
+}
+/// The same with other models, and another transition.
+inline TargetChoice with(TargetChoice choice, std::vector<MotionChoice> motions, Rows transition) {
+  choice.models.clear();
+  for (std::size_t j = 0; j < motions.size(); ++j) choice.models.push_back("model " + std::to_string(j));
+  choice.motions = std::move(motions);
+  choice.transition = std::move(transition);
+  return choice;
+}
+inline TargetChoice with(TargetChoice choice, Lift lift) {
+  choice.lift = lift;
+  return choice;
 }
 
-/// A mode variable without names, and the transition that these rows are.
-template <Uncertainty Kind>
-Relation<Kind, Kind> transition_by(const std::vector<std::vector<double>>& rows) {
-  const Variable<Kind> motion{"motion", rows.size()};
-  return {motion, motion, rows};
+/// "himm, lift unbiased, selected, mixing stay, output first".
+inline std::string name_of(const TargetChoice& choice) {
+  static constexpr const char *schemes[] = {"imm", "gpb1", "gpb2", "static imm", "imm histories"},
+                              *fuzzy_schemes[] = {"himm", "himm by one arg max", "viterbi", "static himm",
+                                                  "himm histories"},
+                              *all_lifts[] = {"zero", "borrowed", "unbiased", "prior"},
+                              *covariances[] = {"selected", "own", "own recentred", "released", "envelope"},
+                              *all_ties[] = {"stay", "first", "last"};
+  const auto word = [](const auto& words, auto value) { return std::string(words[static_cast<int>(value)]); };
+  return word(choice.fuzzy ? fuzzy_schemes : schemes, choice.scheme) + ", lift " + word(all_lifts, choice.lift) + ", " +
+         word(covariances, choice.mixed_covariance) + ", mixing " + word(all_ties, choice.mixing_tie) + ", output " +
+         word(all_ties, choice.output_tie);
 }
 
-inline Planar calm(double sigma_w = 1.0) { return Extended<PlanarMotion>{dwna<2>(sigma_w)}; }
-inline Planar turning(double sigma_w = 4.0) { return Extended<PlanarMotion>{dwpa<2>(sigma_w)}; }
+inline constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
+inline constexpr auto readings = {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred,
+                                  MixedCovariance::released};
+inline constexpr auto every_tie = {Tie::stay, Tie::first, Tie::last};
 
-/// Every start is wrong in its own way.
+/// Asks a law of some filters.
+template <class Law>
+void for_each(const std::vector<TargetChoice>& choices, const Law& law) {
+  for (const TargetChoice& choice : choices) {
+    SCOPED_TRACE(name_of(choice));
+    law(choice);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+/// Every filter by the default rules.
+inline std::vector<TargetChoice> every_filter() {
+  std::vector<TargetChoice> all;
+  for (const bool fuzzy : {false, true})
+    for (const Scheme scheme : {Scheme::interacting, Scheme::second_order, Scheme::histories})
+      all.push_back(chosen(fuzzy, scheme));
+  return all;
+}
+/// Every reading of the paper, of all filters that merge, under every lift.
+inline std::vector<TargetChoice> every_reading() {
+  std::vector<TargetChoice> all;
+  for (const Lift lift : lifts) {
+    for (const Scheme scheme : {Scheme::interacting, Scheme::common_start, Scheme::second_order})
+      all.push_back(with(chosen(false, scheme), lift));
+    all.push_back(all.end()[-3]);
+    all.back().imm_mixing = MixingWeights::released;
+    for (const Scheme scheme : {Scheme::interacting, Scheme::common_start})
+      for (const MixedCovariance reading : readings) {
+        all.push_back(with(chosen(true, scheme), lift));
+        all.back().mixed_covariance = reading;
+      }
+    all.push_back(with(chosen(true, Scheme::second_order), lift));
+  }
+  return all;
+}
+
+/// These, and each of the other rules.
+inline std::vector<TargetChoice> every_rule() {
+  std::vector<TargetChoice> all = every_reading();
+  const auto add = [&](bool fuzzy, Scheme scheme, const auto& change) {
+    all.push_back(with(chosen(fuzzy, scheme), Lift::zero));
+    all.back().mixed_covariance = MixedCovariance::selected;
+    change(all.back());
+  };
+  for (const Scheme scheme : {Scheme::interacting, Scheme::second_order}) {
+    for (const Tie mixing : every_tie)
+      for (const Tie output : every_tie)
+        add(true, scheme, [&](TargetChoice& choice) {
+          choice.mixing_tie = mixing;
+          choice.output_tie = output;
+        });
+    for (const bool fuzzy : {false, true})
+      add(fuzzy, scheme, [](TargetChoice& choice) { choice.likelihood = LikelihoodForm::possibility; });
+    add(false, scheme, [](TargetChoice& choice) { choice.output_spread = OutputSpread::omitted; });
+  }
+  for (const Lift lift : lifts)
+    add(true, Scheme::interacting, [&](TargetChoice& choice) {
+      choice.lift = lift;
+      choice.mixed_covariance = MixedCovariance::envelope;
+    });
+  return all;
+}
+
+inline AnyModel model_of(const MotionChoice& motion, int axes = 2) { return known_model(motion, axes); }
+inline Models models_of(const TargetChoice& choice) {
+  Models models;
+  for (const MotionChoice& each : choice.motions) models.push_back(model_of(each, choice.axes));
+  return models;
+}
+
+/// Every start of `chosen` is wrong in its own way.
 inline std::vector<State> starts() {
   SquareMatrix<4> small = 50.0 * SquareMatrix<4>::Identity();
   small.topRightCorner<2, 2>().setConstant(5.0);
@@ -127,66 +197,199 @@ inline std::vector<State> starts() {
   return {State{Vector<4>{12005, 7990, -95, -103}, small}, State{Vector<4>{11996, 8004, -99, -108}, 2.0 * small},
           State{Vector<6>{12001, 8003, -101, -95, 3, -4}, large}};
 }
-
-inline constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
-inline constexpr auto readings = {MixedCovariance::selected, MixedCovariance::own, MixedCovariance::own_recentred,
-                                  MixedCovariance::released};
-inline constexpr auto ties = {Tie::stay, Tie::first, Tie::last};
-
-/// The plain Kalman filter of one model.
-struct Alone {
-  Planar model;
-  State state;
-  double log_likelihood = 0.0;
-
-  void step(const Scan& scan) {
-    predict(model, state, scan.dt, state);
-    if (scan.z) log_likelihood += update(model, state, *scan.z, state).log_likelihood;
-  }
-};
-
-inline restatement::Model restate(const Planar& model) {
-  const double sigma_w = model.motion().visit([](const auto& motion) { return motion.law().sigma_w(); });
-  return model.size() == 4 ? restatement::dwna(2, sigma_w) : restatement::dwpa(2, sigma_w);
-}
-
-/// The enumerations are spelled alike and in one order.
-template <Uncertainty Kind>
-restatement::Options restate(const Interaction<Kind>& interaction) {
-  restatement::Options options;
-  options.lift = static_cast<restatement::Lift>(interaction.lift);
-  options.output_tie = static_cast<restatement::Tie>(interaction.output_tie);
-  options.common_start = interaction.mixed_start == MixedStart::common;
-  options.possibilistic = interaction.likelihood == LikelihoodForm::possibility;
-  if constexpr (std::is_same_v<Kind, Fuzzy>) {
-    options.kind = restatement::Kind::himm;
-    options.mixed_covariance = static_cast<restatement::MixedCovariance>(interaction.collapse.mixed_covariance);
-    options.mixing_tie = static_cast<restatement::Tie>(interaction.collapse.mixing_tie);
-    options.envelope = enveloped;
-  } else {
-    options.kind = restatement::Kind::imm;
-    options.mixing_weights = static_cast<restatement::Weights>(interaction.collapse.mixing_weights);
-    options.output_spread_omitted = interaction.collapse.output_spread == OutputSpread::omitted;
-  }
-  return options;
-}
-
-template <int N, int MaxN>
-restatement::State restate(const Gaussian<N, MaxN>& estimate) {
-  return {entries(estimate.mean), dense(estimate.covariance)};
-}
-
-template <class Transition>
-restatement::Matrix restate(const Transition& transition) {
-  restatement::Matrix result(transition.from().size(), transition.to().size());
-  for (std::size_t i = 0; i < result.rows; ++i)
-    for (std::size_t j = 0; j < result.columns; ++j) result(i, j) = transition(i, j);
+/// Of these or of other models.
+inline std::vector<State> starts(const TargetChoice& choice) {
+  const auto all = starts();
+  std::vector<State> result;
+  for (std::size_t j = 0; j < choice.motions.size(); ++j)
+    result.push_back(all[choice.motions[j].known().derivatives == 3 ? 2 : j % 2]);
   return result;
 }
 
-/// Whether all that the filter shows is near all that its restatement shows; `tolerance` is relative from one on.
+template <Uncertainty Kind>
+ModeTransition<Kind> transition_of(const TargetChoice& choice) {
+  const Variable<Kind> mode{"motion", choice.models};
+  if (!choice.sojourn_s.empty()) return TimedTransition{mode, rates_of_sojourns(choice.sojourn_s)};
+  return Relation<Kind, Kind>{mode, mode, choice.transition};
+}
+
+template <Uncertainty Kind>
+Interaction<Kind> interaction_of(const TargetChoice& choice) {
+  Interaction<Kind> interaction{.lift = choice.lift, .output_tie = choice.output_tie, .entry = choice.entry};
+  if (choice.scheme == Scheme::common_start) interaction.mixed_start = MixedStart::common;
+  interaction.likelihood = choice.likelihood;
+  if constexpr (std::is_same_v<Kind, Fuzzy>)
+    interaction.collapse = {choice.mixed_covariance, choice.mixing_tie};
+  else
+    interaction.collapse = {choice.imm_mixing, choice.output_spread};
+  return interaction;
+}
+
+/// What a filter shows.
+struct Shown {
+  std::vector<std::string> components;
+  Estimates estimates;
+  std::vector<double> logs;  ///< of the modes' weights
+  std::size_t winner = 0;
+  State estimate, most_likely_estimate;
+  bool measured = false;
+  double gate_distance = 0.0, log_evidence = 0.0, log_score = 0.0;  ///< of the last measurement
+  double nis = 0.0;                                                 ///< if it was taken
+  std::vector<AnyInnovation> innovations = {};
+};
 template <class Filter>
-testing::AssertionResult agrees(const Filter& filter, const restatement::Filter& restated, double tolerance = 1e-9) {
+Shown shown(const Filter& filter) {
+  const auto logs = filter.belief().logs();
+  const auto sized = [](const auto& estimate) { return State{estimate.mean, estimate.covariance}; };
+  Shown result{filter.components(),       filter.estimates(),       {logs.begin(), logs.end()},
+               filter.most_likely_mode(), sized(filter.estimate()), sized(filter.most_likely_estimate()),
+               filter.measured(),         filter.gate_distance(),   filter.log_evidence(),
+               filter.log_score()};
+  if (!result.measured) return result;
+  result.nis = filter.nis();
+  result.innovations = filter.innovations();
+  return result;
+}
+
+/// The filter of a choice, and what it shows now.
+class AnyFilter : public Shown {
+ public:
+  template <class Start>
+  AnyFilter(const TargetChoice& choice, const Start& start)
+      : filter_(choice.fuzzy ? made<Fuzzy>(choice, start) : made<Random>(choice, start)) {
+    do_with([](auto&) {});
+  }
+  explicit AnyFilter(const TargetChoice& choice) : AnyFilter(choice, starts(choice)) {}
+
+  /// Calls act(filter), which may change it.
+  template <class Act>
+  void do_with(const Act& act) {
+    std::visit(
+        [&](auto& filter) {
+          act(filter);
+          static_cast<Shown&>(*this) = shown(filter);
+        },
+        filter_);
+  }
+  template <class Sensor>
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
+    do_with([&](auto& filter) { filter.step(dt, z, sensor, gate); });
+  }
+  void step(double dt) {
+    do_with([&](auto& filter) { filter.step(dt); });
+  }
+  void step(const Scan& scan, double gate = no_gate) {
+    scan.z ? step(scan.dt, *scan.z, PositionSensor<2>{}, gate) : step(scan.dt);
+  }
+  template <class Start>
+  void restart(const Start& start) {
+    do_with([&](auto& filter) { filter.restart(start); });
+  }
+  /// Goes on from the state of another of its kind.
+  void restore(const AnyFilter& other) {
+    do_with([&](auto& filter) { filter.restore(std::get<std::decay_t<decltype(filter)>>(other.filter_).state()); });
+  }
+
+ private:
+  using Filter = std::variant<InteractingMultipleModel<Models, Random>, InteractingMultipleModel<Models, Fuzzy>,
+                              SecondOrderMultipleModel<Models, Random>, SecondOrderMultipleModel<Models, Fuzzy>,
+                              HistoryFilter<Models, Random>, HistoryFilter<Models, Fuzzy>>;
+
+  template <Uncertainty Kind, class Start>
+  static Filter made(const TargetChoice& choice, const Start& start) {
+    const auto models = models_of(choice);
+    const auto transition = transition_of<Kind>(choice);
+    const auto interaction = interaction_of<Kind>(choice);
+    if (choice.scheme == Scheme::second_order)
+      return SecondOrderMultipleModel<Models, Kind>{models, transition, start, interaction};
+    if (choice.scheme == Scheme::histories)
+      return HistoryFilter<Models, Kind>{models, transition, start, HistoryRules<Kind>{}, interaction};
+    return InteractingMultipleModel<Models, Kind>{models, transition, start, interaction};
+  }
+
+  Filter filter_;
+};
+
+/// That of one model: its Kalman filter, as kinematic_step_test.cpp shows.
+inline AnyFilter alone(const MotionChoice& motion, const State& start) {
+  return {with(chosen(false), {motion}, {{1.0}}), std::vector{start}};
+}
+
+/// Asks a law of every filter itself.
+template <class Law>
+void with_every_filter(const Law& law) {
+  for_each(every_filter(), [&](const TargetChoice& choice) { AnyFilter(choice).do_with(law); });
+}
+
+template <class Estimate>
+restatement::State restate(const Estimate& estimate) {
+  return {entries(estimate.mean), dense(estimate.covariance)};
+}
+inline std::vector<restatement::State> restate(const Estimates& estimates) {
+  std::vector<restatement::State> result;
+  for (std::size_t j = 0; j < estimates.size(); ++j) result.push_back(restate(estimates[j]));
+  return result;
+}
+inline restatement::Matrix restate(const Rows& rows) {
+  restatement::Matrix result(rows.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows.size(); ++j) result(i, j) = rows[i][j];
+  return result;
+}
+template <class Real = double>
+std::vector<restatement::ModelOf<Real>> restated_models(const TargetChoice& choice) {
+  std::vector<restatement::ModelOf<Real>> result;
+  for (const MotionChoice& each : choice.motions)
+    result.push_back(restatement::discrete_white_noise<Real>(static_cast<std::size_t>(choice.axes),
+                                                             static_cast<std::size_t>(each.known().derivatives),
+                                                             each[MotionParameter::sigma_w]));
+  return result;
+}
+
+/// The enumerations are spelled alike and in one order.
+inline restatement::Options restate(const TargetChoice& choice) {
+  return {.kind = choice.fuzzy ? restatement::Kind::himm : restatement::Kind::imm,
+          .order = choice.scheme == Scheme::second_order ? restatement::Order::second_order
+                                                         : restatement::Order::interacting,
+          .mixing_weights = static_cast<restatement::Weights>(choice.imm_mixing),
+          .mixed_covariance = choice.fuzzy ? static_cast<restatement::MixedCovariance>(choice.mixed_covariance)
+                                           : restatement::MixedCovariance::selected,
+          .lift = static_cast<restatement::Lift>(choice.lift),
+          .mixing_tie = static_cast<restatement::Tie>(choice.mixing_tie),
+          .output_tie = static_cast<restatement::Tie>(choice.output_tie),
+          .common_start = choice.scheme == Scheme::common_start,
+          .possibilistic = choice.likelihood == LikelihoodForm::possibility,
+          .output_spread_omitted = choice.output_spread == OutputSpread::omitted,
+          .envelope = enveloped};
+}
+inline restatement::Filter restated(const TargetChoice& choice, const Estimates& start) {
+  return {restated_models(choice), restate(choice.transition), restate(start), restatement::Vector(start.size(), 1.0),
+          restate(choice)};
+}
+template <class Restated>
+void step(Restated& filter, const Scan& scan) {
+  if (scan.z)
+    filter.step(scan.dt, entries(scan.z->mean), dense(scan.z->covariance));
+  else
+    filter.step(scan.dt);
+}
+
+/// A state given in some components, by the names of others.
+inline restatement::State reordered(const restatement::State& state, const std::vector<std::string>& from,
+                                    const std::vector<std::string>& to) {
+  restatement::State result{restatement::Vector(to.size()), restatement::Matrix(to.size(), to.size())};
+  for (std::size_t a = 0; a < to.size(); ++a) {
+    const auto in_a = restatement::position(from, to[a]).value();
+    result.mean[a] = state.mean[in_a];
+    for (std::size_t b = 0; b < to.size(); ++b)
+      result.covariance(a, b) = state.covariance(in_a, restatement::position(from, to[b]).value());
+  }
+  return result;
+}
+
+/// Whether all that a filter shows is near all that its restatement shows; `tolerance` is relative from one on.
+inline testing::AssertionResult agrees(const Shown& filter, const restatement::Filter& restated,
+                                       double tolerance = 1e-9) {
   testing::AssertionResult result = testing::AssertionSuccess();
   const auto compare = [&](const char* what, const auto& found, const auto& expected) {
     if (result) result = near(what, "the restatement's", "", found, expected, tolerance);
@@ -197,63 +400,41 @@ testing::AssertionResult agrees(const Filter& filter, const restatement::Filter&
     compare(what, std::span<const double>(found.covariance.values),
             std::span<const double>(expected.covariance.values));
   };
-  compare("the log weights", filter.belief().logs(), std::span<const double>(restated.log_weights()));
-  if (result && filter.most_likely_mode() != restated.winner())
-    result = testing::AssertionFailure() << "mode " << filter.most_likely_mode() << " wins, but mode "
-                                         << restated.winner() << " in the restatement";
-  for_each_mode(filter.estimates(), [&](auto j) {
-    compare_states("a model's estimate", restate(mode(filter.estimates(), j)), restated.states()[j]);
-  });
-  if (result && filter.measured() != restated.nis().has_value())
+  compare("the log weights", std::span<const double>(filter.logs), std::span<const double>(restated.log_weights()));
+  if (result && filter.winner != restated.winner())
+    result = testing::AssertionFailure() << "mode " << filter.winner << " wins, but mode " << restated.winner()
+                                         << " in the restatement";
+  for (std::size_t j = 0; j < filter.estimates.size(); ++j)
+    compare_states("a model's estimate", restate(filter.estimates[j]), restated.states()[j]);
+  if (result && filter.measured != restated.nis().has_value())
     result = testing::AssertionFailure() << "whether there was a measurement is in dispute";
-  if (result && filter.measured()) {
-    compare("the NIS", filter.nis(), *restated.nis());
-    compare("the squared norm of the normalized innovation", filter.normalized_innovation().squaredNorm(),
-            *restated.nis());
-    compare("the distance that gates compare", filter.gate_distance(), restated.gate_distance());
-    compare("the evidence", filter.log_evidence(), restated.log_evidence());
-    compare("the score", filter.log_score(), restated.log_score());
+  if (filter.measured && result) {
+    compare("the NIS", filter.nis, *restated.nis());
+    compare("the distance that gates compare", filter.gate_distance, restated.gate_distance());
+    compare("the evidence", filter.log_evidence, restated.log_evidence());
+    compare("the score", filter.log_score, restated.log_score());
   }
-  if (!result) return result;
-
-  // The union of the components may be ordered differently.
-  const restatement::State found = restate(filter.estimate());
-  restatement::State expected = found;
-  const auto there = restated.estimate();
-  const auto at = [&](std::size_t i) { return restatement::position(restated.components(), filter.components()[i]); };
-  if (filter.components().size() != restated.components().size())
-    return testing::AssertionFailure() << "the output has other components";
-  for (std::size_t i = 0; i < filter.components().size(); ++i) {
-    if (!at(i)) return testing::AssertionFailure() << "no component " << filter.components()[i];
-    expected.mean[i] = there.mean[*at(i)];
-    for (std::size_t k = 0; k < filter.components().size(); ++k)
-      expected.covariance(i, k) = there.covariance(*at(i), at(k).value());
-  }
-  compare_states("the output", found, expected);
+  if (result && filter.components.size() != restated.components().size())
+    result = testing::AssertionFailure() << "the output has other components";
+  if (result)
+    compare_states("the output", restate(filter.estimate),
+                   reordered(restated.estimate(), restated.components(), filter.components));
   return result;
 }
 
-/// Takes one scan with any filter of these banks.
-template <class Filter>
-void step(Filter& filter, const Scan& scan) {
-  if (scan.z)
-    filter.step(scan.dt, *scan.z);
-  else
-    filter.step(scan.dt);
-}
-template <std::derived_from<restatement::Filter> Restated>
-void step(Restated& filter, const Scan& scan) {
-  if (scan.z)
-    filter.step(scan.dt, entries(scan.z->mean), dense(scan.z->covariance));
-  else
-    filter.step(scan.dt);
-}
-
-/// What the scan left in the filter that took it.
-template <class Filter, class Sensor = PositionSensor<2>>
-auto recorded(const Filter& filter, const Scan& scan, const Sensor& sensor = {}) {
-  return scan.z ? filter.recorded(scan.dt, *scan.z, sensor) : filter.recorded(scan.dt);
+/// Whether a filter's state is that of another.
+inline testing::AssertionResult same_state(const char*, const char*, const char*, const Shown& a, const Shown& b,
+                                           double tolerance) {
+  if (a.winner != b.winner)
+    return testing::AssertionFailure() << "the modes " << a.winner << " and " << b.winner << " win";
+  auto result = near("the log weights", "the other's", "", a.logs, b.logs, tolerance);
+  for (std::size_t j = 0; result && j < a.estimates.size(); ++j) {
+    result = near_matrix("a mean", "the other's", "", a.estimates[j].mean, b.estimates[j].mean, tolerance);
+    if (result)
+      result = near_matrix("a covariance", "the other's", "", a.estimates[j].covariance, b.estimates[j].covariance,
+                           tolerance);
+  }
+  return result;
 }
 
-}  // namespace support
-}  // namespace sigmax
+}  // namespace sigmax::support

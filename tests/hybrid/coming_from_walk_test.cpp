@@ -57,8 +57,8 @@ TEST(ComingFrom, Matlab) {
   interaction.lift = Lift::zero;
   InteractingMultipleModel imm{std::tuple{dwna<1>(1.0), dwpa<1>(1.0)}, transition, start, interaction};
   for (const double z : {11.0, 19.0, 32.0, 47.0, 70.0}) imm.step(1.0, {Vector<1>(z), SquareMatrix<1>(25.0)});
-  const auto estimate = imm.estimate();  // State and StateCovariance, always in the components of all models
-  const auto& constvel = std::get<0>(imm.estimates());  // TrackingFilters{1}.State has two components
+  const auto estimate = imm.estimate();      // State and StateCovariance, always in the components of all models
+  const auto constvel = imm.estimates()[0];  // TrackingFilters{1}.State has two components
 
   EXPECT_EQ(constvel.size(), 2);
   EXPECT_PRED_FORMAT3(near, estimate.mean(0), 66.5647979770865, 1e-9);

@@ -18,52 +18,47 @@ FixedStepMotion<N> with(const Names& names) {
   return {"any", names, 1.0, SquareMatrix<N>::Identity(), SquareMatrix<N>::Identity()};
 }
 
-using Models = std::tuple<FixedStepMotion<2>, FixedStepMotion<3>, FixedStepMotion<3>>;
-const Models models{with<2>({"x", "vx"}), with<3>({"x", "vx", "omega"}), with<3>({"bias", "x", "vx"})};
+const std::vector<AnyModel> models{with<2>({"x", "vx"}), with<3>({"x", "vx", "omega"}), with<3>({"bias", "x", "vx"})};
 
 TEST(Components, ThoseOfTheLargestModelLead) {
-  const Components<Models> components(models);
+  const detail::Components components(models);
   EXPECT_EQ(components.names(), (Names{"x", "vx", "omega", "bias"}));
-  EXPECT_EQ(components.of_all()[2].in_source, (std::vector<Eigen::Index>{1, 2, -1, 0}));
-  EXPECT_EQ(components.of_model(0)[2].in_source, (std::vector<Eigen::Index>{1, 2}));
-  EXPECT_EQ(components.of_model(1)[0].in_source, (std::vector<Eigen::Index>{0, 1, -1}));
+  EXPECT_EQ(components.size(), 4);
+  EXPECT_EQ(components.of_all()[2].in_source, (std::vector<int>{1, 2, -1, 0}));
+  EXPECT_EQ(components.of_model(0)[2].in_source, (std::vector<int>{1, 2}));
+  EXPECT_EQ(components.of_model(1)[0].in_source, (std::vector<int>{0, 1, -1}));
 }
 
 TEST(Components, EveryModelTakesItsShareOfAStart) {
-  const Components<Models> components(models);
   const Gaussian<4> start{Vector<4>(1, 2, 3, 4),
                           SquareMatrix<4>{{10, 1, 2, 3}, {1, 20, 4, 5}, {2, 4, 30, 6}, {3, 5, 6, 40}}};
-  const auto shares = components.shares(models, start);
-  EXPECT_EQ(std::get<0>(shares).mean, (Vector<2>(1, 2)));
-  EXPECT_EQ(std::get<1>(shares).covariance, (SquareMatrix<3>{{10, 1, 2}, {1, 20, 4}, {2, 4, 30}}));
-  EXPECT_EQ(std::get<2>(shares).mean, (Vector<3>(4, 1, 2)));
-  EXPECT_EQ(std::get<2>(shares).covariance, (SquareMatrix<3>{{40, 3, 5}, {3, 10, 1}, {5, 1, 20}}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        components.shares(models, Gaussian<2>{Vector<2>::Zero(), SquareMatrix<2>::Identity()});
-      },
-      {"2", "4"}));
+  const Estimates shares = detail::shares_of(models, detail::view(start));
+  EXPECT_EQ(shares[0].mean, (Vector<2>(1, 2)));
+  EXPECT_EQ(shares[1].covariance, (SquareMatrix<3>{{10, 1, 2}, {1, 20, 4}, {2, 4, 30}}));
+  EXPECT_EQ(shares[2].mean, (Vector<3>(4, 1, 2)));
+  EXPECT_EQ(shares[2].covariance, (SquareMatrix<3>{{40, 3, 5}, {3, 10, 1}, {5, 1, 20}}));
+  const Gaussian<2> few{Vector<2>::Zero(), SquareMatrix<2>::Identity()};
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { detail::shares_of(models, detail::view(few)); }, {"2", "4"}));
 }
 
 TEST(Components, EachIsCarriedByTheModelThatWasChosenForIt) {
-  const Components<Models> components(models);
-  const std::tuple estimates{Gaussian<2>{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}},
-                             Gaussian<3>{Vector<3>(3, 4, 5), SquareMatrix<3>::Constant(7.0)},
-                             Gaussian<3>{Vector<3>(6, 7, 8), SquareMatrix<3>::Constant(9.0)}};
-  const auto first_that_has_it = [](const auto& has) {
-    std::size_t l = 0;
-    while (!has(l)) ++l;
-    return l;
-  };
-  const auto found = components.carried(estimates, first_that_has_it);
+  Estimates estimates;
+  estimates.add(Gaussian<2>{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}});
+  estimates.add(Gaussian<3>{Vector<3>(3, 4, 5), SquareMatrix<3>::Constant(7.0)});
+  estimates.add(Gaussian<3>{Vector<3>(6, 7, 8), SquareMatrix<3>::Constant(9.0)});
+  const std::size_t carriers[] = {0, 0, 1, 2};
+  Gaussian<4> found;
+  detail::Components(models).carry(estimates, carriers, detail::view(found));
   EXPECT_EQ(found.mean, (Vector<4>(1, 2, 5, 6)));
   EXPECT_EQ(found.covariance, (SquareMatrix<4>{{1, 0.5, 0, 0}, {0.5, 2, 0, 0}, {0, 0, 7, 0}, {0, 0, 0, 9}}));
 }
 
-TEST(Components, MoreThanTheirTypeAllowsAreRefused) {
-  using Alike = std::vector<FixedStepMotion<2>>;
-  const Alike different{with<2>({"x", "vx"}), with<2>({"x", "omega"})};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { Components<Alike>{different}; }, {"3 different components", "2"}));
+TEST(Components, OfAPriorHaveItsVariancesByTheirNames) {
+  Estimates entries = detail::estimates_of(models);
+  entries[1].covariance.setOnes();
+  detail::write_entries(models, {.turn_rate = 0.1}, 3.0, entries);
+  EXPECT_EQ(entries[1].mean, Vector<3>::Zero());
+  EXPECT_EQ(entries[1].covariance, (SquareMatrix<3>(Vector<3>(9.0, 9.0, 0.1 * 0.1).asDiagonal())));
 }
 
 }  // namespace

@@ -2,12 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/sensors.hpp>
+#include <sigmax/estimation/unscented.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/known_model.hpp>
+#include <sigmax/hybrid/mode_transition.hpp>
 
 #include "known_motions.hpp"
 #include "support/matrices.hpp"
@@ -44,12 +51,19 @@ TEST(ExtendingWalk, ALawOfMotion) {
 
 TEST(ExtendingWalk, ARowOfTheMotionsThatHaveNames) {
   using namespace detail;
-  constexpr auto row = MotionRow(
+  constexpr auto row = MotionRow::of(
       "drift", no_manoeuvre, []<int A>(const MotionChoice& c) { return IndependentAxes<A, Drift>{Drift{c[sigma_w]}}; },
-      sigma_w);
-  const MotionOfRow<2, decltype(row)> drift = row.make.operator()<2>(MotionChoice{});
-  EXPECT_EQ(drift.law().q, MotionChoice{}[MotionParameter::sigma_w]);
-  EXPECT_TRUE(row.has[static_cast<std::size_t>(MotionParameter::sigma_w)]);
+      {sigma_w});
+  static_assert(row.known.derivatives == 1 && row.known.linear && !row.known.manoeuvres);
+  EXPECT_TRUE(row.known.has_parameter(sigma_w) && !row.known.has_parameter(tau));
+  for (const int axes : {1, 2, 3}) {
+    const AnyModel drift = row.make(MotionChoice{}, axes, MemberType::ekf);
+    EXPECT_EQ(drift.name(), "drift");
+    EXPECT_EQ(drift.size(), axes);
+    EstimateOf<AnyModel> x{Eigen::VectorXd::Zero(axes), Eigen::MatrixXd::Identity(axes, axes)};
+    predict(drift, x, 4.0, x);
+    EXPECT_NEAR(x.covariance(0, 0), 1.0 + 4.0 * MotionChoice{}[sigma_w], 1e-12);
+  }
 }
 
 TEST(ExtendingWalk, SensorsThatTakeTurns) {
@@ -66,7 +80,50 @@ TEST(ExtendingWalk, SensorsThatTakeTurns) {
   EXPECT_NEAR(found.mean(3), 50.0, 1.0);
   EXPECT_LT(found.covariance(3, 3), 3.0) << "the velocity is along y, and known to about 1 m/s";
   EXPECT_GT(found.covariance(2, 2), 30.0);
-  EXPECT_EQ(filter.innovations()[0].residual.size(), 1);
+  EXPECT_EQ(filter.innovations()[0].residual().size(), 1);
+}
+
+struct Braking {
+  static constexpr int axes = 1, state_size = 2, max_state_size = 2;
+  Eigen::Index size() const { return 2; }
+  std::string_view name() const { return "braking"; }
+  std::vector<std::string> components() const { return {"x", "vx"}; }
+  Vector<2> propagate(const Vector<2>& x, double dt) const {
+    return {x(0) + dt * x(1), x(1) - dt * 0.01 * x(1) * std::abs(x(1))};
+  }
+  SquareMatrix<2> process_covariance(double dt) const { return dt * SquareMatrix<2>::Identity(); }
+};
+
+struct Mast {
+  static constexpr int seen_size = 1, measurement_size = 1;
+  double height;
+  Vector<1> measure(const Vector<1>& x) const { return Vector<1>(std::hypot(x(0), height)); }
+  Vector<1> measurement_jacobian(const Vector<1>& x) const { return x / std::hypot(x(0), height); }
+};
+
+AnyModel model_called(const std::string& name) {
+  if (name == "braking") return Unscented{Braking{}};
+  return known_model({name}, 1);
+}
+AnySensor sensor_called(const std::string& name) {
+  if (name == "mast") return Mast{30.0};
+  return PositionSensor<1>{};
+}
+
+double place(const std::vector<std::string>& motions, const std::vector<std::pair<std::string, double>>& seen) {
+  std::vector<AnyModel> models;
+  for (const auto& name : motions) models.push_back(model_called(name));
+  const RandomVariable mode{"mode", motions};
+  const Gaussian<2> start{Vector<2>(0.0, 30.0), 100.0 * SquareMatrix<2>::Identity()};
+  InteractingMultipleModel filter{models, TimedTransition{mode, rates_of_sojourns({20.0, 5.0})}, start};
+  for (const auto& [sensor, z] : seen) filter.step(1.0, {Vector<1>(z), SquareMatrix<1>(1.0)}, sensor_called(sensor));
+  return filter.estimate().mean(0);
+}
+
+TEST(ExtendingWalk, ABankChosenAtRunTime) {
+  EXPECT_NEAR(place({"dwna", "braking"}, {{"mast", 42.4}, {"position", 55.0}, {"position", 75.0}}), 75.0, 1.0);
+  // Both predict 30 m, and that is what the mast sees at its height.
+  EXPECT_NEAR(place({"dwna", "cwna"}, {{"mast", std::hypot(30.0, 30.0)}}), 30.0, 1e-9);
 }
 
 }  // namespace

@@ -72,59 +72,45 @@ TEST(Fit, RefusesAParameterThatCannotStart) {
       [&] { fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass); }, {"'p'", "1.5"}));
 }
 
-/// The filter whose score of a position is asked for, after some scans of a manoeuvring target.
-template <Uncertainty Kind>
-InteractingMultipleModel<VectorBank, Kind> amid_a_turn() {
-  InteractingMultipleModel<VectorBank, Kind> filter{
-      VectorBank{support::calm(1.0), support::calm(5.0), support::turning()}, support::transition_of<Kind>(),
-      support::starts()};
-  for (const support::Scan& scan : support::manoeuvring_target(90)) support::step(filter, scan);
-  return filter;
-}
-
-/// The integral over the position of exp(value(filter after a step with that position)), by rectangles.
-template <class Filter, class Value>
-double integral(const Filter& before, const Value& value) {
-  Filter predicted = before;
+/// The integral over the position of exp(value(filter after a step with that position)), by rectangles, after some
+/// scans of a manoeuvring target.
+double integral(bool fuzzy, double support::Shown::*value) {
+  support::AnyFilter before(support::chosen(fuzzy));
+  for (const support::Scan& scan : support::manoeuvring_target(90)) before.step(scan);
+  auto predicted = before;
   predicted.step(0.2);
-  const Vector<2> centre = predicted.estimate().mean.template head<2>();
-  const SquareMatrix<2> R = 400.0 * SquareMatrix<2>::Identity();
+  const Vector<2> centre = predicted.estimate.mean.head<2>();
   constexpr double side = 12.0;
   double sum = 0.0;
   for (int i = -15; i <= 15; ++i)
     for (int j = -15; j <= 15; ++j) {
-      Filter filter = before;
-      filter.step(0.2, Gaussian<2>{centre + side * Vector<2>(i, j), R});
-      sum += side * side * std::exp(value(filter));
+      auto filter = before;
+      filter.step({0.2, Gaussian<2>{centre + side * Vector<2>(i, j), 400.0 * SquareMatrix<2>::Identity()}});
+      sum += side * side * std::exp(filter.*value);
     }
   return sum;
 }
 
 TEST(LogScore, IsOfADensityOrOfLess) {
-  const auto score = [](const auto& filter) { return filter.log_score(); };
-  const auto evidence = [](const auto& filter) { return filter.log_evidence(); };
-  EXPECT_NEAR(integral(amid_a_turn<Random>(), score), 1.0, 1e-3);
-  EXPECT_NEAR(integral(amid_a_turn<Random>(), evidence), 1.0, 1e-3);
-  const double fuzzy = integral(amid_a_turn<Fuzzy>(), score);
+  EXPECT_NEAR(integral(false, &support::Shown::log_score), 1.0, 1e-3);
+  EXPECT_NEAR(integral(false, &support::Shown::log_evidence), 1.0, 1e-3);
+  const double fuzzy = integral(true, &support::Shown::log_score);
   EXPECT_LT(fuzzy, 1.0);
   EXPECT_GT(fuzzy, 1.0 / 3.0);
-  EXPECT_GT(integral(amid_a_turn<Fuzzy>(), evidence), 1.0);  // the maximum of three possible densities is none
+  EXPECT_GT(integral(true, &support::Shown::log_evidence), 1.0);  // the maximum of three possible densities is none
 }
 
 TEST(LogEvidence, OfAFuzzyModeNeverBlamesAPossibleChange) {
-  const std::vector<support::Scan> scans = support::manoeuvring_target(60);
-  for (const support::Scan& scan : scans) {
+  for (const support::Scan& scan : support::manoeuvring_target(60)) {
     if (!scan.z) continue;
     double before = log_zero;
     for (const double leaving : {0.05, 0.2, 0.5, 1.0}) {
-      const std::vector<std::vector<double>> rows = {
-          {1.0, leaving, leaving}, {leaving, 1.0, leaving}, {leaving, leaving, 1.0}};
-      InteractingMultipleModel<VectorBank, Fuzzy> filter{
-          VectorBank{support::calm(1.0), support::calm(1.0), support::calm(1.0)}, support::transition_by<Fuzzy>(rows),
-          std::vector<support::State>(3, support::starts()[0])};
-      filter.step(scan.dt, *scan.z);
-      ASSERT_GE(filter.log_evidence(), before);
-      before = filter.log_evidence();
+      support::AnyFilter filter(
+          support::with(support::chosen(true), std::vector(3, support::calm()),
+                        {{1.0, leaving, leaving}, {leaving, 1.0, leaving}, {leaving, leaving, 1.0}}));
+      filter.step(scan);
+      ASSERT_GE(filter.log_evidence, before);
+      before = filter.log_evidence;
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "hybrid/laws.hpp"
+#include "hybrid/banks.hpp"
 
 namespace sigmax {
 namespace {
@@ -13,21 +13,20 @@ namespace {
 using namespace support;
 
 /// Every state that a lag gives is that of smoothing the interval from the start to `lag` steps later.
-template <class Order, Uncertainty Kind>
-void is_the_interval_up_to_the_lag(std::size_t lag) {
-  auto filter = vector_filter<Order, Kind>();
-  const auto scans = manoeuvring_target(12);
+template <class Filter>
+void is_the_interval_up_to_the_lag(Filter filter, std::size_t lag) {
   FixedLagSmoother smoother(filter, lag);
   std::vector record{filter.recorded(0.0)};
-  std::vector<HybridEstimate<VectorBank, Kind>> found;
-  const auto note = [&](const auto* state) {
-    if (state) found.push_back(*state);
+  std::vector<std::decay_t<decltype(record[0].state)>> found;
+  const auto take = [&] {
+    if (const auto* state = smoother.take(record.back())) found.push_back(*state);
   };
-  note(smoother.take(record.front()));
-  for (const Scan& scan : scans) {
-    step(filter, scan);
-    record.push_back(recorded(filter, scan));
-    note(smoother.take(record.back()));
+  take();
+  for (const Scan& scan : manoeuvring_target(12)) {
+    const PositionSensor<2> sensor;
+    scan.z ? filter.step(scan.dt, *scan.z, sensor) : filter.step(scan.dt);
+    record.push_back(scan.z ? filter.recorded(scan.dt, *scan.z, sensor) : filter.recorded(scan.dt));
+    take();
   }
   for (const auto& state : smoother.rest()) found.push_back(state);
 
@@ -45,15 +44,12 @@ void is_the_interval_up_to_the_lag(std::size_t lag) {
 }
 
 TEST(FixedLagSmoother, IsTheIntervalUpToTheLag) {
-  for (const std::size_t lag : {0U, 1U, 3U, 12U, 100U}) {
-    is_the_interval_up_to_the_lag<Interacting, Random>(lag);
-    is_the_interval_up_to_the_lag<SecondOrder, Fuzzy>(lag);
-  }
+  for (const std::size_t lag : {0U, 1U, 3U, 12U, 100U})
+    with_every_filter([&](const auto& filter) { is_the_interval_up_to_the_lag(filter, lag); });
 }
 
 TEST(FixedLagSmoother, OfNothingIsNothing) {
-  const auto filter = vector_filter<Interacting, Fuzzy>();
-  EXPECT_TRUE((FixedLagSmoother<VectorBank, Fuzzy>(filter, 3).rest().empty()));
+  with_every_filter([](const auto& filter) { EXPECT_TRUE(FixedLagSmoother(filter, 3).rest().empty()); });
 }
 
 }  // namespace

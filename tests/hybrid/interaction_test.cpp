@@ -34,7 +34,7 @@ TEST(Interaction, ACommonStartIsCollapsedBeforeTheFirstStepToo) {
     InteractingMultipleModel filter{std::tuple{dwna<1>(1e-6), dwpa<1>(1e-6)}, transition, start,
                                     Interaction<Random>{.lift = lift, .mixed_start = mixed_start}};
     filter.step(0.0);
-    return std::get<1>(filter.estimates()).covariance(2, 2);
+    return filter.estimates()[1].covariance(2, 2);
   };
   EXPECT_NEAR(variance_after_no_time(Lift::zero, MixedStart::common), 50.0, 1e-9);
   EXPECT_NEAR(variance_after_no_time(Lift::borrowed_variance, MixedStart::common), 100.0, 1e-9);

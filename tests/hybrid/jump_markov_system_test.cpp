@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <tuple>
 
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
@@ -30,8 +30,7 @@ concept CanBeAMode = requires {
 || requires { typename SecondOrderMultipleModel<Models, Kind>; }
 || requires { typename HistoryFilter<Models, Kind>; }
 || requires { typename FilterBank<Models, Kind>; }
-|| requires { typename FixedIntervalSmoother<Models, Kind>; }
-|| requires { typename JumpMarkovSystem<Models, Kind>; };
+|| requires { typename JumpMarkovSystem<Kind>; };
 static_assert(CanBeAMode<Random> && CanBeAMode<Fuzzy>);
 static_assert(!CanBeAMode<Ordinal>, "weights of modes are divided: refused by the constraint, not inside");
 
@@ -39,15 +38,14 @@ TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
   const JumpMarkovSystem system{std::tuple{dwna<3>(1.0), dwpa<3>(2.0)}, persistent};
   EXPECT_EQ(system.mode_variable().name(), "mode");
   EXPECT_EQ(system.transition()(0, 1), 0.5);
-  EXPECT_EQ(std::get<1>(system.models()).law().sigma_w(), 2.0);
+  EXPECT_EQ(system.models()[1].name(), "dwpa");
 }
 
 TEST(JumpMarkovSystem, NeedsOneOutcomeForEachModel) {
   EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent); },
                                             {"'mode'", "2 outcomes", "1 models"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [] { JumpMarkovSystem(std::vector<IndependentAxes<3, DiscreteWhiteNoise<2>>>{}, persistent); },
-      {"'mode'", "2 outcomes", "0 models"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::vector<AnyModel>{}, persistent); },
+                                            {"'mode'", "2 outcomes", "0 models"}));
 }
 
 TEST(JumpMarkovSystem, NeedsATransitionFromTheModeToItself) {
@@ -59,18 +57,42 @@ TEST(JumpMarkovSystem, NeedsATransitionFromTheModeToItself) {
       {"JumpMarkovSystem", "weather", "mode"}));
 }
 
-TEST(JumpMarkovSystem, ARowThatIsNoDistributionIsRefusedByTheRelation) {
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [] {
-        Relation(mode_now, mode_now, {{1.0, 0.5}, {0.5, 0.9}});
-      },
-      {"mode", "turn"}));
-  const RandomVariable random_mode{"mode", {"straight", "turn"}};
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        Relation(random_mode, random_mode, {{0.9, 0.2}, {0.5, 0.5}});
-      },
-      {"mode", "straight"}));
+/// Gives the same row whatever it was asked before, and counts how often it is.
+struct ByStep {
+  using kind = Fuzzy;
+  std::shared_ptr<int> asked = std::make_shared<int>(0);
+
+  Relation<Fuzzy, Fuzzy> operator()(double dt) const {
+    ++*asked;
+    return {mode_now, mode_now, {{1.0, dt / 10.0}, {dt / 10.0, 1.0}}};
+  }
+};
+
+TEST(ModeTransition, OfAFunctionIsComputedOnlyIfTheStepChanged) {
+  const ByStep by_step;
+  ModeTransition<Fuzzy> transition(by_step);
+  EXPECT_EQ(transition.last()(0, 1), 0.0);
+  const int before = *by_step.asked;
+  EXPECT_EQ(transition.over(0.0)(0, 1), 0.0);
+  EXPECT_EQ(*by_step.asked, before);
+  EXPECT_EQ(transition.over(2.0)(0, 1), 0.2);
+  EXPECT_EQ(transition.over(2.0)(0, 1), 0.2);
+  EXPECT_EQ(transition.last()(0, 1), 0.2);
+  EXPECT_EQ(*by_step.asked, before + 1);
+  EXPECT_EQ(transition.over(0.0)(0, 1), 0.0) << "back to what it was before the first step";
+  EXPECT_EQ(*by_step.asked, before + 2);
+}
+
+TEST(ModeTransition, OfARelationServesEveryStep) {
+  ModeTransition<Fuzzy> transition(persistent);
+  EXPECT_EQ(transition.over(7.0)(0, 1), 0.5);
+  EXPECT_EQ(transition.last()(1, 1), 1.0);
+}
+
+TEST(Identity, IsTheTransitionOfAModeThatNeverChanges) {
+  const auto never = identity(mode_now);
+  EXPECT_EQ(never(0, 0), 1.0);
+  EXPECT_EQ(never(0, 1), 0.0);
 }
 
 }  // namespace

@@ -2,25 +2,31 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include <sigmax/estimation/view.hpp>
+#include <sigmax/hybrid/mixture.hpp>
+
 #include "support/matrices.hpp"
 
 namespace sigmax {
 namespace {
 
+using detail::Correspondence, detail::Mixture;
 using support::generated_gaussian;
 using support::holds;
 using Names = std::vector<std::string>;
 
-constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased};
+constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased, Lift::prior};
 
 /// The estimate of `source` in the receiver's components.
 template <int N, int SourceN>
 Gaussian<N> lifted(const Gaussian<N>& receiver, const Names& receivers, const Gaussian<SourceN>& source,
                    const Names& sources, Lift rule) {
   const Correspondence map(receivers, sources);
-  const Lifted view(receiver, source, map, rule);
-  Gaussian<N> result{view.mean(), SquareMatrix<N>::Zero()};
-  view.add_covariance(1.0, result.covariance);
+  const Mixture::Part part{detail::view(source), &map};
+  Gaussian<N> result;
+  Mixture{detail::view(receiver), {&part, 1}, rule}.read(part, detail::view(result));
   return result;
 }
 
@@ -30,35 +36,21 @@ const Gaussian<4> receiver{Vector<4>{1, 2, 3, 4},
 const Gaussian<2> source{Vector<2>{-1, -2}, SquareMatrix<2>{{7, 0.5}, {0.5, 8}}};
 
 TEST(Lift, FindsEachComponentByItsName) {
-  EXPECT_EQ((Correspondence{{"x", "vx", "ax"}, {"x", "vx"}}.in_source), (std::vector<Eigen::Index>{0, 1, -1}));
-  EXPECT_EQ((Correspondence{{"x", "vx"}, {"ax", "vx", "x"}}.in_source), (std::vector<Eigen::Index>{2, 1}));
+  EXPECT_EQ((Correspondence{{"x", "vx", "ax"}, {"x", "vx"}}.in_source), (std::vector<int>{0, 1, -1}));
+  EXPECT_EQ((Correspondence{{"x", "vx"}, {"ax", "vx", "x"}}.in_source), (std::vector<int>{2, 1}));
 }
 
-TEST(Lift, ComponentsAreNestedIfOneModelsAreTheLeadingOnesOfTheOthers) {
-  EXPECT_TRUE((Correspondence{{"x", "vx", "ax"}, {"x", "vx"}}.nested));
-  EXPECT_TRUE((Correspondence{{"x", "vx"}, {"x", "vx", "ax"}}.nested));
-  EXPECT_TRUE((Correspondence{{"x", "vx"}, {"x", "vx"}}.nested));
-  EXPECT_FALSE((Correspondence{{"x", "vx"}, {"vx", "x"}}.nested));
-  EXPECT_FALSE((Correspondence{{"x", "vx", "turn_rate"}, {"x", "vx", "ax"}}.nested));
-  EXPECT_FALSE((Correspondence{{"x", "ax"}, {"x", "vx", "ax"}}.nested));
-}
-
-TEST(Lift, ZeroKnowsTheLackingComponentsToBeZero) {
-  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::zero);
-  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
-  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}));
-}
-
-TEST(Lift, BorrowedVarianceBorrowsTheDiagonalOnly) {
-  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::borrowed_variance);
-  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
-  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
-}
-
-TEST(Lift, PriorTakesTheVarianceOfWhatStandsForIt) {
-  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::prior);
-  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 0, 0}));
-  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
+TEST(Lift, OfComponentsThatASourceLacksIsWhatTheRuleSays) {
+  const auto at = [](Lift rule) { return lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, rule); };
+  EXPECT_EQ(at(Lift::zero).mean, (Vector<4>{-1, -2, 0, 0}));
+  EXPECT_EQ(at(Lift::zero).covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}));
+  for (const Lift rule : {Lift::borrowed_variance, Lift::prior}) {  // of the receiver, or of what is thought before
+    EXPECT_EQ(at(rule).mean, (Vector<4>{-1, -2, 0, 0}));
+    EXPECT_EQ(at(rule).covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 0}, {0, 0, 0, 40}}));
+  }
+  EXPECT_EQ(at(Lift::unbiased).mean, (Vector<4>{-1, -2, 3, 4}));
+  EXPECT_EQ(at(Lift::unbiased).covariance,
+            (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 6}, {0, 0, 6, 40}}));
 }
 
 TEST(Lift, AnEntryPriorIsNarrowerAlongTheVerticalAndHasItsOwnTurnRate) {
@@ -67,12 +59,6 @@ TEST(Lift, AnEntryPriorIsNarrowerAlongTheVerticalAndHasItsOwnTurnRate) {
   EXPECT_EQ(prior.variance("az", 4.0), 4.0);
   EXPECT_EQ(prior.variance("omega", 4.0), 0.1 * 0.1);
   EXPECT_DOUBLE_EQ(prior.root_mean_square(), std::sqrt(12.5));
-}
-
-TEST(Lift, UnbiasedTakesValueAndCovarianceOfTheReceiver) {
-  const auto found = lifted(receiver, {"x", "vx", "ax", "jx"}, source, {"x", "vx"}, Lift::unbiased);
-  EXPECT_EQ(found.mean, (Vector<4>{-1, -2, 3, 4}));
-  EXPECT_EQ(found.covariance, (SquareMatrix<4>{{7, 0.5, 0, 0}, {0.5, 8, 0, 0}, {0, 0, 30, 6}, {0, 0, 6, 40}}));
 }
 
 TEST(Lift, ComponentsThatAreNotNestedFollowTheSameRules) {
@@ -121,9 +107,9 @@ TEST(Lift, ItsOwnEstimateIsUnchanged) {
 
 TEST(Lift, CovariancesAreAddedByTheirWeight) {
   const Correspondence map({"x", "vx", "ax", "jx"}, {"x", "vx"});
-  const Lifted view(receiver, source, map, Lift::unbiased);
+  const Mixture::Part part{detail::view(source), &map};
   SquareMatrix<4> sum = SquareMatrix<4>::Ones();
-  view.add_covariance(2.0, sum);
+  Mixture{detail::view(receiver), {&part, 1}, Lift::unbiased}.add_covariance(part, 2.0, sum.data());
   EXPECT_EQ(sum, (SquareMatrix<4>{{15, 2, 1, 1}, {2, 17, 1, 1}, {1, 1, 61, 13}, {1, 1, 13, 81}}));
 }
 

@@ -2,64 +2,135 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/hybrid/collapse.hpp>
+#include <limits>
+#include <vector>
+
+#include <sigmax/estimation/view.hpp>
 
 #include "support/matrices.hpp"
 
 namespace sigmax {
 namespace {
 
-using support::near_matrix;
+using detail::Mixture;
+using support::generated_gaussian;
+using support::holds;
+using support::number_between;
+using support::require_near_matrix;
 
-const auto weight = [](std::size_t l) { return l == 0 ? 0.25 : 0.75; };
-const Gaussian<1> first{Vector<1>(1.0), SquareMatrix<1>(2.0)}, second{Vector<1>(5.0), SquareMatrix<1>(4.0)};
+Gaussian<1> scalar(double mean, double variance) { return {Vector<1>{mean}, SquareMatrix<1>{variance}}; }
 
-TEST(Mixture, OfEstimatesOfOneModelCollapsesToItsMomentsOrToOneOfThem) {
-  const std::vector estimates{first, second};
-  Gaussian<1> result = first;
-  collapse(MomentMatching{}, EstimateMixture<Gaussian<1>>{estimates}, weight, 1, result);
-  EXPECT_DOUBLE_EQ(result.mean(0), 4.0);
-  EXPECT_DOUBLE_EQ(result.covariance(0), 0.25 * (2.0 + 9.0) + 0.75 * (4.0 + 1.0));
-  collapse(Selection{}, EstimateMixture<Gaussian<1>>{estimates}, weight, 1, result);
-  EXPECT_EQ(result.mean, second.mean);
-  EXPECT_EQ(result.covariance, second.covariance);
+/// Acts with the mixture of Gaussians of one size; the result.
+template <int N, class Act>
+Gaussian<N> of(const std::vector<Gaussian<N>>& gaussians, const Act& act) {
+  std::vector<Mixture::Part> parts;
+  for (const Gaussian<N>& each : gaussians) parts.push_back({detail::view(each)});
+  Gaussian<N> result;
+  act(Mixture{detail::view(gaussians[0]), parts}, detail::view(result));
+  return result;
+}
+template <class Rule, int N>
+Gaussian<N> collapsed(const Rule& rule, const std::vector<Gaussian<N>>& parts, const std::vector<double>& weights,
+                      std::size_t winner = 0) {
+  return of(parts, [&](const Mixture& mixture, detail::View result) {
+    detail::collapse(rule, mixture, weights.data(), winner, result);
+  });
 }
 
-TEST(Mixture, OfInnovationsIsThatOfTheirResiduals) {
-  std::vector<AnyInnovation> innovations(2);
-  innovations[0].residual = first.mean;
-  innovations[0].covariance = first.covariance;
-  innovations[1].residual = second.mean;
-  innovations[1].covariance = second.covariance;
-  Gaussian<Eigen::Dynamic, max_measurement_size> result{first.mean, first.covariance};
-  collapse(MomentMatching{}, InnovationMixture{innovations}, weight, 1, result);
-  EXPECT_DOUBLE_EQ(result.mean(0), 4.0);
-  EXPECT_DOUBLE_EQ(result.covariance(0), 6.5);
+TEST(Collapse, MatchesTheFirstTwoMoments) {
+  holds([] {
+    std::vector<Gaussian<2>> parts;
+    std::vector<double> weights{0.1, 0.2, 0.3, 0.4};
+    Vector<2> mean = Vector<2>::Zero();
+    SquareMatrix<2> square = SquareMatrix<2>::Zero(), printed = square;
+    for (const double weight : weights) {
+      parts.push_back(generated_gaussian<2>());
+      const auto& [m, P] = parts.back();
+      mean += weight * m;
+      square += weight * (P + m * m.transpose());
+      printed += weight * P;
+    }
+    const auto found = collapsed(MomentMatching{}, parts, weights);
+    require_near_matrix(found.mean, mean, 1e-12);
+    require_near_matrix(found.covariance + found.mean * found.mean.transpose(), square, 1e-12);
+    RC_ASSERT(found.covariance == found.covariance.transpose());
+    const auto without = collapsed(MomentMatching{{}, OutputSpread::omitted}, parts, weights);
+    require_near_matrix(without.mean, mean, 1e-12);
+    require_near_matrix(without.covariance, printed, 1e-12);
+  });
+}
+
+TEST(Collapse, APartWithoutWeightDoesNotCountWhateverItIs) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto found = collapsed(MomentMatching{}, std::vector{scalar(nan, nan), scalar(2.0, 3.0)}, {0.0, 1.0}, 1);
+  EXPECT_EQ(found.mean(0), 2.0);
+  EXPECT_EQ(found.covariance(0, 0), 3.0);
+}
+
+TEST(Collapse, SelectionTakesTheWinnerAsItIs) {
+  const std::vector parts{scalar(0.1, 1.7), scalar(4.3, 3.9)};
+  const auto found = collapsed(Selection{}, parts, {0.5, 0.5}, 1);
+  EXPECT_EQ(found.mean, parts[1].mean);
+  EXPECT_EQ(found.covariance, parts[1].covariance);
+}
+
+// Three modes: the first at 1, the selected one at 5 with variance 2, the receiving one at 3 with variance 7.
+Gaussian<1> mixed(MixedCovariance reading, Tie tie = Tie::stay, const std::vector<double>& move_in = {0.5, 1.0, 0.2}) {
+  const std::vector three{scalar(1.0, 4.0), scalar(5.0, 2.0), scalar(3.0, 7.0)};
+  return of(three, [&](const Mixture& mixture, detail::View result) {
+    detail::mix(Selection{reading, tie}, mixture, move_in.data(), move_in.data(), 2, detail::view(three[2]), result);
+  });
+}
+
+TEST(Mix, TheCovarianceIsWhatTheReadingSaysAndTheMeanTheSelectedOne) {
+  struct Reading {
+    MixedCovariance reading;
+    double variance;
+  };
+  for (const auto& [reading, variance] : {Reading{MixedCovariance::selected, 2.0}, Reading{MixedCovariance::own, 7.0},
+                                          Reading{MixedCovariance::own_recentred, 7.0 + (5.0 - 3.0) * (5.0 - 3.0)},
+                                          Reading{MixedCovariance::released, 7.0 + (5.0 - 1.0) * (5.0 - 1.0)}}) {
+    EXPECT_EQ(mixed(reading).mean(0), 5.0);
+    EXPECT_EQ(mixed(reading).covariance(0, 0), variance);
+  }
+}
+
+TEST(Mix, ATieIsBrokenInFavourOfTheReceivingMode) {
+  const std::vector<double> tied{1.0, 0.3, 1.0};
+  EXPECT_EQ(mixed(MixedCovariance::selected, Tie::stay, tied).mean(0), 3.0);
+  EXPECT_EQ(mixed(MixedCovariance::selected, Tie::first, tied).mean(0), 1.0);
+  EXPECT_EQ(mixed(MixedCovariance::selected, Tie::last, tied).mean(0), 3.0);
+}
+
+TEST(Mix, MomentsAreMatchedWithTheRightOrWithTransposedWeights) {
+  const std::vector two{scalar(0.0, 1.0), scalar(4.0, 3.0)};
+  const double weights[] = {0.75, 0.25}, transposed[] = {0.75, 0.5};
+  const auto by = [&](MixingWeights rule) {
+    return of(two, [&](const Mixture& mixture, detail::View result) {
+      detail::mix(MomentMatching{rule}, mixture, weights, transposed, 0, detail::view(two[0]), result);
+    });
+  };
+  EXPECT_EQ(by(MixingWeights::correct).mean(0), 1.0);
+  EXPECT_EQ(by(MixingWeights::correct).covariance(0, 0), 0.75 * (1.0 + 1.0) + 0.25 * (3.0 + 9.0));
+  EXPECT_EQ(by(MixingWeights::released).mean(0), 1.0);
+  EXPECT_EQ(by(MixingWeights::released).covariance(0, 0), 0.75 * (1.0 + 1.0) + 0.5 * (3.0 + 9.0)) << "sum is 1.25";
 }
 
 TEST(Mixture, OfDifferentModelsIsReadInTheComponentsOfTheReceiver) {
-  using Estimates = std::tuple<Gaussian<2>, Gaussian<3>>;
-  const Estimates estimates{Gaussian<2>{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}},
-                            Gaussian<3>{Vector<3>(3, 4, 5), SquareMatrix<3>{{3, 0, 0}, {0, 4, 0}, {0, 0, 5}}}};
+  const Gaussian<2> narrow{Vector<2>(1, 2), SquareMatrix<2>{{1, 0.5}, {0.5, 2}}};
+  const Gaussian<3> wide{Vector<3>(3, 4, 5), SquareMatrix<3>{{3, 0, 0}, {0, 4, 0}, {0, 0, 5}}};
   const std::vector<std::string> few{"x", "vx"}, many{"x", "vx", "ax"};
-  const std::vector<Correspondence> maps{{many, few}, {many, many}};
-  const LiftedMixture<Gaussian<3>, Estimates> mixture{std::get<1>(estimates), estimates, maps.data(), Lift::zero};
-  Gaussian<3> result = std::get<1>(estimates);
-  collapse(Selection{}, mixture, weight, 0, result);
+  const detail::Correspondence up{many, few};
+  const Mixture::Part parts[] = {{detail::view(narrow), &up}, {detail::view(wide)}};
+  const Mixture mixture{detail::view(wide), parts, Lift::zero};
+  Gaussian<3> result;
+  const double weights[] = {0.25, 0.75};
+  detail::collapse(Selection{}, mixture, weights, 0, detail::view(result));
   EXPECT_EQ(result.mean, (Vector<3>(1, 2, 0)));
   EXPECT_EQ(result.covariance, (SquareMatrix<3>{{1, 0.5, 0}, {0.5, 2, 0}, {0, 0, 0}}));
-  collapse(MomentMatching{}, mixture, weight, 0, result);
-  EXPECT_PRED_FORMAT3(near_matrix, result.mean, (Vector<3>(2.5, 3.5, 3.75)), 1e-15);
+  detail::collapse(MomentMatching{}, mixture, weights, 0, detail::view(result));
+  EXPECT_PRED_FORMAT3(support::near_matrix, result.mean, (Vector<3>(2.5, 3.5, 3.75)), 1e-15);
 }
-
-using Dwna = IndependentAxes<2, DiscreteWhiteNoise<2>>;
-using Dwpa = IndependentAxes<2, DiscreteWhiteNoise<3>>;
-static_assert(SensorOfBank<PositionSensor<2>, std::tuple<Dwna, Dwpa>>);
-static_assert(!SensorOfBank<PositionSensor<3>, std::tuple<Dwna, Dwpa>>);
-static_assert(SensorOfBank<LinearSensor<6, 4>, std::tuple<Dwna, Dwpa>>);
-static_assert(!SensorOfBank<LinearSensor<1, 5>, std::tuple<Dwna, Dwpa>>, "DWNA has four components");
-static_assert(!SensorOfBank<LinearSensor<7, 4>, std::vector<Dwna>>, "seven quantities");
 
 }  // namespace
 }  // namespace sigmax

@@ -41,29 +41,18 @@ Eigen::MatrixXd exponential(const Rates& rates, double dt) {
   return Q.exp();
 }
 
-TEST(TimedTransition, OfARandomModeIsTheMatrixExponential) {
+TEST(TimedTransition, IsTheMatrixExponentialAndOfAFuzzyModeThatOnTheRatioScale) {
   holds([] {
     const auto n = *rc::gen::inRange<std::size_t>(2, 7);
     const auto rates = generated_rates(n);
     const double dt = std::pow(10.0, number_between(-3.0, 2.0));
     const auto P = TimedTransition<Random>{{"mode", n}, rates}(dt);
-    const auto expected = exponential(rates, dt);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j)
-        require_near(P(i, j), expected(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), 1e-12);
-  });
-}
-
-TEST(TimedTransition, OfAFuzzyModeIsThatOnTheRatioScale) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(2, 7);
-    const auto rates = generated_rates(n);
-    const double dt = std::pow(10.0, number_between(-3.0, 2.0));
     const auto pi = TimedTransition<Fuzzy>{{"mode", n}, rates}(dt);
     const auto expected = exponential(rates, dt);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
         const auto row = expected.row(static_cast<Eigen::Index>(i));
+        require_near(P(i, j), row(static_cast<Eigen::Index>(j)), 1e-12);
         require_near(pi(i, j), row(static_cast<Eigen::Index>(j)) / row.maxCoeff(), 1e-11);
       }
   });
@@ -115,7 +104,8 @@ TEST(TimedTransition, KnowsHowUnlikelyALongChainOfJumpsIs) {
   }
 }
 
-TEST(TimedTransition, OfARandomModeComposesOverTime) {
+/// Two fuzzy modes that leave at the rate λ: π(t) = tanh λt, and max of two hyperbolic tangents is not that of the sum.
+TEST(TimedTransition, OfARandomModeComposesOverTimeAndOfAFuzzyModeDoesNot) {
   holds([] {
     const auto n = *rc::gen::inRange<std::size_t>(2, 6);
     const TimedTransition<Random> transition{{"mode", n}, generated_rates(n)};
@@ -123,13 +113,8 @@ TEST(TimedTransition, OfARandomModeComposesOverTime) {
     const auto in_two = compose(transition(t), transition(s)), in_one = transition(s + t);
     require_near(in_two.table().values(), in_one.table().values(), 1e-12);
   });
-}
-
-/// Two modes that leave at the rate λ: π(t) = tanh λt, and max of two hyperbolic tangents is not that of the sum.
-TEST(TimedTransition, OfAFuzzyModeDoesNotComposeOverTime) {
   const TimedTransition<Fuzzy> transition{{"mode", 2}, {{-0.4, 0.4}, {0.4, -0.4}}};
-  const auto in_two = compose(transition(2.0), transition(1.0));
-  EXPECT_PRED_FORMAT3(near, in_two(0, 1), std::tanh(0.8), 1e-15);
+  EXPECT_PRED_FORMAT3(near, compose(transition(2.0), transition(1.0))(0, 1), std::tanh(0.8), 1e-15);
   EXPECT_PRED_FORMAT3(near, transition(3.0)(0, 1), std::tanh(1.2), 1e-15);
 }
 
@@ -205,14 +190,10 @@ TEST(Closure, IsTheBestChainOfJumpsAndStaysUnderComposition) {
   });
 }
 
-TEST(Closure, OfTwoModesIsTheTransitionItself) {
-  const FuzzyVariable mode{"mode", 2};
+TEST(Closure, NeedsThatStayingIsPossibleAndOfTwoModesIsThenTheTransitionItself) {
+  const FuzzyVariable mode{"mode", {"steady", "manoeuvring"}};
   const Relation<Fuzzy, Fuzzy> transition{mode, mode, {{1.0, 0.5}, {0.2, 1.0}}};
   EXPECT_PRED_FORMAT3(near, closure(transition).table().values(), transition.table().values(), 0.0);
-}
-
-TEST(Closure, NeedsThatStayingIsPossible) {
-  const FuzzyVariable mode{"mode", {"steady", "manoeuvring"}};
   const Relation<Fuzzy, Fuzzy> restless{mode, mode, {{0.5, 1.0}, {0.2, 1.0}}};
   EXPECT_TRUE(throws<std::invalid_argument>([&] { closure(restless); }, {"mode", "steady", "0.5"}));
 }

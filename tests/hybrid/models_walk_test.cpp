@@ -13,6 +13,7 @@
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
@@ -82,7 +83,8 @@ TEST(ModelsWalk, AModelOfOnesOwn) {
   predict(pendulum, swing, 0.01, swing);
   update(pendulum, swing, {Vector<1>(0.8), SquareMatrix<1>(0.01)}, Sideways{}, swing);
   EXPECT_LT(swing.covariance(0, 0), 0.1);
-  EXPECT_PRED_FORMAT3(near_matrix, transition_jacobian(Pendulum{}, Vector<2>(0.0, 0.0), 0.1),
+  const Gaussian<2> at_rest{Vector<2>(0.0, 0.0), SquareMatrix<2>::Identity()};
+  EXPECT_PRED_FORMAT3(near_matrix, linearised_step(pendulum, at_rest, 0.1).F,
                       (SquareMatrix<2>{{1.0 - 0.0981, 0.1}, {-0.981, 1.0}}), 1e-15);
 }
 

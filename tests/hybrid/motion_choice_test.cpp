@@ -9,19 +9,15 @@
 namespace sigmax {
 namespace {
 
-using support::throws;
-
 TEST(MotionChoice, EveryMotionHasANameOfItsOwn) {
   std::set<std::string_view> names;
   for (const KnownMotion& motion : known_motions()) {
     EXPECT_TRUE(names.insert(motion.name).second) << motion.name;
     EXPECT_EQ(known_motion(motion.name), &motion);
-    EXPECT_GE(motion.derivatives, 1);
-    EXPECT_LE(motion.derivatives, 3);
   }
-  EXPECT_TRUE(names.contains("dwna"));
-  EXPECT_TRUE(names.contains("dwpa"));
+  EXPECT_EQ(known_motions().size(), 9U);
   EXPECT_EQ(known_motion("teleport"), nullptr);
+  EXPECT_TRUE(support::throws<std::invalid_argument>([] { MotionChoice{"teleport"}.known(); }, {"'teleport'"}));
 }
 
 TEST(MotionChoice, EveryParameterIsOfSomeMotionAndItsDefaultIsValid) {
@@ -33,21 +29,33 @@ TEST(MotionChoice, EveryParameterIsOfSomeMotionAndItsDefaultIsValid) {
     EXPECT_TRUE(of_some) << parameter.key;
     EXPECT_TRUE(parameter.valid(parameter.otherwise)) << parameter.key;
     EXPECT_EQ(MotionChoice{}.parameters[p], parameter.otherwise) << parameter.key;
+    EXPECT_EQ(parameter.valid(-1.0), static_cast<MotionParameter>(p) == MotionParameter::turn_rate) << parameter.key;
+    EXPECT_EQ(parameter.valid(0.0), static_cast<MotionParameter>(p) != MotionParameter::tau) << parameter.key;
   }
-  EXPECT_FALSE(motion_parameters()[0].valid(-1.0)) << "a strength";
+  EXPECT_EQ(motion_parameters()[static_cast<std::size_t>(MotionParameter::tau)].key, "tau_s");
 }
 
 TEST(MotionChoice, IsWhatItsNameSays) {
-  EXPECT_EQ((MotionChoice{"dwna"}.known().derivatives), 2);
-  EXPECT_EQ((MotionChoice{"dwpa"}.known().derivatives), 3);
-  EXPECT_TRUE((MotionChoice{"dwna"}.linear()));
-  EXPECT_FALSE((MotionChoice{"dwna"}.manoeuvres()));
-  EXPECT_TRUE((MotionChoice{"dwpa"}.manoeuvres()));
-  EXPECT_FALSE((MotionChoice{"ct"}.linear()));
+  struct Row {
+    const char* name;
+    int derivatives, least_axes;
+    bool linear, manoeuvres, remembers;
+  };
+  for (const Row& row : {Row{"dwna", 2, 1, true, false, false}, Row{"dwpa", 3, 1, true, true, false},
+                         Row{"cwna", 2, 1, true, false, false}, Row{"cwpa", 3, 1, true, true, false},
+                         Row{"singer", 3, 1, true, true, true}, Row{"ou_position", 1, 1, true, false, true},
+                         Row{"ou_velocity", 2, 1, true, false, true}, Row{"known_turn", 2, 2, true, true, false},
+                         Row{"ct", 2, 2, false, true, false}}) {
+    const MotionChoice choice{row.name};
+    EXPECT_EQ(choice.known().derivatives, row.derivatives) << row.name;
+    EXPECT_EQ(choice.known().least_axes, row.least_axes) << row.name;
+    EXPECT_EQ(choice.linear(), row.linear) << row.name;
+    EXPECT_EQ(choice.manoeuvres(), row.manoeuvres) << row.name;
+    EXPECT_EQ(choice.known().has_parameter(MotionParameter::tau), row.remembers) << row.name;
+  }
   MotionChoice turn{"known_turn"};
   turn[MotionParameter::turn_rate] = -5.0;
   EXPECT_EQ(turn.parameters[2], -5.0);
-  EXPECT_TRUE(throws<std::invalid_argument>([] { MotionChoice{"teleport"}.known(); }, {"'teleport'"}));
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/sensors.hpp>
+
+#include "support/matrices.hpp"
 
 namespace sigmax {
 namespace {
@@ -11,31 +12,39 @@ namespace {
 const Gaussian<2> z{Vector<2>(1000.0, 0.5), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-4}}};
 
 TEST(Plot, IsAMeasurementOrTheNewsThatThereWasNone) {
-  const Plot<PositionSensor<2>> nothing(3.0, 7), something(4.0, z, 8), neither;
-  EXPECT_FALSE(nothing.seen.has_value());
+  const Plot nothing(3.0, 7), something(4.0, z, 8), neither;
+  EXPECT_FALSE(nothing.seen());
   EXPECT_EQ(nothing.time, 3.0);
   EXPECT_EQ(nothing.tag, 7U);
-  EXPECT_EQ(something.seen->z.mean, z.mean);
+  EXPECT_TRUE(something.seen());
+  EXPECT_EQ(something.size(), 2);
+  EXPECT_EQ(something.measurement().mean[1], 0.5);
+  EXPECT_EQ(something.measurement().covariance[3], 1e-4);
   EXPECT_EQ(something.tag, 8U);
   EXPECT_EQ(neither.tag, 0U);
-  const Plot<PolarSensor<2>> radar(5.0, z, PolarSensor<2>{Vector<2>(1.0, 2.0)}, 9);
-  EXPECT_EQ(radar.seen->sensor.origin(), (Vector<2>(1.0, 2.0)));
-  EXPECT_EQ(radar.tag, 9U);
 }
 
 TEST(Plot, TellsAPositionIfItsSensorCan) {
-  EXPECT_EQ(detail::position_told<2>(Plot<PositionSensor<2>>(0.0, z))->mean, z.mean);
+  EXPECT_EQ(Plot(0.0, z).position<2>()->mean, z.mean);
+  EXPECT_FALSE(Plot(0.0, z).position<3>()) << "along other axes";
   const PolarSensor<2> radar{Vector<2>(100.0, 200.0)};
-  const auto found = detail::position_told<2>(Plot<PolarSensor<2>>(0.0, z, radar));
+  const auto found = Plot(0.0, z, radar).position<2>();
   EXPECT_EQ(found->mean, radar.position(z).mean);
   EXPECT_EQ(found->covariance, radar.position(z).covariance);
-  EXPECT_FALSE(detail::position_told<2>(Plot<PositionSensor<2>>(0.0)).has_value());
-  EXPECT_FALSE(detail::position_told<2>(Plot<BearingSensor>(0.0, {Vector<1>(0.1), SquareMatrix<1>(1.0)})).has_value());
+  EXPECT_FALSE(Plot(0.0).position<2>());
+  EXPECT_FALSE(Plot(0.0, {Vector<1>(0.1), SquareMatrix<1>(1.0)}, BearingSensor{}).position<2>());
+}
 
-  using Any = AnySensor<PositionSensor<2>, PolarSensor<2>, BearingSensor>;
-  const MeasurementOf<Any> same{z.mean, z.covariance}, bearing{Vector<1>(0.1), SquareMatrix<1>(1.0)};
-  EXPECT_EQ(detail::position_told<2>(Plot<Any>(0.0, same, radar))->mean, radar.position(z).mean);
-  EXPECT_FALSE(detail::position_told<2>(Plot<Any>(0.0, bearing, BearingSensor{})).has_value());
+TEST(Plot, TellsAPositionAlongAsManyAxesAsItWasMeasured) {
+  for (const int axes : {1, 2, 3}) {
+    const Gaussian<Eigen::Dynamic, 3> position{Eigen::VectorXd::LinSpaced(axes, 1.0, 3.0),
+                                               Eigen::MatrixXd::Identity(axes, axes)};
+    const Plot plot(1.0, position);
+    EXPECT_EQ(plot.size(), axes);
+    EXPECT_EQ(plot.position<Eigen::Dynamic>()->mean, position.mean);
+    EXPECT_EQ(plot.position<2>().has_value(), axes == 2);
+  }
+  EXPECT_FALSE(Plot(0.0).position<Eigen::Dynamic>());
 }
 
 }  // namespace

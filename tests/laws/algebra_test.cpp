@@ -4,6 +4,7 @@
 #include <sigmax/core/kernels/dense.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -12,12 +13,12 @@ namespace {
 template <class A>
 class AlgebraLaws : public testing::Test {};
 using Algebras = testing::Types<Sigma, Max, MaxMin>;
-TYPED_TEST_SUITE(AlgebraLaws, Algebras);
+TYPED_TEST_SUITE(AlgebraLaws, Algebras, support::TypeNames);
 
 template <class A>
 class ScalingAlgebraLaws : public testing::Test {};
 using ScalingAlgebras = testing::Types<Sigma, Max>;
-TYPED_TEST_SUITE(ScalingAlgebraLaws, ScalingAlgebras);
+TYPED_TEST_SUITE(ScalingAlgebraLaws, ScalingAlgebras, support::TypeNames);
 
 static_assert(Algebra<Sigma> && ScalingAlgebra<Sigma> && !SelectiveAlgebra<Sigma>);
 static_assert(Algebra<Max> && ScalingAlgebra<Max> && SelectiveAlgebra<Max>);

@@ -7,6 +7,7 @@
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 template <class Kind>
 class DiscreteLaws : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(DiscreteLaws, Kinds);
+TYPED_TEST_SUITE(DiscreteLaws, Kinds, support::TypeNames);
 
 template <class Kind>
 Relation<Kind, Kind> identity(const Variable<Kind>& variable) {

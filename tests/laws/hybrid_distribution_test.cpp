@@ -9,6 +9,7 @@
 #include <sigmax/core/hybrid_distribution.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -24,7 +25,7 @@ using Kinds = testing::Types<std::tuple<Fuzzy, Random>,   // (12)
                              std::tuple<Random, Fuzzy>,   // (13)
                              std::tuple<Random, Random>,  // the ordinary joint
                              std::tuple<Fuzzy, Fuzzy>>;   // (4)
-TYPED_TEST_SUITE(JointLaws, Kinds);
+TYPED_TEST_SUITE(JointLaws, Kinds, support::TypeNames);
 
 /// Equal to a few units in the last place, however small: |a − b| ≤ 8 ulp of b.
 void require_ulps(double found, double expected) {
@@ -159,7 +160,7 @@ TYPED_TEST(JointLaws, TheOtherUpdateRecoversWhatTheJointWasBuiltFrom) {  // (12)
 template <class Kind>
 class OneKindLaws : public testing::Test {};
 using BothKinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(OneKindLaws, BothKinds);
+TYPED_TEST_SUITE(OneKindLaws, BothKinds, support::TypeNames);
 
 TYPED_TEST(OneKindLaws, BothOrdersAgreeAndTheJointIsItsTranspose) {  // (4)
   holds([] {

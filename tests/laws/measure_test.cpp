@@ -7,6 +7,7 @@
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 template <class Kind>
 class MeasureLaws : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(MeasureLaws, Kinds);
+TYPED_TEST_SUITE(MeasureLaws, Kinds, support::TypeNames);
 
 template <Uncertainty Kind>
 Event<Kind> any_event(const Variable<Kind>& variable) {

@@ -6,6 +6,7 @@
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 template <class Kind>
 class MixedLaws : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(MixedLaws, Kinds);
+TYPED_TEST_SUITE(MixedLaws, Kinds, support::TypeNames);
 
 template <class Kind>
 using Other = std::conditional_t<std::is_same_v<Kind, Random>, Fuzzy, Random>;

@@ -8,6 +8,7 @@
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax::laws {
 namespace {
@@ -203,7 +204,7 @@ TEST(DuboisPradeSandriLaws, EachDirectionKeepsTheOrderAndDominates) {
 template <class Condition>
 class TransformLaws : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(TransformLaws, Kinds);
+TYPED_TEST_SUITE(TransformLaws, Kinds, support::TypeNames);
 
 TYPED_TEST(TransformLaws, ARelationIsTransformedRowByRow) {
   holds([] {

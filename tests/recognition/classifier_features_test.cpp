@@ -14,6 +14,7 @@
 #include "laws/generate.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
+#include "support/type_names.hpp"
 
 /// Several features a report, any of them missing; batches, forgetting, and relations that change with every step.
 namespace sigmax {
@@ -94,7 +95,7 @@ struct Case {
 template <class Kind>
 class ClassifierWithFeatures : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(ClassifierWithFeatures, Kinds);
+TYPED_TEST_SUITE(ClassifierWithFeatures, Kinds, support::TypeNames);
 
 TYPED_TEST(ClassifierWithFeatures, MultipliesWhatTheFeaturesSayAndSkipsWhatIsMissing) {
   holds([] {

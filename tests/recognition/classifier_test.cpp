@@ -14,6 +14,7 @@
 #include "laws/generate.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax {
 namespace {
@@ -36,7 +37,7 @@ using support::throws;
 template <class Kind>
 class ClassifierOf : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(ClassifierOf, Kinds);
+TYPED_TEST_SUITE(ClassifierOf, Kinds, support::TypeNames);
 
 TYPED_TEST(ClassifierOf, EachKindIsThePlainRecursion) {
   constexpr plain::By by = by_kind<TypeParam>;

@@ -15,6 +15,7 @@
 #include "laws/generate.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
+#include "support/type_names.hpp"
 
 namespace sigmax {
 namespace {
@@ -127,7 +128,7 @@ TEST(Explain, NamesTheWitnessOfTheComposition) {
 template <class Kind>
 class ExplainKind : public testing::Test {};
 using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(ExplainKind, Kinds);
+TYPED_TEST_SUITE(ExplainKind, Kinds, support::TypeNames);
 
 TYPED_TEST(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
   holds([] {

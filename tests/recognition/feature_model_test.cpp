@@ -11,6 +11,7 @@
 #include "laws/generate.hpp"
 #include "support/near.hpp"
 #include "support/throws.hpp"
+#include "support/type_names.hpp"
 
 /// Every kind of sensor over every kind of feature and pattern, by plain loops, and the small worlds with known
 /// answers.
@@ -45,7 +46,7 @@ using AllKinds = testing::Types<Kinds<Random, Random, Random>,  // (41)–(43)
                                 Kinds<Random, Random, Fuzzy>,   // (18), (20)
                                 Kinds<Fuzzy, Random, Random>, Kinds<Fuzzy, Random, Fuzzy>, Kinds<Random, Fuzzy, Random>,
                                 Kinds<Random, Fuzzy, Fuzzy>>;
-TYPED_TEST_SUITE(FeatureModelOf, AllKinds);
+TYPED_TEST_SUITE(FeatureModelOf, AllKinds, support::TypeNames);
 
 TYPED_TEST(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
   using K = TypeParam;

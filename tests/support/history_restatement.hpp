@@ -1,5 +1,6 @@
 /// A restatement of the filter over mode histories in the manner of restatement.hpp: every history is the list of its
-/// modes with a Kalman filter of its own. Nothing is shared between them, and nothing is kept in place.
+/// modes with a Kalman filter of its own. Nothing is shared between them, and nothing is kept in place. Where none is
+/// dropped, it is the enumeration of all of them.
 #pragma once
 
 #include <algorithm>
@@ -25,43 +26,46 @@ struct ModeHistory {
   std::vector<Index> modes;
   State state;
   double log_weight = 0.0;
-  Vector nu;
-  Matrix S;
+  State innovation = {};
   double before = 0.0;  ///< log weight before the measurement
-  double distance = 0.0;
 };
 
 class HistoryFilter {
  public:
   HistoryFilter(std::vector<Model> models, Matrix transition, const std::vector<State>& starts, HistoryOptions options)
       : models_{std::move(models)}, transition_{std::move(transition)}, options_{std::move(options)} {
-    for (Index j = 0; j < models_.size(); ++j) histories_.push_back({{j}, starts[j], 0.0, {}, {}, 0.0, 0.0});
+    for (Index j = 0; j < models_.size(); ++j) histories_.push_back({{j}, starts[j], 0.0});
     normalise();
     winner_ = largest(log_weights(), Tie::stay, 0);
     for (const Model& model : models_)
       if (model.components.size() > components_.size()) components_ = model.components;
   }
 
-  void step(double dt) { cycle(dt, nullptr, nullptr); }
-  void step(double dt, const Vector& z, const Matrix& R) { cycle(dt, &z, &R); }
+  void step(double dt) { cycle(dt, nullptr, {}); }
+  void step(double dt, const Vector& z, const Matrix& R) { step(dt, seen_by_matrix(z), R); }
+  void step(double dt, const See& see, const Matrix& R) { cycle(dt, &see, R); }
 
   const std::vector<ModeHistory>& histories() const { return histories_; }
   Index winner() const { return winner_; }
   double nis() const { return nis_; }
   double gate_distance() const { return gate_distance_; }
+  double log_evidence() const { return log_evidence_; }
+  double log_score() const { return log_score_; }
 
-  Vector log_weights() const {
+  /// Of mode j after so many steps, now by default.
+  Vector log_weights() const { return log_weights(histories_.front().modes.size() - 1); }
+  Vector log_weights(Index step) const {
     Vector result;
     for (Index j = 0; j < models_.size(); ++j) {
       Vector own{nothing};
       for (const ModeHistory& each : histories_)
-        if (each.modes.back() == j) own.push_back(each.log_weight);
+        if (each.modes[step] == j) own.push_back(each.log_weight);
       result.push_back(log_total(own, options_.kind));
     }
     return result;
   }
 
-  /// One estimate for the histories that end in mode j.
+  /// One estimate for the histories that end in mode j, and the innovation of the one that was best before it.
   State of_mode(Index j) const {
     Vector logs;
     std::vector<State> states;
@@ -70,9 +74,13 @@ class HistoryFilter {
         logs.push_back(each.log_weight);
         states.push_back(each.state);
       }
-    if (options_.kind == Kind::himm)
-      return states[static_cast<Index>(std::max_element(logs.begin(), logs.end()) - logs.begin())];
-    return averaged(states, logs);
+    return collapsed(states, logs);
+  }
+  State innovation_of_mode(Index j) const {
+    const ModeHistory* best = nullptr;
+    for (const ModeHistory& each : histories_)
+      if (each.modes.back() == j && (!best || each.before > best->before)) best = &each;
+    return best->innovation;
   }
 
   /// The mean and the spread of those in the cut, in the components of the largest model; what one lacks is 0 with the
@@ -92,17 +100,14 @@ class HistoryFilter {
   }
 
  private:
-  static State averaged(const std::vector<State>& states, const Vector& logs) {
+  static State averaged(const std::vector<State>& states, Vector logs) {
     const double total = log_total(logs, Kind::imm);
-    const Index n = states.front().mean.size();
-    State result{Vector(n, 0.0), Matrix(n, n)};
-    for (Index h = 0; h < states.size(); ++h)
-      for (Index i = 0; i < n; ++i) result.mean[i] += std::exp(logs[h] - total) * states[h].mean[i];
-    for (Index h = 0; h < states.size(); ++h)
-      result.covariance =
-          result.covariance +
-          std::exp(logs[h] - total) * (states[h].covariance + outer(difference(states[h].mean, result.mean)));
-    return result;
+    for (double& log : logs) log = std::exp(log - total);
+    return moments(states, logs, logs);
+  }
+  State collapsed(const std::vector<State>& states, const Vector& logs) const {
+    if (options_.kind == Kind::imm) return averaged(states, logs);
+    return states[static_cast<Index>(std::max_element(logs.begin(), logs.end()) - logs.begin())];
   }
 
   static State in_components(const State& state, const std::vector<std::string>& own,
@@ -121,10 +126,13 @@ class HistoryFilter {
     return result;
   }
 
+  Vector logs() const {
+    Vector result;
+    for (const ModeHistory& each : histories_) result.push_back(each.log_weight);
+    return result;
+  }
   void normalise() {
-    Vector logs;
-    for (const ModeHistory& each : histories_) logs.push_back(each.log_weight);
-    const double total = log_total(logs, options_.kind);
+    const double total = log_total(logs(), options_.kind);
     for (ModeHistory& each : histories_) each.log_weight -= total;
   }
 
@@ -168,49 +176,36 @@ class HistoryFilter {
     normalise();
   }
 
-  void cycle(double dt, const Vector* z, const Matrix* R) {
+  void cycle(double dt, const See* see, const Matrix& R) {
     keep(branched());
-    Vector fits;
+    Vector fits, evidence;
     for (ModeHistory& each : histories_) {
       const Model& model = models_[each.modes.back()];
-      const Matrix F = model.F(dt);
-      each.state = {F * each.state.mean, symmetrised(F * each.state.covariance * transposed(F) + model.Q(dt))};
-      if (!z) continue;
-      const Matrix& H = model.H;
-      const Matrix P = each.state.covariance;
+      each.state = predicted(model, each.state, dt);
+      if (!see) continue;
+      const Sighting seen = sighted(each.state, (*see)(model, each.state.mean), R);
+      each.state = seen.posterior;
+      each.innovation = {seen.nu, seen.S};
       each.before = each.log_weight;
-      each.nu = difference(*z, H * each.state.mean);
-      each.S = symmetrised(H * P * transposed(H) + *R);
-      const Inverse S_inverse = inverse(each.S);
-      const Matrix W = P * transposed(H) * S_inverse.matrix;
-      const Vector correction = W * each.nu;
-      for (Index i = 0; i < correction.size(); ++i) each.state.mean[i] += correction[i];
-      const Matrix kept = identity(correction.size()) - W * H;
-      each.state.covariance = symmetrised(kept * P * transposed(kept) + W * *R * transposed(W));
-      each.distance = dot(each.nu, S_inverse.matrix * each.nu);
-      each.log_weight -= options_.tempering * 0.5 *
-                         (each.distance + S_inverse.log_determinant +
-                          static_cast<double>(z->size()) * std::log(2.0 * std::numbers::pi));
-      fits.push_back(each.before - 0.5 * each.distance);
+      each.log_weight += options_.tempering * seen.log_density;
+      fits.push_back(each.before - 0.5 * seen.squared_distance);
+      evidence.push_back(each.before + seen.log_density);
     }
-    if (z) {
+    if (see) {
+      Vector before;
+      std::vector<State> innovations;
+      for (const ModeHistory& each : histories_) {
+        before.push_back(each.before);
+        innovations.push_back(each.innovation);
+      }
+      const State one = collapsed(innovations, before);
+      nis_ = dot(one.mean, inverse(one.covariance).matrix * one.mean);
       gate_distance_ = -2.0 * log_total(fits, options_.kind);
-      nis_ = collapsed_nis();
+      log_evidence_ = log_total(evidence, options_.kind);
+      log_score_ = log_evidence_ - log_total(before, Kind::imm);
     }
     normalise();
     winner_ = largest(log_weights(), Tie::stay, winner_);
-  }
-
-  double collapsed_nis() const {
-    Vector logs;
-    std::vector<State> innovations;
-    for (const ModeHistory& each : histories_) {
-      logs.push_back(each.before);
-      innovations.push_back({each.nu, each.S});
-    }
-    const Index best = static_cast<Index>(std::max_element(logs.begin(), logs.end()) - logs.begin());
-    const State one = options_.kind == Kind::himm ? innovations[best] : averaged(innovations, logs);
-    return dot(one.mean, inverse(one.covariance).matrix * one.mean);
   }
 
   std::vector<Model> models_;
@@ -221,6 +216,8 @@ class HistoryFilter {
   Index winner_ = 0;
   double nis_ = 0.0;
   double gate_distance_ = 0.0;
+  double log_evidence_ = 0.0;
+  double log_score_ = 0.0;
 };
 
 }  // namespace restatement

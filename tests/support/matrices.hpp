@@ -39,6 +39,15 @@ RectangularMatrix<Rows, Columns> fixed(const restatement::Matrix& matrix) {
   return result;
 }
 
+inline Eigen::MatrixXd matrix_of(const restatement::Matrix& matrix) {
+  return Eigen::MatrixXd::NullaryExpr(
+      static_cast<Eigen::Index>(matrix.rows), static_cast<Eigen::Index>(matrix.columns),
+      [&](Eigen::Index i, Eigen::Index j) { return matrix(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); });
+}
+inline Eigen::VectorXd vector_of(const restatement::Vector& vector) {
+  return Eigen::Map<const Eigen::VectorXd>(vector.data(), static_cast<Eigen::Index>(vector.size()));
+}
+
 /// EXPECT_PRED_FORMAT3(near_matrix, found, expected, tolerance): of one shape, and near entry by entry.
 inline testing::AssertionResult near_matrix(const char* a_text, const char* b_text, const char* tolerance_text,
                                             const AnyMatrix& a, const AnyMatrix& b, double tolerance) {
@@ -47,19 +56,28 @@ inline testing::AssertionResult near_matrix(const char* a_text, const char* b_te
   return near(a_text, b_text, tolerance_text, entries(a), entries(b), tolerance);
 }
 
+/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance) for Gaussians; to the bit if the tolerance is zero.
+template <int N, int MaxN, int OtherN, int OtherMaxN>
+testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text,
+                              const Gaussian<N, MaxN>& a, const Gaussian<OtherN, OtherMaxN>& b, double tolerance) {
+  const auto mean = near_matrix(a_text, b_text, tolerance_text, a.mean, b.mean, tolerance);
+  if (!mean) return testing::AssertionResult(mean) << ", of the mean";
+  return near_matrix(a_text, b_text, tolerance_text, a.covariance, b.covariance, tolerance);
+}
+
 /// Fails the current case of a property unless the matrices are of one shape and near entry by entry.
 inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expected, double tolerance = 1e-9) {
   if (const auto result = near_matrix("found", "expected", "", found, expected, tolerance); !result)
     RC_FAIL(std::string(result.message()));
 }
 inline void require_near_matrix(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
-  require_near_matrix(found,
-                      Eigen::MatrixXd::NullaryExpr(
-                          static_cast<Eigen::Index>(expected.rows), static_cast<Eigen::Index>(expected.columns),
-                          [&](Eigen::Index i, Eigen::Index j) {
-                            return expected(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-                          }),
-                      tolerance);
+  require_near_matrix(found, matrix_of(expected), tolerance);
+}
+
+template <int N, int MaxN, int OtherN, int OtherMaxN>
+void require_near(const Gaussian<N, MaxN>& found, const Gaussian<OtherN, OtherMaxN>& expected, double tolerance) {
+  require_near_matrix(found.mean, expected.mean, tolerance);
+  require_near_matrix(found.covariance, expected.covariance, tolerance);
 }
 
 /// A generated number between two, in steps fine enough to be generic.

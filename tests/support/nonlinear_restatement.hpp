@@ -92,20 +92,6 @@ inline void add_pairs(Points& points, const State& state, double spread) {
     }
 }
 
-/// Wan and van der Merwe's scaled points: λ = α²(n + κ) − n.
-inline Points unscented_points(const State& state, double alpha, double beta, double kappa) {
-  const double n = static_cast<double>(state.mean.size());
-  const double lambda = alpha * alpha * (n + kappa) - n;
-  Points points{{state.mean}, {lambda / (n + lambda)}, {lambda / (n + lambda) + 1.0 - alpha * alpha + beta}};
-  add_pairs(points, state, n + lambda);
-  return points;
-}
-inline Points cubature_points(const State& state) {
-  Points points;
-  add_pairs(points, state, static_cast<double>(state.mean.size()));
-  return points;
-}
-
 /// Σ wᵢ aᵢ bᵢᵀ.
 inline Matrix weighted_outer(const Vector& weights, const std::vector<Vector>& a, const std::vector<Vector>& b) {
   Matrix result(a.front().size(), b.front().size());

@@ -1,4 +1,4 @@
-/// A restatement of IMM and HIMM, (47)–(68), in dense matrices and plain loops.
+/// A restatement of IMM and HIMM, (47)–(68), and of GPB2 and the Viterbi filter, in dense matrices and plain loops.
 ///
 /// It shares no code with the library, not even its algebra, and is written for reading: no cleverness, no speed. What
 /// the paper leaves open is an option here as it is there, and the tie rules are part of the definition.
@@ -24,33 +24,60 @@ using Vector = std::vector<double>;
 inline constexpr double nothing = -std::numeric_limits<double>::infinity();  // The logarithm of zero.
 inline constexpr double tie_tolerance = 1e-9;                                // In log weights.
 
-/// A dense matrix, row by row.
-struct Matrix {
-  Matrix() = default;
-  Matrix(Index rows_, Index columns_) : rows{rows_}, columns{columns_}, values(rows_ * columns_, 0.0) {}
-  Matrix(Index rows_, Index columns_, Vector values_) : rows{rows_}, columns{columns_}, values{std::move(values_)} {
+/// A dense matrix of any numbers, row by row.
+template <class Real>
+struct MatrixOf {
+  MatrixOf() = default;
+  MatrixOf(Index rows_, Index columns_) : MatrixOf(rows_, columns_, std::vector<Real>(rows_ * columns_, Real(0))) {}
+  MatrixOf(Index rows_, Index columns_, std::vector<Real> values_)
+      : rows{rows_}, columns{columns_}, values{std::move(values_)} {
     if (values.size() != rows * columns) throw std::invalid_argument{"a matrix with a wrong number of values"};
   }
 
-  double& operator()(Index i, Index j) { return values[i * columns + j]; }
-  double operator()(Index i, Index j) const { return values[i * columns + j]; }
+  Real& operator()(Index i, Index j) { return values[i * columns + j]; }
+  const Real& operator()(Index i, Index j) const { return values[i * columns + j]; }
+
+  friend MatrixOf operator*(const MatrixOf& a, const MatrixOf& b) {
+    MatrixOf result(a.rows, b.columns);
+    for (Index i = 0; i < a.rows; ++i)
+      for (Index k = 0; k < a.columns; ++k)
+        if (a(i, k) != 0)
+          for (Index j = 0; j < b.columns; ++j) result(i, j) += a(i, k) * b(k, j);
+    return result;
+  }
+  friend MatrixOf operator*(const Real& factor, MatrixOf a) {
+    for (Real& value : a.values) value *= factor;
+    return a;
+  }
+  friend MatrixOf operator+(MatrixOf a, const MatrixOf& b) {
+    for (Index i = 0; i < a.values.size(); ++i) a.values[i] += b.values[i];
+    return a;
+  }
+  friend MatrixOf operator-(MatrixOf a, const MatrixOf& b) {
+    for (Index i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+    return a;
+  }
 
   Index rows = 0;
   Index columns = 0;
-  Vector values;
+  std::vector<Real> values;
 };
+using Matrix = MatrixOf<double>;
 
-inline Matrix identity(Index n) {
-  Matrix result(n, n);
-  for (Index i = 0; i < n; ++i) result(i, i) = 1.0;
-  return result;
+/// The same matrix in other numbers, and a column of them.
+template <class Real>
+MatrixOf<Real> as(const Matrix& a) {
+  return {a.rows, a.columns, std::vector<Real>(a.values.begin(), a.values.end())};
+}
+template <class Real>
+MatrixOf<Real> as(const Vector& x) {
+  return {x.size(), 1, std::vector<Real>(x.begin(), x.end())};
 }
 
-inline Matrix operator*(const Matrix& a, const Matrix& b) {
-  Matrix result(a.rows, b.columns);
-  for (Index i = 0; i < a.rows; ++i)
-    for (Index j = 0; j < b.columns; ++j)
-      for (Index k = 0; k < a.columns; ++k) result(i, j) += a(i, k) * b(k, j);
+template <class Real = double>
+MatrixOf<Real> identity(Index n) {
+  MatrixOf<Real> result(n, n);
+  for (Index i = 0; i < n; ++i) result(i, i) = 1;
   return result;
 }
 
@@ -61,26 +88,12 @@ inline Vector operator*(const Matrix& a, const Vector& x) {
   return result;
 }
 
-inline Matrix transposed(const Matrix& a) {
-  Matrix result(a.columns, a.rows);
+template <class Real>
+MatrixOf<Real> transposed(const MatrixOf<Real>& a) {
+  MatrixOf<Real> result(a.columns, a.rows);
   for (Index i = 0; i < a.rows; ++i)
     for (Index j = 0; j < a.columns; ++j) result(j, i) = a(i, j);
   return result;
-}
-
-inline Matrix operator*(double factor, Matrix a) {
-  for (double& value : a.values) value *= factor;
-  return a;
-}
-
-inline Matrix operator+(Matrix a, const Matrix& b) {
-  for (Index i = 0; i < a.values.size(); ++i) a.values[i] += b.values[i];
-  return a;
-}
-
-inline Matrix operator-(Matrix a, const Matrix& b) {
-  for (Index i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
-  return a;
 }
 
 inline Vector difference(const Vector& a, const Vector& b) {
@@ -89,11 +102,10 @@ inline Vector difference(const Vector& a, const Vector& b) {
   return result;
 }
 
-inline Matrix outer(const Vector& a) {
-  Matrix result(a.size(), a.size());
-  for (Index i = 0; i < a.size(); ++i)
-    for (Index j = 0; j < a.size(); ++j) result(i, j) = a[i] * a[j];
-  return result;
+template <class Real>
+MatrixOf<Real> outer(const std::vector<Real>& a) {
+  const MatrixOf<Real> column(a.size(), 1, a);
+  return column * transposed(column);
 }
 
 inline double dot(const Vector& a, const Vector& b) {
@@ -102,16 +114,12 @@ inline double dot(const Vector& a, const Vector& b) {
   return result;
 }
 
-inline Matrix symmetrised(const Matrix& a) {
-  Matrix result(a.rows, a.columns);
-  for (Index i = 0; i < a.rows; ++i)
-    for (Index j = 0; j < a.columns; ++j) result(i, j) = 0.5 * (a(i, j) + a(j, i));
-  return result;
-}
+inline Matrix symmetrised(const Matrix& a) { return 0.5 * (a + transposed(a)); }
 
 /// Each value of `small` becomes a block value · `block`.
-inline Matrix kronecker(const Matrix& small, const Matrix& block) {
-  Matrix result(small.rows * block.rows, small.columns * block.columns);
+template <class Real>
+MatrixOf<Real> kronecker(const MatrixOf<Real>& small, const MatrixOf<Real>& block) {
+  MatrixOf<Real> result(small.rows * block.rows, small.columns * block.columns);
   for (Index i = 0; i < small.rows; ++i)
     for (Index j = 0; j < small.columns; ++j)
       for (Index m = 0; m < block.rows; ++m)
@@ -120,49 +128,52 @@ inline Matrix kronecker(const Matrix& small, const Matrix& block) {
   return result;
 }
 
+/// a⁻¹ b by Gauss–Jordan elimination with partial pivoting, and log |det a|.
+template <class Real>
+std::pair<MatrixOf<Real>, Real> solved(MatrixOf<Real> a, MatrixOf<Real> b) {
+  using std::abs, std::log;  // or those of a long number's own
+  Real log_determinant = 0;
+  for (Index column = 0; column < a.rows; ++column) {
+    Index pivot = column;
+    for (Index i = column + 1; i < a.rows; ++i)
+      if (abs(a(i, column)) > abs(a(pivot, column))) pivot = i;
+    const Real scale = a(pivot, column);
+    if (scale == 0) throw std::domain_error{"a singular matrix"};
+    log_determinant += log(abs(scale));
+    const auto eliminate = [&](MatrixOf<Real>& m, const std::vector<Real>& factors) {
+      for (Index j = 0; j < m.columns; ++j) {
+        std::swap(m(column, j), m(pivot, j));
+        m(column, j) /= scale;
+        for (Index i = 0; i < m.rows; ++i)
+          if (i != column && factors[i] != 0) m(i, j) -= factors[i] * m(column, j);
+      }
+    };
+    std::vector<Real> factors;
+    for (Index i = 0; i < a.rows; ++i) factors.push_back(a(i, column));
+    std::swap(factors[column], factors[pivot]);
+    eliminate(a, factors);
+    eliminate(b, factors);
+  }
+  return {b, log_determinant};
+}
+
 struct Inverse {
   Matrix matrix;
   double log_determinant = 0.0;
 };
-
-/// Gauss–Jordan elimination with partial pivoting.
-inline Inverse inverse(Matrix a) {
-  const Index n = a.rows;
-  Inverse result{identity(n), 0.0};
-  for (Index column = 0; column < n; ++column) {
-    Index pivot = column;
-    for (Index i = column + 1; i < n; ++i)
-      if (std::abs(a(i, column)) > std::abs(a(pivot, column))) pivot = i;
-    if (a(pivot, column) == 0.0) throw std::domain_error{"a singular matrix"};
-    for (Index j = 0; j < n; ++j) {
-      std::swap(a(column, j), a(pivot, j));
-      std::swap(result.matrix(column, j), result.matrix(pivot, j));
-    }
-    const double scale = a(column, column);
-    result.log_determinant += std::log(std::abs(scale));
-    for (Index j = 0; j < n; ++j) {
-      a(column, j) /= scale;
-      result.matrix(column, j) /= scale;
-    }
-    for (Index i = 0; i < n; ++i) {
-      if (i == column) continue;
-      const double factor = a(i, column);
-      for (Index j = 0; j < n; ++j) {
-        a(i, j) -= factor * a(column, j);
-        result.matrix(i, j) -= factor * result.matrix(column, j);
-      }
-    }
-  }
-  return result;
+inline Inverse inverse(const Matrix& a) {
+  const auto [matrix, log_determinant] = solved(a, identity(a.rows));
+  return {matrix, log_determinant};
 }
 
 /// x_k = F(dt) x_{k−1} + w, w ~ N(0, Q(dt)); z_k = H x_k + v, (47)–(48); the components of x have names.
-struct Model {
+template <class Real>
+struct ModelOf {
   std::vector<std::string> components;
-  std::function<Matrix(double)> F;
-  std::function<Matrix(double)> Q;
+  std::function<MatrixOf<Real>(double)> F, Q;
   Matrix H;
 };
+using Model = ModelOf<double>;
 
 inline std::vector<std::string> kinematic_components(Index axes, Index derivatives) {
   const std::vector<std::string> prefixes{"", "v", "a"};
@@ -173,31 +184,36 @@ inline std::vector<std::string> kinematic_components(Index axes, Index derivativ
   return result;
 }
 
-/// Discrete white noise acceleration, section VI.B: components x, y, z, vx, vy, vz.
-inline Model dwna(Index axes, double sigma_w) {
-  return {kinematic_components(axes, 2),
-          [axes](double T) {
-            return kronecker(Matrix(2, 2, {1, T, 0, 1}), identity(axes));
-          },
-          [axes, sigma_w](double T) {
-            const Matrix Q = outer({T * T / 2, T});
-            return kronecker(sigma_w * sigma_w * Q, identity(axes));
-          },
-          kronecker(Matrix(1, 2, {1, 0}), identity(axes))};
+/// The same law along each axis: F and Q of a time step over the derivatives of one.
+template <class Real>
+ModelOf<Real> along_axes(Index axes, Index derivatives, const std::function<MatrixOf<Real>(Real)>& F,
+                         const std::function<MatrixOf<Real>(Real)>& Q) {
+  Matrix H(axes, axes * derivatives);
+  for (Index axis = 0; axis < axes; ++axis) H(axis, axis) = 1.0;
+  return {kinematic_components(axes, derivatives), [=](double T) { return kronecker(F(T), identity<Real>(axes)); },
+          [=](double T) { return kronecker(Q(T), identity<Real>(axes)); }, H};
 }
 
-/// Discrete Wiener process acceleration, section VI.B: components x, y, z, vx, vy, vz, ax, ay, az.
-inline Model dwpa(Index axes, double sigma_w) {
-  return {kinematic_components(axes, 3),
-          [axes](double T) {
-            return kronecker(Matrix(3, 3, {1, T, T * T / 2, 0, 1, T, 0, 0, 1}), identity(axes));
-          },
-          [axes, sigma_w](double T) {
-            const Matrix Q = outer({T * T / 2, T, 1});
-            return kronecker(sigma_w * sigma_w * Q, identity(axes));
-          },
-          kronecker(Matrix(1, 3, {1, 0, 0}), identity(axes))};
+/// DWNA, of two derivatives, and DWPA, of three, section VI.B: x, y, z, vx, vy, vz, ax, ay, az.
+template <class Real = double>
+ModelOf<Real> discrete_white_noise(Index axes, Index derivatives, double sigma_w) {
+  return along_axes<Real>(
+      axes, derivatives,
+      [derivatives](Real T) {
+        const std::vector<Real> taylor{1, T, T * T / 2};
+        MatrixOf<Real> F(derivatives, derivatives);
+        for (Index a = 0; a < derivatives; ++a)
+          for (Index b = a; b < derivatives; ++b) F(a, b) = taylor[b - a];
+        return F;
+      },
+      [derivatives, sigma_w](Real T) {
+        std::vector<Real> gain{T * T / 2, T, 1};
+        gain.resize(derivatives);
+        return Real(sigma_w) * Real(sigma_w) * outer(gain);
+      });
 }
+inline Model dwna(Index axes, double sigma_w) { return discrete_white_noise(axes, 2, sigma_w); }
+inline Model dwpa(Index axes, double sigma_w) { return discrete_white_noise(axes, 3, sigma_w); }
 
 struct State {
   Vector mean;
@@ -215,14 +231,46 @@ inline See seen_by_matrix(const Vector& z) {
   return [z](const Model& model, const Vector& x) -> Seen { return {difference(z, model.H * x), model.H}; };
 }
 
+/// (27)–(28).
+inline State predicted(const Model& model, const State& state, double dt) {
+  const Matrix F = model.F(dt);
+  return {F * state.mean, symmetrised(F * state.covariance * transposed(F) + model.Q(dt))};
+}
+
+/// An estimate with what was seen, and how well that was expected.
+struct Sighting {
+  State posterior;
+  Vector nu;
+  Matrix S;
+  double squared_distance = 0.0;
+  double log_density = 0.0;
+};
+inline Sighting sighted(const State& prior, const Seen& seen, const Matrix& R) {
+  const auto& [nu, H] = seen;
+  const Matrix& P = prior.covariance;
+  const Matrix S = symmetrised(H * P * transposed(H) + R);  // (31)
+  const Inverse S_inverse = inverse(S);
+  const Matrix W = P * transposed(H) * S_inverse.matrix;  // (32)
+  Sighting result{prior, nu, S, dot(nu, S_inverse.matrix * nu), 0.0};
+  result.log_density = -0.5 * (result.squared_distance + S_inverse.log_determinant +
+                               static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  const Vector correction = W * nu;
+  for (Index i = 0; i < correction.size(); ++i) result.posterior.mean[i] += correction[i];  // (29)
+  const Matrix kept = identity(correction.size()) - W * H;
+  result.posterior.covariance = symmetrised(kept * P * transposed(kept) + W * R * transposed(W));  // (30)
+  return result;
+}
+
 enum class Kind { imm, himm };
-enum class Weights { correct, released };  // Which weights mix the covariance in (59).
+enum class Order { interacting, second_order, histories };  // When predecessors merge: before z, after it, never.
+enum class Weights { correct, released };                   // Which weights mix the covariance in (59).
 enum class MixedCovariance { selected, own, own_recentred, released, envelope };  // The readings of (57).
-enum class Lift { zero, borrowed_variance, unbiased };  // What a model lacks when it is received.
+enum class Lift { zero, borrowed_variance, unbiased, prior };  // What a model lacks when it is received.
 enum class Tie { stay, first, last };
 
 struct Options {
   Kind kind = Kind::imm;
+  Order order = Order::interacting;
   Weights mixing_weights = Weights::correct;
   MixedCovariance mixed_covariance = MixedCovariance::selected;
   Lift lift = Lift::zero;
@@ -245,12 +293,15 @@ inline Index largest(const Vector& log_weights, Tie tie, Index current) {
 }
 
 /// log Σ exp or max: what normalises the weights of a random or of a fuzzy mode.
-inline double log_total(const Vector& logs, Kind kind) {
-  const double top = *std::max_element(logs.begin(), logs.end());
+template <class Real>
+Real log_total(const std::vector<Real>& logs, Kind kind) {
+  using std::exp, std::log;
+  Real top = logs[0];
+  for (const Real& value : logs) top = value > top ? value : top;
   if (kind == Kind::himm || top == nothing) return top;
-  double total = 0.0;
-  for (const double value : logs) total += std::exp(value - top);
-  return top + std::log(total);
+  Real total = 0;
+  for (const Real& value : logs) total += exp(Real(value - top));
+  return top + log(total);
 }
 
 inline std::optional<Index> position(const std::vector<std::string>& components, const std::string& name) {
@@ -259,7 +310,19 @@ inline std::optional<Index> position(const std::vector<std::string>& components,
   return static_cast<Index>(found - components.begin());
 }
 
-/// IMM or HIMM over models whose components may differ.
+/// The mean of some states by their weights, and their covariance with that of the means; its weights may differ.
+inline State moments(const std::vector<State>& states, const Vector& weights, const Vector& covariance_weights) {
+  const Index n = states.front().mean.size();
+  State result{Vector(n, 0.0), Matrix(n, n)};
+  for (Index l = 0; l < states.size(); ++l)
+    for (Index i = 0; i < n; ++i) result.mean[i] += weights[l] * states[l].mean[i];
+  for (Index l = 0; l < states.size(); ++l)
+    result.covariance = result.covariance +
+                        covariance_weights[l] * (states[l].covariance + outer(difference(result.mean, states[l].mean)));
+  return result;
+}
+
+/// IMM, HIMM, GPB2 or the Viterbi filter, over models whose components may differ.
 class Filter {
  public:
   /// `transition(i, j)` is the weight of mode j after mode i; `weights` are linear and need not be normalised.
@@ -268,58 +331,19 @@ class Filter {
       : models_{std::move(models)},
         transition_{std::move(transition)},
         states_{std::move(states)},
-        options_{options},
-        log_weights_(models_.size()) {
-    for (Index j = 0; j < models_.size(); ++j) log_weights_[j] = std::log(weights[j]);
-    const double total = log_total(log_weights_, options_.kind);
-    for (double& value : log_weights_) value -= total;
+        options_{std::move(options)} {
+    for (const double weight : weights) log_weights_.push_back(std::log(weight));
+    normalise();
     winner_ = largest(log_weights_, options_.output_tie, 0);
     for (const Model& model : models_)
       for (const std::string& name : model.components)
         if (!position(components_, name)) components_.push_back(name);
   }
 
-  /// One scan with a measurement by H.
+  /// One scan with a measurement by H, with any measurement, and without one.
   void step(double dt, const Vector& z, const Matrix& R) { step(dt, seen_by_matrix(z), R); }
-
-  /// One scan with any measurement.
-  void step(double dt, const See& see, const Matrix& R) {
-    interact();
-    predict(dt);
-    const Vector before = log_weights_;
-    Vector fits;  // Log weight of each hypothesis ⊗ exp(−d²/2), for gates.
-    std::vector<Vector> innovations;
-    std::vector<Matrix> innovation_covariances;
-    for (Index j = 0; j < models_.size(); ++j) {
-      const auto [nu, H] = see(models_[j], states_[j].mean);
-      const Matrix S = symmetrised(H * states_[j].covariance * transposed(H) + R);  // (31)
-      const Inverse S_inverse = inverse(S);
-      const Matrix W = states_[j].covariance * transposed(H) * S_inverse.matrix;  // (32)
-      const Vector correction = W * nu;
-      for (Index i = 0; i < correction.size(); ++i) states_[j].mean[i] += correction[i];  // (29)
-      const Matrix kept = identity(correction.size()) - W * H;
-      states_[j].covariance = symmetrised(kept * states_[j].covariance * transposed(kept) +  // (30)
-                                          W * R * transposed(W));
-      fits.push_back(log_weights_[j] - 0.5 * dot(nu, S_inverse.matrix * nu));
-      log_weights_[j] += log_likelihood(nu, S_inverse);  // (62), (63)
-      innovations.push_back(nu);
-      innovation_covariances.push_back(S);
-    }
-    const double total = log_total(log_weights_, options_.kind);
-    for (double& value : log_weights_) value -= total;
-    tell_evidence(before, total);
-    gate_distance_ = -2.0 * log_total(fits, options_.kind);
-    nis_ = collapsed_nis(before, innovations, innovation_covariances);
-    winner_ = largest(log_weights_, options_.output_tie, winner_);
-  }
-
-  /// One scan without a measurement.
-  void step(double dt) {
-    interact();
-    predict(dt);
-    nis_.reset();
-    winner_ = largest(log_weights_, options_.output_tie, winner_);
-  }
+  void step(double dt, const See& see, const Matrix& R) { cycle(dt, &see, R); }
+  void step(double dt) { cycle(dt, nullptr, {}); }
 
   const std::vector<State>& states() const { return states_; }
   const Vector& log_weights() const { return log_weights_; }
@@ -353,72 +377,107 @@ class Filter {
   }
 
  protected:
-  double log_likelihood(const Vector& nu, const Inverse& S_inverse) const {
-    const double squared_distance = dot(nu, S_inverse.matrix * nu);
-    if (options_.possibilistic) return -0.5 * squared_distance;
-    return -0.5 * (squared_distance + S_inverse.log_determinant +
-                   static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  /// One way into a mode: what is known of the state if it is true, and its log weight before and after z.
+  struct Hypothesis {
+    State state;
+    double before = nothing;
+    double after = nothing;
+    State innovation = {};
+  };
+
+  void cycle(double dt, const See* see, const Matrix& R) {
+    std::vector<std::vector<Hypothesis>> of_mode;
+    Vector before, after, fits;
+    for (Index j = 0; j < models_.size(); ++j) {
+      auto& own = of_mode.emplace_back(options_.order == Order::second_order ? pairs(j) : std::vector{mixed(j)});
+      for (Hypothesis& each : own) {
+        each.state = predicted(models_[j], each.state, dt);
+        each.after = each.before;
+        if (!see) continue;
+        const Sighting seen = sighted(each.state, (*see)(models_[j], each.state.mean), R);
+        each.state = seen.posterior;
+        each.innovation = {seen.nu, seen.S};
+        each.after += options_.possibilistic ? -0.5 * seen.squared_distance : seen.log_density;  // (62), (63)
+        fits.push_back(each.before - 0.5 * seen.squared_distance);
+      }
+      before.push_back(log_total(logs_of(own, &Hypothesis::before), options_.kind));
+      after.push_back(log_total(logs_of(own, &Hypothesis::after), options_.kind));
+    }
+    nis_.reset();
+    if (see) {
+      gate_distance_ = -2.0 * log_total(fits, options_.kind);
+      nis_ = collapsed_nis(of_mode, before);
+      log_evidence_ = log_total(after, options_.kind);
+      log_score_ = log_evidence_ - log_total(before, Kind::imm);
+    }
+    for (Index j = 0; j < models_.size(); ++j) states_[j] = merged(of_mode[j], after[j], j);
+    log_weights_ = after;
+    normalise();
+    winner_ = largest(log_weights_, options_.output_tie, winner_);
   }
 
-  /// Step 1, (51)–(59).
-  void interact() {
-    const Index M = models_.size();
-    // move_in[j][l] is the log weight of r_{k−1} = l given r_k = j; an unreachable mode comes from itself
-    // and keeps its state.
-    Vector predicted(M);
-    std::vector<Vector> move_in(M, Vector(M));
-    for (Index j = 0; j < M; ++j) {
-      for (Index l = 0; l < M; ++l) move_in[j][l] = std::log(transition_(l, j)) + log_weights_[l];
-      predicted[j] = log_total(move_in[j], options_.kind);
-      for (Index l = 0; l < M; ++l) {
-        if (predicted[j] == nothing)
-          move_in[j][l] = l == j ? 0.0 : nothing;
-        else
-          move_in[j][l] -= predicted[j];
-        if (options_.common_start && predicted[j] != nothing) move_in[j][l] = log_weights_[l];
-      }
-    }
+  static Vector logs_of(const std::vector<Hypothesis>& all, double Hypothesis::*log) {
+    Vector result;
+    for (const Hypothesis& each : all) result.push_back(each.*log);
+    return result;
+  }
 
-    std::vector<State> mixed;
-    for (Index j = 0; j < M; ++j) {
-      if (predicted[j] == nothing)
-        mixed.push_back(states_[j]);
-      else
-        mixed.push_back(options_.kind == Kind::imm ? averaged(j, move_in) : selected(j, move_in[j]));
-    }
-    states_ = mixed;
-    log_weights_ = predicted;
-    const double total = log_total(log_weights_, options_.kind);
-    for (double& value : log_weights_) value -= total;
+  /// Log weights of the modes before, with mode j now, as they are and given j.
+  Vector move_in(Index j) const {
+    Vector result;
+    for (Index l = 0; l < models_.size(); ++l) result.push_back(std::log(transition_(l, j)) + log_weights_[l]);
+    return result;
+  }
+  Vector given(Index j) const {
+    if (options_.common_start) return log_weights_;
+    Vector result = move_in(j);
+    const double total = log_total(result, options_.kind);
+    for (Index l = 0; l < result.size(); ++l)
+      result[l] = total == nothing ? (l == j ? 0.0 : nothing) : result[l] - total;
+    return result;
+  }
+
+  /// Step 1, (51)–(59): one start for mode j. A mode that nothing reaches keeps its state.
+  Hypothesis mixed(Index j) const {
+    const double total = log_total(move_in(j), options_.kind);
+    if (total == nothing) return {states_[j]};
+    return {options_.kind == Kind::imm ? averaged(j) : selected(j), total};
+  }
+
+  /// Each predecessor by itself.
+  std::vector<Hypothesis> pairs(Index j) const {
+    std::vector<Hypothesis> result;
+    for (Index l = 0; l < models_.size(); ++l) result.push_back({received(l, j), move_in(j)[l]});
+    return result;
   }
 
   /// (58)–(59) with Σ^l.
-  State averaged(Index j, const std::vector<Vector>& move_in) const {
+  State averaged(Index j) const {
     std::vector<State> lifted;
-    std::vector<double> mean_weights;
-    std::vector<double> covariance_weights;
+    Vector weights, covariance_weights;
     for (Index l = 0; l < models_.size(); ++l) {
       lifted.push_back(received(l, j));
-      mean_weights.push_back(std::exp(move_in[j][l]));
-      covariance_weights.push_back(std::exp(
-          options_.mixing_weights == Weights::correct || options_.common_start ? move_in[j][l] : move_in[l][j]));
+      weights.push_back(std::exp(given(j)[l]));
+      covariance_weights.push_back(options_.mixing_weights == Weights::correct || options_.common_start
+                                       ? weights.back()
+                                       : std::exp(given(l)[j]));
     }
-    return moments(lifted, mean_weights, covariance_weights);
+    return moments(lifted, weights, covariance_weights);
   }
 
   /// (55)–(57).
-  State selected(Index j, const Vector& move_in) const {
+  State selected(Index j) const {
+    const Vector logs = given(j);
     if (options_.mixed_covariance == MixedCovariance::envelope) {
       std::vector<State> lifted;
       Vector weights;
       for (Index l = 0; l < models_.size(); ++l) {
         lifted.push_back(received(l, j));
-        weights.push_back(std::exp(move_in[l]));
+        weights.push_back(std::exp(logs[l]));
       }
       return options_.envelope(lifted, weights);
     }
-    const Index l = largest(move_in, options_.mixing_tie, options_.common_start ? winner_ : j);
-    const State winner = received(l, j);
+    const State winner = received(largest(logs, options_.mixing_tie, options_.common_start ? winner_ : j), j);
     const Matrix& own = states_[j].covariance;
     switch (options_.mixed_covariance) {
       case MixedCovariance::selected:
@@ -435,15 +494,44 @@ class Filter {
     throw std::logic_error{"no such reading"};
   }
 
-  static State moments(const std::vector<State>& states, const Vector& mean_weights, const Vector& covariance_weights) {
-    const Index n = states.front().mean.size();
-    State result{Vector(n, 0.0), Matrix(n, n)};
-    for (Index l = 0; l < states.size(); ++l)
-      for (Index i = 0; i < n; ++i) result.mean[i] += mean_weights[l] * states[l].mean[i];
-    for (Index l = 0; l < states.size(); ++l)
-      result.covariance = result.covariance + covariance_weights[l] * (states[l].covariance +
-                                                                       outer(difference(result.mean, states[l].mean)));
-    return result;
+  /// One Gaussian for the ways into mode j; where all are excluded, it comes from itself.
+  State merged(const std::vector<Hypothesis>& ways, double total, Index j) const {
+    const Index own = ways.size() > 1 ? j : 0;
+    if (total == nothing) return ways[own].state;
+    if (options_.kind == Kind::himm)
+      return ways[largest(logs_of(ways, &Hypothesis::after), options_.mixing_tie, own)].state;
+    Vector weights;
+    std::vector<State> states;
+    for (const Hypothesis& each : ways) {
+      weights.push_back(std::exp(each.after - total));
+      states.push_back(each.state);
+    }
+    return moments(states, weights, weights);
+  }
+
+  /// Of the mixture of all innovations, by their weights before the measurement.
+  double collapsed_nis(const std::vector<std::vector<Hypothesis>>& of_mode, const Vector& before) const {
+    State one;
+    if (options_.kind == Kind::himm) {
+      const Index j = largest(before, options_.output_tie, winner_);
+      const auto& ways = of_mode[j];
+      one = ways[largest(logs_of(ways, &Hypothesis::before), options_.mixing_tie, ways.size() > 1 ? j : 0)].innovation;
+    } else {
+      Vector weights;
+      std::vector<State> innovations;
+      for (const auto& ways : of_mode)
+        for (const Hypothesis& each : ways) {
+          weights.push_back(std::exp(each.before - log_total(before, options_.kind)));
+          innovations.push_back(each.innovation);
+        }
+      one = moments(innovations, weights, weights);
+    }
+    return dot(one.mean, inverse(one.covariance).matrix * one.mean);
+  }
+
+  void normalise() {
+    const double total = log_total(log_weights_, options_.kind);
+    for (double& value : log_weights_) value -= total;
   }
 
   /// The state of model `l` in some components, of which each lacking one is received by a model that has it.
@@ -495,35 +583,6 @@ class Filter {
       if (*std::max_element(candidates.begin(), candidates.end()) == nothing) return first;
       return largest(candidates, options_.output_tie, winner_);
     });
-  }
-
-  /// Step 2, the prediction: (27)–(28).
-  void predict(double dt) {
-    for (Index j = 0; j < models_.size(); ++j) {
-      const Matrix F = models_[j].F(dt);
-      states_[j].mean = F * states_[j].mean;
-      states_[j].covariance = symmetrised(F * states_[j].covariance * transposed(F) + models_[j].Q(dt));
-    }
-  }
-
-  double collapsed_nis(const Vector& log_weights, const std::vector<Vector>& innovations,
-                       const std::vector<Matrix>& covariances) const {
-    std::vector<State> modes;
-    std::vector<double> weights;
-    for (Index j = 0; j < innovations.size(); ++j) {
-      modes.push_back({innovations[j], covariances[j]});
-      weights.push_back(std::exp(log_weights[j]));
-    }
-    const State one = options_.kind == Kind::imm ? moments(modes, weights, weights)
-                                                 : modes[largest(log_weights, options_.output_tie, winner_)];
-    return dot(one.mean, inverse(one.covariance).matrix * one.mean);
-  }
-
-  void tell_evidence(const Vector& before, double total) {
-    double sum = 0.0;
-    for (const double log_weight : before) sum += std::exp(log_weight);
-    log_evidence_ = total;
-    log_score_ = total - std::log(sum);
   }
 
   std::vector<Model> models_;

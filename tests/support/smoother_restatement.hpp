@@ -4,118 +4,36 @@
 /// information matrices, which doubles would lose. Nothing that may be singular is inverted.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "support/restatement.hpp"
-#include "support/second_order_restatement.hpp"
 
 namespace restatement::smoothing {
 
 using std::abs, std::atan2, std::cos, std::exp, std::log, std::sin, std::sqrt;  // or those of a long number's own
 
 template <class Real>
-struct Matrix {
-  Matrix() = default;
-  Matrix(Index r, Index c) : rows{r}, columns{c}, values(r * c, Real{0}) {}
-  explicit Matrix(const restatement::Matrix& a) : Matrix(a.rows, a.columns) {
-    for (Index k = 0; k < a.values.size(); ++k) values[k] = a.values[k];
-  }
-  explicit Matrix(const Vector& x) : Matrix(x.size(), 1) {
-    for (Index k = 0; k < x.size(); ++k) values[k] = x[k];
-  }
-  Real& operator()(Index i, Index j) { return values[i * columns + j]; }
-  const Real& operator()(Index i, Index j) const { return values[i * columns + j]; }
-  Index rows = 0, columns = 0;
-  std::vector<Real> values;
-};
-
-template <class Real>
-Matrix<Real> one(Index n) {
-  Matrix<Real> result(n, n);
-  for (Index i = 0; i < n; ++i) result(i, i) = 1;
-  return result;
-}
-template <class Real>
-Matrix<Real> operator*(const Matrix<Real>& a, const Matrix<Real>& b) {
-  Matrix<Real> result(a.rows, b.columns);
-  for (Index i = 0; i < a.rows; ++i)
-    for (Index k = 0; k < a.columns; ++k)
-      if (a(i, k) != 0)
-        for (Index j = 0; j < b.columns; ++j) result(i, j) += a(i, k) * b(k, j);
-  return result;
-}
-template <class Real>
-Matrix<Real> operator*(const std::type_identity_t<Real>& factor, Matrix<Real> a) {
-  for (Real& value : a.values) value *= factor;
-  return a;
-}
-template <class Real>
-Matrix<Real> operator+(Matrix<Real> a, const Matrix<Real>& b) {
-  for (Index k = 0; k < a.values.size(); ++k) a.values[k] += b.values[k];
-  return a;
-}
-template <class Real>
-Matrix<Real> operator-(Matrix<Real> a, const Matrix<Real>& b) {
-  for (Index k = 0; k < a.values.size(); ++k) a.values[k] -= b.values[k];
-  return a;
-}
-template <class Real>
-Matrix<Real> t(const Matrix<Real>& a) {
-  Matrix<Real> result(a.columns, a.rows);
-  for (Index i = 0; i < a.rows; ++i)
-    for (Index j = 0; j < a.columns; ++j) result(j, i) = a(i, j);
-  return result;
-}
-
-/// a⁻¹ b by elimination with pivots, and log |det a|.
-template <class Real>
-std::pair<Matrix<Real>, Real> solve(Matrix<Real> a, Matrix<Real> b) {
-  Real log_determinant = 0;
-  for (Index c = 0; c < a.rows; ++c) {
-    Index pivot = c;
-    for (Index i = c + 1; i < a.rows; ++i)
-      if (abs(a(i, c)) > abs(a(pivot, c))) pivot = i;
-    for (Index j = 0; j < a.columns; ++j) std::swap(a(c, j), a(pivot, j));
-    for (Index j = 0; j < b.columns; ++j) std::swap(b(c, j), b(pivot, j));
-    const Real scale = a(c, c);
-    if (scale == 0) throw std::domain_error{"a singular matrix"};
-    log_determinant += log(abs(scale));
-    for (Index j = 0; j < a.columns; ++j) a(c, j) /= scale;
-    for (Index j = 0; j < b.columns; ++j) b(c, j) /= scale;
-    for (Index i = 0; i < a.rows; ++i) {
-      if (i == c) continue;
-      const Real factor = a(i, c);
-      if (factor == 0) continue;
-      for (Index j = 0; j < a.columns; ++j) a(i, j) -= factor * a(c, j);
-      for (Index j = 0; j < b.columns; ++j) b(i, j) -= factor * b(c, j);
-    }
-  }
-  return {b, log_determinant};
-}
+using Matrix = MatrixOf<Real>;
 
 /// Eigenvectors of a symmetric matrix as the rows of V, by Jacobi's rotations.
 template <class Real>
 std::pair<std::vector<Real>, Matrix<Real>> axes(Matrix<Real> A) {
-  Matrix<Real> V = one<Real>(A.rows);
+  Matrix<Real> V = identity<Real>(A.rows);
   for (int sweep = 0; sweep < 20; ++sweep)
     for (Index p = 0; p < A.rows; ++p)
       for (Index q = p + 1; q < A.rows; ++q) {
         if (A(p, q) == 0) continue;
         const Real angle = atan2(Real(2 * A(p, q)), Real(A(q, q) - A(p, p))) / 2;
-        Matrix<Real> rotation = one<Real>(A.rows);
+        Matrix<Real> rotation = identity<Real>(A.rows);
         rotation(p, p) = rotation(q, q) = cos(angle);
         rotation(p, q) = -sin(angle);
         rotation(q, p) = sin(angle);
-        A = rotation * A * t(rotation);
+        A = rotation * A * transposed(rotation);
         V = rotation * V;
       }
   std::vector<Real> values;
@@ -130,47 +48,6 @@ struct Step {
   Vector log_weights;
   std::optional<std::pair<Vector, restatement::Matrix>> seen;  // z, R
 };
-
-/// A model whose F and Q have all digits of Real.
-template <class Real>
-struct Model {
-  std::vector<std::string> components;
-  std::function<Matrix<Real>(double)> F, Q;
-  restatement::Matrix H;
-};
-
-/// Along each axis the derivatives of the position up to `order` − 1, driven by noise of σ_w on the last but one or the
-/// last of them: DWNA and DWPA.
-template <class Real>
-Model<Real> discrete_noise(Index axes, Index order, double sigma_w) {
-  const auto blocks = [axes](const Matrix<Real>& small) {
-    Matrix<Real> result(small.rows * axes, small.columns * axes);
-    for (Index i = 0; i < small.rows; ++i)
-      for (Index j = 0; j < small.columns; ++j)
-        for (Index a = 0; a < axes; ++a) result(i * axes + a, j * axes + a) = small(i, j);
-    return result;
-  };
-  restatement::Matrix H(axes, axes * order);
-  for (Index a = 0; a < axes; ++a) H(a, a) = 1.0;
-  return {kinematic_components(axes, order),
-          [=](double dt) {
-            const Real T = dt;
-            const std::vector<Real> taylor{1, T, T * T / 2};
-            Matrix<Real> F(order, order);
-            for (Index a = 0; a < order; ++a)
-              for (Index b = a; b < order; ++b) F(a, b) = taylor[b - a];
-            return blocks(F);
-          },
-          [=](double dt) {
-            const Real T = dt;
-            const std::vector<Real> gain{T * T / 2, T, 1};
-            Matrix<Real> Q(order, order);
-            for (Index a = 0; a < order; ++a)
-              for (Index b = 0; b < order; ++b) Q(a, b) = Real(sigma_w) * sigma_w * gain[a] * gain[b];
-            return blocks(Q);
-          },
-          H};
-}
 
 struct Rules {
   Kind kind;
@@ -189,16 +66,6 @@ template <class Real>
 struct Evidence {
   Matrix<Real> Y, y;
 };
-
-template <class Real>
-Real log_total(const std::vector<Real>& logs, Kind kind) {
-  Real top = logs[0];
-  for (const Real& value : logs) top = value > top ? value : top;
-  if (kind == Kind::himm || top == nothing) return top;
-  Real total = 0;
-  for (const Real& value : logs) total += exp(Real(value - top));
-  return top + log(total);
-}
 
 /// Y = L Z Lᵀ, where L Lᵀ is the average information of the parts: axes of Z with less than 1e-8 say nothing.
 template <class Real>
@@ -230,9 +97,9 @@ void clip(Evidence<Real>& evidence, const Matrix<Real>& about, const Matrix<Real
     for (Index i = 0; i < n; ++i) whole(i, a) = L(i, pivots[a]);
   }
   if (m == 0) return;
-  const Matrix<Real> Z = solve(square, t(solve(square, Y).first)).first;
-  const Matrix<Real> z = solve(square, y).first;
-  const auto [values, V] = axes(Real(0.5) * (Z + t(Z)));
+  const Matrix<Real> Z = solved(square, transposed(solved(square, Y).first)).first;
+  const Matrix<Real> z = solved(square, y).first;
+  const auto [values, V] = axes(Real(0.5) * (Z + transposed(Z)));
   bool any = false;
   for (const Real& value : values) any = any || value < Real(1e-8);
   if (!any) return;
@@ -241,24 +108,24 @@ void clip(Evidence<Real>& evidence, const Matrix<Real>& about, const Matrix<Real
     if (values[a] < Real(1e-8)) continue;
     Matrix<Real> v(m, 1);
     for (Index i = 0; i < m; ++i) v(i, 0) = V(a, i);
-    kept = kept + values[a] * (v * t(v));
-    kept_z = kept_z + (t(v) * z)(0, 0) * v;
+    kept = kept + values[a] * (v * transposed(v));
+    kept_z = kept_z + (transposed(v) * z)(0, 0) * v;
   }
-  evidence.Y = whole * kept * t(whole);
+  evidence.Y = whole * kept * transposed(whole);
   evidence.y = whole * kept_z + evidence.Y * about;
 }
 
 /// The smoothed moments of all steps.
 template <class Real>
-std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const Rules& rules,
+std::vector<Moment<Real>> smoothed(const std::vector<ModelOf<Real>>& models, const Rules& rules,
                                    const std::vector<Step>& steps) {
   const Index M = models.size();
   const auto filtered = [&](const Step& step) {
     Moment<Real> result;
     for (Index j = 0; j < M; ++j) {
       result.log_weights.emplace_back(step.log_weights[j]);
-      result.means.push_back(Matrix<Real>(step.states[j].mean));
-      result.covariances.push_back(Matrix<Real>(step.states[j].covariance));
+      result.means.push_back(as<Real>(step.states[j].mean));
+      result.covariances.push_back(as<Real>(step.states[j].covariance));
     }
     return result;
   };
@@ -266,9 +133,9 @@ std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const
     const Index n = models[j].components.size();
     Evidence<Real> result{Matrix<Real>(n, n), Matrix<Real>(n, 1)};
     if (!step.seen) return result;
-    const Matrix<Real> H = Matrix<Real>(models[j].H);
-    result.Y = t(H) * solve(Matrix<Real>(step.seen->second), H).first;
-    result.y = t(H) * solve(Matrix<Real>(step.seen->second), Matrix<Real>(step.seen->first)).first;
+    const Matrix<Real> H = as<Real>(models[j].H);
+    result.Y = transposed(H) * solved(as<Real>(step.seen->second), H).first;
+    result.y = transposed(H) * solved(as<Real>(step.seen->second), as<Real>(step.seen->first)).first;
     return result;
   };
 
@@ -302,17 +169,17 @@ std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const
             for (Index c = 0; c < n; ++c)
               if (!position(own, models[j].components[c])) lifted(b, c) = known.covariances[j](b, c);
         }
-        const Matrix<Real> noise = Q + F * lifted * t(F);
+        const Matrix<Real> noise = Q + F * lifted * transposed(F);
         const auto& [Y, y] = evidence[j];
-        const Matrix<Real> I = one<Real>(n);
-        parts[i][j] = {t(B) * solve(I + Y * noise, Y * B).first,
-                       t(B) * solve(I + Y * noise, y - Y * (F * value)).first};
+        const Matrix<Real> I = identity<Real>(n);
+        parts[i][j] = {transposed(B) * solved(I + Y * noise, Y * B).first,
+                       transposed(B) * solved(I + Y * noise, y - Y * (F * value)).first};
         const Matrix<Real> mean = B * known.means[i] + F * value;
-        const Matrix<Real> P = B * known.covariances[i] * t(B) + noise;
+        const Matrix<Real> P = B * known.covariances[i] * transposed(B) + noise;
         const Matrix<Real> rest = y - Y * mean;
-        const auto [moved, log_determinant] = solve(I + P * Y, P * rest);
-        const Real log_evidence =
-            (t(y) * mean)(0, 0) - (t(mean) * Y * mean)(0, 0) / 2 + (t(rest) * moved)(0, 0) / 2 - log_determinant / 2;
+        const auto [moved, log_determinant] = solved(I + P * Y, P * rest);
+        const Real log_evidence = (transposed(y) * mean)(0, 0) - (transposed(mean) * Y * mean)(0, 0) / 2 +
+                                  (transposed(rest) * moved)(0, 0) / 2 - log_determinant / 2;
         from.push_back(log(Real(rules.transition(i, j))) + known.log_weights[i] + log_evidence);
       }
       const Real total = log_total(from, rules.kind);
@@ -334,8 +201,8 @@ std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const
           g.emplace_back(n, 1);
           continue;
         }
-        W.push_back(solve(one<Real>(n) + Y * C, Y).first);
-        g.push_back(solve(one<Real>(n) + Y * C, y - Y * f).first);
+        W.push_back(solved(identity<Real>(n) + Y * C, Y).first);
+        g.push_back(solved(identity<Real>(n) + Y * C, y - Y * f).first);
       }
       std::vector<Real> weights(M, Real(0));
       if (rules.kind == Kind::himm) {
@@ -350,14 +217,14 @@ std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const
       for (Index j = 0; j < M; ++j) all_g = all_g + weights[j] * g[j];
       for (Index j = 0; j < M; ++j) {
         if (weights[j] == 0) continue;
-        all_W = all_W + weights[j] * (W[j] - (g[j] - all_g) * t(g[j] - all_g));
+        all_W = all_W + weights[j] * (W[j] - (g[j] - all_g) * transposed(g[j] - all_g));
         average = average + weights[j] * parts[i][j].Y;
       }
       result.means[i] = f + C * all_g;
       result.covariances[i] = C - C * all_W * C;
-      const Matrix<Real> Y = solve(one<Real>(n) - all_W * C, all_W).first;
+      const Matrix<Real> Y = solved(identity<Real>(n) - all_W * C, all_W).first;
       before[i].Y = before[i].Y + Y;
-      before[i].y = before[i].y + solve(one<Real>(n) - all_W * C, all_g).first + Y * f;
+      before[i].y = before[i].y + solved(identity<Real>(n) - all_W * C, all_g).first + Y * f;
       if (rules.kind == Kind::imm) clip(before[i], f, average);
     }
     const Real total = log_total(result.log_weights, rules.kind);
@@ -372,9 +239,8 @@ std::vector<Moment<Real>> smoothed(const std::vector<Model<Real>>& models, const
 
 namespace restatement {
 
-/// A filter that remembers its steps, and the smoother of them. `Order` is Filter or SecondOrderFilter.
-template <class Order>
-class Smoother : public Order {
+/// A filter that remembers its steps, and the smoother of them.
+class Smoother : public Filter {
  public:
   /// What is known of one time.
   struct Moment {
@@ -383,41 +249,38 @@ class Smoother : public Order {
     Index winner = 0;
   };
 
-  explicit Smoother(Order filter) : Order{std::move(filter)} { remember(0.0); }
+  explicit Smoother(Filter filter) : Filter{std::move(filter)} { remember(0.0); }
 
   void step(double dt, const Vector& z, const Matrix& R) {
-    Order::step(dt, z, R);
+    Filter::step(dt, z, R);
     remember(dt);
     steps_.back().seen = {z, R};
   }
   void step(double dt) {
-    Order::step(dt);
+    Filter::step(dt);
     remember(dt);
   }
 
   /// Of the start and of every step.
   std::vector<Moment> smoothed() const {
     using Real = long double;
-    std::vector<smoothing::Model<Real>> models;
-    for (const Model& model : this->models_)
-      models.push_back({model.components, [&](double dt) { return smoothing::Matrix<Real>(model.F(dt)); },
-                        [&](double dt) { return smoothing::Matrix<Real>(model.Q(dt)); }, model.H});
+    std::vector<ModelOf<Real>> models;
+    for (const Model& model : models_)
+      models.push_back({model.components, [&](double dt) { return as<Real>(model.F(dt)); },
+                        [&](double dt) { return as<Real>(model.Q(dt)); }, model.H});
     std::vector<Moment> result;
-    for (const auto& moment :
-         smoothing::smoothed<Real>(models, {this->options_.kind, this->options_.lift, this->transition_}, steps_)) {
+    for (const auto& moment : smoothing::smoothed<Real>(models, {options_.kind, options_.lift, transition_}, steps_)) {
       auto& plain = result.emplace_back();
-      for (const Real log : moment.log_weights) plain.log_weights.push_back(static_cast<double>(log));
+      plain.log_weights.assign(moment.log_weights.begin(), moment.log_weights.end());
       for (Index j = 0; j < models.size(); ++j) {
-        const Index n = moment.means[j].rows;
-        State& state = plain.states.emplace_back(State{Vector(n), Matrix(n, n)});
-        for (Index a = 0; a < n; ++a) state.mean[a] = static_cast<double>(moment.means[j](a, 0));
-        for (Index a = 0; a < n * n; ++a)
-          state.covariance.values[a] = static_cast<double>(moment.covariances[j].values[a]);
+        const auto& [mean, covariance] = std::tie(moment.means[j].values, moment.covariances[j].values);
+        plain.states.push_back({{mean.begin(), mean.end()},
+                                {moment.means[j].rows, moment.means[j].rows, {covariance.begin(), covariance.end()}}});
       }
     }
-    result.back().winner = this->winner_;
+    result.back().winner = winner_;
     for (Index k = result.size() - 1; k-- > 0;)
-      result[k].winner = largest(result[k].log_weights, this->options_.output_tie, result[k + 1].winner);
+      result[k].winner = largest(result[k].log_weights, options_.output_tie, result[k + 1].winner);
     return result;
   }
 
@@ -427,11 +290,11 @@ class Smoother : public Order {
     at.log_weights_ = moment.log_weights;
     at.states_ = moment.states;
     at.winner_ = moment.winner;
-    return at.Order::estimate();
+    return at.Filter::estimate();
   }
 
  private:
-  void remember(double dt) { steps_.push_back({dt, this->states_, this->log_weights_, std::nullopt}); }
+  void remember(double dt) { steps_.push_back({dt, states_, log_weights_, std::nullopt}); }
 
   std::vector<smoothing::Step> steps_;
 };

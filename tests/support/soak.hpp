@@ -6,18 +6,12 @@
 #include <cstdint>
 #include <random>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
-#include <sigmax/estimation/any_motion.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/known_model.hpp>
 
 namespace sigmax::support {
 
@@ -34,24 +28,13 @@ struct SoakReport {
 /// Whether a covariance is symmetric to the bit and, scaled to a unit diagonal, has no eigenvalue below −1e-9 of its
 /// trace. It must be scaled since variances of 1e-9 and of 1e28 stand in one matrix, the one in (m/s²)², the other in
 /// m². Below 1e-290, where numbers have fewer digits, a variance counts as 1e-290.
-template <class Covariance>
-bool symmetric_and_semi_definite(const Covariance& P) {
-  using Matrix = std::remove_cvref_t<decltype(P.eval())>;
+inline bool symmetric_and_semi_definite(const Eigen::Ref<const Eigen::MatrixXd>& P) {
   if (!P.allFinite() || !(P == P.transpose()) || !(P.diagonal().array() >= 0.0).all()) return false;
-  const auto scale = P.diagonal().array().max(1e-290).rsqrt().matrix().eval();
-  Matrix scaled = scale.asDiagonal() * P * scale.asDiagonal();
+  const Eigen::VectorXd scale = P.diagonal().array().max(1e-290).rsqrt();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * P * scale.asDiagonal();
   scaled.diagonal().array() += 1e-9 * static_cast<double>(P.rows());
-  return Eigen::LLT<Matrix>(scaled).info() == Eigen::Success;
+  return Eigen::LLT<Eigen::MatrixXd>(scaled).info() == Eigen::Success;
 }
-
-/// Any linear motion along independent axes, in the Kalman filter.
-template <int Axes>
-using SoakMotion = AnyMotion<3 * Axes, IndependentAxes<Axes, DiscreteWhiteNoise<2>>,
-                             IndependentAxes<Axes, DiscreteWhiteNoise<3>>, IndependentAxes<Axes, WhiteNoise<2>>,
-                             IndependentAxes<Axes, WhiteNoise<3>>, IndependentAxes<Axes, OrnsteinUhlenbeck<1>>,
-                             IndependentAxes<Axes, OrnsteinUhlenbeck<2>>, IndependentAxes<Axes, OrnsteinUhlenbeck<3>>>;
-template <int Axes>
-using SoakModel = Extended<SoakMotion<Axes>>;
 
 /// Random models, transitions, options, steps and measurements: all that a soak draws.
 class SoakDraws {
@@ -64,32 +47,21 @@ class SoakDraws {
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
   std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>{0, count - 1}(generator_); }
 
-  /// Half of them by discrete noise.
-  template <int Axes>
-  SoakMotion<Axes> motion() {
-    const double sigma = log_uniform(1e-2, 1e2);
+  /// Motions along independent axes, half of them by discrete noise.
+  MotionChoice motion() {
+    MotionChoice motion;
+    motion[MotionParameter::sigma_w] = log_uniform(1e-2, 1e2);
     if (happens(0.5)) {
-      if (happens(0.5)) return dwna<Axes>(sigma);
-      return dwpa<Axes>(sigma);
+      motion.name = happens(0.5) ? "dwna" : "dwpa";
+      return motion;
     }
-    const double rate = log_uniform(1e-4, 10.0);
-    switch (below(5)) {
-      case 0:
-        return cwna<Axes>(sigma * sigma);
-      case 1:
-        return cwpa<Axes>(sigma * sigma);
-      case 2:
-        return ou_position<Axes>(rate, sigma);
-      case 3:
-        return ou_velocity<Axes>(rate, sigma);
-      default:
-        return singer<Axes>(rate, sigma);
-    }
+    motion[MotionParameter::tau] = 1.0 / log_uniform(1e-4, 10.0);
+    motion.name = std::vector{"cwna", "cwpa", "ou_position", "ou_velocity", "singer"}[below(5)];
+    return motion;
   }
-  template <int Axes>
-  std::vector<SoakModel<Axes>> models() {
-    std::vector<SoakModel<Axes>> models;
-    for (std::size_t count = 2 + below(3); count > 0; --count) models.push_back(SoakModel<Axes>{motion<Axes>()});
+  std::vector<AnyModel> models(int axes) {
+    std::vector<AnyModel> models;
+    for (std::size_t count = 2 + below(3); count > 0; --count) models.push_back(known_model(motion(), axes));
     return models;
   }
 
@@ -124,14 +96,13 @@ class SoakDraws {
   }
 
   /// A symmetric positive definite matrix whose standard deviations are `sigma` and up to ten times that.
-  template <int Axes>
-  SquareMatrix<Axes> covariance(double sigma) {
-    SquareMatrix<Axes> root = SquareMatrix<Axes>::Zero();
-    for (int i = 0; i < Axes; ++i) {
+  SquareMatrix<Eigen::Dynamic, 3> covariance(int axes, double sigma) {
+    SquareMatrix<Eigen::Dynamic, 3> root = SquareMatrix<Eigen::Dynamic, 3>::Zero(axes, axes);
+    for (int i = 0; i < axes; ++i) {
       for (int j = 0; j < i; ++j) root(i, j) = sigma * normal();
       root(i, i) = sigma * log_uniform(1.0, 10.0);
     }
-    SquareMatrix<Axes> R = root * root.transpose();
+    SquareMatrix<Eigen::Dynamic, 3> R = root * root.transpose();
     detail::mirror_lower(R);
     return R;
   }
@@ -141,26 +112,23 @@ class SoakDraws {
   std::normal_distribution<double> normal_;
 };
 
-template <Uncertainty Kind, int Axes>
-void soak_one_target(SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
-  using Model = SoakModel<Axes>;
-  const auto models = draw.models<Axes>();
+template <Uncertainty Kind>
+void soak_one_target(int axes, SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
+  const auto models = draw.models(axes);
   const double sigma = draw.log_uniform(0.1, 100.0);
-  std::vector<EstimateOf<Model>> starts;
-  for (const auto& model : models) {
-    EstimateOf<Model> start;
-    start.mean.setZero(model.size());
-    start.covariance.setIdentity(model.size(), model.size());
-    start.covariance *= sigma * sigma;
-    starts.push_back(start);
+  Estimates starts;
+  bool holds_the_position = false;
+  for (const AnyModel& model : models) {
+    starts.add(static_cast<int>(model.size()));
+    starts[starts.size() - 1].covariance.diagonal().setConstant(sigma * sigma);
+    holds_the_position = holds_the_position || model.name() == "ou_position";
   }
-  const bool holds_the_position =
-      std::any_of(models.begin(), models.end(), [](const Model& model) { return model.name() == "ou_position"; });
-  InteractingMultipleModel<std::vector<Model>, Kind> filter{models, draw.transition<Kind>(models.size()), starts,
-                                                            draw.interaction<Kind>(holds_the_position)};
+  const auto transition = draw.transition<Kind>(models.size());
+  InteractingMultipleModel<std::vector<AnyModel>, Kind> filter{models, transition, starts,
+                                                               draw.interaction<Kind>(holds_the_position)};
 
-  Vector<Axes> position = Vector<Axes>::Zero(), velocity;
-  for (int axis = 0; axis < Axes; ++axis) velocity(axis) = 100.0 * draw.normal();
+  Vector<Eigen::Dynamic, 3> position = Vector<Eigen::Dynamic, 3>::Zero(axes), velocity(axes);
+  for (double& each : velocity) each = 100.0 * draw.normal();
   const auto check = [&](const char* what, const auto& estimate) {
     ++report.covariances;
     report.largest_variance = std::max(report.largest_variance, estimate.covariance.diagonal().maxCoeff());
@@ -179,12 +147,12 @@ void soak_one_target(SoakDraws& draw, std::uint64_t steps, SoakReport& report) {
       const bool outlying = draw.happens(0.05);
       if (outlying) ++report.outliers;
       const double error = sigma * (outlying ? draw.log_uniform(10.0, 1e6) : 1.0);
-      Gaussian<Axes> z{position, draw.covariance<Axes>(sigma)};
-      for (int axis = 0; axis < Axes; ++axis) z.mean(axis) += error * draw.normal();
+      Gaussian<Eigen::Dynamic, 3> z{position, draw.covariance(axes, sigma)};
+      for (double& each : z.mean) each += error * draw.normal();
       filter.step(dt, z);
       if (!std::isfinite(filter.nis())) report.failure = "the NIS is not finite";
     }
-    for (const auto& estimate : filter.estimates()) check("a model's estimate", estimate);
+    for (std::size_t j = 0; j < filter.modes(); ++j) check("a model's estimate", filter.estimates()[j]);
     check("the output", filter.estimate());
     double total = AlgebraOf<Kind>::zero();
     for (std::size_t j = 0; j < filter.modes(); ++j) total = AlgebraOf<Kind>::plus(total, filter.belief()[j]);
@@ -200,19 +168,9 @@ SoakReport soak(std::uint64_t steps, std::uint64_t seed) {
   constexpr std::uint64_t steps_of_a_target = 1000;
   SoakDraws draw(seed);
   SoakReport report;
-  for (std::uint64_t target = 0; report.steps < steps && report.failure.empty(); ++target) {
-    const std::uint64_t now = std::min(steps_of_a_target, steps - report.steps);
+  for (int target = 0; report.steps < steps && report.failure.empty(); ++target) {
     try {
-      switch (target % 3) {
-        case 0:
-          soak_one_target<Kind, 1>(draw, now, report);
-          break;
-        case 1:
-          soak_one_target<Kind, 2>(draw, now, report);
-          break;
-        default:
-          soak_one_target<Kind, 3>(draw, now, report);
-      }
+      soak_one_target<Kind>(1 + target % 3, draw, std::min(steps_of_a_target, steps - report.steps), report);
     } catch (const std::exception& error) {
       report.failure = error.what();
     }

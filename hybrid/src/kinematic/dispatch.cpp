@@ -36,8 +36,8 @@ std::span<const Kernels* const> available() {
 
 void choose(const Kernels& kernels) { chosen() = &kernels; }
 
-bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Track& next, Told& told) {
-  return kernels().step[plan.axes - 1][selects](plan, now, z, R, next, told);
+bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Told& told) {
+  return kernels().step[plan.axes - 1][selects](plan, now, z, R, told);
 }
 
 void output(const Plan& plan, bool selects, const Track& track, double* mean, double* covariance) {

@@ -1,20 +1,21 @@
-/// The four steps of an interacting filter for motions along independent axes, on columns of axes: `C` is the numbers
-/// of one track, or of several, along the axes. Included once for each instruction set; everything is private to the
-/// file that includes it, since an inline function compiled for one processor must not serve another.
+/// The four steps of an interacting filter for motions along independent axes. `V` is a number of one track, or of
+/// several: the text is the same. Included once for each instruction set; everything is private to the file that
+/// includes it, since an inline function compiled for one processor must not serve another.
 
 #include <sigmax/hybrid/kinematic_plan.hpp>
 
 #include "kinematic/lanes.hpp"
 
+/// Loops over the components of an estimate are unrolled, as their indices are to be constants.
+#if defined(__clang__)
+#define SIGMAX_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define SIGMAX_UNROLL _Pragma("GCC unroll 64")
+#endif
+#define SIGMAX_APART __attribute__((noinline))
+
 namespace sigmax::detail::kinematic {
 namespace {
-
-template <class C>
-using Lane = typename ColumnOf<C>::Lane;
-template <class C>
-using Real = typename LaneOf<Lane<C>>::Real;
-template <class C>
-using Mask = MaskOf<Lane<C>>;
 
 /// What differs with the precision.
 template <class Number>
@@ -28,298 +29,216 @@ struct Precision<double> {
 };
 template <>
 struct Precision<float> {
-  static constexpr float rounding = 256 * 0x1p-23F;
-  static constexpr float greatest_loss = 3e-3F;
-  static constexpr float least_weight = 1e-30F;
-  static constexpr float greatest = 1e30F;
+  static constexpr double rounding = 256 * 0x1p-23;
+  static constexpr double greatest_loss = 3e-3;
+  static constexpr double least_weight = 1e-30;
+  static constexpr double greatest = 1e30;
 };
-
-constexpr int at(int a, int b) { return triangle(a) + b; }  // b ≤ a
-
-/// An estimate: a column for each derivative, and for each block (a, b), b ≤ a, of the covariance its columns. The
-/// blocks of a model of lower order lead those of one of higher order. Of diagonal blocks see `full`.
-template <class C, int A>
-struct Estimate {
-  C x[max_order];
-  C P[triangle(max_order)][A];
-};
-
-/// Index of the greatest weight, as a number; see sigmax::select.
 template <class V>
-V winner(int modes, const V* weight, V current, Tie tie) {
-  using Number = typename LaneOf<V>::Real;
-  V greatest = weight[0];
-  for (int i = 1; i < modes; ++i) greatest = select(weight[i] > greatest, weight[i], greatest);
-  const V least = greatest * static_cast<Number>(1.0 - tie_tolerance);
-  V result{};
-  for (int i = 0; i < modes; ++i) {
-    const int place = tie == Tie::last ? i : modes - 1 - i;
-    result = select(weight[place] >= least, V{} + static_cast<Number>(place), result);
-  }
-  if (tie == Tie::stay)
-    for (int i = 0; i < modes; ++i) {
-      const V index = V{} + static_cast<Number>(i);
-      result = select((current == index) & (weight[i] >= least), index, result);
-    }
-  return result;
+using PrecisionOf = Precision<NumberOf<V>>;
+
+/// Where the entry (i, k), k ≤ i, of a symmetric matrix of N columns is: one track has the whole matrix, several have
+/// the triangle.
+template <class V, int N>
+constexpr int at(int i, int k) {
+  return Lane<V>::count == 1 ? i * N + k : triangle(i) + k;
 }
 
-inline double winner(int modes, const double* weight, double current, Tie tie) {
-  double greatest = weight[0];
-  for (int i = 1; i < modes; ++i) greatest = weight[i] > greatest ? weight[i] : greatest;
-  const double least = greatest * (1.0 - tie_tolerance);
-  if (tie == Tie::stay && weight[static_cast<int>(current)] >= least) return current;
-  int result = tie == Tie::last ? modes - 1 : 0;
-  for (int left = modes - 1; left > 0 && !(weight[result] >= least); --left) result += tie == Tie::last ? -1 : 1;
-  return result;
-}
+/// An estimate of N components in hand, of which the lower triangle is of value. Nothing else is where it is.
+template <class V, int N>
+struct Estimate {
+  V* __restrict x;
+  V* __restrict P;
+
+  V& operator()(int i, int k) const { return i < k ? P[at<V, N>(k, i)] : P[at<V, N>(i, k)]; }
+};
+
+/// An estimate of N components where it is stored.
+template <class V, int N>
+struct Stored {
+  const NumberOf<V>* x;
+  const NumberOf<V>* P;
+
+  V mean(int i) const { return read<V>(x, i); }
+  V covariance(int i, int k) const { return read<V>(P, at<V, N>(i, k)); }
+};
 
 template <int Number>
 struct Constant {
-  static constexpr int value = Number;
+  constexpr operator int() const { return Number; }
 };
 
-#define SIGMAX_INLINE inline __attribute__((always_inline))
-
-/// Calls action(Constant<order>) for an order known at run time.
-template <class Action>
-SIGMAX_INLINE void with_order(int order, const Action& action) {
+/// action(N), N a constant: the components of a model of the order along A axes.
+template <int A, class Action>
+inline void with_size(int order, const Action& action) {
   if (order == 2)
-    action(Constant<2>{});
-  else if (order == 3)
-    action(Constant<3>{});
+    action(Constant<2 * A>{});
   else
-    action(Constant<1>{});
+    action(Constant<3 * A>{});
 }
 
-/// action(a, b, k) for every column of the blocks from derivative `From` on.
-template <int A, int Order, class Action>
-SIGMAX_INLINE void for_each_column(const Action& action) {
-#pragma GCC unroll 8
-  for (int a = 0; a < Order; ++a)
-#pragma GCC unroll 8
-    for (int b = 0; b <= a; ++b)
-#pragma GCC unroll 8
-      for (int k = 0; k < A; ++k) action(a, b, k);
+/// Index of the greatest weight, as a number; see sigmax::detail::select.
+template <class V>
+V winner(int modes, const V* weight, V current, Tie tie) {
+  V greatest = weight[0];
+  for (int i = 1; i < modes; ++i) greatest = select<V>(weight[i] > greatest, weight[i], greatest);
+  const V least = greatest * static_cast<NumberOf<V>>(1.0 - tie_tolerance);
+  V result{};
+  for (int i = 0; i < modes; ++i) {
+    const int place = tie == Tie::last ? i : modes - 1 - i;
+    result = select<V>(weight[place] >= least, all<V>(place), result);
+  }
+  if (tie == Tie::stay)
+    for (int i = 0; i < modes; ++i)
+      result = select<V>((current == all<V>(i)) & (weight[i] >= least), all<V>(i), result);
+  return result;
 }
 
-template <int A, int B>
-inline constexpr int lesser = A < B ? A : B;
-
-/// What a part of a mixture has for the derivatives from `Shared` on, which it lacks: what the receiver lends by the
-/// rule of lifting.
-template <class C, int A, int Order, int Shared>
+/// What a part of a mixture has for the components from n on, which it lacks: so many times what the lender has, an
+/// estimate of all components.
+template <class V>
 struct Lent {
-  const Estimate<C, A>& receiver;
-  Lift lift;
+  NumberOf<V> mean, variance, covariance;
+  explicit Lent(Lift lift)
+      : mean(lift == Lift::unbiased ? 1 : 0), variance(lift == Lift::zero ? 0 : 1), covariance(mean) {}
+};
 
-  SIGMAX_INLINE C mean(int a) const { return lift == Lift::unbiased ? receiver.x[a] : C{}; }
+/// A part of a mixture, as one of N components.
+template <class V, int N, int n>
+struct Part {
+  Stored<V, n> own;
+  Stored<V, N> lender;
+  Lent<V> lent;
 
-  /// action(a, b, k, column) for its columns that are not zero.
-  template <class Action>
-  SIGMAX_INLINE void for_each_column(const Action& action) const {
-    if (Shared == Order || lift == Lift::zero) return;
-#pragma GCC unroll 8
-    for (int a = Shared; a < Order; ++a)
-#pragma GCC unroll 8
-      for (int k = 0; k < A; ++k) {
-        if (lift == Lift::borrowed_variance)
-          action(a, a, k, only(k, receiver.P[at(a, a)][k]));
-        else
-          for (int b = Shared; b <= a; ++b) action(a, b, k, receiver.P[at(a, b)][k]);
-      }
+  V mean(int i) const { return i < n ? own.mean(i) : lent.mean * lender.mean(i); }
+  /// w times the entry (i, k) of its covariance, added to `sum`.
+  V add(V sum, V w, int i, int k) const {
+    if (i < n) return sum + w * own.covariance(i, k);
+    if (k < n) return sum;
+    return sum + w * (i == k ? lent.variance : lent.covariance) * lender.covariance(i, k);
   }
 };
 
-/// The mixture of all parts by their weights, which sum to one: mean and covariance. Parts are added one by one; a pair
-/// with the weights u and w has the spread u w/(u + w) (x − y)(x − y)ᵀ.
-template <class C, int A, int Order>
-SIGMAX_INLINE void average(const Plan& plan, const Estimate<C, A>* parts, const Estimate<C, A>& receiver,
-                           const Lane<C>* weight, Estimate<C, A>& result) {
-  using V = Lane<C>;
-  V before = weight[0];
-  with_order(plan.order[0], [&](auto order) {
-    constexpr int Shared = lesser<Order, decltype(order)::value>;
-    const Lent<C, A, Order, Shared> lent{receiver, plan.lift};
-    for (int a = 0; a < Order; ++a) result.x[a] = a < Shared ? parts[0].x[a] : lent.mean(a);
-    for_each_column<A, Order>(
-        [&](int a, int b, int k) { result.P[at(a, b)][k] = a < Shared ? before * parts[0].P[at(a, b)][k] : C{}; });
-    lent.for_each_column([&](int a, int b, int k, const C& column) { result.P[at(a, b)][k] = before * column; });
-  });
-  for (int l = 1; l < plan.modes; ++l) {
-    const V w = weight[l];
-    const V total = before + w;
-    const V share = l + 1 == plan.modes ? w : select(total > V{}, w / total, V{});
-    const V spread = before * share;
-    with_order(plan.order[static_cast<std::size_t>(l)], [&](auto order) {
-      constexpr int Shared = lesser<Order, decltype(order)::value>;
-      const Lent<C, A, Order, Shared> lent{receiver, plan.lift};
-      C difference[Order], scaled[Order];
-#pragma GCC unroll 8
-      for (int a = 0; a < Order; ++a) {
-        difference[a] = (a < Shared ? parts[l].x[a] : lent.mean(a)) - result.x[a];
-        scaled[a] = spread * difference[a];
-        result.x[a] = result.x[a] + share * difference[a];
-      }
-      for_each_column<A, Order>([&](int a, int b, int k) {
-        C& column = result.P[at(a, b)][k];
-        C sum = column + difference[b][k] * scaled[a];
-        if (a < Shared) sum = sum + w * parts[l].P[at(a, b)][k];
-        column = a == b ? below(k, column, sum) : sum;
-      });
-      lent.for_each_column(
-          [&](int a, int b, int k, const C& column) { result.P[at(a, b)][k] = result.P[at(a, b)][k] + w * column; });
-    });
-    before = total;
+/// Adds a part with the weight w to a mixture, of which `before` is the weight so far: a pair with the weights u and w
+/// has the spread u w/(u + w) (x − y)(x − y)ᵀ.
+template <class V, int N, int n>
+SIGMAX_APART void add(const Part<V, N, n>& part, V before, V w, Estimate<V, N> mixture) {
+  const V total = before + w, share = select<V>(total > V{}, w / total, V{}), spread = before * share;
+  V difference[N], scaled[N];
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+    difference[i] = part.mean(i) - mixture.x[i];
+    scaled[i] = spread * difference[i];
+    mixture.x[i] += share * difference[i];
+  }
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixture(i, k) =
+      part.add(mixture(i, k) + scaled[i] * difference[k], w, i, k);
+}
+
+/// Begins a mixture with its first part.
+template <class V, int N, int n>
+SIGMAX_APART void begin(const Part<V, N, n>& part, V w, Estimate<V, N> mixture) {
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) mixture.x[i] = part.mean(i);
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixture(i, k) =
+      part.add(V{}, w, i, k);
+}
+
+/// The part, where it is the one that was selected.
+template <class V, int N, int n>
+SIGMAX_APART void choose(const Part<V, N, n>& part, Mask<V> its, Estimate<V, N> result) {
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = select<V>(its, part.mean(i), result.x[i]);
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) result(i, k) =
+      select<V>(its, part.add(V{}, all<V>(1.0), i, k), result(i, k));
+}
+
+/// Derivative `To` += f · the next one, of A axes.
+template <int A, int To, class V, int N>
+inline void shear(NumberOf<V> f, Estimate<V, N> P) {
+  constexpr int to = To * A, from = to + A;
+  V before[A][A];
+  SIGMAX_UNROLL for (int u = 0; u < A; ++u) {
+    P.x[to + u] += f * P.x[from + u];
+    SIGMAX_UNROLL for (int v = 0; v < A; ++v) {
+      before[u][v] = P(from + u, to + v);
+      P(from + u, to + v) += f * P(from + u, from + v);
+    }
+  }
+  SIGMAX_UNROLL for (int i = from + A; i < N; ++i) SIGMAX_UNROLL for (int v = 0; v < A; ++v) P(i, to + v) +=
+      f * P(i, from + v);
+  SIGMAX_UNROLL for (int u = 0; u < A; ++u) {
+    SIGMAX_UNROLL for (int k = 0; k < to; ++k) P(to + u, k) += f * P(from + u, k);
+    SIGMAX_UNROLL for (int v = 0; v <= u; ++v) P(to + u, to + v) += f * (before[v][u] + P(from + u, to + v));
   }
 }
 
-/// The part that was selected, over the part `result` holds.
-template <class C, int A, int Order>
-SIGMAX_INLINE void choose(const Plan& plan, const Estimate<C, A>* parts, const Estimate<C, A>& receiver,
-                          Lane<C> selected, Estimate<C, A>& result) {
-  for (int l = 0; l < plan.modes; ++l) {
-    const auto mask = selected == Lane<C>{} + static_cast<Real<C>>(l);
-    if (!any(mask)) continue;
-    with_order(plan.order[static_cast<std::size_t>(l)], [&](auto order) {
-      constexpr int Shared = lesser<Order, decltype(order)::value>;
-      const Lent<C, A, Order, Shared> lent{receiver, plan.lift};
-      for (int a = 0; a < Order; ++a)
-        result.x[a] = select(mask, a < Shared ? parts[l].x[a] : lent.mean(a), result.x[a]);
-      for_each_column<A, Order>([&](int a, int b, int k) {
-        C& column = result.P[at(a, b)][k];
-        column = select(mask, a < Shared ? parts[l].P[at(a, b)][k] : C{}, column);
-      });
-      lent.for_each_column([&](int a, int b, int k, const C& column) {
-        result.P[at(a, b)][k] = select(mask, column, result.P[at(a, b)][k]);
-      });
-    });
+/// (27), (28) with F_s ⊗ I as shears p += α v, v += F₁₂ a, p += β v, and a scale of the highest derivative; each
+/// variance with the rounding of the terms of F P Fᵀ, before they may cancel.
+template <int A, class V, int N>
+SIGMAX_APART void predict(const Law& law, Estimate<V, N> P) {
+  using Number = NumberOf<V>;
+  const auto number = [](double value) { return static_cast<Number>(value); };
+  constexpr int order = N / A;
+  V terms[N];
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+    terms[i] = P(i, i);
+    SIGMAX_UNROLL for (int b = 0; b < i / A; ++b) terms[b * A + i % A] +=
+        number(law.squared[static_cast<std::size_t>(triangle(i / A) + b)]) * terms[i];
+  }
+  shear<A, 0>(number(law.shears[0]), P);
+  if constexpr (order > 2) {
+    shear<A, 1>(number(law.shears[1]), P);
+    shear<A, 0>(number(law.shears[2]), P);
+  }
+  if (law.scale != 1.0) {
+    const Number scale = number(law.scale);
+    constexpr int last = N - A;
+    SIGMAX_UNROLL for (int i = last; i < N; ++i) {
+      P.x[i] *= scale;
+      SIGMAX_UNROLL for (int k = 0; k <= i; ++k) P(i, k) *= k < last ? scale : scale * scale;
+    }
+  }
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+    P.x[i] += number(law.u[static_cast<std::size_t>(i)]);
+    SIGMAX_UNROLL for (int b = 0; b <= i / A; ++b) P(i, b * A + i % A) +=
+        number(law.Q[static_cast<std::size_t>(triangle(i / A) + b)]);
+    P(i, i) += number(PrecisionOf<V>::rounding) * terms[i];
   }
 }
 
-/// The mixed start of mode j after selection, (55)–(57).
-template <class C, int A, int Order>
-SIGMAX_INLINE void mix_by_selection(const Plan& plan, const Estimate<C, A>* parts, int j, Lane<C> selected,
-                                    Estimate<C, A>& result) {
-  const Estimate<C, A>& own = parts[j];
-  for (int a = 0; a < Order; ++a) result.x[a] = own.x[a];
-  for_each_column<A, Order>([&](int a, int b, int k) { result.P[at(a, b)][k] = own.P[at(a, b)][k]; });
-  if (!any(selected != Lane<C>{} + static_cast<Real<C>>(j))) return;
-  choose<C, A, Order>(plan, parts, own, selected, result);
-  if (plan.mixed_covariance == MixedCovariance::selected) return;
-  const bool recentred = plan.mixed_covariance == MixedCovariance::own_recentred;
-  C difference[Order];
-  for (int a = 0; a < Order; ++a) difference[a] = result.x[a] - own.x[a];
-  for_each_column<A, Order>([&](int a, int b, int k) {
-    const C& column = own.P[at(a, b)][k];
-    result.P[at(a, b)][k] = recentred ? column + difference[b][k] * difference[a] : column;
-  });
-}
-
-/// (27), (28) with F_s ⊗ I as shears p += α v, v += F₁₂ a, p += β v, and a scale of the highest derivative.
-template <class C, int A, int Order>
-struct Prediction {
-  using Number = Real<C>;
-
-  /// Derivative `To` += f · derivative To + 1.
-  template <int To>
-  static SIGMAX_INLINE void shear(Number f, Estimate<C, A>& estimate) {
-    constexpr int From = To + 1;
-    auto& P = estimate.P;
-    estimate.x[To] = estimate.x[To] + f * estimate.x[From];
-    C before[A];
-    transpose<A>(P[at(From, To)], before);
-#pragma GCC unroll 8
-    for (int k = 0; k < A; ++k) {
-      P[at(From, To)][k] = P[at(From, To)][k] + f * full<A>(P[at(From, From)], k);
-      if constexpr (From + 1 < Order) P[at(From + 1, To)][k] = P[at(From + 1, To)][k] + f * P[at(From + 1, From)][k];
-      if constexpr (To > 0) P[at(To, To - 1)][k] = P[at(To, To - 1)][k] + f * P[at(From, To - 1)][k];
-    }
-#pragma GCC unroll 8
-    for (int k = 0; k < A; ++k) {
-      C& column = P[at(To, To)][k];
-      column = below(k, column, column + f * (before[k] + P[at(From, To)][k]));
-    }
-  }
-
-  /// The highest derivative times f.
-  static SIGMAX_INLINE void scale(Number f, Estimate<C, A>& estimate) {
-    if (f == Number{1}) return;
-    constexpr int last = Order - 1;
-    estimate.x[last] = f * estimate.x[last];
-    for (int b = 0; b <= last; ++b)
-      for (int k = 0; k < A; ++k) estimate.P[at(last, b)][k] = (b == last ? f * f : f) * estimate.P[at(last, b)][k];
-  }
-
-  static SIGMAX_INLINE void predict(const Law& law, Estimate<C, A>& estimate) {
-    auto& P = estimate.P;
-    const auto number = [](double value) { return static_cast<Number>(value); };
-    C terms[Order];  // of the variances of F P Fᵀ, before they may cancel
-    for (int a = 0; a < Order; ++a) {
-      terms[a] = diagonal<A>(P[at(a, a)]);
-      for (int b = 0; b < a; ++b)
-        terms[b] = terms[b] + number(law.squared[static_cast<std::size_t>(at(a, b))]) * terms[a];
-    }
-    if constexpr (Order > 1) shear<0>(number(law.shears[0]), estimate);
-    if constexpr (Order > 2) {
-      shear<1>(number(law.shears[1]), estimate);
-      shear<0>(number(law.shears[2]), estimate);
-    }
-    scale(number(law.scale), estimate);
-    for (int a = 0; a < Order; ++a) {
-      for (int k = 0; k < A; ++k) estimate.x[a][k] += number(law.u[static_cast<std::size_t>(a * A + k)]);
-      for (int b = 0; b <= a; ++b) {
-        C noise;
-        fill(noise, number(law.Q[static_cast<std::size_t>(at(a, b))]));
-        if (a == b) noise = noise + Precision<Number>::rounding * terms[a];
-        for (int k = 0; k < A; ++k) P[at(a, b)][k] = plus_only(k, P[at(a, b)][k], noise);
-      }
-    }
-  }
-};
-
-/// A measurement on lanes: z, the columns of R, and one where there is a measurement.
-template <class C, int A>
+/// A measurement: z, the whole R, and one where there is a measurement.
+template <class V, int A>
 struct Measured {
-  C z;
-  C R[A];
-  Lane<C> there;
+  V z[A];
+  V R[A * A];
+  V there;
 };
 
 /// What the update of one model finds.
-template <class C, int A>
+template <class V, int A>
 struct Innovated {
-  C residual;
-  C S[A];
-  Lane<C> squared_distance;
-  Lane<C> determinant;
+  V residual[A];
+  V S[triangle(A)];
+  V squared_distance;
+  V determinant;
 };
 
 /// (29)–(32) with S = L D Lᵀ and Y = P Hᵀ L⁻ᵀ: x += Y D⁻¹ L⁻¹ ν, P −= Y D⁻¹ Yᵀ, to which the rounding of the prior
-/// is added; docs/robustness.md has the bound. Clears `good` where that would be too much.
-template <class C, int A, int Order>
-SIGMAX_INLINE Innovated<C, A> update(const Measured<C, A>& measured, Estimate<C, A>& estimate, Mask<C>& good) {
-  using V = Lane<C>;
-  auto& P = estimate.P;
-  Innovated<C, A> told;
-  const V one = V{} + Real<C>{1};
-  const auto there = measured.there > V{};
+/// is added; docs/robustness.md has the bound. Returns where that is not too much.
+template <class V, int A, int N>
+SIGMAX_APART Mask<V> update(const Measured<V, A>& measured, Estimate<V, N> P, Innovated<V, A>& told) {
+  using Number = NumberOf<V>;
+  const V one = all<V>(1.0);
+  const Mask<V> there = measured.there > V{};
   V L[A][A], inverse[A], whitened[A];
-  V condition = one;  // of S scaled to a unit diagonal
-  told.determinant = one;
-  told.squared_distance = V{};
-  told.residual = measured.z - estimate.x[0];
-  for (int k = 0; k < A; ++k) told.S[k] = P[0][k] + measured.R[k];
-  auto fine = one > V{};
-#pragma GCC unroll 8
-  for (int i = 0; i < A; ++i) {
-    const V variance = told.S[i][i];
+  V condition = one, determinant = one, squared_distance{};  // the first of S scaled to a unit diagonal
+  V least = one;                                             // of what is not to be negative
+  SIGMAX_UNROLL for (int i = 0; i < A; ++i) {
+    told.residual[i] = whitened[i] = measured.z[i] - P.x[i];
+    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) L[i][k] = told.S[triangle(i) + k] = P(i, k) + measured.R[i + k * A];
+    const V variance = L[i][i];
     V pivot = variance;
-    whitened[i] = told.residual[i];
-#pragma GCC unroll 8
-    for (int k = 0; k < i; ++k) {
-      V rest = told.S[k][i];
-      for (int m = 0; m < k; ++m) rest -= L[i][m] * L[m][k];
+    SIGMAX_UNROLL for (int k = 0; k < i; ++k) {
+      V rest = L[i][k];
+      SIGMAX_UNROLL for (int m = 0; m < k; ++m) rest -= L[i][m] * L[m][k];
       L[i][k] = rest;
       rest *= inverse[k];
       pivot -= L[i][k] * rest;
@@ -327,193 +246,173 @@ SIGMAX_INLINE Innovated<C, A> update(const Measured<C, A>& measured, Estimate<C,
       whitened[i] -= rest * whitened[k];
     }
     inverse[i] = one / pivot;
-    fine = fine & (pivot > V{});
+    least = select<V>(pivot < least, pivot, least);
     condition *= variance * inverse[i];
-    told.determinant *= pivot;
-    told.squared_distance += whitened[i] * whitened[i] * inverse[i];
+    determinant *= pivot;
+    squared_distance += whitened[i] * whitened[i] * inverse[i];
   }
-  C Y[A][Order], Z[A][Order];
-  for (int m = 0; m < A; ++m) inverse[m] = select(there, inverse[m], V{});
-#pragma GCC unroll 8
-  for (int m = 0; m < A; ++m)
-#pragma GCC unroll 8
-    for (int a = 0; a < Order; ++a) {
-      C rest = a == 0 ? full<A>(P[0], m) : P[at(a, 0)][m];
-      for (int k = 0; k < m; ++k) rest = rest - L[k][m] * Y[k][a];
-      Y[m][a] = rest;
-      Z[m][a] = inverse[m] * rest;
-      estimate.x[a] = estimate.x[a] + whitened[m] * Z[m][a];
+  told.squared_distance = squared_distance;
+  told.determinant = determinant;
+  V Y[A][N], Z[A][N];
+  SIGMAX_UNROLL for (int m = 0; m < A; ++m) {
+    const V weight = select<V>(there, inverse[m], V{});
+    SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+      V rest = P(i, m);
+      SIGMAX_UNROLL for (int k = 0; k < m; ++k) rest -= L[k][m] * Y[k][i];
+      Y[m][i] = rest;
+      Z[m][i] = weight * rest;
+      P.x[i] += whitened[m] * Z[m][i];
     }
-  C before[Order];
-  for (int a = 0; a < Order; ++a) before[a] = diagonal<A>(P[at(a, a)]);
-  for_each_column<A, Order>([&](int a, int b, int k) {
-    C& column = P[at(a, b)][k];
-    C sum = column;
-    for (int m = 0; m < A; ++m) sum = sum - Y[m][b][k] * Z[m][a];
-    column = a == b ? below(k, column, sum) : sum;
-  });
-  const V lost = select(there, condition * Precision<Real<C>>::rounding, V{});
-  C slack{};
-  for (int a = 0; a < Order; ++a) {
-    const C loss = lost * before[a];
-    slack = least(slack, Precision<Real<C>>::greatest_loss * diagonal<A>(P[at(a, a)]) - loss);
-    for (int k = 0; k < A; ++k) P[at(a, a)][k] = plus_only(k, P[at(a, a)][k], loss);
   }
-  for (int k = 0; k < A; ++k) fine = fine & (slack[k] >= V{});
-  good = good & (fine | (measured.there <= V{}));
-  return told;
+  const V lost = select<V>(there, condition * static_cast<Number>(PrecisionOf<V>::rounding), V{});
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+    const V loss = lost * P(i, i);
+    SIGMAX_UNROLL for (int k = 0; k <= i; ++k) {
+      V rest = P(i, k);
+      SIGMAX_UNROLL for (int m = 0; m < A; ++m) rest -= Z[m][i] * Y[m][k];
+      P(i, k) = rest;
+    }
+    const V left = static_cast<Number>(PrecisionOf<V>::greatest_loss) * P(i, i) - loss;
+    least = select<V>(left < least, left, least);
+    P(i, i) += loss;
+  }
+  return (least >= V{}) | (measured.there <= V{});
 }
 
-/// Clears `good` where an estimate is not finite, or a variance negative.
-template <class C, int A, int Order>
-SIGMAX_INLINE void judge(const Estimate<C, A>& estimate, Mask<C>& good) {
-  using V = Lane<C>;
-  C size{}, smallest{};
-  for (int a = 0; a < Order; ++a) {
-    const C variances = diagonal<A>(estimate.P[at(a, a)]);
-    size = size + variances + estimate.x[a] * estimate.x[a];
-    smallest = least(smallest, variances);
+/// Where an estimate is finite, and no variance negative.
+template <class V, int N>
+inline Mask<V> is_sound(Estimate<V, N> P) {
+  V least = P(0, 0), sum{};
+  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+    const V variance = P(i, i);
+    least = select<V>(variance < least, variance, least);
+    sum += variance + P.x[i] * P.x[i];
   }
-  for (int k = 0; k < A; ++k) good = good & (size[k] < V{} + Precision<Real<C>>::greatest) & (smallest[k] >= V{});
+  return (least >= V{}) & (sum < all<V>(PrecisionOf<V>::greatest));
 }
 
-/// One step of one or several tracks, from `now` to `next`.
-template <class C, int A>
+/// One step of one or several tracks, from what is stored.
+template <class V, int A, bool selects>
 struct Step {
-  using V = Lane<C>;
   const Plan& plan;
-  const Estimate<C, A>* now;
-  const V* weight;
+  const NumberOf<V>* mean[max_modes];  ///< where the estimate of each model is stored
+  const NumberOf<V>* covariance[max_modes];
+  V weight[max_modes];
   V most_likely;
-  Estimate<C, A>* next;
 
-  V prior[max_modes]{};
+  V* next_mean[max_modes];  ///< where the next one goes
+  V* next_covariance[max_modes];
+  V prior[max_modes];
   V posterior[max_modes]{};
   V next_most_likely;
-  C predicted[max_modes][max_order];
-  Innovated<C, A> innovated[max_modes];
+  V* predicted[max_modes];  ///< where the mean before the measurement goes, of one track
+  Innovated<V, A> innovated[max_modes];
 
-  Step(const Plan& what, const Estimate<C, A>* from, const V* weights, V winning, Estimate<C, A>* to)
-      : plan(what), now(from), weight(weights), most_likely(winning), next(to) {}
+  explicit Step(const Plan& what) : plan(what) {}
+
+  template <int n>
+  Stored<V, n> stored(int l) const {
+    return {mean[l], covariance[l]};
+  }
+
+  /// (52), (54)–(57): the mixed start of mode j, into which `coming` moves from each of the modes.
+  template <int N>
+  void mix(int j, const V* coming) {
+    const Stored<V, N> mine = stored<N>(j);
+    const Lent<V> lent(plan.lift);
+    const Estimate<V, N> mixed{next_mean[j], next_covariance[j]};
+    if constexpr (selects) {
+      const V selected = winner<V>(plan.modes, coming, all<V>(j), plan.mixing_tie);
+      SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+        mixed.x[i] = mine.mean(i);
+        SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixed(i, k) = mine.covariance(i, k);
+      }
+      for (int l = 0; l < plan.modes; ++l) {
+        const Mask<V> its = selected == all<V>(l);
+        if (l != j && any<V>(its))
+          with_size<A>(plan.order[l], [&](auto n) { choose(Part<V, N, n>{stored<n>(l), mine, lent}, its, mixed); });
+      }
+      if (plan.mixed_covariance == MixedCovariance::selected || !any<V>(selected != all<V>(j))) return;
+      V difference[N];
+      const bool recentred = plan.mixed_covariance == MixedCovariance::own_recentred;
+      SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+        difference[i] = recentred ? mixed.x[i] - mine.mean(i) : V{};
+        SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixed(i, k) = mine.covariance(i, k) + difference[i] * difference[k];
+      }
+    } else {
+      const V share = all<V>(1.0) / prior[j];
+      V before{};
+      for (int l = 0; l < plan.modes; ++l) {
+        const V w = coming[l] * share;
+        with_size<A>(plan.order[l], [&](auto n) {
+          const Part<V, N, n> part{stored<n>(l), mine, lent};
+          if (l == 0)
+            begin(part, w, mixed);
+          else
+            add(part, before, w, mixed);
+        });
+        before += w;
+      }
+    }
+  }
 
   /// Returns where it is as good as the general step.
-  template <bool selects>
-  SIGMAX_INLINE Mask<C> take(const Measured<C, A>* measured) {
+  Mask<V> take(const Measured<V, A>* measured) {
     const int modes = plan.modes;
-    const V one = V{} + Real<C>{1};
-    Mask<C> good = one > V{};
+    const auto plus = [](V sum, V term) { return selects ? select<V>(term > sum, term, sum) : sum + term; };
+    const V one = all<V>(1.0), least = all<V>(PrecisionOf<V>::least_weight);
+    Mask<V> good = one > V{};
 
-    // Step 1: prior of the mode, (51) or (53), what moves into each, (52) or (54), and the mixed starts.
-    V coming[max_modes][max_modes];
-    V total{};
+    V total{}, nearest{};
     for (int j = 0; j < modes; ++j) {
-      V sum{};
+      // Step 1: the prior of the mode, (51) or (53), and the mixed start.
+      V coming[max_modes];
+      prior[j] = V{};
       for (int i = 0; i < modes; ++i) {
-        V& its = coming[j][i] =
-            weight[i] * static_cast<Real<C>>(plan.transition[static_cast<std::size_t>(i * modes + j)]);
-        sum = selects ? select(its > sum, its, sum) : sum + its;
+        coming[i] = weight[i] * static_cast<NumberOf<V>>(plan.transition[static_cast<std::size_t>(i * modes + j)]);
+        prior[j] = plus(prior[j], coming[i]);
       }
-      good = good & (sum > V{} + Precision<Real<C>>::least_weight);
-      prior[j] = sum;
-      total = selects ? select(sum > total, sum, total) : total + sum;
-    }
+      good = good & (prior[j] > least);
+      total = plus(total, prior[j]);
+      with_size<A>(plan.order[j], [&](auto size) {
+        constexpr int N = size;
+        mix<N>(j, coming);
 
-    V nearest{};
-    const bool measures = measured && any(measured->there > V{});
-    for (int j = 0; j < modes; ++j) {
-      with_order(plan.order[static_cast<std::size_t>(j)], [&](auto order) {
-        constexpr int Order = decltype(order)::value;
-        const auto filter = [&](Estimate<C, A> & own) __attribute__((always_inline)) {
-          if constexpr (selects) {
-            const V from = winner(modes, coming[j], V{} + static_cast<Real<C>>(j), plan.mixing_tie);
-            mix_by_selection<C, A, Order>(plan, now, j, from, own);
-          } else {
-            const V share = one / prior[j];
-            for (int i = 0; i < modes; ++i) coming[j][i] *= share;
-            average<C, A, Order>(plan, now, now[j], coming[j], own);
-          }
-          prior[j] /= total;
-
-          // Step 2: every model predicts and updates, (60), (61).
-          Prediction<C, A, Order>::predict(plan.law[static_cast<std::size_t>(j)], own);
-          for (int a = 0; a < Order; ++a) predicted[j][a] = own.x[a];
-          if (measures) {
-            innovated[j] = update<C, A, Order>(*measured, own, good);
-            const V distance = innovated[j].squared_distance;
-            nearest = j == 0 ? distance : select(distance < nearest, distance, nearest);
-          }
-          judge<C, A, Order>(own, good);
-        };
-        if constexpr (LaneOf<V>::count > 1) {
-          filter(next[j]);
-        } else {  // one track's numbers stay in registers in part
-          Estimate<C, A> own;
-          filter(own);
-          for (int a = 0; a < Order; ++a) next[j].x[a] = own.x[a];
-          for_each_column<A, Order>([&](int a, int b, int k) { next[j].P[at(a, b)][k] = own.P[at(a, b)][k]; });
-        }
+        // Step 2: the model predicts and updates, (60), (61).
+        const Estimate<V, N> own{next_mean[j], next_covariance[j]};
+        predict<A>(plan.law[j], own);
+        for (int i = 0; i < N && Lane<V>::count == 1; ++i) predicted[j][i] = own.x[i];
+        if (measured) good = good & update(*measured, own, innovated[j]);
+        good = good & is_sound(own);
       });
+      if (measured) {
+        const V distance = innovated[j].squared_distance;
+        nearest = j == 0 ? distance : select<V>(distance < nearest, distance, nearest);
+      }
     }
 
     // Step 3: the weights of the modes, (62) or (63), and the most likely one, (64).
-    total = V{};
+    V sum{};
     for (int j = 0; j < modes; ++j) {
       posterior[j] = prior[j];
-      if (measures) {
-        V fit = exponential((nearest - innovated[j].squared_distance) * Real<C>{0.5});
-        if (plan.likelihood == LikelihoodForm::density) fit *= one / root(innovated[j].determinant);
-        posterior[j] *= select(measured->there > V{}, fit, one);
+      if (measured) {
+        const V fit = exponential<V>((nearest - innovated[j].squared_distance) * NumberOf<V>(0.5));
+        const bool density = plan.likelihood == LikelihoodForm::density;
+        const V scale = density ? one / root<V>(innovated[j].determinant) : one;
+        posterior[j] *= select<V>(measured->there > V{}, fit * scale, one);
       }
-      total = selects ? select(posterior[j] > total, posterior[j], total) : total + posterior[j];
+      sum = plus(sum, posterior[j]);
     }
-
+    const V of_prior = one / total, of_posterior = one / sum;
     for (int j = 0; j < modes; ++j) {
-      posterior[j] /= total;
-      good = good & (posterior[j] > V{} + Precision<Real<C>>::least_weight);
+      prior[j] *= of_prior;
+      posterior[j] *= of_posterior;
+      good = good & (posterior[j] > least);
     }
-    next_most_likely = winner(modes, posterior, most_likely, plan.output_tie);
+    next_most_likely = winner<V>(modes, posterior, most_likely, plan.output_tie);
     return good;
   }
 };
-
-/// Step 4: the output in the components of a model of the greatest order, (64)–(68), lifted by the rule in force.
-template <class C, int A, int Order, bool selects>
-SIGMAX_INLINE void output(const Plan& plan, const Estimate<C, A>* parts, const Lane<C>* weight, Lane<C> most_likely,
-                          Estimate<C, A>& result) {
-  using V = Lane<C>;
-  // What a lift borrows: each derivative that a model lacks, of the most likely model that has it, with the covariances
-  // within that model.
-  int least_order = Order;
-  for (int l = 0; l < plan.modes; ++l)
-    if (const int its = plan.order[static_cast<std::size_t>(l)]; its < least_order) least_order = its;
-  Estimate<C, A> lent;
-  V carrier[Order];
-  if (plan.lift != Lift::zero)
-    for (int a = least_order; a < Order; ++a) {
-      V its_weight[max_modes];
-      for (int l = 0; l < plan.modes; ++l)
-        its_weight[l] = a < plan.order[static_cast<std::size_t>(l)] ? weight[l] : V{} - Real<C>{1};
-      carrier[a] = winner(plan.modes, its_weight, most_likely, plan.output_tie);
-      lent.x[a] = C{};
-      for (int b = least_order; b <= a; ++b)
-        for (int k = 0; k < A; ++k) lent.P[at(a, b)][k] = C{};
-      for (int l = 0; l < plan.modes; ++l) {
-        if (a >= plan.order[static_cast<std::size_t>(l)]) continue;
-        const V number = V{} + static_cast<Real<C>>(l);
-        const auto its = carrier[a] == number;
-        lent.x[a] = select(its, parts[l].x[a], lent.x[a]);
-        for (int b = least_order; b <= a; ++b)
-          for (int k = 0; k < A; ++k)
-            lent.P[at(a, b)][k] = select(its & (carrier[b] == number), parts[l].P[at(a, b)][k], lent.P[at(a, b)][k]);
-      }
-    }
-  if constexpr (selects) {
-    result = {};
-    choose<C, A, Order>(plan, parts, lent, most_likely, result);
-  } else {
-    average<C, A, Order>(plan, parts, lent, weight, result);
-  }
-}
 
 }  // namespace
 }  // namespace sigmax::detail::kinematic

@@ -9,7 +9,7 @@ namespace sigmax::detail::kinematic {
 
 /// The compiled steps of one instruction set, by axes − 1 and by whether the mode selects.
 struct Kernels {
-  bool (*step[max_axes][2])(const Plan&, const Track& now, const double* z, const double* R, Track& next, Told&);
+  bool (*step[max_axes][2])(const Plan&, const Track& now, const double* z, const double* R, Told&);
   void (*output[max_axes][2])(const Plan&, const Track&, double* mean, double* covariance);
   unsigned (*step_block[max_axes][2])(const Plan&, double* block, const double* measurements);
   unsigned (*step_block_of_floats[max_axes][2])(const Plan&, float* block, const float* measurements);

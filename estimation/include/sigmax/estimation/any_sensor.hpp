@@ -1,78 +1,85 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
-#include <sigmax/estimation/sensing.hpp>
+#include <sigmax/estimation/any_model.hpp>
 
 namespace sigmax {
 
-/// One of several sensors, chosen at run time, of any measured quantities: what a program has whose next row may be
-/// anybody's. Nothing is allocated.
-///
-///     const AnySensor<PositionSensor<3>, PolarSensor<3>, BearingSensor> camera = BearingSensor{Vector<2>(0.0, 500.0)};
-template <Sensing First, Sensing... Others>
-class AnySensor {
-  template <class Sensor>
-  static constexpr bool is_one = std::is_same_v<Sensor, First> || (std::is_same_v<Sensor, Others> || ...);
+/// Quantities that are measured at one time, at most: position and velocity in space.
+inline constexpr int max_measurement_size = 6;
 
+/// A sensor of any type, chosen at run time, also a user's own: what a program has whose next row may be anybody's.
+///
+///     const AnySensor camera = BearingSensor{Vector<2>(0.0, 500.0)};
+///
+/// It sees leading components of the state, or can be asked with an AnyModel. The library's own, and others that are
+/// small and plain, are held without allocation.
+class AnySensor {
  public:
   static constexpr int measurement_size = Eigen::Dynamic;
-  static constexpr int max_measurement_size =
-      std::max({detail::max_measurement_size_of<First>, detail::max_measurement_size_of<Others>...});
-  using Measured = Vector<measurement_size, max_measurement_size>;
+  static constexpr int max_measurement_size = sigmax::max_measurement_size;
 
-  template <class Sensor>
-    requires(is_one<Sensor>)
-  AnySensor(Sensor sensor) : sensor_(std::move(sensor)) {}
-
-  /// @{
-  /// As the sensor that it is.
-  template <StateModel Model>
-  Measured measure(const Model& model, const StateOf<Model>& x) const {
-    return visit([&](const auto& sensor) -> Measured { return predicted_measurement(model, sensor, x); });
-  }
-  template <StateModel Model>
-  RectangularMatrix<Eigen::Dynamic, Model::state_size, max_measurement_size, Model::max_state_size>
-  measurement_jacobian(const Model& model, const StateOf<Model>& x) const {
-    using Jacobian = RectangularMatrix<Eigen::Dynamic, Model::state_size, max_measurement_size, Model::max_state_size>;
-    return visit([&](const auto& sensor) -> Jacobian { return sigmax::measurement_jacobian(model, sensor, x); });
-  }
-  Measured measurement_difference(const Measured& z, const Measured& predicted) const {
-    return visit([&]<Sensing Sensor>(const Sensor& sensor) -> Measured {
-      return sigmax::measurement_difference<Sensor>(sensor, z, predicted);
-    });
-  }
-  template <class Points, class Weights>
-  Measured measurement_mean(const Points& points, const Weights& weights) const {
-    return visit([&](const auto& sensor) -> Measured { return sigmax::measurement_mean(sensor, points, weights); });
-  }
-  /// @}
-
-  /// What a measurement tells of the position, if the sensor that it is can tell it by itself.
-  std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<measurement_size, max_measurement_size>& z) const {
-    return visit([&]<Sensing Sensor>(const Sensor& sensor) -> std::optional<Gaussian<Eigen::Dynamic, 3>> {
-      if constexpr (requires(const MeasurementOf<Sensor>& own) { sensor.position(own); }) {
-        const std::optional position = sensor.position(MeasurementOf<Sensor>{z.mean, z.covariance});
-        if (position) return Gaussian<Eigen::Dynamic, 3>{position->mean, position->covariance};
-        return std::nullopt;
-      } else {
-        return std::nullopt;
-      }
-    });
+  template <Sensing Sensor>
+    requires(!std::is_same_v<Sensor, AnySensor> && SensorOf<Sensor, AnyModel> &&
+             detail::max_measurement_size_of<Sensor> <= max_measurement_size)
+  AnySensor(Sensor sensor) : table_(&detail::sensor_table<Sensor, AnyModel, true>), position_(position_of<Sensor>) {
+    if constexpr (std::is_trivially_copyable_v<Sensor> && sizeof(Sensor) <= sizeof(inline_))
+      ::new (static_cast<void*>(inline_)) Sensor(std::move(sensor));
+    else
+      shared_ = std::make_shared<const Sensor>(std::move(sensor));
   }
 
-  /// Calls `visitor(sensor)` with the sensor that it is.
-  template <class Visitor>
-  decltype(auto) visit(const Visitor& visitor) const {
-    return std::visit(visitor, sensor_);
+  /// What a measurement, with its covariance, tells of the position, if the sensor can tell it by itself: along how
+  /// many axes, or none, and as many numbers, at most three and nine. Throws std::invalid_argument for a measurement of
+  /// another number of quantities.
+  int position(detail::ConstView z, double* mean, double* covariance) const {
+    return position_(sensor(), z, mean, covariance);
   }
+
+  /// For a model, which it may ask. Throws std::invalid_argument if it would ask another than an AnyModel.
+  template <class Model>
+  detail::SensorRef ref_for(const Model& model) const {
+    if constexpr (!std::is_same_v<Model, AnyModel>)
+      if (table_->seen(sensor()) == 0)
+        throw std::invalid_argument("a sensor that asks its model, held as any, can only ask an AnyModel");
+    return {sensor(), table_, &model};
+  }
+
+  /// The sensor that it is, and its functions, which take the AnyModel if they ask one.
+  const void* sensor() const { return shared_ ? shared_.get() : inline_; }
+  const detail::SensorTable* const& table() const { return table_; }
 
  private:
-  std::variant<First, Others...> sensor_;
+  template <class Sensor>
+  static int position_of(const void* pointer, detail::ConstView z, double* mean, double* covariance) {
+    if constexpr (requires(const Sensor& own, const MeasurementOf<Sensor>& measured) { own.position(measured); }) {
+      if constexpr (Sensor::measurement_size != Eigen::Dynamic) detail::require_measured(Sensor::measurement_size, z.n);
+      MeasurementOf<Sensor> measured;
+      const detail::View numbers = detail::sized_view(measured, z.n);
+      std::copy_n(z.mean, z.n, numbers.mean);
+      std::copy_n(z.covariance, z.n * z.n, numbers.covariance);
+      const std::optional told = static_cast<const Sensor*>(pointer)->position(measured);
+      if (!told) return 0;
+      const detail::ConstView position = detail::view(*told);
+      std::copy_n(position.mean, position.n, mean);
+      std::copy_n(position.covariance, position.n * position.n, covariance);
+      return position.n;
+    } else {
+      return 0;
+    }
+  }
+
+  const detail::SensorTable* table_;
+  int (*position_)(const void*, detail::ConstView, double*, double*);
+  alignas(double) unsigned char inline_[48] = {};
+  std::shared_ptr<const void> shared_;
 };
 
 }  // namespace sigmax

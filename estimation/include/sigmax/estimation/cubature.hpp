@@ -1,8 +1,7 @@
 #pragma once
 
-#include <utility>
-
-#include <sigmax/estimation/sigma_points.hpp>
+#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/estimation/member.hpp>
 
 namespace sigmax {
 
@@ -11,20 +10,15 @@ namespace sigmax {
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ n Σ B_ii² − ¼ (tr B)², in one dimension gᵀg; the exact one is gᵀg + ½ Σ B_ij².
-template <Motion Moves>
+template <StateModel Moves>
 class Cubature : public Member<Moves> {
  public:
-  static constexpr bool has_centre = false;
-
-  explicit Cubature(Moves motion) : Member<Moves>(std::move(motion)) {}
-
-  /// The same filter over another motion.
-  template <Motion Other>
-  Cubature<Other> over(Other motion) const {
-    return Cubature<Other>(std::move(motion));
-  }
+  using Member<Moves>::Member;
 
   SigmaPointWeights weights() const { return {static_cast<double>(this->size()), 0.0, 0.0}; }
 };
+
+template <StateModel Moves>
+Cubature(Moves) -> Cubature<Moves>;
 
 }  // namespace sigmax

@@ -14,27 +14,18 @@ namespace sigmax {
 /// σ_w is an acceleration (m/s²) for DWNA, but an acceleration *increment per step* for DWPA: equal numbers do not mean
 /// equal noise. A known input (same units) enters as w does: x += G_s u.
 template <int Order>
-class DiscreteWhiteNoise {
+class DiscreteWhiteNoise : public detail::ComputedLaw<DiscreteWhiteNoise<Order>, Order> {
   static_assert(Order == 2 || Order == 3, "position and velocity, or also acceleration");
 
  public:
-  static constexpr int order = Order;
-
   /// Throws std::invalid_argument unless σ_w is finite and not negative.
   explicit DiscreteWhiteNoise(double sigma_w) : sigma_w_(detail::motion_parameter(sigma_w, "sigma_w", name())) {}
 
   double sigma_w() const { return sigma_w_; }
   std::string_view name() const { return Order == 2 ? "dwna" : "dwpa"; }
-
-  SquareMatrix<Order> transition(double dt) const { return detail::taylor_transition<Order>(dt); }
-  SquareMatrix<Order> process_covariance(double dt) const {
-    const Vector<Order> g = input_gain(dt);
-    SquareMatrix<Order> Q;
-    for (Eigen::Index a = 0; a < Order; ++a)
-      for (Eigen::Index b = 0; b < Order; ++b) Q(a, b) = g(a) * g(b) * sigma_w_ * sigma_w_;
-    return Q;
+  void compute(double dt, double* F, double* Q, double* gain) const {
+    detail::discrete_white_noise(Order, sigma_w_, dt, F, Q, gain);
   }
-  Vector<Order> input_gain(double dt) const { return Vector<3>(0.5 * dt * dt, dt, 1.0).template head<Order>(); }
 
  private:
   double sigma_w_;

@@ -49,27 +49,4 @@ void mirror_lower(Eigen::MatrixBase<Derived>& covariance) {
 
 }  // namespace detail
 
-/// Tells an estimate in other coordinates: p → A p + b of the position along at most three axes, which leads the state,
-/// and A p of its derivatives, which follow; what is left over, such as a rate of turn, stays.
-template <int N, int MaxN>
-void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b,
-               Gaussian<N, MaxN>& estimate) {
-  const Eigen::Index axes = A.rows();
-  SquareMatrix<N, MaxN> all = SquareMatrix<N, MaxN>::Identity(estimate.size(), estimate.size());
-  for (Eigen::Index d = 0; d + axes <= estimate.size(); d += axes) all.block(d, d, axes, axes) = A;
-  estimate.mean = (all * estimate.mean).eval();
-  estimate.mean.head(axes) += b;
-  estimate.covariance = (all * estimate.covariance * all.transpose()).eval();
-  detail::mirror_lower(estimate.covariance);
-}
-
-/// A size that the compiler knows if N is fixed, else n: for blocks of matrices that may be either.
-template <int N>
-constexpr auto extent([[maybe_unused]] Eigen::Index n) {
-  if constexpr (N == Eigen::Dynamic)
-    return n;
-  else
-    return Eigen::fix<N>;
-}
-
 }  // namespace sigmax

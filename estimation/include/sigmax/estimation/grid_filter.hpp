@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
 #include <sigmax/estimation/grid_transition.hpp>
@@ -215,9 +213,10 @@ class GridFilter {
         }
       }
       if (!g.allFinite() || !H.allFinite()) continue;  // at the border
-      const Eigen::LLT<SquareMatrix<N>> factor(H);
-      if (factor.info() != Eigen::Success) continue;
-      const Vector<N> vertex = factor.solve(g);
+      SquareMatrix<N> root;
+      if (!detail::cholesky_factor(H.data(), N, root.data())) continue;
+      Vector<N> vertex = g;
+      detail::solve_by_root(root.data(), N, vertex.data());
       if (vertex.cwiseAbs().maxCoeff() <= 1.0) logs[j] += 0.5 * g.dot(vertex);
     }
     const double greatest = *std::max_element(logs.begin(), logs.end());

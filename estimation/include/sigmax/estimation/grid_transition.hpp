@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include <sigmax/core/condition.hpp>
 #include <sigmax/core/relation.hpp>
+#include <sigmax/estimation/covariance_root.hpp>
+#include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/grid.hpp>
 
 namespace sigmax {
@@ -82,10 +82,11 @@ class GridNoise {
   /// `negligible` is the part of the greatest value below which the noise ends. Throws std::domain_error if Q is not
   /// positive definite.
   GridNoise(const SquareMatrix<N>& Q, double negligible) {
-    const Eigen::LLT<SquareMatrix<N>> factor(Q);
-    if (factor.info() != Eigen::Success)
+    SquareMatrix<N> root;
+    if (!detail::cholesky_factor(Q.data(), N, root.data()))
       throw std::domain_error("the process covariance of a grid filter is not positive definite");
-    inverse_ = factor.solve(SquareMatrix<N>::Identity());
+    inverse_.setIdentity();
+    for (int k = 0; k < N; ++k) detail::solve_by_root(root.data(), N, inverse_.data() + k * N);
     reach_ = std::sqrt(-2.0 * std::log(negligible)) * Q.diagonal().cwiseSqrt();
   }
 

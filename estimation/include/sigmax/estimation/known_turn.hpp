@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cmath>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <sigmax/estimation/model.hpp>
-#include <sigmax/estimation/motion.hpp>
-#include <sigmax/estimation/turn.hpp>
+#include <sigmax/estimation/motion_numbers.hpp>
 
 namespace sigmax {
 
@@ -26,6 +23,7 @@ class KnownTurn {
   static_assert(Axes == 2 || Axes == 3, "a turn needs two axes, and may have an altitude");
 
  public:
+  using ComputedBy = KnownTurn;
   static constexpr int axes = Axes;
   static constexpr int state_size = 2 * Axes;
   static constexpr int max_state_size = state_size;
@@ -34,11 +32,8 @@ class KnownTurn {
   using Matrix = SquareMatrix<state_size>;
 
   /// Throws std::invalid_argument unless ω is finite, and q finite and not negative.
-  KnownTurn(double omega, double q) : omega_(omega), q_(detail::motion_parameter(q, "q", name())) {
-    if (!std::isfinite(omega))
-      throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) +
-                                  "; expected a finite one");
-  }
+  KnownTurn(double omega, double q)
+      : omega_(detail::finite_rate(omega)), q_(detail::motion_parameter(q, "q", name())) {}
 
   double omega() const { return omega_; }
   double q() const { return q_; }
@@ -46,23 +41,18 @@ class KnownTurn {
   std::string_view name() const { return "known_turn"; }
   std::vector<std::string> components() const { return detail::motion_components(Axes, 2); }
 
-  Matrix transition(double dt) const { return detail::turn_transition<Axes>(omega_, dt); }
+  Matrix transition(double dt) const {
+    Matrix F, Q;
+    compute(dt, F.data(), Q.data());
+    return F;
+  }
   Matrix process_covariance(double dt) const {
-    const double theta = omega_ * dt;
-    const double s = detail::cubic_remainder_of_sine(theta);
-    const double c = 0.5 * detail::sinc(0.5 * theta) * detail::sinc(0.5 * theta);
-    Matrix Q = Matrix::Zero();
-    for (Eigen::Index a = 0; a < Axes; ++a) {
-      const bool turns = a < 2;
-      Q(a, a) = q_ * dt * dt * dt * (turns ? 2.0 * s : 1.0 / 3.0);
-      Q(a, Axes + a) = Q(Axes + a, a) = q_ * dt * dt * (turns ? c : 0.5);
-      Q(Axes + a, Axes + a) = q_ * dt;
-    }
-    Q(0, Axes + 1) = Q(Axes + 1, 0) = q_ * dt * dt * theta * s;
-    Q(1, Axes) = Q(Axes, 1) = -Q(0, Axes + 1);
+    Matrix F, Q;
+    compute(dt, F.data(), Q.data());
     return Q;
   }
   State known_input(double) const { return State::Zero(); }
+  void compute(double dt, double* F, double* Q) const { detail::known_turn(Axes, omega_, q_, dt, F, Q); }
 
  private:
   double omega_;

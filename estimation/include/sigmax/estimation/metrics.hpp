@@ -1,9 +1,7 @@
 #pragma once
 
-#include <stdexcept>
 
-#include <Eigen/Cholesky>
-
+#include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/root_mean_square.hpp>
 
@@ -14,10 +12,7 @@ namespace sigmax {
 /// positive definite.
 template <int N, int MaxN>
 double normalized_error_squared(const Vector<N, MaxN>& error, const SquareMatrix<N, MaxN>& covariance) {
-  const Eigen::LLT<SquareMatrix<N, MaxN>> factor(covariance);
-  if (factor.info() != Eigen::Success)
-    throw std::domain_error("the covariance of a normalised error is not positive definite");
-  return factor.matrixL().solve(error).squaredNorm();
+  return detail::normalized_error_squared(error.data(), covariance.data(), static_cast<int>(error.size()));
 }
 
 /// NEES of an estimate against the truth.

@@ -49,6 +49,15 @@ concept LinearMotion = StateModel<Model> && requires(const Model& model, double 
   { model.known_input(dt) } -> MatrixOf<Model::state_size>;
 };
 
+namespace detail {
+
+/// Whether the library computes the numbers of a motion, a law or a sensor, by its `compute`. What a user derives from
+/// one is asked by its own functions.
+template <class Type>
+concept ComputesItself = std::same_as<typename Type::ComputedBy, Type>;
+
+}  // namespace detail
+
 /// The state of a model.
 template <class Model>
 using StateOf = Vector<Model::state_size, Model::max_state_size>;

@@ -4,7 +4,6 @@
 
 #include <sigmax/estimation/jacobian.hpp>
 #include <sigmax/estimation/model.hpp>
-#include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
 
@@ -31,34 +30,20 @@ concept NonlinearMotion = StateModel<Motion> && requires(const Motion& motion, c
 template <class Model>
 concept Motion = LinearMotion<Model> || NonlinearMotion<Model>;
 
-/// f(x), (21); of a linear motion F x + u. Throws std::domain_error unless it is finite.
-template <Motion Model>
-StateOf<Model> propagated(const Model& motion, const StateOf<Model>& x, double dt) {
-  const auto image = [&]() -> StateOf<Model> {
-    if constexpr (LinearMotion<Model>)
-      return motion.transition(dt) * x + motion.known_input(dt);
-    else
-      return motion.propagate(x, dt);
-  };
-  return detail::require_finite(image(), "f(x)", motion, x);
+namespace detail {
+
+/// ∂f/∂x, as the motion gives it, else by automatic differentiation.
+template <NonlinearMotion Moves>
+StateMatrixOf<Moves> slope_of(const Moves& motion, const StateOf<Moves>& x, double dt) {
+  constexpr int N = Moves::state_size;
+  constexpr int max_N = Moves::max_state_size;
+  if constexpr (requires { motion.transition_jacobian(x, dt); })
+    return motion.transition_jacobian(x, dt);
+  else
+    return jacobian<N, max_N, N, max_N>(
+        [&](const DifferentiableVector<N, max_N>& state) { return motion.propagate(state, dt); }, x);
 }
 
-/// ∂f/∂x, as the motion gives it, else by automatic differentiation; of a linear motion F. Throws std::domain_error
-/// unless it is finite.
-template <Motion Model>
-StateMatrixOf<Model> transition_jacobian(const Model& motion, const StateOf<Model>& x, double dt) {
-  constexpr int N = Model::state_size;
-  constexpr int max_N = Model::max_state_size;
-  const auto jacobian_at = [&]() -> StateMatrixOf<Model> {
-    if constexpr (LinearMotion<Model>)
-      return motion.transition(dt);
-    else if constexpr (requires { motion.transition_jacobian(x, dt); })
-      return motion.transition_jacobian(x, dt);
-    else
-      return jacobian<N, max_N, N, max_N>(
-          [&](const DifferentiableVector<N, max_N>& state) { return motion.propagate(state, dt); }, x);
-  };
-  return detail::require_finite(jacobian_at(), "the Jacobian of f", motion, x);
-}
+}  // namespace detail
 
 }  // namespace sigmax

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +21,8 @@ concept Sensing = requires {
   { Sensor::measurement_size } -> std::convertible_to<int>;
 };
 
+class AnySensor;
+
 namespace detail {
 
 template <class Sensor>
@@ -33,6 +38,41 @@ template <class Sensor>
 concept SeesLeading = requires {
   { Sensor::seen_size } -> std::convertible_to<int>;
 };
+
+/// What a sensor of M quantities and so many leading components shows, if the library computes it: compute(x, m, z, H),
+/// see sensor_ref.hpp.
+template <class Sensor, int M, int Seen>
+class ComputedSensor {
+ public:
+  using ComputedBy = Sensor;
+  static constexpr int seen_size = Seen;
+  static constexpr int measurement_size = M;
+
+  Vector<M> measure(const Vector<Seen>& x) const {
+    Vector<M> z;
+    static_cast<const Sensor&>(*this).compute(x.data(), M, z.data(), nullptr);
+    return z;
+  }
+  RectangularMatrix<M, Seen> measurement_jacobian(const Vector<Seen>& x) const {
+    RectangularMatrix<M, Seen> H;
+    static_cast<const Sensor&>(*this).compute(x.data(), M, nullptr, H.data());
+    return H;
+  }
+};
+
+template <int N>
+std::array<double, std::size_t{N}> numbers_of(const Vector<N>& vector) {
+  std::array<double, std::size_t{N}> numbers;
+  std::copy_n(vector.data(), N, numbers.data());
+  return numbers;
+}
+
+/// Throws std::invalid_argument unless a sensor of so many quantities got as many.
+inline void require_measured(int own, int m) {
+  if (own != m)
+    throw std::invalid_argument("a measurement of " + std::to_string(m) + " quantities by a sensor of " +
+                                std::to_string(own));
+}
 
 /// Whether a model may have as many components as a sensor sees, and as many axes.
 template <class Sensor, class Model>
@@ -57,29 +97,6 @@ concept DifferenceFits = !requires(const Sensor& sensor, const Measured& z) {
 || requires(const Sensor& sensor, const Measured& z) {
   { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
 };
-
-/// Throws std::invalid_argument, naming the model, if a sensor sees more components than the model has now.
-template <class Sensor, class Model>
-void require_seen([[maybe_unused]] const Model& model) {
-  if constexpr (Model::state_size == Eigen::Dynamic)
-    if (model.size() < Sensor::seen_size)
-      throw std::invalid_argument("a sensor sees " + std::to_string(Sensor::seen_size) + " components, but model '" +
-                                  std::string(model.name()) + "' has " + std::to_string(model.size()));
-}
-
-/// Calls `ask` with what a sensor's functions take: the leading components that it sees, or the model and the state.
-template <class Sensor, class Model, class Scalar, class Ask>
-decltype(auto) asked(const Model& model,
-                     const Eigen::Matrix<Scalar, Model::state_size, 1, 0, Model::max_state_size, 1>& x,
-                     const Ask& ask) {
-  if constexpr (SeesLeading<Sensor>) {
-    require_seen<Sensor>(model);
-    const Eigen::Matrix<Scalar, Sensor::seen_size, 1> seen = x.template head<Sensor::seen_size>();
-    return ask(seen);
-  } else {
-    return ask(model, x);
-  }
-}
 
 }  // namespace detail
 
@@ -120,7 +137,7 @@ inline constexpr bool measures_leading_components = requires {
 ///   sensor.measurement_matrix()      H, m × seen_size;  or (model), m × n
 template <class Sensor, class Model>
 concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor, Model> &&(
-    measures_leading_components<Sensor> ||
+    measures_leading_components<Sensor> || detail::ComputesItself<Sensor> || std::same_as<Sensor, AnySensor> ||
     requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
       { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
     } ||
@@ -140,60 +157,13 @@ concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>
 concept LinearSensorOf = SensorOf<Sensor, Model> &&(
-    measures_leading_components<Sensor> || requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
+    measures_leading_components<Sensor> || requires { requires Sensor::is_linear; } ||
+    requires(const Sensor& sensor) { sensor.measurement_matrix(); } ||
     requires(const Sensor& sensor, const Model& model) { sensor.measurement_matrix(model); });
 
 namespace detail {
 
-/// Returns the value. Throws std::domain_error, naming the function, the model and the state, unless it is finite.
-template <class Value, class Model>
-const Value& require_finite(const Value& value, const char* function, const Model& model, const StateOf<Model>& x) {
-  if (value.allFinite()) return value;
-  std::string message = std::string(function) + " of model '" + std::string(model.name()) + "' is not finite at x = (";
-  for (Eigen::Index i = 0; i < x.size(); ++i) message += (i == 0 ? "" : ", ") + std::to_string(x(i));
-  throw std::domain_error(message + ")");
-}
-
-/// A matrix over the leading components of a state as one over all of it.
-template <class Sensor, class Model, class Leading>
-MeasurementMatrixOf<Sensor, Model> over_all_components(const Model& model, const Leading& H) {
-  require_seen<Sensor>(model);
-  MeasurementMatrixOf<Sensor, Model> result;
-  result.setZero(H.rows(), model.size());
-  result.leftCols(H.cols()) = H;
-  return result;
-}
-
-}  // namespace detail
-
-/// H of a linear sensor, m × n.
-template <StateModel Model, LinearSensorOf<Model> Sensor>
-MeasurementMatrixOf<Sensor, Model> measurement_matrix(const Model& model, const Sensor& sensor) {
-  if constexpr (measures_leading_components<Sensor>)
-    return MeasurementMatrixOf<Sensor, Model>::Identity(Sensor::measurement_size, model.size());
-  else if constexpr (detail::SeesLeading<Sensor>)
-    return detail::over_all_components<Sensor>(model, sensor.measurement_matrix());
-  else
-    return sensor.measurement_matrix(model);
-}
-
-/// h(x), (22). Throws std::domain_error unless it is finite.
-template <StateModel Model, SensorOf<Model> Sensor>
-MeasuredOf<Sensor> predicted_measurement(const Model& model, const Sensor& sensor, const StateOf<Model>& x) {
-  return detail::require_finite(
-      [&]() -> MeasuredOf<Sensor> {
-        if constexpr (LinearSensorOf<Sensor, Model>)
-          return measurement_matrix(model, sensor) * x;
-        else
-          return detail::asked<Sensor>(
-              model, x, [&](const auto&... seen) { return MeasuredOf<Sensor>(sensor.measure(seen...)); });
-      }(),
-      "h(x)", model, x);
-}
-
-namespace detail {
-
-/// ∂h/∂x over the leading components that a sensor sees.
+/// ∂h/∂x over the leading components that a sensor sees, as it gives it, else by automatic differentiation.
 template <class Sensor, int Seen>
 auto leading_jacobian(const Sensor& sensor, const Vector<Seen>& seen) {
   constexpr int M = Sensor::measurement_size;
@@ -205,70 +175,20 @@ auto leading_jacobian(const Sensor& sensor, const Vector<Seen>& seen) {
         [&](const DifferentiableVector<Seen>& components) { return sensor.measure(components); }, seen);
 }
 
-}  // namespace detail
-
-/// ∂h/∂x as the sensor gives it, else by automatic differentiation; of a linear sensor H. Throws std::domain_error
-/// unless it is finite.
-template <StateModel Model, SensorOf<Model> Sensor>
-MeasurementMatrixOf<Sensor, Model> measurement_jacobian(const Model& model, const Sensor& sensor,
-                                                        const StateOf<Model>& x) {
-  const auto jacobian_at = [&]() -> MeasurementMatrixOf<Sensor, Model> {
-    if constexpr (LinearSensorOf<Sensor, Model>)
-      return measurement_matrix(model, sensor);
-    else if constexpr (detail::SeesLeading<Sensor>)
-      return detail::asked<Sensor>(model, x, [&](const auto& seen) {
-        return detail::over_all_components<Sensor>(model, detail::leading_jacobian(sensor, seen));
-      });
-    else if constexpr (requires { sensor.measurement_jacobian(model, x); })
-      return sensor.measurement_jacobian(model, x);
-    else
-      return jacobian<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>, Model::state_size,
-                      Model::max_state_size>(
-          [&](const DifferentiableVector<Model::state_size, Model::max_state_size>& state) {
-            return sensor.measure(model, state);
-          },
-          x);
-  };
-  return detail::require_finite(jacobian_at(), "the Jacobian of h", model, x);
-}
-
-namespace detail {
-
-/// ∂h/∂x over the leading components that a sensor sees, by which alone h changes, or over all. Throws
-/// std::domain_error unless it is finite.
-template <StateModel Model, SensorOf<Model> Sensor>
-auto jacobian_of_seen(const Model& model, const Sensor& sensor, const StateOf<Model>& x) {
-  if constexpr (SeesLeading<Sensor> && !LinearSensorOf<Sensor, Model>)
-    return require_finite(asked<Sensor>(model, x, [&](const auto& seen) { return leading_jacobian(sensor, seen); }),
-                          "the Jacobian of h", model, x);
+/// The same over the whole state, of a sensor that asks the model.
+template <class Sensor, class Model>
+MeasurementMatrixOf<Sensor, Model> whole_jacobian(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
+  if constexpr (requires { sensor.measurement_jacobian(model, x); })
+    return sensor.measurement_jacobian(model, x);
   else
-    return measurement_jacobian(model, sensor, x);
+    return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>, Model::state_size,
+                    Model::max_state_size>(
+        [&](const DifferentiableVector<Model::state_size, Model::max_state_size>& state) {
+          return sensor.measure(model, state);
+        },
+        x);
 }
 
 }  // namespace detail
-
-/// z − predicted, by the sensor's own difference if it has one.
-template <Sensing Sensor>
-MeasuredOf<Sensor> measurement_difference(const Sensor& sensor, const MeasuredOf<Sensor>& z,
-                                          const MeasuredOf<Sensor>& predicted) {
-  if constexpr (requires { sensor.measurement_difference(z, predicted); })
-    return sensor.measurement_difference(z, predicted);
-  else
-    return z - predicted;
-}
-
-/// The mean of measurements, a column each, with weights that sum to one: the sensor's own if it has one.
-template <Sensing Sensor, class Points, class Weights>
-MeasuredOf<Sensor> measurement_mean(const Sensor& sensor, const Points& points, const Weights& weights) {
-  if constexpr (requires { sensor.measurement_mean(points, weights); }) {
-    return sensor.measurement_mean(points, weights);
-  } else {
-    const MeasuredOf<Sensor> first = points.col(0);
-    MeasuredOf<Sensor> mean = first;
-    for (Eigen::Index i = 1; i < points.cols(); ++i)
-      mean += weights(i) * measurement_difference<Sensor>(sensor, points.col(i), first);
-    return mean;
-  }
-}
 
 }  // namespace sigmax

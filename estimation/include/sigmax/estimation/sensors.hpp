@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -12,15 +10,9 @@
 #include <utility>
 
 #include <sigmax/estimation/converted_measurement.hpp>
-#include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
-
-/// The angle less whole turns, in [−π, π].
-inline double wrapped(double angle) {
-  return std::abs(angle) <= std::numbers::pi ? angle : std::remainder(angle, 2.0 * std::numbers::pi);  // rarely
-}
 
 /// Measures the position itself, H = [I 0], in m.
 template <int Axes>
@@ -30,10 +22,7 @@ struct PositionSensor {
   static constexpr int measurement_size = Axes;
   static constexpr bool measures_leading_components = true;
 
-  template <class Scalar>
-  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
-    return position;
-  }
+  Vector<Axes> measure(const Vector<Axes>& position) const { return position; }
 
   /// What a measurement tells of the position.
   Gaussian<Axes> position(const Gaussian<Axes>& z) const { return z; }
@@ -61,46 +50,47 @@ class ComponentSensor {
  public:
   static constexpr int measurement_size = Eigen::Dynamic;
   static constexpr int max_measurement_size = MaxSize;
+  static constexpr bool is_linear = true;
+  using ComputedBy = ComponentSensor;
 
   /// Their places in the state of every model, in which the position and its derivatives lead. If the number of axes is
   /// told, and the first places are those of the position, in order, a target can start from it. Throws
-  /// std::invalid_argument for none, or more than `MaxSize`.
+  /// std::invalid_argument for none, more than `MaxSize`, or a place that is negative.
   explicit ComponentSensor(std::span<const int> places, int axes = 0) : size_(static_cast<int>(places.size())) {
     if (places.empty() || size_ > MaxSize)
       throw std::invalid_argument("a sensor of " + std::to_string(places.size()) + " components; expected 1 to " +
                                   std::to_string(MaxSize));
     std::copy(places.begin(), places.end(), places_.begin());
+    for (const int place : places) {
+      if (place < 0) throw std::invalid_argument("a sensor measures component " + std::to_string(place + 1));
+      seen_ = std::max(seen_, place + 1);
+    }
     while (position_size_ < std::min(axes, size_) && places[static_cast<std::size_t>(position_size_)] == position_size_)
       ++position_size_;
     if (position_size_ < axes) position_size_ = 0;
   }
 
-  /// What a measurement tells of the position by itself, if all its axes were measured.
+  /// What a measurement tells of the position by itself, if all its axes were measured. Throws std::invalid_argument
+  /// for a measurement of another number of quantities.
   std::optional<Gaussian<Eigen::Dynamic, 3>> position(const Gaussian<Eigen::Dynamic, MaxSize>& z) const {
     if (position_size_ == 0) return std::nullopt;
+    detail::require_measured(size_, static_cast<int>(z.size()));
     return Gaussian<Eigen::Dynamic, 3>{z.mean.head(position_size_),
                                        z.covariance.topLeftCorner(position_size_, position_size_)};
   }
 
-  /// Throws std::invalid_argument, naming the model, if it lacks one of the components.
-  template <StateModel Model>
-  RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> measurement_matrix(
-      const Model& model) const {
-    RectangularMatrix<Eigen::Dynamic, Model::state_size, MaxSize, Model::max_state_size> H;
-    H.setZero(size_, model.size());
-    for (int i = 0; i < size_; ++i) {
-      const int place = places_[static_cast<std::size_t>(i)];
-      if (place < 0 || place >= model.size())
-        throw std::invalid_argument("a sensor measures component " + std::to_string(place + 1) + ", but model '" +
-                                    std::string(model.name()) + "' has " + std::to_string(model.size()));
-      H(i, place) = 1.0;
-    }
-    return H;
+  /// How many leading components it sees, and H over them, for so many measured quantities as there are places.
+  int seen() const { return seen_; }
+  void compute(const double*, int m, double*, double* H) const {
+    detail::require_measured(size_, m);
+    std::fill_n(H, m * seen_, 0.0);
+    for (int i = 0; i < m; ++i) H[i + places_[static_cast<std::size_t>(i)] * m] = 1.0;
   }
 
  private:
   std::array<int, std::size_t{MaxSize}> places_{};
   int size_;
+  int seen_ = 0;
   int position_size_ = 0;
 };
 
@@ -108,107 +98,65 @@ class ComponentSensor {
 /// x–y plane, in rad, of a target as seen from `origin`. Differences of azimuths are wrapped. The Jacobian does not
 /// exist at the origin and, of the azimuth, above it.
 template <int Axes>
-class PolarSensor {
+class PolarSensor : public detail::ComputedSensor<PolarSensor<Axes>, Axes, Axes> {
   static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
 
  public:
   static constexpr int axes = Axes;
-  static constexpr int seen_size = Axes;
-  static constexpr int measurement_size = Axes;
 
-  explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(origin) {}
-  const Vector<Axes>& origin() const { return origin_; }
-
-  template <class Scalar>
-  Eigen::Matrix<Scalar, Axes, 1> measure(const Eigen::Matrix<Scalar, Axes, 1>& position) const {
-    using std::atan2, std::sqrt;
-    const Scalar x = position(0) - origin_(0);
-    const Scalar y = position(1) - origin_(1);
-    const Scalar ground = sqrt(Scalar(x * x + y * y));
-    Eigen::Matrix<Scalar, Axes, 1> seen;
-    seen(1) = atan2(y, x);
-    if constexpr (Axes == 2) {
-      seen(0) = ground;
-    } else {
-      const Scalar z = position(2) - origin_(2);
-      seen(0) = sqrt(Scalar(x * x + y * y + z * z));
-      seen(2) = atan2(z, ground);
-    }
-    return seen;
-  }
-
-  SquareMatrix<Axes> measurement_jacobian(const Vector<Axes>& position) const {
-    const Vector<Axes> d = position - origin_;
-    const double r = d.norm();
-    const double ground_squared = d(0) * d(0) + d(1) * d(1);
-    SquareMatrix<Axes> H = SquareMatrix<Axes>::Zero();
-    H.row(0) = d.transpose() / r;
-    H(1, 0) = -d(1) / ground_squared;
-    H(1, 1) = d(0) / ground_squared;
-    if constexpr (Axes == 3) {
-      const double ground = std::sqrt(ground_squared);
-      H.row(2) << -d(0) * d(2) / (r * r * ground), -d(1) * d(2) / (r * r * ground), ground / (r * r);
-    }
-    return H;
-  }
+  explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(detail::numbers_of(origin)) {}
+  Vector<Axes> origin() const { return Vector<Axes>(origin_.data()); }
 
   Vector<Axes> measurement_difference(const Vector<Axes>& z, const Vector<Axes>& predicted) const {
-    Vector<Axes> difference = z - predicted;
-    difference(1) = wrapped(difference(1));
+    Vector<Axes> difference;
+    detail::polar_difference(z.data(), predicted.data(), Axes, difference.data());
     return difference;
   }
 
   /// What a measurement tells of the position: its unbiased conversion, which neglects correlations of its errors.
   Gaussian<Axes> position(const Gaussian<Axes>& z) const {
-    Vector<3> seen = Vector<3>::Zero(), deviations = Vector<3>::Zero();
-    seen.head<Axes>() = z.mean;
-    deviations.head<Axes>() = z.covariance.diagonal().cwiseSqrt();
-    const Gaussian<3> converted =
-        to_cartesian({seen(0), seen(1), seen(2)}, {deviations(0), deviations(1), deviations(2)}, Conversion::unbiased);
-    return {converted.mean.head<Axes>() + origin_, converted.covariance.topLeftCorner<Axes, Axes>()};
+    Gaussian<Axes> result;
+    detail::position_of_polar(Axes, origin_.data(), z.mean.data(), z.covariance.data(), Axes, result.mean.data(),
+                              result.covariance.data());
+    return result;
   }
 
   /// What a radar with these standard deviations measured; with two axes the elevation is ignored.
   static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
-    const Vector<3> z(measured.range, measured.azimuth, measured.elevation);
-    const Vector<3> deviations(sigma.range, sigma.azimuth, sigma.elevation);
-    return {z.head<Axes>(), deviations.head<Axes>().cwiseAbs2().asDiagonal()};
+    const double z[3] = {measured.range, measured.azimuth, measured.elevation};
+    const double deviations[3] = {sigma.range, sigma.azimuth, sigma.elevation};
+    Gaussian<Axes> result{Vector<Axes>(z), SquareMatrix<Axes>::Zero()};
+    for (int i = 0; i < Axes; ++i) result.covariance(i, i) = deviations[i] * deviations[i];
+    return result;
+  }
+
+  void compute(const double* position, int, double* z, double* H) const {
+    detail::polar(Axes, origin_.data(), position, z, H);
   }
 
  private:
-  Vector<Axes> origin_;
+  std::array<double, std::size_t{Axes}> origin_;
 };
 
 /// Measures only the azimuth of a target, counter-clockwise from x in rad, as seen from `origin`. Differences are
 /// wrapped. One such sensor that stands still does not tell the range.
-class BearingSensor {
+class BearingSensor : public detail::ComputedSensor<BearingSensor, 1, 2> {
  public:
   static constexpr int axes = 2;
-  static constexpr int seen_size = 2;
-  static constexpr int measurement_size = 1;
 
-  explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(origin) {}
-  const Vector<2>& origin() const { return origin_; }
-
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 2, 1>& position) const {
-    using std::atan2;
-    const Scalar x = position(0) - origin_(0);
-    const Scalar y = position(1) - origin_(1);
-    return Eigen::Matrix<Scalar, 1, 1>(Scalar(atan2(y, x)));
-  }
-
-  Eigen::RowVector2d measurement_jacobian(const Vector<2>& position) const {
-    const Vector<2> d = position - origin_;
-    return Eigen::RowVector2d(-d(1), d(0)) / d.squaredNorm();
-  }
+  explicit BearingSensor(const Vector<2>& origin = Vector<2>::Zero()) : origin_(detail::numbers_of(origin)) {}
+  Vector<2> origin() const { return Vector<2>(origin_.data()); }
 
   Vector<1> measurement_difference(const Vector<1>& z, const Vector<1>& predicted) const {
     return Vector<1>(wrapped(z(0) - predicted(0)));
   }
 
+  void compute(const double* position, int, double* z, double* H) const {
+    detail::bearing(origin_.data(), position, z, H);
+  }
+
  private:
-  Vector<2> origin_;
+  std::array<double, 2> origin_;
 };
 
 }  // namespace sigmax

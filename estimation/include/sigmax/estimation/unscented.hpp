@@ -5,7 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <sigmax/estimation/sigma_points.hpp>
+#include <sigmax/estimation/kalman.hpp>
+#include <sigmax/estimation/member.hpp>
 
 namespace sigmax {
 
@@ -24,11 +25,9 @@ struct UnscentedScaling {
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ c Σ B_ii² + ¼ (β − α²)(tr B)²; the exact one is gᵀg + ½ Σ B_ij².
-template <Motion Moves>
+template <StateModel Moves>
 class Unscented : public Member<Moves> {
  public:
-  static constexpr bool has_centre = true;
-
   /// Throws std::invalid_argument unless α² (n + κ) is positive and all three numbers are finite.
   explicit Unscented(Moves motion, const UnscentedScaling& scaling = {})
       : Member<Moves>(std::move(motion)), scaling_(scaling) {
@@ -37,12 +36,6 @@ class Unscented : public Member<Moves> {
                                   std::to_string(scaling.alpha) + ", beta = " + std::to_string(scaling.beta) +
                                   ", kappa = " + std::to_string(scaling.kappa) + " and " +
                                   std::to_string(this->size()) + " states; expected alpha² (n + kappa) > 0");
-  }
-
-  /// The same filter over another motion.
-  template <Motion Other>
-  Unscented<Other> over(Other motion) const {
-    return Unscented<Other>(std::move(motion), scaling_);
   }
 
   const UnscentedScaling& scaling() const { return scaling_; }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string_view>
 
 #include <sigmax/estimation/independent_axes.hpp>
@@ -16,41 +14,18 @@ namespace sigmax {
 ///
 /// A known input is a constant acceleration (m/s²) or jerk (m/s³).
 template <int Order>
-class WhiteNoise {
+class WhiteNoise : public detail::ComputedLaw<WhiteNoise<Order>, Order> {
   static_assert(Order == 2 || Order == 3, "white-noise acceleration or jerk");
 
  public:
-  static constexpr int order = Order;
-
   /// Throws std::invalid_argument unless q is finite and not negative.
   explicit WhiteNoise(double q) : q_(detail::motion_parameter(q, "q", name())) {}
 
   double q() const { return q_; }
   std::string_view name() const { return Order == 2 ? "cwna" : "cwpa"; }
-
-  SquareMatrix<Order> transition(double dt) const { return detail::taylor_transition<Order>(dt); }
-  SquareMatrix<Order> process_covariance(double dt) const {
-    const auto taylor = powers(dt);
-    SquareMatrix<Order> Q;
-    for (Eigen::Index a = 0; a < Order; ++a)
-      for (Eigen::Index b = 0; b < Order; ++b) {
-        const Eigen::Index p = Order - 1 - a, r = Order - 1 - b;
-        Q(a, b) = q_ * taylor[static_cast<std::size_t>(p)] * taylor[static_cast<std::size_t>(r)] * dt /
-                  static_cast<double>(p + r + 1);
-      }
-    return Q;
-  }
-  Vector<Order> input_gain(double dt) const {
-    const auto taylor = powers(dt);
-    Vector<Order> gain;
-    for (Eigen::Index a = 0; a < Order; ++a) gain(a) = taylor[static_cast<std::size_t>(Order - a)];
-    return gain;
-  }
+  void compute(double dt, double* F, double* Q, double* gain) const { detail::white_noise(Order, q_, dt, F, Q, gain); }
 
  private:
-  /// Tⁿ/n!.
-  static std::array<double, 4> powers(double dt) { return {1.0, dt, dt * dt / 2.0, dt * dt * dt / 6.0}; }
-
   double q_;
 };
 

@@ -31,9 +31,6 @@ enum class StartRule {
   given      ///< from a given mean and variances; later starts are from points
 };
 
-/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
-enum class MemberType { kf, ekf, ukf, ckf };
-
 /// Everything that one target's filter is made of, chosen at run time: plain data.
 struct TargetChoice {
   int axes = 3;        ///< 1, 2 or 3; along 1 there is no radar, and no motion that turns
@@ -95,10 +92,6 @@ struct ModeStay {
   bool is_start;
 };
 
-namespace detail {
-class ChosenTarget;
-}
-
 /// A Target whose scheme, kind, models and sensors are chosen at run time. All of them are compiled once, inside the
 /// library; what passes between is plain data, so that it does not matter with which flags a user compiles.
 ///
@@ -152,7 +145,8 @@ class AnyTarget {
   std::vector<ModeStay> explained() const;
 
  private:
-  std::unique_ptr<detail::ChosenTarget> target_;
+  struct Chosen;
+  std::unique_ptr<Chosen> chosen_;
 };
 
 }  // namespace sigmax

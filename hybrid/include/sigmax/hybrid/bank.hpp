@@ -1,20 +1,18 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include <sigmax/estimation/sensing.hpp>
+#include <sigmax/estimation/any_sensor.hpp>
+#include <sigmax/hybrid/estimates.hpp>
 
 namespace sigmax {
 
-/// A bank of models: a tuple of different types, known to the compiler (the fast path), or a vector of one run-time
-/// type (what programs use). The filter is written once, over `for_each_mode` and `mode`. `Estimates` has one estimate
-/// of each model's state, `Pairs` as many as there are modes: one for each other mode that it may come from or go to.
+/// The models of a multiple-model filter as a user has them: a tuple of different types, whose sizes the compiler
+/// checks, or a vector of one type, of AnyModel if they are chosen at run time. They fill one bank, a vector of
+/// AnyModel, and all that is computed is computed over that.
 template <class Models>
 struct Bank;
 
@@ -22,10 +20,9 @@ template <class First, class... Others>
 struct Bank<std::tuple<First, Others...>> {
   static_assert(((axes_of<First> == axes_of<Others>)&&...),
                 "all models of a bank must have their position along the same axes");
+  /// Along how many axes they have their position, or none; unknown if it is Eigen::Dynamic.
   static constexpr int axes = axes_of<First>;
   using Estimates = std::tuple<EstimateOf<First>, EstimateOf<Others>...>;
-  using Pairs = std::tuple<std::vector<EstimateOf<First>>, std::vector<EstimateOf<Others>>...>;
-  static constexpr int max_state_size = std::max({First::max_state_size, Others::max_state_size...});
   template <class Sensor>
   static constexpr bool seen_by = SensorOf<Sensor, First> && (SensorOf<Sensor, Others> && ...);
   /// No bank carries more different components than all its models together.
@@ -36,79 +33,84 @@ template <class Model>
 struct Bank<std::vector<Model>> {
   static constexpr int axes = axes_of<Model>;
   using Estimates = std::vector<EstimateOf<Model>>;
-  using Pairs = std::vector<std::vector<EstimateOf<Model>>>;
-  static constexpr int max_state_size = Model::max_state_size;
   static constexpr int max_components = Model::max_state_size;
   template <class Sensor>
   static constexpr bool seen_by = SensorOf<Sensor, Model>;
 };
+template <>
+struct Bank<std::vector<AnyModel>> {
+  static constexpr int axes = Eigen::Dynamic;
+  using Estimates = std::vector<EstimateOf<AnyModel>>;
+  static constexpr int max_components = AnyModel::max_state_size;
+  template <class Sensor>
+  static constexpr bool seen_by = SensorOf<Sensor, AnyModel>;
+};
 
-template <class... T>
-constexpr std::size_t mode_count(const std::tuple<T...>&) {
-  return sizeof...(T);
-}
-template <class T>
-std::size_t mode_count(const std::vector<T>& modes) {
-  return modes.size();
-}
-
-/// The entry of one mode; the index is a std::integral_constant for a tuple, a number for a vector.
-template <class Index, class... T>
-constexpr auto& mode(std::tuple<T...>& modes, Index) {
-  return std::get<Index::value>(modes);
-}
-template <class Index, class... T>
-constexpr const auto& mode(const std::tuple<T...>& modes, Index) {
-  return std::get<Index::value>(modes);
-}
-template <class T>
-T& mode(std::vector<T>& modes, std::size_t index) {
-  return modes[index];
-}
-template <class T>
-const T& mode(const std::vector<T>& modes, std::size_t index) {
-  return modes[index];
-}
-
-/// Calls visit(index) for every mode in order.
-template <class... T, class Visit>
-constexpr void for_each_mode(const std::tuple<T...>&, const Visit& visit) {
-  [&]<std::size_t... Index>(std::index_sequence<Index...>) {
-    (visit(std::integral_constant<std::size_t, Index>{}), ...);
-  }
-  (std::index_sequence_for<T...>{});
-}
-template <class T, class Visit>
-void for_each_mode(const std::vector<T>& modes, const Visit& visit) {
-  for (std::size_t index = 0; index < modes.size(); ++index) visit(index);
-}
+/// A sensor that a multiple-model filter can take: one of all models' states, of not too many quantities.
+template <class Sensor, class Models>
+concept SensorOfBank =
+    Bank<Models>::template seen_by<Sensor>&& detail::max_measurement_size_of<Sensor> <= max_measurement_size;
 
 namespace detail {
 
-/// Room for one estimate of each model.
-template <class... Models>
-auto estimates_for(const std::tuple<Models...>&) {
-  return typename Bank<std::tuple<Models...>>::Estimates{};
+template <class... Model>
+std::vector<AnyModel> bank_of(const std::tuple<Model...>& models) {
+  return std::apply([](const Model&... model) { return std::vector<AnyModel>{AnyModel(model)...}; }, models);
 }
 template <class Model>
-auto estimates_for(const std::vector<Model>& models) {
-  return std::vector<EstimateOf<Model>>(models.size());
+std::vector<AnyModel> bank_of(const std::vector<Model>& models) {
+  return {models.begin(), models.end()};
 }
 
-/// Room for as many estimates of each model as there are modes, all equal to that model's estimate.
+/// Estimates of the models in the numbers' own row.
 template <class... Estimate>
-auto pairs_for(const std::tuple<Estimate...>& estimates) {
-  return std::apply(
-      [](const auto&... each) {
-        return std::tuple<std::vector<Estimate>...>{std::vector<Estimate>(sizeof...(Estimate), each)...};
-      },
-      estimates);
+Estimates starts_of(const std::tuple<Estimate...>& starts) {
+  Estimates result;
+  std::apply([&](const Estimate&... start) { (result.add(start), ...); }, starts);
+  return result;
 }
-template <class Estimate>
-auto pairs_for(const std::vector<Estimate>& estimates) {
-  std::vector<std::vector<Estimate>> pairs;
-  for (const Estimate& each : estimates) pairs.emplace_back(estimates.size(), each);
-  return pairs;
+template <int N, int MaxN>
+Estimates starts_of(const std::vector<Gaussian<N, MaxN>>& starts) {
+  return starts;
+}
+inline Estimates starts_of(const Estimates& starts) { return starts; }
+
+/// A sensor of all models of a bank: one table for all, or one for each model that it may ask.
+struct SensorOfModels {
+  const void* sensor;
+  const SensorTable* const* tables;
+  bool one_table;
+  bool asks_any;  ///< an AnyModel, rather than what is behind it
+
+  SensorRef of(const std::vector<AnyModel>& models, std::size_t j) const {
+    const void* const model = asks_any ? &models[j] : models[j].ref().motion;
+    return {sensor, tables[one_table ? 0 : j], model};
+  }
+};
+
+template <class Sensor, class Models>
+struct TablesOf;
+template <class Sensor, class... Model>
+struct TablesOf<Sensor, std::tuple<Model...>> {
+  static constexpr bool one = false, asks_any = false;
+  static constexpr const SensorTable* tables[] = {
+      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>...};
+};
+template <class Sensor, class Model>
+struct TablesOf<Sensor, std::vector<Model>> {
+  static constexpr bool one = true, asks_any = std::is_same_v<Model, AnyModel>;
+  static constexpr const SensorTable* tables[] = {
+      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>};
+};
+
+template <class Models, class Sensor>
+SensorOfModels sensor_of_models(const Sensor& sensor) {
+  if constexpr (std::is_same_v<Sensor, AnySensor>) {
+    return {sensor.sensor(), &sensor.table(), true, true};
+  } else {
+    using Tables = TablesOf<Sensor, Models>;
+    return {&sensor, Tables::tables, Tables::one, Tables::asks_any};
+  }
 }
 
 }  // namespace detail

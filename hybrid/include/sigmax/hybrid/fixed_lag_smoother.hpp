@@ -18,14 +18,14 @@ namespace sigmax {
 ///       if (const auto* state = smoother.take(filter.recorded(dt, z))) …   // of the tenth step before this
 ///     }
 ///     for (const auto& state : smoother.rest()) …                          // of the last ten
-template <class Models, ScalableUncertainty Kind>
+template <ScalableUncertainty Kind>
 class FixedLagSmoother {
  public:
-  using State = HybridEstimate<Models, Kind>;
-  using Step = RecordedStep<Models, Kind>;
+  using State = HybridEstimate<Kind>;
+  using Step = RecordedStep<Kind>;
 
   /// For what this filter records.
-  FixedLagSmoother(const MultipleModelFilter<Models, Kind>& filter, std::size_t lag) : smoother_(filter), lag_(lag) {}
+  FixedLagSmoother(const MultipleModelFilter<Kind>& filter, std::size_t lag) : smoother_(filter), lag_(lag) {}
 
   /// Takes the next step; returns the smoothed state of the one `lag` before it, if there is one.
   const State* take(Step step) {
@@ -64,7 +64,7 @@ class FixedLagSmoother {
     }
   }
 
-  FixedIntervalSmoother<Models, Kind> smoother_;
+  FixedIntervalSmoother<Kind> smoother_;
   std::size_t lag_;
   std::vector<Step> window_;  ///< a ring, the oldest step first
   std::size_t first_ = 0;

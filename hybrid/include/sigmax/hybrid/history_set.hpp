@@ -4,8 +4,7 @@
 #include <vector>
 
 #include <sigmax/core/logarithm.hpp>
-#include <sigmax/core/uncertainty.hpp>
-#include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/estimates.hpp>
 
 namespace sigmax {
 
@@ -27,31 +26,14 @@ struct HistoryLinks {
 
 /// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true: all that its next step
 /// depends on.
-template <class Models>
 class HistorySet {
  public:
-  using Estimates = typename Bank<Models>::Estimates;
-
-  /// Room for so many histories; it starts with one for each mode.
-  HistorySet(const Estimates& starts, std::size_t room) : histories_(room), estimates_(detail::pairs_for(starts)) {
-    for_each_mode(starts, [&](auto j) { mode(estimates_, j).resize(room, mode(starts, j)); });
-    resize(mode_count(starts));
-  }
+  /// Room for so many histories of these models; it starts with one for each mode.
+  HistorySet(const Estimates& starts, std::size_t room);
   HistorySet(const HistorySet&) = default;
 
   /// Copies what is there; allocates nothing if there is as much room.
-  HistorySet& operator=(const HistorySet& other) {
-    if (this == &other) return *this;
-    histories_ = other.histories_;
-    for_each_mode(estimates_, [&](auto j) { mode(estimates_, j).resize(room(), mode(other.estimates_, j).front()); });
-    resize(other.size());
-    most_likely_mode = other.most_likely_mode;
-    for (std::size_t h = 0; h < size(); ++h)
-      for_each_mode(estimates_, [&](auto j) {
-        if (j == histories_[h].mode) mode(estimates_, j)[h] = mode(other.estimates_, j)[h];
-      });
-    return *this;
-  }
+  HistorySet& operator=(const HistorySet& other);
 
   std::size_t size() const { return size_; }
   std::size_t room() const { return histories_.size(); }
@@ -61,35 +43,35 @@ class HistorySet {
   const History& operator[](std::size_t h) const { return histories_[h]; }
 
   /// The first of the greatest weight.
-  std::size_t best() const {
-    std::size_t best = 0;
-    for (std::size_t h = 1; h < size(); ++h)
-      if (histories_[h].log_weight > histories_[best].log_weight) best = h;
-    return best;
-  }
+  std::size_t best() const;
 
-  HistoryLinks links() const {
-    HistoryLinks links{{}, best()};
-    for (std::size_t h = 0; h < size(); ++h) links.all.push_back({histories_[h].mode, histories_[h].parent});
-    return links;
-  }
+  HistoryLinks links() const;
 
-  /// Of mode j, the estimates at the places of the histories that end in it; the others mean nothing.
-  template <class Index>
-  auto& estimates(Index j) {
-    return mode(estimates_, j);
+  /// @{
+  /// The estimate of a history, in the components of its last mode.
+  EstimateAt<const double> estimate(std::size_t h) const {
+    const detail::ConstView at = view(h);
+    return {{at.mean, at.n}, {at.covariance, at.n, at.n}};
   }
-  template <class Index>
-  const auto& estimates(Index j) const {
-    return mode(estimates_, j);
+  detail::ConstView view(std::size_t h) const {
+    const double* const at = numbers_.data() + h * stride_;
+    const int n = sizes_[histories_[h].mode];
+    return {at, at + n, n};
   }
-  typename Bank<Models>::Pairs& estimates() { return estimates_; }
+  detail::View view(std::size_t h) {
+    double* const at = numbers_.data() + h * stride_;
+    const int n = sizes_[histories_[h].mode];
+    return {at, at + n, n};
+  }
+  /// @}
 
   std::size_t most_likely_mode = 0;  ///< where the output rule has broken ties
 
  private:
   std::vector<History> histories_;
-  typename Bank<Models>::Pairs estimates_;
+  std::vector<int> sizes_;  ///< of each mode's estimates
+  std::size_t stride_ = 0;
+  std::vector<double> numbers_;
   std::size_t size_ = 0;
 };
 

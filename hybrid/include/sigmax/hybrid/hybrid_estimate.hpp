@@ -4,27 +4,27 @@
 #include <vector>
 
 #include <sigmax/core/belief.hpp>
-#include <sigmax/hybrid/bank.hpp>
+#include <sigmax/hybrid/estimates.hpp>
 #include <sigmax/hybrid/future_evidence.hpp>
 
 namespace sigmax {
 
 /// What is known of a jump Markov system at one time: for each mode the estimate of the state if it is that mode, and
 /// what is believed of the mode.
-template <class Models, ScalableUncertainty Kind>
+template <ScalableUncertainty Kind>
 struct HybridEstimate {
-  typename Bank<Models>::Estimates estimates;
+  Estimates estimates;
   Belief<Kind> belief;
   std::size_t most_likely_mode = 0;  ///< (64), where the output rule has broken ties
 };
 
 /// What one step of a multiple-model filter left, for smoothing.
-template <class Models, ScalableUncertainty Kind>
+template <ScalableUncertainty Kind>
 struct RecordedStep {
   double dt;  ///< since the step before, in s; ignored in the first record
-  HybridEstimate<Models, Kind> state;
-  /// What the measurement told each mode, about its estimate; empty if there was none.
-  std::vector<FutureEvidence<Bank<Models>::max_state_size>> seen;
+  HybridEstimate<Kind> state;
+  std::vector<FutureEvidence>
+      seen;  ///< what the measurement told each mode, about its estimate; empty if there was none
 };
 
 }  // namespace sigmax

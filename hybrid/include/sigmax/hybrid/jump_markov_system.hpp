@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <sigmax/core/relation.hpp>
 #include <sigmax/hybrid/bank.hpp>
@@ -56,21 +57,22 @@ class ModeTransition {
 
 /// A system whose model jumps with its mode r_k, (47), (48): random with a transition probability (49), or fuzzy with a
 /// transition possibility (50). Which of both it is, is the kind of the mode.
-template <class Models, ScalableUncertainty Kind>
+template <ScalableUncertainty Kind>
 class JumpMarkovSystem {
  public:
   /// Throws std::invalid_argument unless the transition leads from a mode variable to itself and has one outcome for
   /// each model.
-  JumpMarkovSystem(Models models, ModeTransition<Kind> transition)
-      : models_(std::move(models)), transition_(std::move(transition)) {
+  template <class Models>
+  JumpMarkovSystem(const Models& models, ModeTransition<Kind> transition)
+      : models_(detail::bank_of(models)), transition_(std::move(transition)) {
     check::same(this->transition().from(), this->transition().to(), "JumpMarkovSystem");
-    if (mode_variable().size() != mode_count(models_))
+    if (mode_variable().size() != models_.size())
       throw std::invalid_argument("the mode variable '" + mode_variable().name() + "' has " +
                                   std::to_string(mode_variable().size()) + " outcomes, but there are " +
-                                  std::to_string(mode_count(models_)) + " models");
+                                  std::to_string(models_.size()) + " models");
   }
 
-  const Models& models() const { return models_; }
+  const std::vector<AnyModel>& models() const { return models_; }
 
   /// The transition of the last step, and that of a step of `dt` seconds.
   const Relation<Kind, Kind>& transition() const { return transition_.last(); }
@@ -79,14 +81,14 @@ class JumpMarkovSystem {
   const Variable<Kind>& mode_variable() const { return transition().to(); }
 
  private:
-  Models models_;
+  std::vector<AnyModel> models_;
   ModeTransition<Kind> transition_;
 };
 
 template <class Models, ScalableUncertainty Kind>
-JumpMarkovSystem(Models, Relation<Kind, Kind>) -> JumpMarkovSystem<Models, Kind>;
+JumpMarkovSystem(Models, Relation<Kind, Kind>) -> JumpMarkovSystem<Kind>;
 template <class Models, class Transition>
-JumpMarkovSystem(Models, Transition) -> JumpMarkovSystem<Models, typename Transition::kind>;
+JumpMarkovSystem(Models, Transition) -> JumpMarkovSystem<typename Transition::kind>;
 
 /// The transition of a mode that never changes: with it a multiple-model filter is a static (autonomous) bank, whose
 /// models run alone and are compared by all that they predicted.

@@ -47,26 +47,28 @@ struct Plan {
 /// A track: for each model its mean and covariance, a whole matrix of state_size() columns; the weights of the modes,
 /// and the most likely one.
 struct Track {
-  std::array<double*, max_modes> mean{};
-  std::array<double*, max_modes> covariance{};
-  std::array<double, max_modes> weight{};  ///< linear; read, but not written: see Told
-  std::size_t most_likely = 0;
+  const double* mean[max_modes];
+  const double* covariance[max_modes];
+  const double* weight;  ///< linear
+  std::size_t most_likely;
 };
 
-/// What a step says of one measurement beside its result.
+/// What a step writes: for each model the estimate, and what it thought of the measurement, if there was one.
 struct Told {
-  std::array<double, max_modes> log_prior{};  ///< weights of the modes before the measurement
-  std::array<double, max_modes> log_posterior{};
-  std::array<std::array<double, max_state_size>, max_modes> predicted{};  ///< means before it
-  std::array<std::array<double, max_axes>, max_modes> residual{};
-  std::array<std::array<double, max_axes * max_axes>, max_modes> S{};
-  std::array<double, max_modes> squared_distance{};
-  std::array<double, max_modes> log_determinant{};  ///< of S
+  double* mean[max_modes];
+  double* covariance[max_modes];
+  double* predicted[max_modes];  ///< the mean before the measurement
+  double* residual[max_modes];
+  double* S[max_modes];  ///< a whole matrix
+  double squared_distance[max_modes];
+  double determinant[max_modes];  ///< of S
+  double prior[max_modes];        ///< linear weights of the modes before the measurement
+  double posterior[max_modes];
 };
 
-/// One step of one track with the measurement z and R, a whole matrix, if there is one (else null). False, and `next`
-/// of no value, if the short forms would not be as good as the general step, which is then to be taken.
-bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Track& next, Told& told);
+/// One step of one track with the measurement z and R, a whole matrix, if there is one (else null). False, and nothing
+/// told, if the short forms would not be as good as the general step, which is then to be taken.
+bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Told& told);
 
 /// The output, (64)–(68), in the components of the largest model; the covariance a whole matrix.
 void output(const Plan& plan, bool selects, const Track& track, double* mean, double* covariance);
@@ -76,9 +78,9 @@ std::size_t lane_bytes();
 
 /// @{
 /// One step of a block of tracks, in place; each of its numbers is that of all lanes, in this order: for each model the
-/// mean, and the columns of the covariance's blocks on and below the diagonal, of diagonal blocks from the diagonal
-/// down; the linear weights of the modes; and the most likely one. Measurements are z, the columns of R, and whether
-/// there is one (one or zero). Returns a bit for each track that must take the general step, and is as it was.
+/// mean, and the lower triangle of the covariance row by row; the linear weights of the modes; and the most likely one.
+/// Measurements are z, the columns of R, and whether there is one (one or zero). Returns a bit for each track that must
+/// take the general step, and is as it was.
 unsigned step_block(const Plan& plan, bool selects, double* block, const double* measurements);
 unsigned step_block(const Plan& plan, bool selects, float* block, const float* measurements);
 /// @}

@@ -1,88 +1,55 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include <sigmax/estimation/kalman.hpp>
-#include <sigmax/hybrid/bank.hpp>
+#include <sigmax/estimation/refs.hpp>
+#include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/lift.hpp>
 
-namespace sigmax {
+namespace sigmax::detail {
 
-/// The models' estimates as the parts of a mixture, each read in the components of a receiver: what `collapse` and
-/// `mix` take. A view.
-template <class Receiver, class Estimates>
-struct LiftedMixture {
-  const Receiver& receiver;
-  const Estimates& estimates;
-  const Correspondence* maps;  ///< of the receiver's components in each model
-  Lift lift;
-
-  template <class Visit>
-  void visit_all(const Visit& visit) const {
-    for_each_mode(estimates,
-                  [&](auto l) { visit(std::size_t{l}, Lifted(receiver, mode(estimates, l), maps[l], lift)); });
-  }
-  template <class Visit>
-  void visit(std::size_t wanted, const Visit& visit) const {
-    for_each_mode(estimates, [&](auto l) {
-      if (l == wanted) visit(Lifted(receiver, mode(estimates, l), maps[l], lift));
-    });
-  }
-};
-
-/// Estimates of one model as the parts of a mixture. A view.
-template <class Estimate>
-struct EstimateMixture {
+/// Gaussians that are to become one, each read in the components of a receiver: dropped, lifted, or as it is. A view.
+struct Mixture {
   struct Part {
-    const Estimate& estimate;
-    const auto& mean() const { return estimate.mean; }
-    template <class Matrix>
-    void add_covariance(double weight, Matrix& covariance) const {
-      covariance += weight * estimate.covariance;
-    }
+    ConstView estimate;
+    const Correspondence* map = nullptr;  ///< of the receiver's components in the part; null if they are the same
   };
-  const std::vector<Estimate>& estimates;
+  ConstView receiver;  ///< lends what a part lacks, by the rule of lifting
+  std::span<const Part> parts;
+  Lift lift = Lift::zero;
 
-  template <class Visit>
-  void visit_all(const Visit& visit) const {
-    for (std::size_t l = 0; l < estimates.size(); ++l) visit(l, Part{estimates[l]});
-  }
-  template <class Visit>
-  void visit(std::size_t wanted, const Visit& visit) const {
-    visit(Part{estimates[wanted]});
-  }
+  int size() const { return receiver.n; }
+  /// The mean of a part, and covariance += weight · that of a part.
+  void mean_of(const Part& part, double* mean) const;
+  void add_covariance(const Part& part, double weight, double* covariance) const;
+  /// One part, lifted.
+  void read(const Part& part, View result) const;
 };
 
-/// Innovations of any sensor, of six quantities at most: position and velocity in space.
-inline constexpr int max_measurement_size = 6;
-using AnyInnovation = Innovation<Eigen::Dynamic, max_measurement_size>;
+/// @{
+/// One Gaussian for a mixture; `weights` of the parts, `winner` the one that they select. Results are not among what
+/// they are made of.
+void collapse(const Selection& rule, const Mixture& mixture, const double* weights, std::size_t winner, View result);
+void collapse(const MomentMatching& rule, const Mixture& mixture, const double* weights, std::size_t winner,
+              View result);
+/// @}
 
-/// A sensor that a multiple-model filter can take: one of all models' states, of not too many quantities.
-template <class Sensor, class Models>
-concept SensorOfBank =
-    Bank<Models>::template seen_by<Sensor>&& detail::max_measurement_size_of<Sensor> <= max_measurement_size;
+/// Mean and covariance of the mixture Σ weight N, whose covariance may have weights of its own.
+void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result);
 
-/// The models' innovations as the parts of a mixture: the predicted measurement, about the one that came.
-struct InnovationMixture {
-  struct Part {
-    const AnyInnovation& innovation;
-    const auto& mean() const { return innovation.residual; }
-    template <class Matrix>
-    void add_covariance(double weight, Matrix& covariance) const {
-      covariance += weight * innovation.covariance;
-    }
-  };
-  const std::vector<AnyInnovation>& innovations;
+/// Those of the envelope max weight N, (A-1); returns its integral β, (A-11).
+double match_envelope(const Mixture& mixture, const double* weights, View result);
 
-  template <class Visit>
-  void visit_all(const Visit& visit) const {
-    for (std::size_t l = 0; l < innovations.size(); ++l) visit(l, Part{innovations[l]});
-  }
-  template <class Visit>
-  void visit(std::size_t wanted, const Visit& visit) const {
-    visit(Part{innovations[wanted]});
-  }
-};
+/// @{
+/// The mixed start of a mode, (55)–(57) or (58), (59). `weights` are those of the modes before, given what the mode is
+/// now; `transposed` the ones that the authors' program uses for covariances; `own` is the mode's estimate, and
+/// `favoured` wins ties if they are to stay.
+void mix(const Selection& rule, const Mixture& mixture, const double* weights, const double* transposed,
+         std::size_t favoured, ConstView own, View result);
+void mix(const MomentMatching& rule, const Mixture& mixture, const double* weights, const double* transposed,
+         std::size_t favoured, ConstView own, View result);
+/// @}
 
-}  // namespace sigmax
+}  // namespace sigmax::detail

@@ -26,11 +26,11 @@ std::span<const KnownParameter> motion_parameters();
 /// A motion that can be chosen by its name.
 struct KnownMotion {
   std::string_view name;
-  int derivatives;  ///< that it has of the position, itself included
-  int least_axes;   ///< 2 of one that turns
-  bool linear;
-  bool manoeuvres;          ///< whether it stands for a manoeuvre beside a model that does not
-  std::array<bool, 4> has;  ///< which parameters
+  int derivatives = 0;  ///< that it has of the position, itself included
+  int least_axes = 1;   ///< 2 of one that turns
+  bool linear = true;
+  bool manoeuvres = false;    ///< whether it stands for a manoeuvre beside a model that does not
+  std::array<bool, 4> has{};  ///< which parameters
   bool has_parameter(MotionParameter parameter) const { return has[static_cast<std::size_t>(parameter)]; }
 };
 
@@ -39,6 +39,9 @@ std::span<const KnownMotion> known_motions();
 
 /// The motion of this name, or null.
 const KnownMotion* known_motion(std::string_view name);
+
+/// The filter of a model that is not linear, or of a sensor that is not; the rest has the Kalman filter.
+enum class MemberType { kf, ekf, ukf, ckf };
 
 /// A motion by its name with its parameters; those that it does not have are ignored.
 struct MotionChoice {

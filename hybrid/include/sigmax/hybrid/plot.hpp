@@ -1,49 +1,75 @@
 #pragma once
 
-#include <concepts>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include <sigmax/estimation/sensing.hpp>
+#include <sigmax/estimation/any_sensor.hpp>
 
 namespace sigmax {
 
 /// What a tracker is told at one time: a measurement with the sensor that made it, or that there was none. The tag, the
 /// number of a row say, comes back with what the plot leads to.
-template <Sensing Sensor>
-struct Plot {
-  struct Seen {
-    MeasurementOf<Sensor> z;
-    Sensor sensor;
-  };
-
+class Plot {
+ public:
   double time;  ///< in s
-  std::optional<Seen> seen;
   std::size_t tag = 0;
 
+  /// There was no measurement.
   explicit Plot(double t = 0.0, std::size_t number = 0) : time(t), tag(number) {}
-  Plot(double t, const MeasurementOf<Sensor>& z, Sensor sensor, std::size_t number = 0)
-      : time(t), seen{Seen{z, std::move(sensor)}}, tag(number) {}
-  Plot(double t, const MeasurementOf<Sensor>& z, std::size_t number = 0) requires std::default_initializable<Sensor>
-      : Plot(t, z, Sensor{}, number) {}
-};
 
-namespace detail {
+  template <Sensing Sensor>
+  Plot(double t, const MeasurementOf<Sensor>& z, const Sensor& sensor, std::size_t number = 0)
+      : Plot(t, detail::view(z), sensor, number) {}
 
-/// The position that a measurement tells by itself, `sensor.position(z)`, if the sensor has one to tell: what a start
-/// is made of.
-template <int Axes, Sensing Sensor>
-std::optional<Gaussian<Axes>> position_told(const Plot<Sensor>& plot) {
-  if constexpr (requires { plot.seen->sensor.position(plot.seen->z); }) {
-    if (!plot.seen) return std::nullopt;
-    const std::optional position = plot.seen->sensor.position(plot.seen->z);  // of an AnySensor it may be nothing
-    if (position && position->size() == Axes) return Gaussian<Axes>{position->mean, position->covariance};
+  /// A position along as many axes as z has.
+  template <int N, int MaxN>
+    requires(MaxN <= 3)
+  Plot(double t, const Gaussian<N, MaxN>& z, std::size_t number = 0)
+      : Plot(t, detail::view(z), position_sensor(z.size()), number) {}
+
+  /// The same with numbers.
+  Plot(double t, detail::ConstView z, AnySensor sensor, std::size_t number = 0)
+      : time(t), tag(number), size_(z.n), sensor_(std::move(sensor)) {
+    std::copy_n(z.mean, size_, z_.begin());
+    std::copy_n(z.covariance, size_ * size_, covariance_.begin());
   }
-  return std::nullopt;
-}
 
-}  // namespace detail
+  bool seen() const { return sensor_.has_value(); }
+  /// How many quantities were measured, they and their covariance, and by what; of value only if there were any.
+  int size() const { return size_; }
+  detail::ConstView measurement() const { return {z_.data(), covariance_.data(), size_}; }
+  const AnySensor& sensor() const { return *sensor_; }
+
+  /// The position that the measurement tells by itself, if the sensor has one to tell along so many axes, or along any
+  /// if that is Eigen::Dynamic: what a start is made of.
+  template <int Axes>
+  std::optional<Gaussian<Axes, Axes == Eigen::Dynamic ? 3 : Axes>> position() const {
+    Gaussian<3> room;
+    const int axes = seen() ? sensor_->position(measurement(), room.mean.data(), room.covariance.data()) : 0;
+    if (axes == 0 || (Axes != Eigen::Dynamic && axes != Axes)) return std::nullopt;
+    Gaussian<Axes, Axes == Eigen::Dynamic ? 3 : Axes> result;
+    const detail::View numbers = detail::sized_view(result, axes);
+    std::copy_n(room.mean.data(), axes, numbers.mean);
+    std::copy_n(room.covariance.data(), axes * axes, numbers.covariance);
+    return result;
+  }
+
+ private:
+  static AnySensor position_sensor(Eigen::Index axes) {
+    if (axes == 1) return PositionSensor<1>{};
+    if (axes == 2) return PositionSensor<2>{};
+    return PositionSensor<3>{};
+  }
+
+  int size_ = 0;
+  std::array<double, max_measurement_size> z_{};
+  std::array<double, max_measurement_size * max_measurement_size> covariance_{};
+  std::optional<AnySensor> sensor_;
+};
 
 /// Where a target starts: estimates, of all models together or one each, and their time. `from_plots` says that the
 /// plots that waited are in them; otherwise those are taken as measurements after the start.

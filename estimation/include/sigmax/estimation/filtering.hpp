@@ -1,0 +1,56 @@
+#pragma once
+
+#include <sigmax/estimation/refs.hpp>
+
+/// The Kalman family in plain numbers, compiled once: what the verbs of kalman.hpp call. Results may be what they are
+/// made of; if something is thrown, they are as they were.
+namespace sigmax::detail {
+
+/// The innovation of m quantities, to be written.
+struct InnovationView {
+  double* residual;
+  double* covariance;
+  double squared_distance = 0.0;
+  double log_likelihood = 0.0;
+};
+
+/// Prediction, (27) and (28). Throws std::invalid_argument for an estimate of another size than the model's,
+/// std::domain_error if f or its Jacobian is not finite or a covariance not positive semi-definite, naming the model.
+void predict(const ModelRef& model, ConstView prior, double dt, View result);
+
+/// The same with the law at hand, of a motion along independent axes.
+void predict(const AxisLaw& law, int axes, ConstView prior, View result);
+
+/// Update, (29)–(32); throws as sigmax::update.
+void update(const ModelRef& model, ConstView prior, ConstView z, const SensorRef& sensor, View posterior,
+            InnovationView& innovation);
+
+/// x_k = mean + F (x_{k−1} − m) + w, w ~ N(0, Q), about an estimate with mean m.
+void linearised_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q);
+
+/// Cov(x_k−1, x_k) = P Fᵀ with that F.
+void prediction_covariance(const ModelRef& model, ConstView prior, double dt, double* result);
+
+/// A step of the smoother of Rauch, Tung and Striebel, see sigmax::smooth_step.
+void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView next, View result);
+
+/// residual = H (x − m) + v, v ~ N(0, R), about an estimate with mean m; H has a column for each component.
+void linearised_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
+                            double* residual, double* H, double* R);
+
+/// @{
+/// h(x) and ∂h/∂x, f(x) and ∂f/∂x. Throw std::domain_error, naming the function, the model and the state, unless they
+/// are finite.
+void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z);
+void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H);
+void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F = nullptr,
+                double* Q = nullptr);
+/// @}
+
+/// z − predicted by the sensor's own difference.
+void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, double* result);
+
+/// p → A p + b of the position along `axes` axes, which leads the state, and A p of its derivatives; A by columns.
+void transform(const double* A, const double* b, int axes, View estimate);
+
+}  // namespace sigmax::detail

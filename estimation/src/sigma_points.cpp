@@ -1,0 +1,230 @@
+#include "sigma_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <sigmax/estimation/covariance_root.hpp>
+#include <sigmax/estimation/dense.hpp>
+
+namespace sigmax::detail {
+namespace {
+
+void root_of(const ModelRef& model, const double* covariance, int n, double* root) {
+  if (const int component = covariance_root(covariance, n, root)) refuse_covariance(model.name(), component);
+}
+
+/// Room for the points of ten components, a column each.
+using Columns = Scratch<210>;
+
+/// The points of a filter over an estimate: the centre, if it has a weight, then those up and those down.
+class SigmaPoints {
+ public:
+  /// Throws std::domain_error, naming the model, if the estimate's covariance is not positive semi-definite.
+  SigmaPoints(const ModelRef& model, ConstView estimate)
+      : weights_(model.points),
+        n_(estimate.n),
+        centre_(weights_.centre_of_mean != 0.0 || weights_.centre_of_covariance != 0.0 ? 1 : 0),
+        root_(n_ * n_),
+        offsets_(n_ * count()) {
+    root_of(model, estimate.covariance, n_, root_);
+    const double scale = std::sqrt(weights_.spread);
+    std::fill_n(offset(0), n_ * centre_, 0.0);
+    for (int i = 0; i < n_ * n_; ++i) {
+      offset(centre_)[i] = scale * root_[i];
+      offset(centre_ + n_)[i] = -scale * root_[i];
+    }
+  }
+
+  int count() const { return 2 * n_ + centre_; }
+  /// Where a point lies about the mean.
+  double* offset(int point) { return offsets_ + point * n_; }
+  const double* root() { return root_; }
+  double spread() const { return weights_.spread; }
+  /// The place of the first point up; those down are n behind.
+  int up() const { return centre_; }
+
+  double in_mean(int point) const { return point < centre_ ? weights_.centre_of_mean : 0.5 / weights_.spread; }
+  double in_covariance(int point) const {
+    return point < centre_ ? weights_.centre_of_covariance : 0.5 / weights_.spread;
+  }
+
+  /// Σ wᵢ aᵢ bᵢᵀ, rows × columns, over deviations from two means; of one with itself it is symmetric.
+  void covariance(const double* a, int rows, const double* b, int columns, double* result) {
+    Columns weighted(rows * count());
+    for (int i = 0; i < count(); ++i)
+      for (int row = 0; row < rows; ++row) weighted[row + i * rows] = in_covariance(i) * a[row + i * rows];
+    multiply(weighted, rows, transposed(b, columns), result, rows, rows, count(), columns);
+    if (a == b) mirror_lower(result, rows);
+  }
+
+ private:
+  SigmaPointWeights weights_;
+  int n_;
+  int centre_;
+  Scratch<> root_;
+  Columns offsets_;
+};
+
+/// What f makes of the points: its mean, and the deviations from it.
+void propagate(const ModelRef& model, SigmaPoints& points, const double* x, double dt, double* mean, double* deviations,
+               double* Q) {
+  const int n = model.size();
+  Scratch<32> state(n), shift(n);
+  for (int i = 0; i < points.count(); ++i) {
+    for (int k = 0; k < n; ++k) state[k] = x[k] + points.offset(i)[k];
+    moved_from(model, state, dt, deviations + i * n, nullptr, i == 0 ? Q : nullptr);
+  }
+  std::copy_n(deviations, n, mean);
+  std::fill_n(shift.data(), n, 0.0);
+  for (int i = 0; i < points.count(); ++i)  // about one of them, so that large weights of either sign cancel little
+    for (int k = 0; k < n; ++k) {
+      deviations[k + i * n] -= mean[k];
+      shift[k] += deviations[k + i * n] * points.in_mean(i);
+    }
+  for (int i = 0; i < points.count(); ++i)
+    for (int k = 0; k < n; ++k) deviations[k + i * n] -= shift[k];
+  for (int k = 0; k < n; ++k) mean[k] += shift[k];
+}
+
+/// The weighted mean of measurements, a column each: z₀ + Σ wᵢ (zᵢ − z₀) by the sensor's difference, or its own.
+void mean_of(const SensorRef& sensor, SigmaPoints& points, const double* seen, int m, double* mean) {
+  if (sensor.table->mean) {
+    Scratch<32> weights(points.count());
+    for (int i = 0; i < points.count(); ++i) weights[i] = points.in_mean(i);
+    return sensor.table->mean(sensor.sensor, seen, weights, m, points.count(), mean);
+  }
+  Scratch<6> apart(m);
+  std::copy_n(seen, m, mean);
+  for (int i = 1; i < points.count(); ++i) {
+    difference(sensor, seen + i * m, seen, m, apart);
+    for (int k = 0; k < m; ++k) mean[k] += points.in_mean(i) * apart[k];
+  }
+}
+
+/// What h makes of the points: its mean, and the deviations from it. Points that the sensor cannot tell from the mean
+/// share one evaluation.
+void measure(const ModelRef& model, SigmaPoints& points, const double* x, const SensorRef& sensor, int m, double* mean,
+             double* deviations) {
+  const int n = model.size(), own = sensor.table->seen(sensor.sensor), seen = own == 0 ? n : own;
+  Scratch<32> state(n);
+  int at_mean = -1;  // the first that is seen there
+  for (int i = 0; i < points.count(); ++i) {
+    const double* const offset = points.offset(i);
+    const bool there = std::all_of(offset, offset + seen, [](double number) { return number == 0.0; });
+    if (there && at_mean >= 0) {
+      std::copy_n(deviations + at_mean * m, m, deviations + i * m);
+      continue;
+    }
+    for (int k = 0; k < n; ++k) state[k] = x[k] + offset[k];
+    measured_at(model, sensor, state, m, deviations + i * m);
+    if (there) at_mean = i;
+  }
+  mean_of(sensor, points, deviations, m, mean);
+  Scratch<6> apart(m);
+  for (int i = 0; i < points.count(); ++i) {
+    difference(sensor, deviations + i * m, mean, m, apart);
+    std::copy_n(apart.data(), m, deviations + i * m);
+  }
+}
+
+/// Writes a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
+/// if it did.
+void write_semidefinite(const ModelRef& model, const double* covariance, int n, double* result) {
+  if (model.points.centre_of_covariance < 0.0) {
+    Scratch<> root(n * n);
+    root_of(model, covariance, n, root);
+  }
+  std::copy_n(covariance, n * n, result);
+}
+
+/// Fits a linear function to the values at the sigma points of N(m, L Lᵀ): the slope, rows × n, and the covariance of
+/// the remainder. `deviations` are the function's, a column for each point.
+void regress(SigmaPoints& points, int n, double* deviations, int rows, double* slope, double* rest) {
+  double* const up = deviations + points.up() * rows;
+  double* const down = up + n * rows;
+  const double scale = 0.5 / std::sqrt(points.spread());
+  for (int i = 0; i < n * rows; ++i) {
+    slope[i] = scale * (up[i] - down[i]);
+    up[i] = down[i] = 0.5 * (up[i] + down[i]);
+  }
+  points.covariance(deviations, rows, deviations, rows, rest);
+  const double* const L = points.root();
+  for (int k = n; k-- > 0;) {  // A with A L = slope; where a column of L is zero, A knows nothing
+    double* const column = slope + k * rows;
+    if (L[k + k * n] == 0.0) {
+      std::fill_n(column, rows, 0.0);
+      continue;
+    }
+    for (int i = k + 1; i < n; ++i)
+      for (int row = 0; row < rows; ++row) column[row] -= L[i + k * n] * slope[row + i * rows];
+    for (int row = 0; row < rows; ++row) column[row] /= L[k + k * n];
+  }
+}
+
+}  // namespace
+
+void predict_by_points(const ModelRef& model, ConstView prior, double dt, View result) {
+  const int n = prior.n;
+  SigmaPoints points(model, prior);
+  Columns deviations(n * points.count());
+  Scratch<> Q(n * n), sum(n * n);
+  Scratch<32> mean(n);
+  propagate(model, points, prior.mean, dt, mean, deviations, Q);
+  points.covariance(deviations, n, deviations, n, sum);
+  for (int i = 0; i < n * n; ++i) sum[i] += Q[i];
+  mirror_lower(sum, n);
+  write_semidefinite(model, sum, n, result.covariance);
+  std::copy_n(mean.data(), n, result.mean);
+}
+
+void update_by_points(const ModelRef& model, ConstView prior, ConstView z, const SensorRef& sensor, View posterior,
+                      InnovationView& innovation) {
+  const int n = prior.n, m = z.n;
+  SigmaPoints points(model, prior);
+  Columns seen(m * points.count()), rest(n * points.count());
+  Scratch<6> predicted(m);
+  Scratch<36> S_inverse(m * m);
+  Scratch<> cross(n * m), W(n * m), WR(n * m), sum(n * n);
+  measure(model, points, prior.mean, sensor, m, predicted, seen);
+  difference(sensor, z.mean, predicted, m, innovation.residual);
+  points.covariance(seen, m, seen, m, innovation.covariance);
+  for (int i = 0; i < m * m; ++i) innovation.covariance[i] += z.covariance[i];
+  mirror_lower(innovation.covariance, m);
+  score(model, z, innovation, S_inverse);
+
+  points.covariance(points.offset(0), n, seen, m, cross);
+  multiply(cross, n, columns_of(S_inverse, m), W, n, n, m, m);
+  std::copy_n(points.offset(0), n * points.count(), rest.data());
+  multiply(W, n, columns_of(seen, m), rest, n, n, m, points.count(), Into::minus);
+  points.covariance(rest, n, rest, n, sum);
+  multiply(W, n, columns_of(z.covariance, m), WR, n, n, m, m);
+  multiply(WR, n, transposed(W, n), sum, n, n, m, n, Into::plus);
+  mirror_lower(sum, n);
+  write_semidefinite(model, sum, n, posterior.covariance);
+  if (posterior.mean != prior.mean) std::copy_n(prior.mean, n, posterior.mean);
+  multiply(W, n, columns_of(innovation.residual, m), posterior.mean, n, n, m, 1, Into::plus);
+}
+
+void regressed_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q) {
+  const int n = start.n;
+  SigmaPoints points(model, start);
+  Columns deviations(n * points.count());
+  Scratch<> rest(n * n);
+  propagate(model, points, start.mean, dt, mean, deviations, Q);
+  regress(points, n, deviations, n, F, rest);
+  for (int i = 0; i < n * n; ++i) Q[i] += rest[i];
+}
+
+void regressed_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
+                           double* residual, double* H, double* R) {
+  const int n = predicted.n, m = z.n;
+  SigmaPoints points(model, predicted);
+  Columns seen(m * points.count());
+  Scratch<6> mean(m);
+  measure(model, points, predicted.mean, sensor, m, mean, seen);
+  difference(sensor, z.mean, mean, m, residual);
+  regress(points, n, seen, m, H, R);
+  for (int i = 0; i < m * m; ++i) R[i] += z.covariance[i];
+}
+
+}  // namespace sigmax::detail

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <sigmax/hybrid/multiple_model_filter.hpp>
+
+namespace sigmax {
+
+/// A multiple-model filter with the types of its models: what is of another size does not compile. All that it computes
+/// is compiled, in `Filter`, over plain numbers.
+template <class Models, class Filter>
+class BankFilter : public Filter {
+ public:
+  using kind = typename Filter::kind;
+  using ModelsType = Models;
+  using FilterType = Filter;
+  using State = typename Filter::State;
+  /// Along how many axes the models have their position; Eigen::Dynamic if they are chosen at run time.
+  static constexpr int axes = Bank<Models>::axes;
+  /// A measurement of the position, which every model has if any has: that of the default sensor.
+  using Measurement = Gaussian<axes, axes == Eigen::Dynamic ? 3 : axes>;
+  /// Starts of the models, as a tuple or a vector of their estimates.
+  using Starts = typename Bank<Models>::Estimates;
+  /// An estimate in the components of all models together.
+  using Estimate = Gaussian<Eigen::Dynamic, Bank<Models>::max_components>;
+
+  /// Starts every model from its own estimate; nothing is known of the mode. The transition is a relation that serves
+  /// every step, or a function of the step such as TimedTransition. `rules` are those of the filter, and its
+  /// Interaction. Throws std::invalid_argument if the transition does not fit the models, or a start is not finite or
+  /// of another size than its model.
+  template <class... Rules>
+  BankFilter(const Models& models, ModeTransition<kind> transition, const Starts& start, const Rules&... rules)
+      : Filter(detail::bank_of(models), std::move(transition), detail::starts_of(start), rules...) {
+    require_components();
+  }
+  template <class... Rules>
+  BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start,
+             const Rules&... rules) requires(!std::is_same_v<Starts, Estimates>)
+      : Filter(detail::bank_of(models), std::move(transition), start, rules...) {
+    require_components();
+  }
+
+  /// Starts every model from the components that it has of one estimate, given in the order of `components()`.
+  template <int N, int MaxN, class... Rules>
+  BankFilter(const Models& models, ModeTransition<kind> transition, const Gaussian<N, MaxN>& start,
+             const Rules&... rules)
+      : BankFilter(models, std::move(transition), detail::shares_of(detail::bank_of(models), detail::view(start)),
+                   rules...) {}
+
+  /// One cycle, `dt` ≥ 0 seconds after the last, with the measurement z, its covariance R, and the sensor that measured
+  /// it: another one each time, if need be. If its `gate_distance()` is above `gate`, it counts as missed.
+  /// Throws std::invalid_argument if dt or the measurement is not finite, std::domain_error, saying in which step, if S
+  /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
+  template <SensorOfBank<Models> Sensor>
+  void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
+    Filter::step(dt, Seen{detail::view(z), detail::sensor_of_models<Models>(sensor)}, gate);
+  }
+
+  /// The same with a measurement of the position, which leads the state of every model.
+  void step(double dt, const Measurement& z, double gate = no_gate) requires(axes != 0) {
+    with_position(z, [&](const auto& sensor) { Filter::step(dt, Seen{detail::view(z), sensor}, gate); });
+  }
+
+  /// One cycle without a measurement: the models predict and the mode moves on.
+  void step(double dt) { Filter::step(dt); }
+
+  /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
+  /// as missed. Throws std::logic_error without a measurement if the step had one.
+  template <Sensing Sensor>
+  RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
+    return Filter::recorded(dt, Seen{detail::view(z), detail::sensor_of_models<Models>(sensor)});
+  }
+  RecordedStep<kind> recorded(double dt, const Measurement& z) const requires(axes != 0) {
+    return with_position(z, [&](const auto& sensor) { return Filter::recorded(dt, Seen{detail::view(z), sensor}); });
+  }
+  RecordedStep<kind> recorded(double dt) const { return Filter::recorded(dt); }
+
+  /// @{
+  /// As of MultipleModelFilter, from estimates of the models or one of them all.
+  void restart(const Starts& starts) { Filter::restart(detail::starts_of(starts)); }
+  void restart(const Estimates& starts) requires(!std::is_same_v<Starts, Estimates>) { Filter::restart(starts); }
+  template <int N, int MaxN>
+  void restart(const Gaussian<N, MaxN>& start) {
+    Filter::restart(detail::view(start));
+  }
+  void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
+    Filter::transform(A.data(), b.data(), static_cast<int>(b.size()));
+  }
+  /// @}
+
+  /// The output: of the filter's own state, of another by modes, say a smoothed one, and of the most likely mode alone.
+  Estimate estimate() const {
+    return written([this](detail::View result) { Filter::output(result); });
+  }
+  Estimate estimate(const HybridEstimate<kind>& state) const {
+    return written([&](detail::View result) { Filter::output(state, result); });
+  }
+  Estimate most_likely_estimate() const { return most_likely_estimate(this->by_modes()); }
+  Estimate most_likely_estimate(const HybridEstimate<kind>& state) const {
+    return written([&](detail::View result) { Filter::most_likely_output(state, result); });
+  }
+
+  /// The estimate of one model of a tuple, in its own type.
+  template <std::size_t Mode>
+  auto estimate() const {
+    using Model = std::tuple_element_t<Mode, Models>;
+    return static_cast<EstimateOf<Model>>(this->estimates()[Mode]);
+  }
+
+  /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; `nis()` is the
+  /// square of its norm. If the filter is right, its numbers have mean 0 and variance 1 and tell nothing of those of
+  /// other steps. Throws std::logic_error if the last step had no measurement.
+  Vector<Eigen::Dynamic, max_measurement_size> normalized_innovation() const {
+    double numbers[max_measurement_size];
+    const int m = Filter::normalized_innovation(numbers);
+    return Eigen::Map<const Eigen::VectorXd>(numbers, m);
+  }
+
+ private:
+  void require_components() const {
+    if (this->component_count() > Bank<Models>::max_components)
+      throw std::invalid_argument("the models have " + std::to_string(this->component_count()) +
+                                  " different components, but their type allows " +
+                                  std::to_string(Bank<Models>::max_components));
+  }
+
+  template <class Write>
+  Estimate written(const Write& write) const {
+    Estimate result;
+    write(detail::sized_view(result, this->component_count()));
+    return result;
+  }
+
+  /// Calls act(sensor) with that of the position along as many axes as z has.
+  template <class Act>
+  static decltype(auto) with_position(const Measurement& z, const Act& act) {
+    if constexpr (axes != Eigen::Dynamic) {
+      const PositionSensor<axes> sensor;
+      return act(detail::sensor_of_models<Models>(sensor));
+    } else {
+      const PositionSensor<1> line;
+      const PositionSensor<2> plane;
+      const PositionSensor<3> space;
+      const auto m = z.size();
+      return act(m == 1   ? detail::sensor_of_models<Models>(line)
+                 : m == 2 ? detail::sensor_of_models<Models>(plane)
+                          : detail::sensor_of_models<Models>(space));
+    }
+  }
+};
+
+}  // namespace sigmax

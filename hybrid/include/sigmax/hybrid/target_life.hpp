@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include <sigmax/hybrid/fixed_interval_smoother.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
+#include <sigmax/hybrid/plot.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
+#include <sigmax/hybrid/target_rules.hpp>
+
+namespace sigmax {
+
+/// A filter whose state is the histories of its mode.
+template <class Filter>
+concept KeepsHistories = std::is_same_v<typename Filter::State, HistorySet>;
+
+/// What is kept of a step or a start, for smoothing.
+template <ScalableUncertainty Kind>
+struct KeptStep {
+  double time;
+  std::size_t tag;  ///< of the plot
+  bool is_start;
+  std::optional<double> nis;
+  RecordedStep<Kind> step;
+  HistoryLinks links;  ///< of a filter that keeps histories
+};
+
+namespace detail {
+
+template <class Signature>
+class FunctionRef;
+
+/// Any function with these arguments, called where it lies.
+template <class... Arguments>
+class FunctionRef<void(Arguments...)> {
+ public:
+  template <class Function>
+  FunctionRef(const Function& function)
+      : function_(std::addressof(function)), call_([](const void* pointer, Arguments... arguments) {
+          (*static_cast<const Function*>(pointer))(arguments...);
+        }) {}
+  void operator()(Arguments... arguments) const { call_(function_, arguments...); }
+
+ private:
+  const void* function_;
+  void (*call_)(const void*, Arguments...);
+};
+
+/// The life of a target, compiled once for each filter; see Target. The filter is the caller's, always the same.
+template <class Filter>
+class TargetLife {
+ public:
+  using Kind = typename Filter::kind;
+  using Kept = KeptStep<Kind>;
+  using Stepped = FunctionRef<void(const Plot&, bool)>;
+  using StartRule = std::function<std::optional<StartAt<Estimates>>(std::span<const Plot>, std::size_t)>;
+
+  /// Throws std::invalid_argument if a rule makes no sense.
+  TargetLife(const Filter& filter, StartRule start, const TargetRules& rules);
+
+  /// Runs already: the filter stands at `time`, in s. Throws std::invalid_argument if that is not finite.
+  void begin_at(const Filter& filter, double time);
+
+  Verdict take(Filter& filter, const Plot& plot, const Stepped& stepped);
+  bool transform(Filter& filter, const double* A, const double* b, int axes);
+  void smoothed(const Filter& filter, const FunctionRef<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                const FunctionRef<void(const Kept&, const Table&, bool)>& paired) const;
+  void explained(const FunctionRef<void(const Kept&, std::size_t)>& visit) const;
+
+  bool running() const { return now_.running; }
+  std::size_t starts() const { return now_.starts; }
+  std::size_t rejected() const { return now_.rejected; }
+  double time() const { return now_.time; }
+  double accepted_time() const { return now_.accepted_time; }
+
+ private:
+  /// All of a target that is not its filter's.
+  struct Life {
+    bool running = false;
+    double time = -std::numeric_limits<double>::infinity();
+    double accepted_time = -std::numeric_limits<double>::infinity();
+    std::size_t rejected = 0;
+    std::size_t starts = 0;
+    std::size_t recorded = 0;
+    std::vector<Plot> waiting;  ///< for a start; while it runs, those rejected in a row
+
+    /// The time of the latest plot that is in it.
+    double latest() const;
+  };
+  struct Entry {
+    typename Filter::State state;  ///< before the plot, and the life then
+    Life life;
+    Plot plot;
+  };
+
+  std::size_t room() const;
+  Entry& entry(std::size_t k) { return buffer_[(first_ + k) % buffer_.size()]; }
+  void restore(Filter& filter, const Entry& before);
+
+  Verdict replay(Filter& filter, std::size_t k, const Stepped& stepped);
+  Verdict process(Filter& filter, const Plot& plot, const Stepped& stepped);
+  Verdict try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped);
+  Verdict step(Filter& filter, const Plot& plot);
+  void keep_waiting(const Plot& plot);
+  void begin(const Filter& filter, double time, const Plot& plot);
+  void record(const Filter& filter, double dt, const Plot& plot, bool is_start);
+
+  StartRule start_;
+  TargetRules rules_;
+  std::array<double, max_measurement_size + 1> gates_{};  ///< for so many measured quantities
+  Life now_;
+  std::vector<Kept> record_;
+  std::vector<Entry> buffer_;  ///< a ring, oldest first, with room for one more than the rules keep
+  std::size_t first_ = 0;
+  std::size_t kept_ = 0;
+};
+
+extern template class TargetLife<InteractingFilter<Random>>;
+extern template class TargetLife<InteractingFilter<Fuzzy>>;
+extern template class TargetLife<SecondOrderFilter<Random>>;
+extern template class TargetLife<SecondOrderFilter<Fuzzy>>;
+extern template class TargetLife<HistoriesOfModes<Random>>;
+extern template class TargetLife<HistoriesOfModes<Fuzzy>>;
+
+}  // namespace detail
+}  // namespace sigmax

@@ -1,0 +1,383 @@
+#include <sigmax/hybrid/history_filter.hpp>
+
+#include <tuple>
+
+#include <sigmax/hybrid/sound.hpp>
+
+#include "multiple_model_filter.hpp"
+
+namespace sigmax {
+
+using detail::ConstView;
+using detail::View;
+
+HistorySet::HistorySet(const Estimates& starts, std::size_t room) : histories_(room) {
+  for (std::size_t j = 0; j < starts.size(); ++j) {
+    const int n = starts.view(j).n;
+    sizes_.push_back(n);
+    stride_ = std::max(stride_, static_cast<std::size_t>(n * (n + 1)));
+  }
+  numbers_.resize(room * stride_);
+  resize(starts.size());
+}
+
+HistorySet& HistorySet::operator=(const HistorySet& other) {
+  if (this == &other) return *this;
+  histories_ = other.histories_;
+  sizes_ = other.sizes_;
+  stride_ = other.stride_;
+  numbers_.resize(other.numbers_.size());
+  resize(other.size());
+  most_likely_mode = other.most_likely_mode;
+  for (std::size_t h = 0; h < size(); ++h) detail::copy(other.view(h), view(h));
+  return *this;
+}
+
+std::size_t HistorySet::best() const {
+  std::size_t best = 0;
+  for (std::size_t h = 1; h < size(); ++h)
+    if (histories_[h].log_weight > histories_[best].log_weight) best = h;
+  return best;
+}
+
+HistoryLinks HistorySet::links() const {
+  HistoryLinks links{{}, best()};
+  for (std::size_t h = 0; h < size(); ++h) links.all.push_back({histories_[h].mode, histories_[h].parent});
+  return links;
+}
+
+template <ScalableUncertainty Kind>
+HistoriesOfModes<Kind>::HistoriesOfModes(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
+                                         const Estimates& start, const HistoryRules<Kind>& rules,
+                                         const Interaction<Kind>& interaction)
+    : Filter(models, std::move(transition), start, interaction),
+      rules_(rules),
+      branches_(interaction.lift == Lift::prior ? interaction.entry.scales.size() : 1),
+      entries_(branches_, start),
+      log_transition_(modes(), modes()),
+      lacks_(modes() * modes()),
+      innovation_of_(rules.histories),
+      log_prior_(rules.histories),
+      weight_(rules.histories),
+      log_of_mode_(modes()),
+      sets_{State{start, std::max(rules.histories, modes())}, State{start, std::max(rules.histories, modes())}},
+      predicted_(sets_[0]) {
+  require_rules();
+  candidates_.reserve(rules.histories * modes() * branches_ + modes());
+  for (std::size_t s = 0; s < branches_; ++s)
+    detail::write_entries(models, interaction.entry, interaction.entry.scales[s], entries_[s]);
+  for (std::size_t l = 0; l < modes(); ++l)
+    for (std::size_t j = 0; j < modes(); ++j) {
+      const auto& in_source = this->correspondences(j)[l].in_source;
+      lacks_[l * modes() + j] = std::count(in_source.begin(), in_source.end(), -1) > 0;
+    }
+  begin();
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::require_rules() const {
+  if (rules_.histories < modes())
+    throw std::invalid_argument(std::to_string(rules_.histories) + " histories of " + std::to_string(modes()) +
+                                " modes; expected at least one of each");
+  if (!(rules_.least_log_weight < 0.0))
+    throw std::invalid_argument("histories are dropped below a weight that is not below the best one's");
+  if (!(rules_.cut >= 0.0 && rules_.cut <= 1.0))
+    throw std::invalid_argument("the cut of the output is " + std::to_string(rules_.cut) + "; expected 0 to 1");
+  if (!(rules_.tempering > 0.0 && rules_.tempering <= 1.0))
+    throw std::invalid_argument("the likelihood counts to the power of " + std::to_string(rules_.tempering) +
+                                "; expected more than 0, at most 1");
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::step(double dt, const Seen& seen, double gate) {
+  this->require(dt, &seen);
+  bool taken = false;
+  this->located(dt, [&] {
+    branch(dt, predicted_);
+    State& next = next_set();
+    for (std::size_t h = 0; h < next.size(); ++h) {
+      AnyInnovation& innovation = innovation_of_[h];
+      this->update_model(next[h].mode, predicted_.view(h), seen, next.view(h), innovation);
+      log_prior_[h] = next[h].log_weight;
+      next[h].log_weight += rules_.tempering * innovation.log_likelihood;
+    }
+    taken = this->passes(gate, next.size(),
+                         [this](std::size_t h) { return log_prior_[h] - 0.5 * innovation_of_[h].squared_distance; });
+    if (taken) weigh(next);
+  });
+  if (!taken) return step(dt);
+  show_innovations();
+  conclude(true);
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::step(double dt) {
+  this->require(dt, nullptr);
+  this->located(dt, [&] {
+    branch(dt, next_set());
+    weigh(next_set());
+  });
+  conclude(false);
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::restore(const State& state) {
+  if (state.room() != rules_.histories)
+    throw std::invalid_argument("a state with room for " + std::to_string(state.room()) +
+                                " histories; the filter has " + std::to_string(rules_.histories));
+  sets_[current_] = state;
+  summarize(sets_[current_]);
+  this->next().most_likely_mode = state.most_likely_mode;
+  Filter::restore(this->next());
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::restart(const Estimates& starts) {
+  Filter::restart(starts);
+  begin();
+}
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::restart(ConstView start) {
+  Filter::restart(start);
+  begin();
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::transform(const double* A, const double* b, int axes) {
+  Filter::transform(A, b, axes);
+  State& set = sets_[current_];
+  for (std::size_t h = 0; h < set.size(); ++h) detail::transform(A, b, axes, set.view(h));
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::output(View result) const {
+  const State& set = state();
+  const auto count = static_cast<int>(set.size());
+  detail::Scratch mean(result.n), covariance(result.n * result.n);
+  const View receiver{mean, covariance, result.n};
+  this->output_receiver(this->by_modes(), receiver);
+  const double greatest = set[set.best()].log_weight;
+  detail::OfModes weights(count);
+  detail::Parts parts(count);
+  double total = 0.0;
+  for (std::size_t h = 0; h < set.size(); ++h) {
+    const double weight = std::exp(set[h].log_weight - greatest);
+    weights[h] = weight >= rules_.cut ? weight : 0.0;
+    total += weights[h];
+    parts[h] = {set.view(h), this->components_.of_all() + set[h].mode};
+  }
+  for (std::size_t h = 0; h < set.size(); ++h) weights[h] /= total;
+  detail::match_moments({receiver, {parts.data(), set.size()}, interaction_.lift}, weights, weights, result);
+}
+
+template <ScalableUncertainty Kind>
+double HistoriesOfModes<Kind>::nis() const {
+  double whitened[max_measurement_size], sum = 0.0;
+  const int m = normalized_innovation(whitened);
+  for (int i = 0; i < m; ++i) sum += whitened[i] * whitened[i];
+  return sum;
+}
+
+template <ScalableUncertainty Kind>
+int HistoriesOfModes<Kind>::normalized_innovation(double* numbers) const {
+  if (!this->measured()) throw std::logic_error("nis() after a step without a measurement");
+  const std::size_t size = state().size();
+  detail::OfModes weights(static_cast<int>(size));
+  std::size_t best = 0;
+  for (std::size_t h = 0; h < size; ++h) {
+    weights[h] = std::exp(log_prior_[h]);
+    if (log_prior_[h] > log_prior_[best]) best = h;
+  }
+  const AnyInnovation innovation = Filter::collapsed({innovation_of_.data(), size}, weights, best);
+  Filter::normalize(innovation, numbers);
+  return innovation.size;
+}
+
+template <ScalableUncertainty Kind>
+double HistoriesOfModes<Kind>::log_evidence() const {
+  return detail::log_combine<AlgebraOf<Kind>>(
+      state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; }, detail::unit);
+}
+
+template <ScalableUncertainty Kind>
+double HistoriesOfModes<Kind>::log_score() const {
+  return log_evidence() - detail::log_combine<Sigma>(
+                              state().size(), [this](std::size_t h) { return log_prior_[h]; }, detail::unit);
+}
+
+template <ScalableUncertainty Kind>
+RecordedStep<Kind> HistoriesOfModes<Kind>::recorded(double dt, const Seen& seen) const {
+  Estimates predicted = estimates();
+  collapse_modes(state(), predicted_, predicted);
+  return this->recorded_by(dt, &seen, predicted);
+}
+
+/// One history for each mode, as each starts.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::begin() {
+  State& set = sets_[current_];
+  set.resize(modes());
+  set.most_likely_mode = most_likely_mode();
+  for (std::size_t j = 0; j < modes(); ++j) {
+    set[j] = {j, j, belief().log(j)};
+    detail::copy(estimates().view(j), set.view(j));
+  }
+}
+
+/// Every history goes on into every mode; the greatest are kept and predict.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::branch(double dt, State& predicted) {
+  this->predict_mode(dt);
+  propose();
+  keep();
+  const State& before = state();
+  const State& after = next_set();
+  predicted.resize(after.size());
+  for (std::size_t h = 0; h < after.size(); ++h) {
+    const std::size_t j = after[h].mode, parent = after[h].parent, l = before[parent].mode;
+    predicted[h] = after[h];
+    const View estimate = predicted.view(h);
+    if (l == j) {
+      this->predict_model(j, before.view(parent), dt, estimate);
+      continue;
+    }
+    const Estimates& lenders = interaction_.lift == Lift::prior ? entries_[candidates_[h].entry] : estimates();
+    const detail::Mixture::Part part{before.view(parent), this->correspondences(j) + l};
+    detail::Mixture{lenders.view(j), {&part, 1}, interaction_.lift}.read(part, estimate);
+    this->predict_model(j, estimate, dt, estimate);
+  }
+}
+
+/// All ways to go on. A mode that nothing reaches goes on by itself, with no weight.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::propose() {
+  const auto& transition = system_.transition();
+  for (std::size_t l = 0; l < modes(); ++l)
+    for (std::size_t j = 0; j < modes(); ++j) log_transition_(l, j) = std::log(transition(l, j));
+  const State& before = state();
+  const double share = SelectiveAlgebra<AlgebraOf<Kind>> ? 0.0 : std::log(static_cast<double>(branches_));
+  candidates_.clear();
+  for (std::size_t j = 0; j < modes(); ++j) {
+    std::size_t best = candidates_.size();
+    for (std::size_t h = 0; h < before.size(); ++h) {
+      const std::size_t l = before[h].mode;
+      const double log_weight = before[h].log_weight + log_transition_(l, j);
+      if (log_weight == log_zero) continue;
+      const bool begins = lacks_[l * modes() + j];
+      for (std::size_t entry = 0; entry < (begins ? branches_ : 1); ++entry) {
+        candidates_.push_back({{j, h, begins ? log_weight - share : log_weight}, entry, false});
+        if (candidates_.back().history.log_weight > candidates_[best].history.log_weight) best = candidates_.size() - 1;
+      }
+    }
+    if (best == candidates_.size()) candidates_.push_back({{j, last_of(j), log_zero}, 0, false});
+    candidates_[best].best_of_mode = true;
+  }
+}
+
+/// The best of the histories that end in mode j.
+template <ScalableUncertainty Kind>
+std::size_t HistoriesOfModes<Kind>::last_of(std::size_t j) const {
+  const State& set = state();
+  std::size_t best = set.size();
+  for (std::size_t h = 0; h < set.size(); ++h)
+    if (set[h].mode == j && (best == set.size() || set[h].log_weight > set[best].log_weight)) best = h;
+  return best;
+}
+
+/// The best of each mode and then the greatest, as many as there is room for, of equals the first proposed; their
+/// weights are normalised.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::keep() {
+  double greatest = log_zero;
+  for (const Candidate& each : candidates_) greatest = std::max(greatest, each.history.log_weight);
+  const auto dropped = [&](const Candidate& each) {
+    return !each.best_of_mode && each.history.log_weight < greatest + rules_.least_log_weight;
+  };
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), dropped), candidates_.end());
+  const std::size_t kept = std::min(candidates_.size(), rules_.histories);
+  const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(kept);
+  std::partial_sort(candidates_.begin(), last, candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.best_of_mode != b.best_of_mode) return a.best_of_mode;
+    const History &x = a.history, &y = b.history;
+    if (x.log_weight != y.log_weight) return x.log_weight > y.log_weight;
+    return std::tie(x.mode, x.parent, a.entry) < std::tie(y.mode, y.parent, b.entry);
+  });
+  candidates_.erase(last, candidates_.end());
+  State& next = next_set();
+  next.resize(candidates_.size());
+  for (std::size_t h = 0; h < next.size(); ++h) next[h] = candidates_[h].history;
+  normalize(next);
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::normalize(State& set) const {
+  const double total = detail::log_combine<AlgebraOf<Kind>>(
+      set.size(), [&](std::size_t h) { return set[h].log_weight; }, detail::unit);
+  if (total == log_zero) check::excluded(system_.mode_variable());
+  for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::weigh(State& set) {
+  normalize(set);
+  summarize(set);
+}
+
+/// The histories by modes: what the other filters have.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::summarize(const State& set) {
+  for (std::size_t j = 0; j < modes(); ++j)
+    log_of_mode_[j] = detail::log_combine<AlgebraOf<Kind>>(
+        set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; }, detail::unit);
+  for (std::size_t h = 0; h < set.size(); ++h) {
+    const double log_mode = log_of_mode_[set[h].mode];
+    weight_[h] = log_mode == log_zero ? 1.0 : std::exp(set[h].log_weight - log_mode);
+  }
+  this->next().belief.assign([&](std::size_t j) { return log_of_mode_[j]; });
+  collapse_modes(set, set, this->next().estimates);
+  for (std::size_t h = 0; h < set.size(); ++h) check::sound(this->model(set[h].mode), set.view(h));
+}
+
+/// One estimate for the histories of each mode, which `source` has, by sum and moments or by selection.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::collapse_modes(const State& set, const State& source, Estimates& collapsed) const {
+  detail::Parts parts(static_cast<int>(set.size()));
+  detail::OfModes weights(static_cast<int>(set.size()));
+  for (std::size_t j = 0; j < modes(); ++j) {
+    std::size_t count = 0, best = 0;
+    for (std::size_t h = 0; h < set.size(); ++h) {
+      if (set[h].mode != j) continue;
+      parts[count] = {source.view(h)};
+      weights[count] = weight_[h];
+      if (weights[count] > weights[best]) best = count;
+      ++count;
+    }
+    detail::collapse(Collapse<Kind>{}, {collapsed.view(j), {parts.data(), count}}, weights, best, collapsed.view(j));
+  }
+}
+
+/// The innovation of a mode is that of the history that was its best before the measurement.
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::show_innovations() {
+  const State& set = next_set();
+  for (std::size_t j = 0; j < modes(); ++j) {
+    double greatest = log_zero;
+    for (std::size_t h = set.size(); h-- > 0;)
+      if (set[h].mode == j && log_prior_[h] >= greatest) {
+        greatest = log_prior_[h];
+        innovations_[j] = innovation_of_[h];
+      }
+  }
+}
+
+template <ScalableUncertainty Kind>
+void HistoriesOfModes<Kind>::conclude(bool measured) {
+  Filter::conclude(measured);
+  current_ = 1 - current_;
+  sets_[current_].most_likely_mode = most_likely_mode();
+}
+
+template class HistoriesOfModes<Random>;
+template class HistoriesOfModes<Fuzzy>;
+
+}  // namespace sigmax

@@ -1,0 +1,330 @@
+#include "multiple_model_filter.hpp"
+
+#include <numbers>
+
+#include <sigmax/core/compose.hpp>
+#include <sigmax/hybrid/sound.hpp>
+
+namespace sigmax {
+
+using detail::ConstView;
+using detail::View;
+
+template <ScalableUncertainty Kind>
+MultipleModelFilter<Kind>::MultipleModelFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
+                                               const Estimates& start, const Interaction<Kind>& interaction)
+    : system_(models, std::move(transition)),
+      interaction_(interaction),
+      components_(models),
+      innovations_(modes()),
+      prior_(uninformative(system_.mode_variable())),
+      entries_(detail::estimates_of(models)),
+      laws_(modes()),
+      weights_(modes()),
+      shortcut_(models, interaction),
+      states_{State{start, prior_}, State{start, prior_}} {
+  check::starts(models, start);
+  check::prior(interaction_.entry);
+  detail::write_entries(models, interaction_.entry, interaction_.entry.root_mean_square(), entries_);
+  forget_mode();
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::restore(const State& state) {
+  check::starts(system_.models(), state.estimates);
+  check::same(system_.mode_variable(), state.belief.variable(), "restore");
+  states_[current_] = state;
+  read_weights(belief(), weights_.data());
+  measured_ = false;
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::restart(const Estimates& starts) {
+  check::starts(system_.models(), starts);
+  states_[current_].estimates = starts;
+  forget_mode();
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::restart(ConstView start) {
+  if (!check::finite(start)) throw std::invalid_argument("the start is not finite");
+  components_.share(start, states_[current_].estimates);
+  forget_mode();
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::forget_mode() {
+  states_[current_].belief = Belief{uninformative(system_.mode_variable())};
+  read_weights(belief(), weights_.data());
+  states_[current_].most_likely_mode = detail::select(modes(), logs_of(belief()), 0, interaction_.output_tie);
+  measured_ = false;
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::transform(const double* A, const double* b, int axes) {
+  for (std::size_t j = 0; j < modes(); ++j) detail::transform(A, b, axes, states_[current_].estimates.view(j));
+}
+
+template <ScalableUncertainty Kind>
+detail::Mixture MultipleModelFilter<Kind>::mixture(ConstView receiver, const detail::Correspondence* maps,
+                                                   const Estimates& estimates, detail::Mixture::Part* parts) const {
+  for (std::size_t l = 0; l < modes(); ++l) parts[l] = {estimates.view(l), maps + l};
+  return {receiver, {parts, modes()}, interaction_.lift};
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::output_receiver(const State& state, View result) const {
+  const auto count = static_cast<std::size_t>(component_count());
+  detail::Scratch<32, std::size_t> carriers(component_count());
+  for (std::size_t i = 0; i < count; ++i)
+    carriers[i] = detail::select(
+        modes(),
+        [&](std::size_t l) {
+          const bool has = components_.of_all()[l].in_source[i] >= 0;
+          return has ? std::max(state.belief.log(l), std::numeric_limits<double>::lowest()) : log_zero;
+        },
+        state.most_likely_mode, interaction_.output_tie);
+  components_.carry(lenders(state.estimates), carriers, result);
+}
+
+template <ScalableUncertainty Kind>
+template <class Rule>
+void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& state, View result) const {
+  detail::OfModes of_state(&state == states_.data() + current_ ? 0 : static_cast<int>(modes()));
+  const double* weights = weights_.data();
+  if (&state != states_.data() + current_) {
+    read_weights(state.belief, of_state);
+    weights = of_state;
+  }
+  if (shortcut_.output(rule, state.estimates, weights, state.most_likely_mode, result)) return;
+  const int n = component_count();
+  detail::Scratch mean(n), covariance(n * n);
+  const View receiver{mean, covariance, n};
+  output_receiver(state, receiver);
+  detail::Parts parts(static_cast<int>(modes()));
+  detail::collapse(rule, mixture(receiver, components_.of_all(), state.estimates, parts), weights,
+                   state.most_likely_mode, result);
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::output(const State& state, View result) const {
+  write_output(interaction_.collapse, state, result);
+}
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::most_likely_output(const State& state, View result) const {
+  write_output(Selection{}, state, result);
+}
+
+template <ScalableUncertainty Kind>
+double MultipleModelFilter<Kind>::beta() const requires SelectiveAlgebra<AlgebraOf<Kind>> {
+  const int n = component_count();
+  detail::Scratch mean(n), covariance(n * n), of_envelope(n), covariance_of_envelope(n * n);
+  const View receiver{mean, covariance, n};
+  output_receiver(state(), receiver);
+  detail::Parts parts(static_cast<int>(modes()));
+  detail::OfModes weights(static_cast<int>(modes()));
+  read_weights(belief(), weights);
+  return detail::match_envelope(mixture(receiver, components_.of_all(), estimates(), parts), weights,
+                                {of_envelope, covariance_of_envelope, n});
+}
+
+template <ScalableUncertainty Kind>
+double MultipleModelFilter<Kind>::nis() const {
+  double whitened[max_measurement_size], sum = 0.0;
+  const int m = normalized_innovation(whitened);
+  for (int i = 0; i < m; ++i) sum += whitened[i] * whitened[i];
+  return sum;
+}
+
+template <ScalableUncertainty Kind>
+int MultipleModelFilter<Kind>::normalized_innovation(double* numbers) const {
+  if (!measured_) throw std::logic_error("nis() after a step without a measurement");
+  detail::OfModes weights(static_cast<int>(modes()));
+  read_weights(prior_, weights);
+  const AnyInnovation innovation = collapsed(innovations_, weights, predicted_mode_);
+  normalize(innovation, numbers);
+  return innovation.size;
+}
+
+template <ScalableUncertainty Kind>
+double MultipleModelFilter<Kind>::log_evidence() const {
+  return detail::log_combine<AlgebraOf<Kind>>(
+      modes(), [this](std::size_t j) { return prior_.log(j) + innovations_[j].log_likelihood; }, detail::unit);
+}
+
+template <ScalableUncertainty Kind>
+double MultipleModelFilter<Kind>::log_score() const {
+  return log_evidence() - detail::log_combine<Sigma>(modes(), logs_of(prior_), detail::unit);
+}
+
+template <ScalableUncertainty Kind>
+double MultipleModelFilter<Kind>::gate_distance() const {
+  if (gate_distance_) return *gate_distance_;
+  return -2.0 * detail::log_combine<AlgebraOf<Kind>>(
+                    modes(), [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; },
+                    detail::unit);
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::predict_mode(double dt) {
+  measured_ = false;
+  compose(system_.transition(dt), belief(), prior_);
+  predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+  describe_models(dt);
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::describe_models(double dt) {
+  if (dt == laws_dt_) return;
+  laws_dt_ = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const detail::ModelRef& ref = model(j).ref();
+    if (ref.table->law) ref.table->law(ref.motion, dt, laws_[j]);
+  }
+  laws_dt_ = dt;
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::predict_model(std::size_t j, ConstView prior, double dt, View result) const {
+  const detail::ModelRef& ref = model(j).ref();
+  if (ref.table->law)
+    detail::predict(laws_[j], ref.table->axes, prior, result);
+  else
+    detail::predict(ref, prior, dt, result);
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, const Seen& seen, View posterior,
+                                             AnyInnovation& innovation) const {
+  innovation.size = seen.z.n;
+  detail::InnovationView told{innovation.residual_numbers.data(), innovation.covariance_numbers.data()};
+  detail::update(model(j).ref(), prior, seen.z, seen.sensor.of(system_.models(), j), posterior, told);
+  innovation.squared_distance = told.squared_distance;
+  innovation.log_likelihood =
+      interaction_.likelihood == LikelihoodForm::possibility ? -0.5 * told.squared_distance : told.log_likelihood;
+  if (std::isnan(innovation.log_likelihood))
+    throw std::domain_error("the likelihood in mode '" + system_.mode_variable().label(j) + "' is not a number");
+}
+
+template <ScalableUncertainty Kind>
+bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double gate, Estimates& predicted) {
+  if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
+  const Relation<Kind, Kind>& transition = system_.transition(dt);
+  describe_models(dt);
+  if (!shortcut_.prepare(laws_, dt, transition)) return false;
+  detail::kinematic::Told told;
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const View result = next().estimates.view(j);
+    told.mean[j] = result.mean;
+    told.covariance[j] = result.covariance;
+    told.predicted[j] = predicted.view(j).mean;
+    told.residual[j] = innovations_[j].residual_numbers.data();
+    told.S[j] = innovations_[j].covariance_numbers.data();
+  }
+  const auto take = [&](const double* z, const double* R) {
+    return shortcut_.step(estimates(), weights_.data(), most_likely_mode(), z, R, told);
+  };
+  if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
+  const auto prior = prior_.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
+  predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
+  bool taken = seen != nullptr;
+  if (seen) {
+    for (std::size_t j = 0; j < modes(); ++j) {
+      AnyInnovation& innovation = innovations_[j];
+      innovation.size = seen->z.n;
+      innovation.squared_distance = told.squared_distance[j];
+      innovation.log_likelihood = -0.5 * told.squared_distance[j];
+      if (interaction_.likelihood == LikelihoodForm::density)
+        innovation.log_likelihood -=
+            0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
+    }
+    gate_distance_.reset();
+    taken = gate == no_gate || gate_distance() <= gate;
+  }
+  if (seen && !taken && !take(nullptr, nullptr)) return false;
+  const auto posterior = next().belief.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
+  conclude(taken);
+  return true;
+}
+
+template <ScalableUncertainty Kind>
+RecordedStep<Kind> MultipleModelFilter<Kind>::recorded_by(double dt, const Seen* seen,
+                                                          const Estimates& predicted) const {
+  if (!seen && measured_)
+    throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
+  RecordedStep<Kind> result{dt, state(), {}};
+  if (!measured_) return result;
+  const int m = seen->z.n;
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const ConstView before = predicted.view(j), after = estimates().view(j);
+    const int n = before.n;
+    double residual[max_measurement_size], R[max_measurement_size * max_measurement_size], L[sizeof(R) / sizeof(*R)];
+    detail::Scratch<64> H(m * n);
+    detail::linearised_measurement(model(j).ref(), before, seen->z, seen->sensor.of(system_.models(), j), residual, H,
+                                   R);
+    if (!detail::cholesky_factor(R, m, L)) {  // where R is singular, the rounding of S stands for its zeros
+      for (int i = 0; i < m; ++i) R[i + i * m] += 1e-24;
+      detail::cholesky_factor(R, m, L);
+    }
+    detail::Scratch<32> moved(n);
+    for (int i = 0; i < n; ++i) moved[i] = after.mean[i] - before.mean[i];
+    detail::multiply(H, m, detail::columns_of(moved, n), residual, m, m, n, 1, detail::Into::minus);
+    for (int k = 0; k < n; ++k) detail::lower_solve(L, m, H + k * m);
+    detail::lower_solve(L, m, residual);
+    result.seen.emplace_back(n).add(H, residual, m);
+  }
+  return result;
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::conclude(bool measured) {
+  next().most_likely_mode =
+      detail::select(modes(), logs_of(next().belief), most_likely_mode(), interaction_.output_tie);
+  current_ = 1 - current_;
+  read_weights(belief(), weights_.data());
+  measured_ = measured;
+  ++steps_;
+}
+
+template <ScalableUncertainty Kind>
+AnyInnovation MultipleModelFilter<Kind>::collapsed(std::span<const AnyInnovation> innovations, const double* weights,
+                                                   std::size_t winner) {
+  detail::Parts parts(static_cast<int>(innovations.size()));
+  for (std::size_t l = 0; l < innovations.size(); ++l) parts[l] = {innovations[l].view()};
+  AnyInnovation result = innovations[winner];
+  detail::collapse(Collapse<Kind>{}, {innovations[winner].view(), {parts.data(), innovations.size()}}, weights, winner,
+                   {result.residual_numbers.data(), result.covariance_numbers.data(), result.size});
+  return result;
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::normalize(const AnyInnovation& innovation, double* numbers) {
+  double L[max_measurement_size * max_measurement_size];
+  const int m = innovation.size;
+  if (detail::cholesky_factor(innovation.covariance_numbers.data(), m, L)) {
+    std::copy_n(innovation.residual_numbers.begin(), m, numbers);
+    detail::lower_solve(L, m, numbers);
+  } else {
+    std::fill_n(numbers, m, std::numeric_limits<double>::infinity());
+  }
+}
+
+template <ScalableUncertainty Kind>
+void MultipleModelFilter<Kind>::require(double dt, const Seen* seen) const {
+  if (!(dt >= 0.0 && std::isfinite(dt)))
+    throw std::invalid_argument(this_step(dt) + ": expected a finite time that is not negative");
+  if (seen && !check::finite(seen->z))
+    throw std::invalid_argument(this_step(dt) + ": the measurement, or its covariance, is not finite");
+}
+
+template <ScalableUncertainty Kind>
+std::string MultipleModelFilter<Kind>::this_step(double dt) const {
+  return "step " + std::to_string(steps_ + 1) + " of " + std::to_string(dt) + " s";
+}
+
+template class MultipleModelFilter<Random>;
+template class MultipleModelFilter<Fuzzy>;
+
+}  // namespace sigmax

@@ -1,0 +1,152 @@
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
+
+#include <sigmax/hybrid/sound.hpp>
+
+#include "multiple_model_filter.hpp"
+
+namespace sigmax {
+namespace {
+
+/// For each model as many estimates as there are modes, at j · modes + l.
+Estimates pairs_of(const std::vector<AnyModel>& models) {
+  Estimates pairs;
+  for (const AnyModel& model : models)
+    for (std::size_t l = 0; l < models.size(); ++l) pairs.add(static_cast<int>(model.size()));
+  return pairs;
+}
+
+}  // namespace
+
+template <ScalableUncertainty Kind>
+SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
+                                           const Estimates& start, const Interaction<Kind>& interaction)
+    : Filter(models, std::move(transition), start, interaction),
+      predicted_(pairs_of(models)),
+      pairs_(predicted_),
+      pair_innovations_(modes()),
+      log_fit_(modes() * modes()),
+      log_weight_(modes()),
+      joint_(modes(), modes()),
+      predecessor_(modes(), modes()) {}
+
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
+  this->require(dt, &seen);
+  bool taken = false;
+  this->located(dt, [&] {
+    branch(dt);
+    for (std::size_t j = 0; j < modes(); ++j) {
+      for (std::size_t l = 0; l < modes(); ++l) {
+        log_fit_[pair(l, j)] = log_zero;
+        if (!lives(l, j)) continue;
+        AnyInnovation& innovation = pair_innovations_[l];
+        this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
+        log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
+        joint_(j, l) += innovation.log_likelihood;
+      }
+      summarize(j);
+    }
+    taken = this->passes(gate, log_fit_.size(), [this](std::size_t each) { return log_fit_[each]; });
+    if (taken) merge(pairs_, next().estimates);
+  });
+  if (!taken) return step(dt);
+  this->conclude(true);
+}
+
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::step(double dt) {
+  this->require(dt, nullptr);
+  this->located(dt, [&] {
+    branch(dt);
+    merge(predicted_, next().estimates);
+  });
+  this->conclude(false);
+}
+
+template <ScalableUncertainty Kind>
+RecordedStep<Kind> SecondOrderFilter<Kind>::recorded(double dt, const Seen& seen) const {
+  Estimates predicted = estimates();
+  collapse_predecessors(predicted_, predicted);
+  return this->recorded_by(dt, &seen, predicted);
+}
+
+/// Every pair predicts from its predecessor's estimate, read in the components of the mode's model.
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::branch(double dt) {
+  this->predict_mode(dt);
+  const auto& transition = system_.transition();
+  detail::Parts parts(static_cast<int>(modes()));
+  for (std::size_t j = 0; j < modes(); ++j) {
+    for (std::size_t l = 0; l < modes(); ++l) joint_(j, l) = belief().log(l) + std::log(transition(l, j));
+    weigh(j);
+    const auto lender = this->lenders(estimates()).view(j);
+    const auto mixture = this->mixture(lender, this->correspondences(j), estimates(), parts);
+    for (std::size_t l = 0; l < modes(); ++l) {
+      if (!lives(l, j)) continue;
+      const detail::View each = predicted_.view(pair(l, j));
+      mixture.read(parts[l], each);
+      this->predict_model(j, each, dt, each);
+    }
+  }
+}
+
+/// The belief is the ⊕ of the pairs' weights, and the predecessors of each mode collapse.
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::merge(const Estimates& pairs, Estimates& merged) {
+  next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
+  collapse_predecessors(pairs, merged);
+  for (std::size_t j = 0; j < modes(); ++j) check::sound(this->model(j), merged.view(j));
+}
+
+/// By sum and moments or by selection.
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::collapse_predecessors(const Estimates& pairs, Estimates& merged) const {
+  detail::Parts parts(static_cast<int>(modes()));
+  for (std::size_t j = 0; j < modes(); ++j) {
+    for (std::size_t l = 0; l < modes(); ++l) parts[l] = {pairs.view(pair(l, j))};
+    detail::collapse(Collapse<Kind>{}, {merged.view(j), {parts.data(), modes()}}, predecessor_.row(j).data(), best(j),
+                     merged.view(j));
+  }
+}
+
+/// The logarithm of the weight of mode j, and the weights of its predecessors given j. An excluded mode keeps those
+/// that it had before the measurement, and one that nothing reaches is its own predecessor.
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::weigh(std::size_t j) {
+  const auto log = [&](std::size_t l) { return joint_(j, l); };
+  log_weight_[j] = detail::log_combine<AlgebraOf<Kind>>(modes(), log, detail::unit);
+  for (std::size_t l = 0; l < modes(); ++l)
+    if (log_weight_[j] != log_zero)
+      predecessor_(j, l) = std::exp(log(l) - log_weight_[j]);
+    else if (unreachable(j))
+      predecessor_(j, l) = l == j ? 1.0 : 0.0;
+}
+
+template <ScalableUncertainty Kind>
+std::size_t SecondOrderFilter<Kind>::best(std::size_t j) const {
+  Tie tie = Tie::stay;
+  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = interaction_.collapse.mixing_tie;
+  return detail::select(
+      modes(), [&](std::size_t l) { return std::log(predecessor_(j, l)); }, j, tie);
+}
+
+/// The innovation of a mode is that of its predicted measurement, a mixture by the weights before the measurement; from
+/// then on its predecessors have those after it.
+template <ScalableUncertainty Kind>
+void SecondOrderFilter<Kind>::summarize(std::size_t j) {
+  AnyInnovation& innovation = innovations_[j];
+  const std::size_t winner = best(j);
+  const double before = log_weight_[j], own = pair_innovations_[j].log_likelihood;
+  innovation = Filter::collapsed(pair_innovations_, predecessor_.row(j).data(), winner);
+  weigh(j);
+  double whitened[max_measurement_size];
+  Filter::normalize(innovation, whitened);
+  innovation.squared_distance = 0.0;
+  for (int i = 0; i < innovation.size; ++i) innovation.squared_distance += whitened[i] * whitened[i];
+  innovation.log_likelihood = before == log_zero ? own : log_weight_[j] - before;
+}
+
+template class SecondOrderFilter<Random>;
+template class SecondOrderFilter<Fuzzy>;
+
+}  // namespace sigmax

@@ -1,0 +1,249 @@
+#include <sigmax/hybrid/target_life.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <sigmax/estimation/chi_square.hpp>
+#include <sigmax/estimation/filtering.hpp>
+
+namespace sigmax::detail {
+
+template <class Filter>
+double TargetLife<Filter>::Life::latest() const {
+  return waiting.empty() ? time : std::max(time, waiting.back().time);
+}
+
+template <class Filter>
+TargetLife<Filter>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
+    : start_(std::move(start)), rules_(rules) {
+  if (!(rules.longest_gap > 0.0)) throw std::invalid_argument("the longest gap of a target is not positive");
+  for (int m = 1; m <= max_measurement_size; ++m)
+    gates_[static_cast<std::size_t>(m)] =
+        rules.gate_probability == 1.0 ? no_gate : chi_square_quantile(rules.gate_probability, m);
+  now_.waiting.reserve(room());
+  buffer_.assign(rules.buffer + 1, Entry{filter.state(), now_, Plot{}});
+  for (Entry& entry : buffer_) entry.life.waiting.reserve(room());
+}
+
+template <class Filter>
+std::size_t TargetLife<Filter>::room() const {
+  return std::max({rules_.waiting, rules_.rejections, std::size_t{1}});
+}
+
+template <class Filter>
+void TargetLife<Filter>::begin_at(const Filter& filter, double time) {
+  if (!std::isfinite(time)) throw std::invalid_argument("a target starts at a time that is not finite");
+  begin(filter, time, Plot(time));
+}
+
+template <class Filter>
+Verdict TargetLife<Filter>::take(Filter& filter, const Plot& plot, const Stepped& stepped) {
+  if (!std::isfinite(plot.time)) throw std::invalid_argument("a measurement of a time that is not finite");
+  std::size_t place = kept_;  // behind all that is not later
+  while (place > 0 && entry(place - 1).plot.time > plot.time) --place;
+  const double earliest = (place < kept_ ? entry(place).life : now_).latest();
+  if (plot.time < earliest)
+    throw std::invalid_argument("a measurement of " + std::to_string(plot.time) + " s came after one of " +
+                                std::to_string(now_.latest()) + " s; the buffer goes back to " +
+                                std::to_string(earliest) + " s");
+  if (place < kept_) restore(filter, entry(place));
+  for (std::size_t k = kept_; k > place; --k) entry(k).plot = entry(k - 1).plot;
+  entry(place).plot = plot;
+  Verdict verdict = Verdict::missed;
+  try {
+    verdict = replay(filter, place, stepped);
+    for (std::size_t k = place + 1; k <= kept_; ++k) replay(filter, k, stepped);
+  } catch (...) {  // back to what was, which succeeded before
+    restore(filter, entry(place));
+    for (std::size_t k = place; k < kept_; ++k) {
+      entry(k).plot = entry(k + 1).plot;
+      replay(filter, k, stepped);
+    }
+    throw;
+  }
+  if (++kept_ == buffer_.size()) {  // one more than the rules keep
+    first_ = (first_ + 1) % buffer_.size();
+    --kept_;
+  }
+  return verdict;
+}
+
+template <class Filter>
+void TargetLife<Filter>::restore(Filter& filter, const Entry& before) {
+  filter.restore(before.state);
+  now_ = before.life;
+  record_.erase(record_.begin() + static_cast<std::ptrdiff_t>(now_.recorded), record_.end());
+}
+
+/// Takes an entry of the buffer, from where the target stands.
+template <class Filter>
+Verdict TargetLife<Filter>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
+  Entry& event = entry(k);
+  event.state = filter.state();
+  event.life = now_;
+  return process(filter, event.plot, stepped);
+}
+
+template <class Filter>
+Verdict TargetLife<Filter>::process(Filter& filter, const Plot& plot, const Stepped& stepped) {
+  if (now_.running && plot.time - now_.accepted_time > rules_.longest_gap) {
+    now_.running = false;
+    now_.waiting.clear();
+  }
+  if (!now_.running) {
+    keep_waiting(plot);
+    return try_to_start(filter, plot, stepped);
+  }
+  const Verdict verdict = step(filter, plot);
+  if (verdict == Verdict::rejected && rules_.rejections > 0 && now_.waiting.size() == rules_.rejections) {
+    now_.running = false;
+    if (rules_.record) {  // the plot is of a start, or waits for one
+      record_.pop_back();
+      now_.recorded = record_.size();
+    }
+    return try_to_start(filter, plot, stepped);
+  }
+  stepped(plot, false);
+  return verdict;
+}
+
+template <class Filter>
+Verdict TargetLife<Filter>::step(Filter& filter, const Plot& plot) {
+  const double dt = plot.time - now_.time;
+  if (plot.seen()) {
+    const Seen seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())};
+    filter.step(dt, seen, gates_[static_cast<std::size_t>(plot.size())]);
+  } else {
+    filter.step(dt);
+  }
+  now_.time = plot.time;
+  if (filter.measured()) {
+    now_.accepted_time = plot.time;
+    now_.waiting.clear();
+  } else if (plot.seen()) {
+    ++now_.rejected;
+    if (rules_.rejections > 0) keep_waiting(plot);
+  }
+  record(filter, dt, plot, false);
+  return filter.measured() ? Verdict::accepted : plot.seen() ? Verdict::rejected : Verdict::missed;
+}
+
+/// Asks for a start with the plots that wait; those that are not in it are steps after it.
+template <class Filter>
+Verdict TargetLife<Filter>::try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped) {
+  const bool again = now_.starts > 0;
+  const auto start = start_(now_.waiting, now_.starts);
+  if (!start) return Verdict::waiting;
+  if (start->estimates.size() == 1 && filter.modes() > 1)
+    filter.restart(std::as_const(start->estimates).view(0));
+  else
+    filter.restart(start->estimates);
+  begin(filter, start->time, plot);
+  stepped(plot, true);
+  const std::vector<Plot> later = start->from_plots ? std::vector<Plot>{} : std::move(now_.waiting);
+  now_.waiting.clear();
+  for (const Plot& each : later) {
+    step(filter, each);
+    stepped(each, false);
+  }
+  return again ? Verdict::restarted : Verdict::started;
+}
+
+/// Where there is no room, a miss goes first, and then the oldest.
+template <class Filter>
+void TargetLife<Filter>::keep_waiting(const Plot& plot) {
+  auto& waiting = now_.waiting;
+  if (waiting.size() == room()) {
+    const auto miss = std::find_if(waiting.begin(), waiting.end(), [](const Plot& each) { return !each.seen(); });
+    waiting.erase(miss == waiting.end() ? waiting.begin() : miss);
+  }
+  waiting.push_back(plot);
+}
+
+template <class Filter>
+void TargetLife<Filter>::begin(const Filter& filter, double time, const Plot& plot) {
+  now_.running = true;
+  now_.time = now_.accepted_time = time;
+  ++now_.starts;
+  record(filter, 0.0, plot, true);
+}
+
+template <class Filter>
+void TargetLife<Filter>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
+  if (!rules_.record) return;
+  const bool measured = filter.measured();
+  const auto recorded = [&] {
+    if (!measured) return filter.recorded(dt);
+    return filter.recorded(dt, Seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())});
+  };
+  record_.push_back(
+      {now_.time, plot.tag, is_start, measured ? std::optional(filter.nis()) : std::nullopt, recorded(), {}});
+  if constexpr (KeepsHistories<Filter>) record_.back().links = filter.state().links();
+  now_.recorded = record_.size();
+}
+
+template <class Filter>
+bool TargetLife<Filter>::transform(Filter& filter, const double* A, const double* b, int axes) {
+  if (!now_.running || !now_.waiting.empty() || rules_.buffer > 0) return false;
+  filter.transform(A, b, axes);
+  std::size_t k = record_.size();
+  while (k > 0) {  // back to the last start: what came before it is smoothed without what comes now
+    --k;
+    RecordedStep<Kind>& step = record_[k].step;
+    for (std::size_t j = 0; j < step.state.estimates.size(); ++j)
+      detail::transform(A, b, axes, step.state.estimates.view(j));
+    for (FutureEvidence& evidence : step.seen) evidence.transform(A, axes);
+    if (record_[k].is_start) break;
+  }
+  return true;
+}
+
+template <class Filter>
+void TargetLife<Filter>::smoothed(const Filter& filter,
+                                  const FunctionRef<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                                  const FunctionRef<void(const Kept&, const Table&, bool)>& paired) const {
+  FixedIntervalSmoother<Kind> smoother(filter);
+  std::vector<HybridEstimate<Kind>> states;
+  for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
+    states.clear();
+    for (end = first; end < record_.size() && (end == first || !record_[end].is_start); ++end)
+      states.push_back(record_[end].step.state);
+    try {
+      smoother.begin(record_[end - 1].step);
+      for (std::size_t k = end - 1; k-- > first;) {
+        smoother.step(record_[k].step);
+        states[k - first] = smoother.state();
+        paired(record_[k + 1], smoother.log_pairs(), k + 2 == end);
+      }
+    } catch (const std::domain_error& error) {
+      throw std::domain_error("smoothing back to the start at " + std::to_string(record_[first].time) +
+                              " s: " + error.what());
+    }
+    for (std::size_t k = first; k < end; ++k) visit(record_[k], states[k - first]);
+  }
+}
+
+template <class Filter>
+void TargetLife<Filter>::explained(const FunctionRef<void(const Kept&, std::size_t)>& visit) const {
+  std::vector<std::size_t> modes(record_.size());
+  std::size_t h = 0;
+  for (std::size_t k = record_.size(); k-- > 0;) {
+    const HistoryLinks& links = record_[k].links;
+    if (k + 1 == record_.size() || record_[k + 1].is_start) h = links.best;
+    modes[k] = links.all[h].mode;
+    h = links.all[h].parent;
+  }
+  for (std::size_t k = 0; k < record_.size(); ++k)
+    if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);
+}
+
+template class TargetLife<InteractingFilter<Random>>;
+template class TargetLife<InteractingFilter<Fuzzy>>;
+template class TargetLife<SecondOrderFilter<Random>>;
+template class TargetLife<SecondOrderFilter<Fuzzy>>;
+template class TargetLife<HistoriesOfModes<Random>>;
+template class TargetLife<HistoriesOfModes<Fuzzy>>;
+
+}  // namespace sigmax::detail

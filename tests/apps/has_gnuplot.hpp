@@ -1,0 +1,18 @@
+#pragma once
+
+#include <exception>
+
+#include "result/pictures.hpp"
+
+namespace sigmax::apps {
+
+inline bool has_gnuplot() {
+  try {
+    need_gnuplot();
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace sigmax::apps

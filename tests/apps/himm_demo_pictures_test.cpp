@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "apps/has_gnuplot.hpp"
+#include "apps/temporary_directory.hpp"
+#include "support/program.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+TEST(HimmDemoPictures, AskForGnuplotWhereItIsNotInstalled) {
+  const TemporaryDirectory directory;
+  const auto plots = directory.path() / "plots";
+  const auto ending = program::run("/usr/bin/env", {"PATH=/nowhere", program::chosen(SIGMAX_HIMM_DEMO), "simulate",
+                                                    "--quiet", "--runs", "2", "--plots", plots});
+  EXPECT_EQ(ending.status, 2);
+  for (const char* part : {"gnuplot", "cannot be started", "install it", "gnuplot-nox"})
+    EXPECT_NE(ending.on_one_line().find(part), std::string::npos) << ending.output;
+  EXPECT_FALSE(std::filesystem::exists(plots));
+}
+
+TEST(HimmDemoPictures, AreTheChartsOfSimulate) {
+  if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
+  const TemporaryDirectory directory;
+  const auto ending =
+      program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--plots", directory.path()});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  EXPECT_NE(ending.on_one_line().find("charts as SVG and PDF to"), std::string::npos) << ending.output;
+  for (const char* name : {"rmse_in_x", "rmse_in_y", "rmse_in_z", "mode_weights", "nees_of_the_position", "nis",
+                           "track_of_run_1", "track_of_run_1_in_space"}) {
+    EXPECT_TRUE(contents(directory.path() / (std::string(name) + ".svg")).ends_with("</svg>\n\n")) << name;
+    EXPECT_TRUE(contents(directory.path() / (std::string(name) + ".pdf")).starts_with("%PDF")) << name;
+  }
+  const auto files = std::filesystem::directory_iterator(directory.path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 16);
+}
+
+TEST(HimmDemoPictures, AreNotDrawnWhereTheyCannotBeWritten) {
+  if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--plots", "/proc/nowhere"});
+  EXPECT_EQ(ending.status, 3);
+  EXPECT_NE(ending.output.find("/proc/nowhere: the directory cannot be created"), std::string::npos) << ending.output;
+}
+
+/// Runs in a terminal of so many columns, by `script`, which gives the program one.
+program::Ending in_terminal(int columns, const std::string& command) {
+  return program::run("/usr/bin/script",
+                      {"-qec", "stty cols " + std::to_string(columns) + "; TERM=xterm " + command, "/dev/null"});
+}
+
+TEST(HimmDemoBraille, EndsTheOutputOfAWideTerminalOnly) {
+  if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "no script";
+  const std::string command = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " simulate --quiet --runs 2";
+  EXPECT_NE(in_terminal(80, command).output.find("⠉"), std::string::npos);
+  EXPECT_EQ(in_terminal(79, command).output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(in_terminal(80, command + " --no-chart").output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(in_terminal(80, "env TERM=dumb " + command).output.find("Mode weights"), std::string::npos);
+  EXPECT_EQ(program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "2"}).output.find("Mode weights"),
+            std::string::npos);
+  const std::string track = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " track --quiet " SIGMAX_SOURCE
+                                                                                 "/apps/examples/data/drone.csv";
+  EXPECT_NE(in_terminal(120, track).output.find("Mode weights"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sigmax::apps

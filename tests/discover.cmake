@@ -1,0 +1,26 @@
+# Read by CTest: adds a test for each suite of the test program, or with each_case for each case. They are named
+# name.Suite.Case, where the program says what its instances are called.
+if(EXISTS "${program}")
+  execute_process(COMMAND "${program}" --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE " +#[^\n]*" "" lines "${lines}")  # the type or the value of an instance
+  string(REPLACE "\n" ";" lines "${lines}")
+  foreach(line IN LISTS lines)
+    set(filter "")
+    if(line MATCHES "^  (.+)" AND each_case)
+      set(filter "${suite}.${CMAKE_MATCH_1}")
+      set(test "${filter}")
+    elseif(line MATCHES "^([^ ]+)\\.$")
+      set(suite "${CMAKE_MATCH_1}")
+      if(NOT each_case)
+        set(filter "${suite}.*")
+        set(test "${suite}")
+      endif()
+    endif()
+    if(filter)
+      add_test("${name}.${test}" "${program}" "--gtest_filter=${filter}" --gtest_brief=1)
+      set_tests_properties("${name}.${test}" PROPERTIES SKIP_RETURN_CODE 77)
+    endif()
+  endforeach()
+else()
+  add_test("${name}.NOT_BUILT" "${program}")  # which fails
+endif()

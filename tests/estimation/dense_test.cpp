@@ -1,0 +1,107 @@
+#include <sigmax/estimation/dense.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "support/matrices.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using namespace support;
+using Matrix = Eigen::MatrixXd;
+
+/// Numbers with no pattern.
+Matrix numbers(int rows, int columns) {
+  return Matrix::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index k) {
+    return std::sin(1.7 * static_cast<double>(3 * i + 5 * k) + 0.3);
+  });
+}
+
+/// In columns that are two numbers longer than they need be, of which the last two are not touched.
+TEST(Dense, ProductsAreEigens) {
+  for (const int rows : {0, 1, 2, 5, 9, 10, 11, 14, 20, 25})
+    for (const int inner : {0, 1, 3, 8})
+      for (const int columns : {1, 2, 7}) {
+        const Matrix A = numbers(rows + 2, inner), B = numbers(inner, columns), C = numbers(rows + 2, columns);
+        const Matrix B_transposed = B.transpose(), product = A.topRows(rows) * B;
+        const auto found = [&](detail::Strided of_B, detail::Into into) {
+          Matrix result = C;
+          detail::multiply(A.data(), rows + 2, of_B, result.data(), rows + 2, rows, inner, columns, into);
+          EXPECT_EQ(result.bottomRows(2), C.bottomRows(2));
+          return Matrix(result.topRows(rows));
+        };
+        const Matrix before = C.topRows(rows);
+        const auto by_columns = detail::columns_of(B.data(), inner),
+                   by_rows = detail::transposed(B_transposed.data(), columns);
+        EXPECT_PRED_FORMAT3(near_matrix, found(by_columns, detail::Into::only), product, 1e-14);
+        EXPECT_PRED_FORMAT3(near_matrix, found(by_rows, detail::Into::only), product, 1e-14);
+        EXPECT_PRED_FORMAT3(near_matrix, found(by_columns, detail::Into::plus), before + product, 1e-14);
+        EXPECT_PRED_FORMAT3(near_matrix, found(by_rows, detail::Into::minus), before - product, 1e-14);
+
+        const Matrix left = numbers(inner + 1, rows), right = numbers(inner + 3, columns);
+        Matrix result = C;
+        detail::multiply_transposed(left.data(), inner + 1, right.data(), inner + 3, result.data(), rows + 2, rows,
+                                    inner, columns);
+        EXPECT_PRED_FORMAT3(near_matrix, result.topRows(rows), left.topRows(inner).transpose() * right.topRows(inner),
+                            1e-14);
+        EXPECT_EQ(result.bottomRows(2), C.bottomRows(2));
+      }
+}
+
+TEST(Dense, FactorInverseAndSolutionAreEigens) {
+  for (const int n : {1, 2, 3, 6, 11}) {
+    const Matrix S = numbers(n, n) * numbers(n, n).transpose() + 0.1 * Matrix::Identity(n, n);
+    const Matrix expected = S.llt().matrixL(), lower = S.triangularView<Eigen::Lower>();
+    Matrix L(n, n), inverse(n, n);
+    ASSERT_TRUE(detail::cholesky_factor(lower.data(), n, L.data()));
+    EXPECT_PRED_FORMAT3(near_matrix, L, expected, 1e-13);
+    detail::lower_inverse(L.data(), n, inverse.data());
+    EXPECT_PRED_FORMAT3(near_matrix, inverse * expected, Matrix::Identity(n, n), 1e-12);
+    Eigen::VectorXd x = S.col(0);
+    const Eigen::VectorXd z = x;
+    detail::lower_solve(L.data(), n, x.data());
+    EXPECT_PRED_FORMAT3(near_matrix, expected * x, z, 1e-13);
+    EXPECT_PRED_FORMAT3(near, detail::normalized_error_squared(z.data(), S.data(), n), z.dot(S.llt().solve(z)), 1e-9);
+  }
+}
+
+TEST(Dense, WhatIsNotPositiveDefiniteHasNoFactor) {
+  Eigen::Matrix2d L;
+  for (const Eigen::Matrix2d& S : {Eigen::Matrix2d{{1.0, 2.0}, {2.0, 1.0}}, Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}},
+                                   Eigen::Matrix2d::Zero().eval()}) {
+    EXPECT_FALSE(detail::cholesky_factor(S.data(), 2, L.data()));
+    EXPECT_TRUE(throws<std::domain_error>([&] { detail::normalized_error_squared(L.data(), S.data(), 2); },
+                                          {"not positive definite"}));
+  }
+}
+
+TEST(Dense, TheFactorOfNaNIsNaN) {
+  const double S = std::nan("");
+  double L = 0.0;
+  EXPECT_TRUE(detail::cholesky_factor(&S, 1, &L));
+  EXPECT_TRUE(std::isnan(L));
+}
+
+TEST(Dense, MirroringKeepsTheLowerTriangle) {
+  Eigen::Matrix3d matrix{{1, 20, 30}, {4, 5, 60}, {7, 8, 9}};
+  detail::mirror_lower(matrix.data(), 3);
+  EXPECT_EQ(matrix, (Eigen::Matrix3d{{1, 4, 7}, {4, 5, 8}, {7, 8, 9}}));
+}
+
+TEST(Dense, ScratchHasRoomForFewAndForMany) {
+  for (const int size : {0, 4, 5, 1000}) {
+    detail::Scratch<4, int> room(size);
+    for (int i = 0; i < size; ++i) room[i] = i;
+    EXPECT_EQ(room.data(), static_cast<int*>(room));
+    for (int i = 0; i < size; ++i) EXPECT_EQ(room[i], i);
+  }
+}
+
+}  // namespace
+}  // namespace sigmax

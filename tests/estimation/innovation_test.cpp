@@ -1,0 +1,18 @@
+#include <sigmax/estimation/innovation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include <sigmax/estimation/sensors.hpp>
+
+namespace sigmax {
+namespace {
+
+static_assert(std::is_same_v<InnovationOf<PolarSensor<3>>, Innovation<3>>);
+static_assert(std::is_same_v<InnovationOf<ComponentSensor<4>>, Innovation<Eigen::Dynamic, 4>>);
+
+TEST(Innovation, IsOfNothingAtFirst) { EXPECT_EQ((Innovation<Eigen::Dynamic, 4>{}.log_likelihood), 0.0); }
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,58 @@
+#include <sigmax/hybrid/history_set.hpp>
+
+#include <gtest/gtest.h>
+
+namespace sigmax {
+namespace {
+
+Estimates one_and_two() {
+  Estimates starts;
+  starts.add(1);
+  starts.add(2);
+  return starts;
+}
+
+TEST(HistorySet, StartsWithAHistoryForEachModeAndHasRoomForMore) {
+  HistorySet set(one_and_two(), 5);
+  EXPECT_EQ(set.size(), 2U);
+  EXPECT_EQ(set.room(), 5U);
+  set.resize(4);
+  set[2] = {1, 0, -3.0};
+  set[3] = {0, 1, -1.0};
+  set.view(2).mean[1] = 7.0;
+  set.view(2).covariance[3] = 8.0;
+  EXPECT_EQ(set.estimate(2).mean, (Vector<2>(0.0, 7.0)));
+  EXPECT_EQ(set.estimate(2).covariance(1, 1), 8.0);
+  EXPECT_EQ(set.estimate(3).size(), 1) << "an estimate is of the size of its last mode's model";
+}
+
+TEST(HistorySet, KnowsTheFirstOfItsBestAndWhereEachCameFrom) {
+  HistorySet set(one_and_two(), 4);
+  set.resize(3);
+  set[0] = {0, 1, -2.0};
+  set[1] = {1, 0, -0.5};
+  set[2] = {1, 1, -0.5};
+  EXPECT_EQ(set.best(), 1U);
+  const HistoryLinks links = set.links();
+  EXPECT_EQ(links.best, 1U);
+  ASSERT_EQ(links.all.size(), 3U);
+  EXPECT_EQ(links.all[0].mode, 0U);
+  EXPECT_EQ(links.all[0].parent, 1U);
+}
+
+TEST(HistorySet, IsCopiedAsFarAsItIsFilled) {
+  HistorySet set(one_and_two(), 4), other = set;
+  set.view(0).mean[0] = 3.0;
+  set.most_likely_mode = 1;
+  other = set;
+  EXPECT_EQ(other.estimate(0).mean(0), 3.0);
+  EXPECT_EQ(other.most_likely_mode, 1U);
+  other.view(0).mean[0] = 4.0;
+  EXPECT_EQ(set.estimate(0).mean(0), 3.0);
+  HistorySet& same = set;
+  set = same;
+  EXPECT_EQ(set.estimate(0).mean(0), 3.0);
+}
+
+}  // namespace
+}  // namespace sigmax

@@ -1,0 +1,33 @@
+#include <sigmax/hybrid/hybrid_estimate.hpp>
+
+#include <gtest/gtest.h>
+
+#include "hybrid/banks.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using namespace support;
+
+TEST(RecordedStep, HasWhatTheMeasurementToldOfEachModeIfThereWasOneAndItWasTaken) {
+  with_every_filter([](auto& filter) {
+    const Gaussian<2> z{Vector<2>(12e3, 8e3), 100.0 * SquareMatrix<2>::Identity()};
+    const PositionSensor<2> sensor;
+    EXPECT_TRUE(filter.recorded(0.0).seen.empty());
+    filter.step(0.5, z, sensor);
+    const auto step = filter.recorded(0.5, z, sensor);
+    EXPECT_EQ(step.dt, 0.5);
+    ASSERT_EQ(step.seen.size(), 3U);
+    EXPECT_EQ(step.seen[0].rows(), 2);
+    EXPECT_EQ(step.state.estimates[1].mean, filter.estimates()[1].mean);
+    EXPECT_EQ(step.state.belief.log(1), filter.belief().log(1));
+    EXPECT_EQ(step.state.most_likely_mode, filter.most_likely_mode());
+    EXPECT_TRUE(throws<std::logic_error>([&] { filter.recorded(0.5); }, {"expected recorded(dt, z)"}));
+    filter.step(0.5, z, sensor, 0.0);
+    EXPECT_TRUE(filter.recorded(0.5, z, sensor).seen.empty()) << "a gate rejected it";
+  });
+}
+
+}  // namespace
+}  // namespace sigmax

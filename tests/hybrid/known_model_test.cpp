@@ -1,0 +1,101 @@
+// A motion by its name is that of its class.
+#include <sigmax/hybrid/known_model.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/cubature.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/unscented.hpp>
+#include <sigmax/estimation/white_noise.hpp>
+
+#include "support/matrices.hpp"
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::near_matrix;
+using support::throws;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+MotionChoice choice(const char* name) { return {name, {3.0, 8.0, 5.0, 0.25}}; }
+
+/// Both predict and see a radar's measurement alike.
+template <int Axes, class Moves>
+void is(const char* name, const Moves& motion) {
+  SCOPED_TRACE(testing::Message() << name << " along " << Axes << " axes");
+  const auto same = [&](const AnyModel& found, const AnyModel& expected) {
+    EXPECT_EQ(found.name(), motion.name());
+    EXPECT_EQ(found.components(), motion.components());
+    EXPECT_EQ(found.axes(), Axes);
+    const auto n = motion.size();
+    EstimateOf<AnyModel> a{Eigen::VectorXd::LinSpaced(n, 100.0, 40.0), 9.0 * Eigen::MatrixXd::Identity(n, n)};
+    a.mean(n - 1) = 0.2;
+    a.covariance(n - 1, n - 1) = 0.01;
+    auto b = a;
+    predict(found, a, 0.5, a);
+    predict(expected, b, 0.5, b);
+    EXPECT_PRED_FORMAT3(near_matrix, a.mean, b.mean, 1e-12);
+    EXPECT_PRED_FORMAT3(near_matrix, a.covariance, b.covariance, 1e-12);
+    if constexpr (Axes > 1) {
+      const PolarSensor<Axes> radar;
+      const Gaussian<Axes> z{radar.measure(Vector<Axes>::Constant(100.0)), 1e-3 * SquareMatrix<Axes>::Identity()};
+      update(found, a, z, radar, a);
+      update(expected, b, z, radar, b);
+      EXPECT_PRED_FORMAT3(near_matrix, a.mean, b.mean, 1e-12);
+    }
+  };
+  same(known_model(choice(name), Axes), Extended{motion});
+  same(known_model(choice(name), Axes, MemberType::kf), Extended{motion});
+  same(known_model(choice(name), Axes, MemberType::ukf), Unscented{motion});
+  same(known_model(choice(name), Axes, MemberType::ckf), Cubature{motion});
+}
+
+template <int Axes>
+void are_those_of_their_classes() {
+  is<Axes>("dwna", dwna<Axes>(3.0));
+  is<Axes>("dwpa", dwpa<Axes>(3.0));
+  is<Axes>("cwna", cwna<Axes>(9.0));
+  is<Axes>("cwpa", cwpa<Axes>(9.0));
+  is<Axes>("singer", singer<Axes>(1.0 / 8.0, 3.0));
+  is<Axes>("ou_position", ou_position<Axes>(1.0 / 8.0, 3.0));
+  is<Axes>("ou_velocity", ou_velocity<Axes>(1.0 / 8.0, 3.0));
+  if constexpr (Axes > 1) {
+    is<Axes>("known_turn", KnownTurn<Axes>{5.0 * degree, 9.0});
+    is<Axes>("ct", CoordinatedTurn<Axes>{9.0, 0.0625 * degree * degree});
+  }
+}
+
+TEST(KnownModel, IsThatOfItsClass) {
+  are_those_of_their_classes<1>();
+  are_those_of_their_classes<2>();
+  are_those_of_their_classes<3>();
+}
+
+TEST(KnownModel, OfAnotherNameOfBadParametersOrATurnAlongOneAxisIsRefused) {
+  const auto refuses = [](MotionChoice motion, int axes, std::initializer_list<std::string_view> words) {
+    EXPECT_TRUE(throws<std::invalid_argument>([&] { known_model(motion, axes); }, words));
+  };
+  refuses(choice("warp"), 2, {"no motion", "'warp'"});
+  refuses(choice("ct"), 1, {"'ct'", "one axis"});
+  refuses(choice("known_turn"), 1, {"'known_turn'", "one axis"});
+  for (const KnownMotion& motion : known_motions())
+    for (std::size_t p = 0; p < motion_parameters().size(); ++p) {
+      MotionChoice bad = choice(std::string(motion.name).c_str());
+      bad.parameters[p] = std::numeric_limits<double>::quiet_NaN();
+      if (motion.has[p])
+        EXPECT_THROW(known_model(bad, 2), std::invalid_argument) << motion.name << ", " << motion_parameters()[p].key;
+      else
+        EXPECT_NO_THROW(known_model(bad, 2)) << motion.name;
+    }
+}
+
+}  // namespace
+}  // namespace sigmax
