@@ -34,14 +34,14 @@ struct RecordingOptions {
 /// One row of a recording.
 struct Row {
   std::size_t line = 0;
-  std::string track;   ///< empty without a column that tells tracks apart
-  std::string sensor;  ///< empty without a column `sensor`
+  std::string track;     ///< empty without a column that tells tracks apart
+  std::string sensor{};  ///< empty without a column `sensor`
   /// What was measured, and when: a position and a velocity as components, a radar's measurement or a bearing. In a
   /// geodetic recording the position is latitude and longitude in degrees and the altitude in m. A variance that the
   /// row does not tell is NaN.
-  AnyPlot plot;
-  std::optional<Position> truth;
-  std::optional<double> roll_deg;
+  AnyPlot plot{};
+  std::optional<Position> truth{};
+  std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
 
   bool measured() const { return plot.sensor != AnyPlot::Sensor::none; }

@@ -186,10 +186,10 @@ class Maps {
     const SweepChoice& all = world_.choice();
     const std::size_t lengths = all.length.size(), periods = all.period.size();
     const auto names = [](const std::vector<double>& first, const std::vector<double>& second) {
-      std::vector<std::string> names;
+      std::vector<std::string> crossed;
       for (const double a : first)
-        for (const double b : second) names.push_back(fmt::format("×{:g}, ×{:g}", a, b));
-      return names;
+        for (const double b : second) crossed.push_back(fmt::format("×{:g}, ×{:g}", a, b));
+      return crossed;
     };
     std::vector<View> views;
     for (const Choice& choice : choices_) {

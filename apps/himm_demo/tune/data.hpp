@@ -67,13 +67,13 @@ struct TuneData {
   bool has_truth = false;
   bool geodetic = false;  ///< whether positions were places
   Position radar_at{};
-  std::vector<TuneTrack> tracks;  ///< those long enough to be followed
-  std::size_t too_short = 0;      ///< tracks that are not
+  std::vector<TuneTrack> tracks{};  ///< those long enough to be followed
+  std::size_t too_short = 0;        ///< tracks that are not
   std::size_t measurements = 0;
-  std::map<std::string, TuneSensor, std::less<>> sensors;  ///< "" if the rows name none
-  std::vector<std::string> notes;                          ///< sentences on what does not count
-  double volume = 1.0;                                     ///< of the box that holds all measurements, in m² or m³
-  double radar_volume = 1.0;                               ///< the same of a radar's, in its own space
+  std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
+  std::vector<std::string> notes{};                          ///< sentences on what does not count
+  double volume = 1.0;                                       ///< of the box that holds all measurements, in m² or m³
+  double radar_volume = 1.0;                                 ///< the same of a radar's, in its own space
 
   RowFolds folds(std::size_t count) const;
 
