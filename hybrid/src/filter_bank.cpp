@@ -146,7 +146,8 @@ HybridEstimate<Kind> TrackBank<Kind, Number>::state(std::size_t track) const {
 
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::read(std::size_t track, State& state) const {
-  const Number* const at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates, [](Number stored, double& known) { known = stored; });
+  const Number* const at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates,
+                                           [](Number stored, double& known) { known = stored; });
   for (std::size_t j = 0; j < state.estimates.size(); ++j) {
     const detail::View estimate = state.estimates.view(j);
     detail::mirror_lower(estimate.covariance, estimate.n);

@@ -403,10 +403,9 @@ struct Step {
       }
       sum = plus(sum, posterior[j]);
     }
-    const V of_prior = one / total, of_posterior = one / sum;
     for (int j = 0; j < modes; ++j) {
-      prior[j] *= of_prior;
-      posterior[j] *= of_posterior;
+      prior[j] /= total;
+      posterior[j] /= sum;
       good = good & (posterior[j] > least);
     }
     next_most_likely = winner<V>(modes, posterior, most_likely, plan.output_tie);
