@@ -15,7 +15,6 @@
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
 #include "result/output_options.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

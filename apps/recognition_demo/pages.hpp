@@ -22,9 +22,6 @@ std::vector<std::string> labels_of(const Variable& variable) {
   return labels;
 }
 
-/// A page begun: title, command, and the contestants as what is switched on and off.
-Report page_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants);
-
 /// Shares of right decisions over the reports, one curve a contestant, from the report with number `first` on.
 LineChart accuracy_chart(const std::vector<Score>& scores, const std::string& what_is_counted = "reports",
                          std::size_t first = 1);

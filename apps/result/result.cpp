@@ -111,6 +111,7 @@ Result::Result(const OutputOptions& options)
   page.command = options.command;
 }
 
+Result::Result(Result&&) noexcept = default;
 Result::~Result() = default;
 
 void Result::say(std::string_view words) { text += wrapped(words, words_width); }

@@ -90,6 +90,7 @@ struct Places {
 class Result {
  public:
   explicit Result(const OutputOptions& options);
+  Result(Result&&) noexcept;
   ~Result();
 
   /// Prints words, broken to `words_width`.

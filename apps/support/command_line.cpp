@@ -107,16 +107,6 @@ void add_threads(CLI::App& app, int& threads) {
   app.add_option("--threads", threads, "Threads; the results do not depend on it [all]")->check(CLI::Range(1, 4096));
 }
 
-CLI::Validator number_in(double least, double greatest) {
-  const std::string range = fmt::format("[{} - {}]", least, greatest);
-  const auto check = [=](const std::string& text) -> std::string {
-    const auto number = parse_number(text);
-    if (number && *number >= least && *number <= greatest) return "";
-    return fmt::format("found {}, expected a number in {}", in_quotes(text), range);
-  };
-  return CLI::Validator(check, "FLOAT in " + range);
-}
-
 int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
   std::ios::sync_with_stdio(false);  // so that a failure to read the standard input shows
   Arguments arguments(argv + 1, argv + argc);

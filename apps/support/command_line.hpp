@@ -6,8 +6,7 @@
 
 namespace CLI {
 class App;
-class Validator;
-}  // namespace CLI
+}
 
 namespace sigmax::apps {
 
@@ -16,9 +15,6 @@ void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what = "
 
 /// --threads; zero stands for all of them.
 void add_threads(CLI::App& app, int& threads);
-
-/// Refuses what is no finite number in [least, greatest]. (CLI::Range lets NaN pass.)
-CLI::Validator number_in(double least, double greatest);
 
 /// Adds one subcommand with its options to the program; its callback does the work. `command` is the whole command as
 /// typed.

@@ -6,14 +6,23 @@
 #include <optional>
 #include <stdexcept>
 
-#include "support/command_line.hpp"
+#include <fmt/format.h>
+
+#include "support/error.hpp"
+#include "support/input.hpp"
 
 namespace sigmax::apps {
 
 Option& Option::in(int least, int greatest) { return option_->check(CLI::Range(least, greatest)), *this; }
 
 Option& Option::number_in(double least, double greatest) {
-  return option_->check(apps::number_in(least, greatest)), *this;
+  const std::string range = fmt::format("[{} - {}]", least, greatest);
+  const auto check = [=](const std::string& text) -> std::string {
+    const auto number = parse_number(text);
+    if (number && *number >= least && *number <= greatest) return "";
+    return fmt::format("found {}, expected a number in {}", in_quotes(text), range);
+  };
+  return option_->check(CLI::Validator(check, "FLOAT in " + range)), *this;
 }
 
 Option& Option::one_of(const std::vector<int>& values) { return option_->check(CLI::IsMember(values)), *this; }
