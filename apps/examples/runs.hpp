@@ -12,7 +12,7 @@
 
 #include <sigmax/core/mean_interval.hpp>
 
-#include "support/pictures.hpp"
+#include "result/pictures.hpp"
 
 namespace examples {
 

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,12 +12,13 @@
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/json.hpp"
+#include "support/options.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -415,29 +415,27 @@ void run_classify(const ClassifyOptions& options) {
 void add_classify(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<ClassifyOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("classify", "Classifies the rows of a file by a model.");
-  app.add_option("model", options->model, "A model that `train` wrote")->required()->type_name("MODEL.json");
-  app.add_option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
-      ->required()
-      ->type_name("DATA");
-  app.add_flag("--explain", options->explain, "Say why, for the rows that are shown");
-  app.add_option("--rows", options->rows, "How many rows to show")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--least-margin", options->least_margin,
-                 "Reject decisions whose lead in probability, or necessity, is smaller")
-      ->check(number_in(0.0, 1.0))
-      ->capture_default_str();
-  app.add_option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
-      ->check(CLI::IsMember({"refuse", "missing"}))
-      ->capture_default_str();
+  Subcommand app(program, "classify", "Classifies the rows of a file by a model.");
+  app.option("model", options->model, "A model that `train` wrote").required().type("MODEL.json");
+  app.option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
+      .required()
+      .type("DATA");
+  app.flag("--explain", options->explain, "Say why, for the rows that are shown");
+  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000).shows_default();
+  app.option("--least-margin", options->least_margin,
+             "Reject decisions whose lead in probability, or necessity, is smaller")
+      .number_in(0.0, 1.0)
+      .shows_default();
+  app.option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
+      .one_of(std::vector<std::string>{"refuse", "missing"})
+      .shows_default();
   add_output(app, options->output);
   add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
       "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
-  app.callback([options] { run_classify(*options); });
+  app.run([options] { run_classify(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -17,11 +16,13 @@
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
+#include "support/command_line.hpp"
 #include "support/json.hpp"
+#include "support/options.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 #include "support/scratch.hpp"
 
 namespace sigmax::apps {
@@ -426,14 +427,14 @@ void run_evaluate(const EvaluateOptions& options) {
 void add_evaluate(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EvaluateOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("evaluate", "Cross-validates every kind of classifier on labelled data.");
+  Subcommand app(program, "evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.add_option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
-      ->check(CLI::Range(2, 1000000))
-      ->capture_default_str();
-  app.add_option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
+      .in(2, 1000000)
+      .shows_default();
+  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
+      .in(1, 100000)
+      .shows_default();
   add_seed(app, options->seed, "of the folds");
   add_threads(app, options->threads);
   add_output(app, options->output);
@@ -443,7 +444,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
       "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"
       "  recognition_demo evaluate letter.csv --label letter --categorical all \\\n"
       "    --out results");
-  app.callback([options] { run_evaluate(*options); });
+  app.run([options] { run_evaluate(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -7,8 +6,9 @@
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -59,13 +59,13 @@ void run_train(const TrainOptions& options) {
 void add_train(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<TrainOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("train", "Learns a model from labelled data.");
+  Subcommand app(program, "train", "Learns a model from labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.add_option("--model", options->model, "The model to write")->required()->type_name("MODEL.json");
-  app.add_option("--kinds", options->kinds, "The kinds of classifiers in the model")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"sigma", "max", "sigma-max"}))
-      ->option_text("sigma,max,sigma-max [all]");
+  app.option("--model", options->model, "The model to write").required().type("MODEL.json");
+  app.option("--kinds", options->kinds, "The kinds of classifiers in the model")
+      .list()
+      .one_of(std::vector<std::string>{"sigma", "max", "sigma-max"})
+      .text("sigma,max,sigma-max [all]");
   add_quiet(app, options->output.quiet);
   add_wide(app, options->output.wide);
   app.footer(
@@ -74,7 +74,7 @@ void add_train(CLI::App& program, const std::string& command) {
       "    --model zoo.json\n"
       "  recognition_demo train wine.csv --label class --bins 5 --kinds sigma,max \\\n"
       "    --model wine.json");
-  app.callback([options] { run_train(*options); });
+  app.run([options] { run_train(*options); });
 }
 
 }  // namespace sigmax::apps

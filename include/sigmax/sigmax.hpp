@@ -7,6 +7,7 @@
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/computed_law.hpp>
+#include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
@@ -39,6 +40,7 @@
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/radar_numbers.hpp>
 #include <sigmax/estimation/refs.hpp>
+#include <sigmax/estimation/root_mean_square.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
 #include <sigmax/estimation/sensing.hpp>
 #include <sigmax/estimation/sensor_ref.hpp>
@@ -53,6 +55,7 @@
 #include <sigmax/hybrid/bank_filter.hpp>
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/cross_validation.hpp>
 #include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/estimates.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
