@@ -33,7 +33,6 @@
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/model_ref.hpp>
 #include <sigmax/estimation/motion_numbers.hpp>
-#include <sigmax/estimation/named_motion.hpp>
 #include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/radar.hpp>
