@@ -25,8 +25,8 @@ class AnyModel {
   template <FilterModel Model>
     requires(!std::is_same_v<Model, AnyModel>)
   AnyModel(const Model& model)
-      : AnyModel(std::make_shared<const typename detail::AskedAs<Model>::type>(detail::AskedAs<Model>::of(model)),
-                 detail::model_ref(model), model.components()) {}
+      : AnyModel(std::make_shared<const detail::AskedAs<Model>>(detail::asked(model)), detail::model_ref(model),
+                 model.components()) {}
 
   Eigen::Index size() const { return size_; }
   std::string_view name() const { return name_; }

@@ -163,30 +163,15 @@ concept LinearSensorOf = SensorOf<Sensor, Model> &&(
 
 namespace detail {
 
-/// ∂h/∂x over the leading components that a sensor sees, as it gives it, else by automatic differentiation.
-template <class Sensor, int Seen>
-auto leading_jacobian(const Sensor& sensor, const Vector<Seen>& seen) {
-  constexpr int M = Sensor::measurement_size;
-  constexpr int max_M = max_measurement_size_of<Sensor>;
-  if constexpr (requires { sensor.measurement_jacobian(seen); })
-    return RectangularMatrix<M, Seen, max_M, Seen>(sensor.measurement_jacobian(seen));
+/// ∂h/∂x over what a sensor sees, as it gives it, else by automatic differentiation.
+template <class Sensor, int N, int MaxN, class... Model>
+RectangularMatrix<Sensor::measurement_size, N, max_measurement_size_of<Sensor>, MaxN> slope_of_sensor(
+    const Sensor& sensor, const Vector<N, MaxN>& x, const Model&... asked) {
+  if constexpr (requires { sensor.measurement_jacobian(asked..., x); })
+    return sensor.measurement_jacobian(asked..., x);
   else
-    return jacobian<M, max_M, Seen, Seen>(
-        [&](const DifferentiableVector<Seen>& components) { return sensor.measure(components); }, seen);
-}
-
-/// The same over the whole state, of a sensor that asks the model.
-template <class Sensor, class Model>
-MeasurementMatrixOf<Sensor, Model> whole_jacobian(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
-  if constexpr (requires { sensor.measurement_jacobian(model, x); })
-    return sensor.measurement_jacobian(model, x);
-  else
-    return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>, Model::state_size,
-                    Model::max_state_size>(
-        [&](const DifferentiableVector<Model::state_size, Model::max_state_size>& state) {
-          return sensor.measure(model, state);
-        },
-        x);
+    return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>>(
+        [&](const DifferentiableVector<N, MaxN>& variables) { return sensor.measure(asked..., variables); }, x);
 }
 
 }  // namespace detail
