@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/gaussian.hpp>
+#include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
 namespace sigmax::apps {

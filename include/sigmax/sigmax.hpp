@@ -7,7 +7,6 @@
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/computed_law.hpp>
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/cubature.hpp>
