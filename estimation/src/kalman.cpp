@@ -314,28 +314,25 @@ void prediction_covariance(const ModelRef& model, ConstView prior, double dt, do
 void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView next, View result) {
   const int n = filtered.n;
   require_size(model, next.n);
-  Scratch mean(n), covariance(n * n), cross(n * n), root(n * n), gain(n * n), product(n * n);
+  Scratch mean(n), covariance(n * n), A(n * n), root(n * n), row(n), product(n * n);
   predict(model, filtered, dt, {mean, covariance, n});
-  prediction_covariance(model, filtered, dt, cross);
+  prediction_covariance(model, filtered, dt, A);
   if (covariance_root(covariance, n, root) != 0)
     throw std::domain_error("the predicted covariance of model '" + model.name() + "' is not positive semi-definite");
   for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < n; ++k) gain[k + i * n] = cross[i + k * n];
-    solve_by_root(root, n, gain + i * n);  // Aᵀ
+    for (int k = 0; k < n; ++k) row[k] = A[i + k * n];
+    solve_by_root(root, n, row);
+    for (int k = 0; k < n; ++k) A[i + k * n] = row[k];
   }
   double* const moved = mean;
   double* const gained = covariance;
   for (int i = 0; i < n; ++i) moved[i] = next.mean[i] - mean[i];
   for (int i = 0; i < n * n; ++i) gained[i] = next.covariance[i] - covariance[i];
-  multiply(gained, n, columns_of(gain, n), product, n, n, n, n);
+  multiply(gained, n, transposed(A, n), product, n, n, n, n);
   if (result.mean != filtered.mean) {
     std::copy_n(filtered.mean, n, result.mean);
     std::copy_n(filtered.covariance, n * n, result.covariance);
   }
-  const double* const A_transposed = gain;
-  Scratch A(n * n);
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k) A[i + k * n] = A_transposed[k + i * n];
   multiply(A, n, columns_of(moved, n), result.mean, n, n, n, 1, Into::plus);
   multiply(A, n, columns_of(product, n), result.covariance, n, n, n, n, Into::plus);
   mirror_lower(result.covariance, n);
@@ -361,28 +358,8 @@ void linearised_measurement(const ModelRef& model, ConstView predicted, ConstVie
 }
 
 void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z) {
-  const int n = model.size(), seen = seen_of(sensor, model, n, m);
-  const SensorTable& table = *sensor.table;
-  if (table.leading) {
-    std::copy_n(x, m, z);
-  } else if (table.linear) {
-    Scratch<64> H(m * seen);
-    table.measure(sensor.sensor, sensor.model, x, n, m, nullptr, H);
-    multiply(H, m, columns_of(x, seen), z, m, m, seen, 1);
-  } else {
-    table.measure(sensor.sensor, sensor.model, x, n, m, z, nullptr);
-  }
+  sensor.table->measure(sensor.sensor, sensor.model, x, model.size(), m, z, nullptr);
   require_finite(z, m, "h(x)", model, x);
-}
-
-void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H) {
-  const int n = model.size(), seen = seen_of(sensor, model, n, m);
-  std::fill_n(H, m * n, 0.0);
-  if (sensor.table->leading)
-    for (int i = 0; i < m; ++i) H[i + i * m] = 1.0;
-  else
-    sensor.table->measure(sensor.sensor, sensor.model, x, n, m, nullptr, H);
-  require_finite(H, m * seen, "the Jacobian of h", model, x);
 }
 
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {

@@ -215,11 +215,10 @@ double finite_rate(double omega) {
   throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) + "; expected a finite one");
 }
 
-double motion_parameter(double value, std::string_view parameter, std::string_view model, double least) {
-  if (value >= least && value <= 1e150) return value;
+double motion_parameter(double value, std::string_view parameter, std::string_view model) {
+  if (value >= 0.0 && value <= 1e150) return value;
   throw std::invalid_argument(std::string(parameter) + " of model '" + std::string(model) + "' is " +
-                              std::to_string(value) + "; expected a finite number of at least " +
-                              std::to_string(least));
+                              std::to_string(value) + "; expected a finite number of at least 0.000000");
 }
 
 }  // namespace sigmax::detail

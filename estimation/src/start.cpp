@@ -13,8 +13,8 @@ double positive_step(double earlier, double later) {
   return later - earlier;
 }
 
-}  // namespace
-
+/// The state whose derivative d (0 position, 1 velocity, …) is Σᵢ weights(d, i) zᵢ, with the covariance that follows
+/// from independent measurements. States are ordered by derivative, as in IndependentAxes.
 void start_from_points(const double* weights, int orders, const ConstView* points, int count, View start) {
   const int M = points[0].n, n = M * orders;
   std::fill_n(start.mean, n, 0.0);
@@ -30,6 +30,8 @@ void start_from_points(const double* weights, int orders, const ConstView* point
   }
   mirror_lower(start.covariance, n);
 }
+
+}  // namespace
 
 void two_point_start(const TimedView& first, const TimedView& second, View start) {
   const double T = positive_step(first.time, second.time);

@@ -22,7 +22,6 @@
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/estimation/grid_transition.hpp>
 #include <sigmax/estimation/independent_axes.hpp>
-#include <sigmax/estimation/innovation.hpp>
 #include <sigmax/estimation/jacobian.hpp>
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/known_turn.hpp>

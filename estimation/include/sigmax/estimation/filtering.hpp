@@ -39,10 +39,9 @@ void linearised_measurement(const ModelRef& model, ConstView predicted, ConstVie
                             double* residual, double* H, double* R);
 
 /// @{
-/// h(x) and ∂h/∂x, f(x) and ∂f/∂x. Throw std::domain_error, naming the function, the model and the state, unless they
-/// are finite.
+/// h(x) of a sensor that is not linear, f(x) and ∂f/∂x. Throw std::domain_error, naming the function, the model and the
+/// state, unless they are finite.
 void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z);
-void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H);
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F = nullptr,
                 double* Q = nullptr);
 /// @}

@@ -29,8 +29,8 @@ std::vector<std::string> motion_components(int axes, int orders);
 /// Returns the rate of a turn. Throws std::invalid_argument unless it is finite.
 double finite_rate(double omega);
 
-/// Returns the parameter of a model. Throws std::invalid_argument, naming both, unless `least` ≤ value ≤ 1e150, so that
-/// its square is finite.
-double motion_parameter(double value, std::string_view parameter, std::string_view model, double least = 0.0);
+/// Returns the parameter of a model. Throws std::invalid_argument, naming both, unless 0 ≤ value ≤ 1e150, so that its
+/// square is finite.
+double motion_parameter(double value, std::string_view parameter, std::string_view model);
 
 }  // namespace sigmax::detail
