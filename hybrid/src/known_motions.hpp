@@ -18,7 +18,7 @@ inline constexpr bool manoeuvre = true;
 inline constexpr bool no_manoeuvre = false;
 
 /// A motion in a member of the Kalman family.
-template <StateModel Moves>
+template <Motion Moves>
 AnyModel in_member(const Moves& motion, MemberType member) {
   if (member == MemberType::ukf) return Unscented{motion};
   if (member == MemberType::ckf) return Cubature{motion};

@@ -28,7 +28,7 @@ SigmaPointWeights unscented_weights(const UnscentedScaling& scaling, std::string
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ c Σ B_ii² + ¼ (β − α²)(tr B)²; the exact one is gᵀg + ½ Σ B_ij².
-template <StateModel Moves>
+template <Motion Moves>
 class Unscented : public Member<Moves> {
  public:
   /// Throws std::invalid_argument unless α² (n + κ) is positive and all three numbers are finite.
