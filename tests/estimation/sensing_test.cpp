@@ -125,11 +125,21 @@ TEST(Sensing, WhatASensorSeesIsTheLeadingPartOfTheState) {
   EXPECT_EQ(seen(turn, radar, x).H, H);
 }
 
+/// Says its matrix row by row.
+struct ByRows {
+  static constexpr int seen_size = 4;
+  static constexpr int measurement_size = 2;
+  Eigen::Matrix<double, 2, 4, Eigen::RowMajor> measurement_matrix() const {
+    return RectangularMatrix<2, 4>{{1, 2, 3, 4}, {5, 6, 7, 8}};
+  }
+};
+
 TEST(Sensing, AMatrixIsOverAllComponents) {
   const LinearSensor<2, 4> sensor{RectangularMatrix<2, 4>{{1, 2, 3, 4}, {5, 6, 7, 8}}};
   const RectangularMatrix<2, 6> all{{1, 2, 3, 4, 0, 0}, {5, 6, 7, 8, 0, 0}};
   EXPECT_EQ(seen(dwna_now, sensor, Vector<6>::Ones()).H, all);
   EXPECT_EQ(seen(AnyModel{dwna_now}, sensor, Vector<6>::Ones()).H, all);
+  EXPECT_EQ(seen(dwna_now, ByRows{}, Vector<6>::Ones()).H, all);
   EXPECT_EQ(-seen(dwna_now, sensor, Vector<6>::Ones()).residual, (Vector<2>(10.0, 26.0)));
   EXPECT_EQ(seen(dwna_now, PositionSensor<2>{}, Vector<6>::Ones()).H, (RectangularMatrix<2, 6>::Identity()));
 }
