@@ -365,11 +365,10 @@ void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
   const int n = model.size();
   if (model.linear()) {
-    Scratch own_F(F ? 0 : n * n), own_Q(Q ? 0 : n * n), input(n);
-    double* const slope = F ? F : own_F;
-    linear_motion(model, dt, slope, Q ? Q : own_Q, input);
-    multiply(slope, n, columns_of(x, n), input, n, n, n, 1, Into::plus);
-    std::copy_n(input.data(), n, image);
+    Scratch moved(n);
+    linear_motion(model, dt, F, Q, moved);
+    multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
+    std::copy_n(moved.data(), n, image);
   } else {
     model.table->tangent(model.motion, x, dt, image, F, Q);
   }
