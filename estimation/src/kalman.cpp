@@ -8,6 +8,7 @@
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/filtering.hpp>
+#include <sigmax/estimation/motion_numbers.hpp>
 
 #include "sigma_points.hpp"
 
@@ -45,15 +46,6 @@ int seen_of(const SensorRef& sensor, const ModelRef& model, int n, int m) {
     throw std::invalid_argument("a sensor sees " + std::to_string(seen) + " components, but model '" + model.name() +
                                 "' has " + std::to_string(n));
   return seen == 0 ? n : seen;
-}
-
-/// F of a motion along independent axes over all of its state.
-void spread_over_axes(const double* law, int order, int axes, double* matrix) {
-  const int n = order * axes;
-  std::fill_n(matrix, n * n, 0.0);
-  for (int b = 0; b < order; ++b)
-    for (int a = 0; a < order; ++a)
-      for (int i = 0; i < axes; ++i) matrix[a * axes + i + (b * axes + i) * n] = law[a + b * order];
 }
 
 /// F, Q and the known input of a linear motion.

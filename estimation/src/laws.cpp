@@ -201,6 +201,14 @@ void coordinated_turn(int axes, double q, double q_omega, const double* x, doubl
   }
 }
 
+void spread_over_axes(const double* law, int order, int axes, double* matrix) {
+  const int n = order * axes;
+  std::fill_n(matrix, n * n, 0.0);
+  for (int b = 0; b < order; ++b)
+    for (int a = 0; a < order; ++a)
+      for (int i = 0; i < axes; ++i) matrix[a * axes + i + (b * axes + i) * n] = law[a + b * order];
+}
+
 std::vector<std::string> motion_components(int axes, int orders) {
   std::vector<std::string> names;
   for (const char* derivative : {"", "v", "a"})

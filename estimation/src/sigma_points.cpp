@@ -123,11 +123,7 @@ void measure(const ModelRef& model, SigmaPoints& points, const double* x, const 
     if (there) at_mean = i;
   }
   mean_of(sensor, points, deviations, m, mean);
-  Scratch<6> apart(m);
-  for (int i = 0; i < points.count(); ++i) {
-    difference(sensor, deviations + i * m, mean, m, apart);
-    std::copy_n(apart.data(), m, deviations + i * m);
-  }
+  for (int i = 0; i < points.count(); ++i) difference(sensor, deviations + i * m, mean, m, deviations + i * m);
 }
 
 /// Writes a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error

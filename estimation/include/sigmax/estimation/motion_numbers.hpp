@@ -15,6 +15,9 @@ void white_noise(int order, double q, double dt, double* F, double* Q, double* g
 void ornstein_uhlenbeck(int order, double theta, double sigma, double dt, double* F, double* Q, double* gain);
 /// @}
 
+/// law ⊗ I: what a matrix of one axis is of all, which are independent.
+void spread_over_axes(const double* law, int order, int axes, double* matrix);
+
 /// F and Q of a turn at a known rate.
 void known_turn(int axes, double omega, double q, double dt, double* F, double* Q);
 
