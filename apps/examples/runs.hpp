@@ -13,6 +13,7 @@
 #include <sigmax/core/mean_interval.hpp>
 
 #include "result/pictures.hpp"
+#include "result/report.hpp"
 
 namespace examples {
 
