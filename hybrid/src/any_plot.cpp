@@ -8,7 +8,7 @@ namespace sigmax {
 namespace {
 
 AnyPlot filled(AnyPlot::Sensor sensor, double time, std::span<const double> z, std::span<const double> covariance,
-               std::size_t least, std::size_t most) {
+               std::size_t least, std::size_t most, const std::array<double, 3>& origin = {}) {
   const std::size_t n = z.size();
   if (n < least || n > most)
     throw std::invalid_argument("a plot of " + std::to_string(n) + " measured quantities; expected " +
@@ -17,7 +17,7 @@ AnyPlot filled(AnyPlot::Sensor sensor, double time, std::span<const double> z, s
     throw std::invalid_argument("a covariance of " + std::to_string(covariance.size()) + " numbers for a plot of " +
                                 std::to_string(n) + "; expected " + std::to_string(n) + " variances or " +
                                 std::to_string(n * n) + " numbers");
-  AnyPlot plot{.time = time, .sensor = sensor, .size = static_cast<int>(n)};
+  AnyPlot plot{.time = time, .sensor = sensor, .size = static_cast<int>(n), .origin = origin};
   std::copy(z.begin(), z.end(), plot.z.begin());
   if (covariance.size() == n)
     for (std::size_t i = 0; i < n; ++i) plot.covariance[i * (n + 1)] = covariance[i];
@@ -36,22 +36,16 @@ AnyPlot AnyPlot::position(double time, std::span<const double> z, std::span<cons
 
 AnyPlot AnyPlot::polar(double time, std::span<const double> z, std::span<const double> covariance,
                        const std::array<double, 3>& origin) {
-  AnyPlot plot = filled(Sensor::polar, time, z, covariance, 2, 3);
-  plot.origin = origin;
-  return plot;
+  return filled(Sensor::polar, time, z, covariance, 2, 3, origin);
 }
 
 AnyPlot AnyPlot::doppler(double time, std::span<const double> z, std::span<const double> covariance,
                          const std::array<double, 3>& origin) {
-  AnyPlot plot = filled(Sensor::doppler, time, z, covariance, 3, 4);
-  plot.origin = origin;
-  return plot;
+  return filled(Sensor::doppler, time, z, covariance, 3, 4, origin);
 }
 
 AnyPlot AnyPlot::bearing(double time, double azimuth, double variance, const std::array<double, 3>& origin) {
-  AnyPlot plot = filled(Sensor::bearing, time, {&azimuth, 1}, {&variance, 1}, 1, 1);
-  plot.origin = origin;
-  return plot;
+  return filled(Sensor::bearing, time, {&azimuth, 1}, {&variance, 1}, 1, 1, origin);
 }
 
 AnyPlot AnyPlot::components(double time, std::span<const int> places, std::span<const double> z,

@@ -49,9 +49,7 @@ std::vector<AnyModel> chosen_models(const TargetChoice& choice) {
 class ChosenStart {
  public:
   ChosenStart(const TargetChoice& choice, const std::vector<AnyModel>& models)
-      : choice_(choice), nowhere_(detail::estimates_of(models)) {
-    for (std::size_t j = 0; j < models.size(); ++j) nowhere_[j].covariance.setIdentity();
-  }
+      : choice_(choice), nowhere_(detail::anywhere(models)) {}
 
   std::optional<StartAt<Estimates>> operator()(std::span<const Plot> plots, std::size_t starts) const {
     return choice_.start == StartRule::given && starts == 0 ? given(plots) : from_points(plots);
@@ -80,21 +78,18 @@ class ChosenStart {
 
   /// From the last three positions at different times.
   std::optional<StartAt<Estimates>> from_points(std::span<const Plot> plots) const {
-    struct Point {
-      double time, mean[3], covariance[9];
-    };
     const int axes = choice_.axes;
-    std::vector<Point> points;
+    std::vector<std::pair<double, Gaussian<Eigen::Dynamic, 3>>> points;
     for (const Plot& plot : plots) {
-      Point point{plot.time, {}, {}};
-      if (!plot.seen() || plot.sensor().position(plot.measurement(), point.mean, point.covariance) != axes) continue;
-      if (!points.empty() && points.back().time == point.time) points.pop_back();
-      points.push_back(point);
+      const auto position = plot.position<Eigen::Dynamic>();
+      if (!position || position->size() != axes) continue;
+      if (!points.empty() && points.back().first == plot.time) points.pop_back();
+      points.emplace_back(plot.time, *position);
     }
     if (points.size() < 3) return std::nullopt;
     const auto view = [&](std::size_t back) {
-      const Point& point = points[points.size() - back];
-      return detail::TimedView{point.time, {point.mean, point.covariance, axes}};
+      const auto& [time, position] = points[points.size() - back];
+      return detail::TimedView{time, detail::view(position)};
     };
     const bool released = choice_.start == StartRule::released;
     const int all = 3 * axes;
@@ -102,7 +97,7 @@ class ChosenStart {
     (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1),
                                                                     {wide_mean, wide_covariance, all});
     detail::two_point_start(view(2), view(1), {narrow_mean, narrow_covariance, 2 * axes});
-    return StartAt<Estimates>{points.back().time, estimates([&](int n, EstimateAt<double>& own) {
+    return StartAt<Estimates>{points.back().first, estimates([&](int n, EstimateAt<double>& own) {
                                 const bool wide = n == all || released;
                                 const int size = wide ? all : 2 * axes;
                                 for (int k = 0; k < n; ++k) {
@@ -135,15 +130,15 @@ class ChosenStart {
 template <class Filter>
 Filter chosen_filter(const TargetChoice& choice, const std::vector<AnyModel>& models, const Estimates& nowhere) {
   using Kind = typename Filter::kind;
-  if constexpr (KeepsHistories<Filter>) {
-    HistoryRules<Kind> rules;
-    rules.histories = choice.histories;
-    rules.cut = choice.cut;
-    rules.tempering = choice.tempering;
-    return {models, chosen_transition<Kind>(choice), nowhere, rules, chosen_interaction<Kind>(choice)};
-  } else {
-    return {models, chosen_transition<Kind>(choice), nowhere, chosen_interaction<Kind>(choice)};
-  }
+  const auto interaction = chosen_interaction<Kind>(choice);
+  if constexpr (KeepsHistories<Filter>)
+    return {models,
+            chosen_transition<Kind>(choice),
+            nowhere,
+            {.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering},
+            interaction};
+  else
+    return {models, chosen_transition<Kind>(choice), nowhere, interaction};
 }
 
 template <class Filter>
@@ -168,48 +163,31 @@ AnyFollowed followed(const TargetChoice& choice) {
   return Followed<InteractingFilter<Kind>>(choice, models, start);
 }
 
-void require_size(int size, int expected) {
-  if (size != expected)
-    throw std::invalid_argument("a plot has " + std::to_string(size) + " measured quantities; expected " +
-                                std::to_string(expected));
-}
-
-/// The sensor of a plot that has one; a case here is all that a new one needs beside its name in AnyPlot. Throws
+/// The sensor of a plot that has one; a branch here is all that a new one needs beside its name in AnyPlot. Throws
 /// std::invalid_argument if the numbers of the plot do not fit it.
-template <int Axes>
-AnySensor sensor_of(const AnyPlot& plot) {
-  const Vector<Axes> origin(plot.origin.data());
-  switch (plot.sensor) {
-    case AnyPlot::Sensor::polar:
-      require_size(plot.size, Axes);
-      return PolarSensor<Axes>(origin);
-    case AnyPlot::Sensor::bearing:
-      require_size(plot.size, 1);
-      return BearingSensor(Vector<2>(plot.origin.data()));
-    case AnyPlot::Sensor::doppler:
-      require_size(plot.size, Axes + 1);
-      return DopplerSensor<Axes>(origin);
-    case AnyPlot::Sensor::components:
-    case AnyPlot::Sensor::none:
-    case AnyPlot::Sensor::position:
-      break;
-  }
-  require_size(plot.size, Axes);
-  return PositionSensor<Axes>{};
-}
-
 AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
+  using enum AnyPlot::Sensor;
   if (plot.size < 1 || plot.size > max_measurement_size)
     throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected 1 to 6");
-  if (plot.sensor == AnyPlot::Sensor::components)
+  if (plot.sensor == components)
     return ComponentSensor<max_measurement_size>(std::span(plot.places).first(static_cast<std::size_t>(plot.size)),
                                                  axes);
-  if (axes == 2) return sensor_of<2>(plot);
-  if (axes == 3) return sensor_of<3>(plot);
-  if (plot.sensor != AnyPlot::Sensor::position)
+  if (axes == 1 && plot.sensor != position)
     throw std::invalid_argument("along one axis a plot is a position or components; a radar needs a plane");
-  require_size(plot.size, 1);
-  return PositionSensor<1>{};
+  const int expected = plot.sensor == bearing ? 1 : plot.sensor == doppler ? axes + 1 : axes;
+  if (plot.size != expected)
+    throw std::invalid_argument("a plot has " + std::to_string(plot.size) + " measured quantities; expected " +
+                                std::to_string(expected));
+  const Vector<2> below(plot.origin.data());
+  const Vector<3> origin(plot.origin.data());
+  if (plot.sensor == bearing) return BearingSensor(below);
+  if (plot.sensor == polar && axes == 2) return PolarSensor<2>(below);
+  if (plot.sensor == polar) return PolarSensor<3>(origin);
+  if (plot.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
+  if (plot.sensor == doppler) return DopplerSensor<3>(origin);
+  if (axes == 1) return PositionSensor<1>{};
+  if (axes == 2) return PositionSensor<2>{};
+  return PositionSensor<3>{};
 }
 
 Plot chosen_plot(const AnyPlot& plot, int axes) {
@@ -246,6 +224,10 @@ struct AnyTarget::Chosen {
   template <class Visit>
   decltype(auto) visit(const Visit& act) {
     return std::visit(act, followed);
+  }
+
+  const detail::Life& now() const {
+    return std::visit([](const auto& target) -> const detail::Life& { return target.life.now(); }, followed);
   }
 
   /// Writes an output of the filter, its own or that of another state by modes.
@@ -287,21 +269,11 @@ Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) {
   });
 }
 
-bool AnyTarget::running() const {
-  return chosen_->visit([](const auto& target) { return target.life.running(); });
-}
-std::size_t AnyTarget::starts() const {
-  return chosen_->visit([](const auto& target) { return target.life.starts(); });
-}
-std::size_t AnyTarget::rejected() const {
-  return chosen_->visit([](const auto& target) { return target.life.rejected(); });
-}
-double AnyTarget::time() const {
-  return chosen_->visit([](const auto& target) { return target.life.time(); });
-}
-double AnyTarget::accepted_time() const {
-  return chosen_->visit([](const auto& target) { return target.life.accepted_time(); });
-}
+bool AnyTarget::running() const { return chosen_->now().running; }
+std::size_t AnyTarget::starts() const { return chosen_->now().starts; }
+std::size_t AnyTarget::rejected() const { return chosen_->now().rejected; }
+double AnyTarget::time() const { return chosen_->now().time; }
+double AnyTarget::accepted_time() const { return chosen_->now().accepted_time; }
 const std::vector<std::string>& AnyTarget::components() const {
   return chosen_->visit([](const auto& target) -> const auto& { return target.filter.components(); });
 }
@@ -326,7 +298,7 @@ TargetPoint AnyTarget::output() const {
 void AnyTarget::output(TargetPoint& result) const {
   chosen_->visit([&](const auto& target) {
     const auto& filter = target.filter;
-    result.time = target.life.time();
+    result.time = target.life.now().time;
     result.nis.reset();
     result.normalized_innovation.clear();
     if (filter.measured()) {

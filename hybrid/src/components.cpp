@@ -50,6 +50,19 @@ Estimates estimates_of(const std::vector<AnyModel>& models) {
   return result;
 }
 
+Estimates anywhere(const std::vector<AnyModel>& models) {
+  Estimates result = estimates_of(models);
+  for (std::size_t j = 0; j < models.size(); ++j) result[j].covariance.setIdentity();
+  return result;
+}
+
+Estimates pairs_of(const Estimates& estimates) {
+  Estimates pairs;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    for (std::size_t j = 0; j < estimates.size(); ++j) pairs.add(estimates.view(i).n);
+  return pairs;
+}
+
 Estimates shares_of(const std::vector<AnyModel>& models, ConstView start) {
   Estimates result = estimates_of(models);
   Components(models).share(start, result);

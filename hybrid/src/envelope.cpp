@@ -52,11 +52,6 @@ const double* normal_points(int n) {
 
 }  // namespace
 
-Envelope& Envelope::of_this_thread() {
-  thread_local Envelope envelope;
-  return envelope;
-}
-
 void Envelope::clear(int n) {
   if (n < 1 || n > max_size)
     throw std::invalid_argument("an envelope of " + std::to_string(n) + " components; expected 1 to " +

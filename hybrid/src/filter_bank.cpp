@@ -9,26 +9,10 @@
 #include <thread>
 
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/hybrid/sound.hpp>
 
 namespace sigmax {
 namespace {
-
-/// Whether all are finite as the bank's numbers.
-template <class Number>
-bool fit(const double* numbers, int count) {
-  return std::all_of(numbers, numbers + count,
-                     [](double number) { return std::isfinite(static_cast<Number>(number)); });
-}
-template <class Number>
-bool fits(detail::ConstView estimate) {
-  return fit<Number>(estimate.mean, estimate.n) && fit<Number>(estimate.covariance, estimate.n * estimate.n);
-}
-
-Estimates anywhere(const std::vector<AnyModel>& models) {
-  Estimates starts = detail::estimates_of(models);
-  for (std::size_t j = 0; j < models.size(); ++j) starts[j].covariance.setIdentity();
-  return starts;
-}
 
 /// act(stored, known) for every number of a track's estimates, in the order of kinematic_plan.hpp, and where its
 /// weights follow.
@@ -57,7 +41,7 @@ void ScanOfTracks<Number>::set(std::size_t track, detail::ConstView z) {
   if (z.n != axes_)
     throw std::invalid_argument("the measurement of track " + std::to_string(track) + " has " + std::to_string(z.n) +
                                 " quantities; expected " + std::to_string(axes_));
-  if (!fits<Number>(z))
+  if (!check::finite(z, std::numeric_limits<Number>::max()))
     throw std::invalid_argument("the measurement of track " + std::to_string(track) +
                                 " is not finite, or too great for the bank's numbers");
   Number* to = numbers_.data() + track / lanes_ * lanes_ * size_ + track % lanes_;
@@ -82,12 +66,9 @@ bool ScanOfTracks<Number>::get(std::size_t track, detail::View z) const {
 template <ScalableUncertainty Kind, std::floating_point Number>
 TrackBank<Kind, Number>::TrackBank(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
                                    const Interaction<Kind>& interaction)
-    : general_(models, transition, anywhere(models), interaction),
-      transition_(std::move(transition)),
-      shortcut_(models, interaction),
-      laws_(models.size()),
+    : general_(models, std::move(transition), detail::anywhere(models), interaction),
       lanes_(detail::kinematic::lane_bytes() / sizeof(Number)) {
-  if (shortcut_.axes() == 0)
+  if (general_.shortcut().axes() == 0)
     throw std::invalid_argument("a bank of tracks is for up to four models that move along the same independent axes");
   numbers_ = models.size() + 1;
   for (const AnyModel& model : models) {
@@ -95,17 +76,6 @@ TrackBank<Kind, Number>::TrackBank(const std::vector<AnyModel>& models, ModeTran
     numbers_ += n + n * (n + 1) / 2;
   }
   lines_of_block_ = (numbers_ * lanes_ + Line{}.size() - 1) / Line{}.size();
-}
-
-template <ScalableUncertainty Kind, std::floating_point Number>
-std::size_t TrackBank<Kind, Number>::add(detail::ConstView start) {
-  general_.restart(start);
-  return add_started();
-}
-template <ScalableUncertainty Kind, std::floating_point Number>
-std::size_t TrackBank<Kind, Number>::add(const Estimates& starts) {
-  general_.restart(starts);
-  return add_started();
 }
 
 template <ScalableUncertainty Kind, std::floating_point Number>
@@ -159,7 +129,7 @@ void TrackBank<Kind, Number>::read(std::size_t track, State& state) const {
 template <ScalableUncertainty Kind, std::floating_point Number>
 void TrackBank<Kind, Number>::write(std::size_t track, const State& state) {
   for (std::size_t j = 0; j < state.estimates.size(); ++j)
-    if (!fits<Number>(state.estimates.view(j)))
+    if (!check::finite(state.estimates.view(j), std::numeric_limits<Number>::max()))
       throw std::domain_error("track " + std::to_string(track) + " is too far or too uncertain for the bank's numbers");
   Number* at = for_each_number(block(track / lanes_) + track % lanes_, lanes_, state.estimates,
                                [](Number& stored, double known) { stored = static_cast<Number>(known); });
@@ -178,9 +148,7 @@ void TrackBank<Kind, Number>::run(double dt, std::span<const ScanOfTracks<Number
     if (scan.tracks_ != blocks() * lanes_)
       throw std::invalid_argument("a scan for " + std::to_string(scan.tracks_) + " tracks; the bank has room for " +
                                   std::to_string(blocks() * lanes_) + ": ask it for a new one");
-  const auto& models = general_.system().models();
-  for (std::size_t j = 0; j < models.size(); ++j) models[j].ref().table->law(models[j].ref().motion, dt, laws_[j]);
-  const bool shortens = shortcut_.prepare(laws_, dt, transition_.over(dt));
+  const bool shortens = general_.shortens(dt);
   threads = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks(), 1));
   if (threads == 1) return run_blocks(dt, scans, shortens, 0, blocks(), general_);
   std::vector<std::exception_ptr> errors(threads);
@@ -215,7 +183,7 @@ void TrackBank<Kind, Number>::run_blocks(double dt, std::span<const ScanOfTracks
         ask_for(scans[0].block(number + 1), scan.size_ * lanes_);
         ask_for(block(number + 1), numbers_ * lanes_);
       }
-      unsigned left = shortens ? shortcut_.step_block(block(number), scan.block(number)) : all;
+      unsigned left = shortens ? general.shortcut().step_block(block(number), scan.block(number)) : all;
       for (std::size_t lane = 0; left != 0; ++lane, left >>= 1U)
         if ((left & 1U) != 0 && lives_[number * lanes_ + lane])
           step_generally(dt, number * lanes_ + lane, scan, general);
@@ -229,19 +197,12 @@ void TrackBank<Kind, Number>::step_generally(double dt, std::size_t track, const
   read(track, state);
   general.restore(state);
   double mean[3], covariance[9];
-  const detail::View z{mean, covariance, shortcut_.axes()};
+  const detail::View z{mean, covariance, general.shortcut().axes()};
   try {
-    if (scan.get(track, z)) {
-      const PositionSensor<1> line;
-      const PositionSensor<2> plane;
-      const PositionSensor<3> space;
-      using Models = std::vector<AnyModel>;
-      general.step(dt, {z, z.n == 1   ? detail::sensor_of_models<Models>(line)
-                           : z.n == 2 ? detail::sensor_of_models<Models>(plane)
-                                      : detail::sensor_of_models<Models>(space)});
-    } else {
+    if (scan.get(track, z))
+      general.step(dt, {z, detail::position_sensor(z.n)});
+    else
       general.step(dt);
-    }
   } catch (const std::domain_error& error) {
     throw std::domain_error("track " + std::to_string(track) + ", " + error.what());
   }

@@ -21,13 +21,6 @@ void write_root(const double* covariance, int n, const AnyModel& model, double* 
     detail::refuse_covariance(model.name(), component);
 }
 
-Estimates pairs_of(const Estimates& estimates) {
-  Estimates pairs;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    for (std::size_t j = 0; j < estimates.size(); ++j) pairs.add(estimates.view(i).n);
-  return pairs;
-}
-
 }  // namespace
 
 template <ScalableUncertainty Kind>
@@ -37,7 +30,7 @@ FixedIntervalSmoother<Kind>::FixedIntervalSmoother(const MultipleModelFilter<Kin
       components_(system_.models()),
       entries_(filter.lenders(filter.estimates())),
       state_(filter.by_modes()),
-      pairs_(pairs_of(filter.estimates())),
+      pairs_(detail::pairs_of(filter.estimates())),
       filtered_(filter.estimates()),
       log_weight_(modes()),
       weights_(modes()),
@@ -65,13 +58,6 @@ void FixedIntervalSmoother<Kind>::begin(const Step& last) {
   dt_ = last.dt;
 }
 
-/// log ⊕ exp over the modes, by the mode's own ⊕.
-template <ScalableUncertainty Kind>
-template <class LogWeight>
-double FixedIntervalSmoother<Kind>::total(const LogWeight& log_weight) const {
-  return detail::log_combine<AlgebraOf<Kind>>(modes(), log_weight, detail::unit);
-}
-
 template <ScalableUncertainty Kind>
 void FixedIntervalSmoother<Kind>::step(const Step& before) {
   const State& filtered = before.state;
@@ -83,13 +69,13 @@ void FixedIntervalSmoother<Kind>::step(const Step& before) {
   for (std::size_t j = 0; j < modes(); ++j) {
     const auto pair = [&](std::size_t i) { return joint_(i, j); };
     for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = filtered.belief.log(i) + std::log(transition(i, j));
-    if (total(pair) == log_zero || state_.belief.log(j) == log_zero) {
+    if (detail::log_total<Kind>(modes(), pair) == log_zero || state_.belief.log(j) == log_zero) {
       for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) = log_zero;
       continue;
     }
     for (std::size_t i = 0; i < modes(); ++i)
       if (joint_(i, j) != log_zero) joint_(i, j) += smooth_pair(filtered.estimates, i, j);
-    const double log_total = total(pair);
+    const double log_total = detail::log_total<Kind>(modes(), pair);
     for (std::size_t i = 0; i < modes(); ++i) joint_(i, j) += state_.belief.log(j) - log_total;
   }
   merge(before);
@@ -152,7 +138,8 @@ double FixedIntervalSmoother<Kind>::smooth_pair(const Estimates& filtered, std::
 /// The belief of k, and for each of its modes one estimate; a mode that leads nowhere keeps its own.
 template <ScalableUncertainty Kind>
 void FixedIntervalSmoother<Kind>::merge(const Step& before) {
-  for (std::size_t i = 0; i < modes(); ++i) log_weight_[i] = total([&](std::size_t j) { return joint_(i, j); });
+  for (std::size_t i = 0; i < modes(); ++i)
+    log_weight_[i] = detail::log_total<Kind>(modes(), [&](std::size_t j) { return joint_(i, j); });
   state_.belief.assign([&](std::size_t i) { return log_weight_[i]; });
   filtered_ = before.state.estimates;
   detail::Parts parts(static_cast<int>(modes()));

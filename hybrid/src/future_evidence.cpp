@@ -17,6 +17,18 @@ void copy_block(const double* from, int from_rows, int rows, int columns, double
   for (int k = 0; k < columns; ++k) std::copy_n(from + k * from_rows, rows, to + k * to_rows);
 }
 
+/// T⁻ᵀ Mᵀ with the triangle T of a matrix of n columns.
+void solve_transposed(const Triangle& triangle, const double* M, int n, double* result) {
+  Scratch<1024> T(n * n);
+  triangle.copy_to(T);
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) {
+      double rest = M[k + i * n];
+      for (int j = 0; j < i; ++j) rest -= T[j + i * n] * result[j + k * n];
+      result[i + k * n] = rest / T[i + i * n];
+    }
+}
+
 }  // namespace
 
 void FutureEvidence::clear(int n) {
@@ -81,19 +93,13 @@ double FutureEvidence::carry_back(const double* offset, const double* B, int m, 
 double FutureEvidence::meet(const double* L, View estimate) const {
   const int n = estimate.n, all = rows_ + n;
   Scratch<640> work(all * (n + 1));
-  Scratch root(n * n), T(n * n);
+  Scratch root(n * n);
   std::fill_n(work.data(), all * (n + 1), 0.0);
   multiply(R(), rows_, columns_of(L, n), work, all, rows_, n, n);
   std::copy_n(r(), rows_, work + n * all);
   for (int i = 0; i < n; ++i) work[rows_ + i + i * all] = 1.0;
   const Triangle triangle(work, all, n + 1, n);
-  triangle.copy_to(T);
-  for (int k = 0; k < n; ++k)  // T⁻ᵀ Lᵀ, whose columns are those of (L T⁻¹)ᵀ
-    for (int i = 0; i < n; ++i) {
-      double rest = L[k + i * n];
-      for (int j = 0; j < i; ++j) rest -= T[j + i * n] * root[j + k * n];
-      root[i + k * n] = rest / T[i + i * n];
-    }
+  solve_transposed(triangle, L, n, root);  // its columns are those of (L T⁻¹)ᵀ
   const double* const told = work + n * all;
   multiply(told, 1, columns_of(root, n), estimate.mean, 1, 1, n, n, Into::plus);
   multiply_transposed(root, n, root, n, estimate.covariance, n, n, n, n);
@@ -113,7 +119,7 @@ void set_identity(double* M, int n) {
 
 /// G (P⁻¹ + GᵀG)⁻¹ Gᵀ with P = L Lᵀ.
 void known(const double* G, const double* L, int n, double* result) {
-  Scratch<1024> K(n * n), half(n * n), T(n * n);
+  Scratch<1024> K(n * n), half(n * n);
   Scratch<640> work(2 * n * n);
   multiply(G, n, columns_of(L, n), K, n, n, n, n);
   for (int k = 0; k < n; ++k)
@@ -121,13 +127,7 @@ void known(const double* G, const double* L, int n, double* result) {
       work[i + k * 2 * n] = K[i + k * n];
       work[n + i + k * 2 * n] = i == k ? 1.0 : 0.0;
     }
-  Triangle(work, 2 * n, n, n).copy_to(T);
-  for (int k = 0; k < n; ++k)  // T⁻ᵀ Kᵀ
-    for (int i = 0; i < n; ++i) {
-      double rest = K[k + i * n];
-      for (int j = 0; j < i; ++j) rest -= T[j + i * n] * half[j + k * n];
-      half[i + k * n] = rest / T[i + i * n];
-    }
+  solve_transposed(Triangle(work, 2 * n, n, n), K, n, half);
   multiply_transposed(half, n, half, n, result, n, n, n, n);
 }
 

@@ -33,17 +33,11 @@ HistorySet& HistorySet::operator=(const HistorySet& other) {
   return *this;
 }
 
-std::size_t HistorySet::best() const {
+std::size_t best_of(std::span<const History> histories) {
   std::size_t best = 0;
-  for (std::size_t h = 1; h < size(); ++h)
-    if (histories_[h].log_weight > histories_[best].log_weight) best = h;
+  for (std::size_t h = 1; h < histories.size(); ++h)
+    if (histories[h].log_weight > histories[best].log_weight) best = h;
   return best;
-}
-
-HistoryLinks HistorySet::links() const {
-  HistoryLinks links{{}, best()};
-  for (std::size_t h = 0; h < size(); ++h) links.all.push_back({histories_[h].mode, histories_[h].parent});
-  return links;
 }
 
 template <ScalableUncertainty Kind>
@@ -58,6 +52,7 @@ HistoriesOfModes<Kind>::HistoriesOfModes(const std::vector<AnyModel>& models, Mo
       lacks_(modes() * modes()),
       innovation_of_(rules.histories),
       log_prior_(rules.histories),
+      compared_(modes()),
       weight_(rules.histories),
       log_of_mode_(modes()),
       sets_{State{start, std::max(rules.histories, modes())}, State{start, std::max(rules.histories, modes())}},
@@ -95,14 +90,14 @@ void HistoriesOfModes<Kind>::step(double dt, const Seen& seen, double gate) {
   this->located(dt, [&] {
     branch(dt, predicted_);
     State& next = next_set();
+    compared_ = next.size();
     for (std::size_t h = 0; h < next.size(); ++h) {
       AnyInnovation& innovation = innovation_of_[h];
       this->update_model(next[h].mode, predicted_.view(h), seen, next.view(h), innovation);
       log_prior_[h] = next[h].log_weight;
       next[h].log_weight += rules_.tempering * innovation.log_likelihood;
     }
-    taken = this->passes(gate, next.size(),
-                         [this](std::size_t h) { return log_prior_[h] - 0.5 * innovation_of_[h].squared_distance; });
+    taken = this->passes(gate);
     if (taken) weigh(next);
   });
   if (!taken) return step(dt);
@@ -132,17 +127,6 @@ void HistoriesOfModes<Kind>::restore(const State& state) {
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::restart(const Estimates& starts) {
-  Filter::restart(starts);
-  begin();
-}
-template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::restart(ConstView start) {
-  Filter::restart(start);
-  begin();
-}
-
-template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::transform(const double* A, const double* b, int axes) {
   Filter::transform(A, b, axes);
   State& set = sets_[current_];
@@ -156,7 +140,7 @@ void HistoriesOfModes<Kind>::output(View result) const {
   detail::Scratch mean(result.n), covariance(result.n * result.n);
   const View receiver{mean, covariance, result.n};
   this->output_receiver(this->by_modes(), receiver);
-  const double greatest = set[set.best()].log_weight;
+  const double greatest = set[best_of(set.all())].log_weight;
   detail::OfModes weights(count);
   detail::Parts parts(count);
   double total = 0.0;
@@ -171,38 +155,11 @@ void HistoriesOfModes<Kind>::output(View result) const {
 }
 
 template <ScalableUncertainty Kind>
-double HistoriesOfModes<Kind>::nis() const {
-  double whitened[max_measurement_size], sum = 0.0;
-  const int m = normalized_innovation(whitened);
-  for (int i = 0; i < m; ++i) sum += whitened[i] * whitened[i];
-  return sum;
-}
-
-template <ScalableUncertainty Kind>
-int HistoriesOfModes<Kind>::normalized_innovation(double* numbers) const {
-  if (!this->measured()) throw std::logic_error("nis() after a step without a measurement");
-  const std::size_t size = state().size();
-  detail::OfModes weights(static_cast<int>(size));
-  std::size_t best = 0;
-  for (std::size_t h = 0; h < size; ++h) {
-    weights[h] = std::exp(log_prior_[h]);
-    if (log_prior_[h] > log_prior_[best]) best = h;
-  }
-  const AnyInnovation innovation = Filter::collapsed({innovation_of_.data(), size}, weights, best);
-  Filter::normalize(innovation, numbers);
-  return innovation.size;
-}
-
-template <ScalableUncertainty Kind>
-double HistoriesOfModes<Kind>::log_evidence() const {
-  return detail::log_combine<AlgebraOf<Kind>>(
-      state().size(), [this](std::size_t h) { return log_prior_[h] + innovation_of_[h].log_likelihood; }, detail::unit);
-}
-
-template <ScalableUncertainty Kind>
-double HistoriesOfModes<Kind>::log_score() const {
-  return log_evidence() - detail::log_combine<Sigma>(
-                              state().size(), [this](std::size_t h) { return log_prior_[h]; }, detail::unit);
+typename MultipleModelFilter<Kind>::Predictors HistoriesOfModes<Kind>::predictors() const {
+  const auto best = std::max_element(log_prior_.begin(), log_prior_.begin() + static_cast<std::ptrdiff_t>(compared_));
+  return {{innovation_of_.data(), compared_},
+          {log_prior_.data(), compared_},
+          static_cast<std::size_t>(best - log_prior_.begin())};
 }
 
 template <ScalableUncertainty Kind>
@@ -311,8 +268,7 @@ void HistoriesOfModes<Kind>::keep() {
 
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::normalize(State& set) const {
-  const double total = detail::log_combine<AlgebraOf<Kind>>(
-      set.size(), [&](std::size_t h) { return set[h].log_weight; }, detail::unit);
+  const double total = detail::log_total<Kind>(set.size(), [&](std::size_t h) { return set[h].log_weight; });
   if (total == log_zero) check::excluded(system_.mode_variable());
   for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
 }
@@ -327,8 +283,8 @@ void HistoriesOfModes<Kind>::weigh(State& set) {
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::summarize(const State& set) {
   for (std::size_t j = 0; j < modes(); ++j)
-    log_of_mode_[j] = detail::log_combine<AlgebraOf<Kind>>(
-        set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; }, detail::unit);
+    log_of_mode_[j] = detail::log_total<Kind>(
+        set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; });
   for (std::size_t h = 0; h < set.size(); ++h) {
     const double log_mode = log_of_mode_[set[h].mode];
     weight_[h] = log_mode == log_zero ? 1.0 : std::exp(set[h].log_weight - log_mode);

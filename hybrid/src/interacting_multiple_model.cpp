@@ -21,27 +21,23 @@ template <ScalableUncertainty Kind>
 void InteractingFilter<Kind>::step(double dt, const Seen& seen, double gate) {
   this->require(dt, &seen);
   if (this->shortened(dt, &seen, gate, predicted_)) return;
-  bool taken = false, concluded = false;
+  bool taken = false;
   this->located(dt, [&] {
     mix(dt);                                     // step 1, (51)–(59)
     for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
       this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
       this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
     }
-    taken = this->passes(gate, modes(),
-                         [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; });
-    if (!taken) {
-      concluded = this->shortened(dt, nullptr, no_gate, predicted_);
-      if (!concluded) coast();
-      return;
-    }
+    taken = this->passes(gate);
+    if (!taken) return;
     for (std::size_t j = 0; j < modes(); ++j) {
       check::sound(this->model(j), next().estimates.view(j));
       likelihood_.set_log(j, innovations_[j].log_likelihood);
     }
     update(prior_, likelihood_, next().belief);  // step 3, (62), (63)
   });
-  if (!concluded) this->conclude(taken);  // (64); step 4 is `output`
+  if (!taken) return step(dt);
+  this->conclude(true);  // (64); step 4 is `output`
 }
 
 template <ScalableUncertainty Kind>
@@ -50,20 +46,14 @@ void InteractingFilter<Kind>::step(double dt) {
   if (this->shortened(dt, nullptr, no_gate, predicted_)) return;
   this->located(dt, [&] {
     mix(dt);
-    for (std::size_t j = 0; j < modes(); ++j) this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
-    coast();
+    for (std::size_t j = 0; j < modes(); ++j) {
+      const detail::View estimate = next().estimates.view(j);
+      this->predict_model(j, estimate, dt, estimate);
+      check::sound(this->model(j), estimate);
+    }
+    next().belief = prior_;
   });
   this->conclude(false);
-}
-
-/// What is predicted is what is known.
-template <ScalableUncertainty Kind>
-void InteractingFilter<Kind>::coast() {
-  for (std::size_t j = 0; j < modes(); ++j) {
-    detail::copy(predicted_.view(j), next().estimates.view(j));
-    check::sound(this->model(j), predicted_.view(j));
-  }
-  next().belief = prior_;
 }
 
 /// Step 1: prior and move-in weights of the mode, (51), (52) or (53), (54), and the mixed starts.

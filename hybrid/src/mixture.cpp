@@ -65,35 +65,26 @@ void Mixture::read(const Part& part, View result) const {
   add_covariance(part, 1.0, result.covariance);
 }
 
-namespace {
-
-/// The mean of Σ weight N.
-void average_means(const Mixture& mixture, const double* weights, double* mean) {
+void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result,
+                   OutputSpread spread) {
   const int n = mixture.size();
-  Scratch<32> part_mean(n);
-  std::fill_n(mean, n, 0.0);
+  Scratch<32> mean(n);
+  std::fill_n(result.mean, n, 0.0);
+  std::fill_n(result.covariance, n * n, 0.0);
   for (std::size_t l = 0; l < mixture.parts.size(); ++l) {
     if (!(weights[l] > 0.0)) continue;
-    mixture.mean_of(mixture.parts[l], part_mean);
-    for (int i = 0; i < n; ++i) mean[i] += weights[l] * part_mean[i];
+    mixture.mean_of(mixture.parts[l], mean);
+    for (int i = 0; i < n; ++i) result.mean[i] += weights[l] * mean[i];
   }
-}
-
-}  // namespace
-
-void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result) {
-  const int n = mixture.size();
-  Scratch<32> spread(n);
-  average_means(mixture, weights, result.mean);
-  std::fill_n(result.covariance, n * n, 0.0);
   for (std::size_t l = 0; l < mixture.parts.size(); ++l) {
     const double weight = covariance_weights[l];
     if (!(weight > 0.0)) continue;
-    mixture.mean_of(mixture.parts[l], spread);
-    for (int i = 0; i < n; ++i) spread[i] -= result.mean[i];
     mixture.add_covariance(mixture.parts[l], weight, result.covariance);
+    if (spread == OutputSpread::omitted) continue;
+    mixture.mean_of(mixture.parts[l], mean);
+    for (int i = 0; i < n; ++i) mean[i] -= result.mean[i];
     for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) result.covariance[i + k * n] += weight * spread[i] * spread[k];
+      for (int i = 0; i < n; ++i) result.covariance[i + k * n] += weight * mean[i] * mean[k];
   }
   mirror_lower(result.covariance, n);
 }
@@ -101,7 +92,7 @@ void match_moments(const Mixture& mixture, const double* weights, const double* 
 double match_envelope(const Mixture& mixture, const double* weights, View result) {
   const int n = mixture.size();
   Scratch<> mean(n), covariance(n * n);
-  Envelope& envelope = Envelope::of_this_thread();
+  thread_local Envelope envelope;  // keeps its memory
   envelope.clear(n);
   for (std::size_t l = 0; l < mixture.parts.size(); ++l) {
     if (!(weights[l] > 0.0)) continue;
@@ -119,11 +110,7 @@ void collapse(const Selection& rule, const Mixture& mixture, const double* weigh
 }
 
 void collapse(const MomentMatching& rule, const Mixture& mixture, const double* weights, std::size_t, View result) {
-  if (rule.output_spread == OutputSpread::included) return match_moments(mixture, weights, weights, result);
-  average_means(mixture, weights, result.mean);
-  std::fill_n(result.covariance, mixture.size() * mixture.size(), 0.0);
-  for (std::size_t l = 0; l < mixture.parts.size(); ++l)
-    mixture.add_covariance(mixture.parts[l], weights[l], result.covariance);
+  match_moments(mixture, weights, weights, result, rule.output_spread);
 }
 
 void mix(const Selection& rule, const Mixture& mixture, const double* weights, const double*, std::size_t favoured,

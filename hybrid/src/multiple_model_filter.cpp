@@ -43,6 +43,7 @@ void MultipleModelFilter<Kind>::restart(const Estimates& starts) {
   check::starts(system_.models(), starts);
   states_[current_].estimates = starts;
   forget_mode();
+  begin();
 }
 
 template <ScalableUncertainty Kind>
@@ -50,6 +51,7 @@ void MultipleModelFilter<Kind>::restart(ConstView start) {
   if (!check::finite(start)) throw std::invalid_argument("the start is not finite");
   components_.share(start, states_[current_].estimates);
   forget_mode();
+  begin();
 }
 
 template <ScalableUncertainty Kind>
@@ -130,39 +132,52 @@ double MultipleModelFilter<Kind>::beta() const requires SelectiveAlgebra<Algebra
 
 template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::nis() const {
-  double whitened[max_measurement_size], sum = 0.0;
-  const int m = normalized_innovation(whitened);
-  for (int i = 0; i < m; ++i) sum += whitened[i] * whitened[i];
-  return sum;
+  double numbers[max_measurement_size];
+  return normalize(predicted_innovation(), numbers);
 }
 
 template <ScalableUncertainty Kind>
 int MultipleModelFilter<Kind>::normalized_innovation(double* numbers) const {
-  if (!measured_) throw std::logic_error("nis() after a step without a measurement");
-  detail::OfModes weights(static_cast<int>(modes()));
-  read_weights(prior_, weights);
-  const AnyInnovation innovation = collapsed(innovations_, weights, predicted_mode_);
+  const AnyInnovation innovation = predicted_innovation();
   normalize(innovation, numbers);
   return innovation.size;
 }
 
 template <ScalableUncertainty Kind>
+AnyInnovation MultipleModelFilter<Kind>::predicted_innovation() const {
+  if (!measured_) throw std::logic_error("nis() after a step without a measurement");
+  const auto [innovations, log_weights, most_likely] = predictors();
+  detail::OfModes weights(static_cast<int>(log_weights.size()));
+  std::transform(log_weights.begin(), log_weights.end(), weights.data(), [](double log) { return std::exp(log); });
+  return collapsed(innovations, weights, most_likely);
+}
+
+template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::log_evidence() const {
-  return detail::log_combine<AlgebraOf<Kind>>(
-      modes(), [this](std::size_t j) { return prior_.log(j) + innovations_[j].log_likelihood; }, detail::unit);
+  const Predictors by = predictors();
+  return detail::log_total<Kind>(by.log_weights.size(),
+                                 [&](std::size_t i) { return by.log_weights[i] + by.innovations[i].log_likelihood; });
 }
 
 template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::log_score() const {
-  return log_evidence() - detail::log_combine<Sigma>(modes(), logs_of(prior_), detail::unit);
+  const auto log_weights = predictors().log_weights;
+  return log_evidence() - detail::log_total<Random>(log_weights.size(), [&](std::size_t i) { return log_weights[i]; });
 }
 
 template <ScalableUncertainty Kind>
 double MultipleModelFilter<Kind>::gate_distance() const {
   if (gate_distance_) return *gate_distance_;
-  return -2.0 * detail::log_combine<AlgebraOf<Kind>>(
-                    modes(), [this](std::size_t j) { return prior_.log(j) - 0.5 * innovations_[j].squared_distance; },
-                    detail::unit);
+  const Predictors by = predictors();
+  return -2.0 * detail::log_total<Kind>(by.log_weights.size(), [&](std::size_t i) {
+    return by.log_weights[i] - 0.5 * by.innovations[i].squared_distance;
+  });
+}
+
+template <ScalableUncertainty Kind>
+bool MultipleModelFilter<Kind>::passes(double gate, std::optional<double> distance) {
+  gate_distance_ = distance;
+  return gate == no_gate || gate_distance() <= gate;
 }
 
 template <ScalableUncertainty Kind>
@@ -207,11 +222,16 @@ void MultipleModelFilter<Kind>::update_model(std::size_t j, ConstView prior, con
 }
 
 template <ScalableUncertainty Kind>
+bool MultipleModelFilter<Kind>::shortens(double dt) {
+  const auto* const transition = std::get_if<Table>(&system_.transition(dt).rows());
+  describe_models(dt);
+  return transition && shortcut_.prepare(laws_, dt, transition->data());
+}
+
+template <ScalableUncertainty Kind>
 bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double gate, Estimates& predicted) {
   if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
-  const Relation<Kind, Kind>& transition = system_.transition(dt);
-  describe_models(dt);
-  if (!shortcut_.prepare(laws_, dt, transition)) return false;
+  if (!shortens(dt)) return false;
   detail::kinematic::Told told;
   for (std::size_t j = 0; j < modes(); ++j) {
     const View result = next().estimates.view(j);
@@ -239,8 +259,7 @@ bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double ga
         innovation.log_likelihood -=
             0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
     }
-    gate_distance_.reset();
-    taken = gate == no_gate || gate_distance() <= gate;
+    taken = passes(gate);
   }
   if (seen && !taken && !take(nullptr, nullptr)) return false;
   const auto posterior = next().belief.logs(detail::ByLaw{});
@@ -300,7 +319,7 @@ AnyInnovation MultipleModelFilter<Kind>::collapsed(std::span<const AnyInnovation
 }
 
 template <ScalableUncertainty Kind>
-void MultipleModelFilter<Kind>::normalize(const AnyInnovation& innovation, double* numbers) {
+double MultipleModelFilter<Kind>::normalize(const AnyInnovation& innovation, double* numbers) {
   double L[max_measurement_size * max_measurement_size];
   const int m = innovation.size;
   if (detail::cholesky_factor(innovation.covariance_numbers.data(), m, L)) {
@@ -309,6 +328,9 @@ void MultipleModelFilter<Kind>::normalize(const AnyInnovation& innovation, doubl
   } else {
     std::fill_n(numbers, m, std::numeric_limits<double>::infinity());
   }
+  double sum = 0.0;
+  for (int i = 0; i < m; ++i) sum += numbers[i] * numbers[i];
+  return sum;
 }
 
 template <ScalableUncertainty Kind>
@@ -327,4 +349,16 @@ std::string MultipleModelFilter<Kind>::this_step(double dt) const {
 template class MultipleModelFilter<Random>;
 template class MultipleModelFilter<Fuzzy>;
 
+namespace detail {
+
+SensorOfModels position_sensor(int axes) {
+  static constexpr PositionSensor<1> line;
+  static constexpr PositionSensor<2> plane;
+  static constexpr PositionSensor<3> space;
+  using Models = std::vector<AnyModel>;
+  if (axes == 1) return sensor_of_models<Models>(line);
+  return axes == 2 ? sensor_of_models<Models>(plane) : sensor_of_models<Models>(space);
+}
+
+}  // namespace detail
 }  // namespace sigmax

@@ -18,16 +18,13 @@ namespace detail {
 using OfModes = Scratch<32>;
 using Parts = Scratch<32, Mixture::Part>;
 
-inline double unit(std::size_t) { return 1.0; }
+/// log ⊕ exp(log_weight(i)) of so many numbers, by the ⊕ of a kind.
+template <class Kind, class LogWeight>
+double log_total(std::size_t count, const LogWeight& log_weight) {
+  return log_combine<AlgebraOf<Kind>>(count, log_weight, [](std::size_t) { return 1.0; });
+}
 
 }  // namespace detail
-
-template <ScalableUncertainty Kind>
-template <class LogFit>
-bool MultipleModelFilter<Kind>::passes(double gate, std::size_t hypotheses, const LogFit& log_fit) {
-  gate_distance_ = -2.0 * detail::log_combine<AlgebraOf<Kind>>(hypotheses, log_fit, detail::unit);
-  return gate == no_gate || *gate_distance_ <= gate;
-}
 
 template <ScalableUncertainty Kind>
 template <class Action>

@@ -5,23 +5,12 @@
 #include "multiple_model_filter.hpp"
 
 namespace sigmax {
-namespace {
-
-/// For each model as many estimates as there are modes, at j · modes + l.
-Estimates pairs_of(const std::vector<AnyModel>& models) {
-  Estimates pairs;
-  for (const AnyModel& model : models)
-    for (std::size_t l = 0; l < models.size(); ++l) pairs.add(static_cast<int>(model.size()));
-  return pairs;
-}
-
-}  // namespace
 
 template <ScalableUncertainty Kind>
 SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition,
                                            const Estimates& start, const Interaction<Kind>& interaction)
     : Filter(models, std::move(transition), start, interaction),
-      predicted_(pairs_of(models)),
+      predicted_(detail::pairs_of(start)),
       pairs_(predicted_),
       pair_innovations_(modes()),
       log_fit_(modes() * modes()),
@@ -46,8 +35,9 @@ void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
       }
       summarize(j);
     }
-    taken = this->passes(gate, log_fit_.size(), [this](std::size_t each) { return log_fit_[each]; });
-    if (taken) merge(pairs_, next().estimates);
+    const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
+    taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
+    if (taken) merge(pairs_);
   });
   if (!taken) return step(dt);
   this->conclude(true);
@@ -58,7 +48,7 @@ void SecondOrderFilter<Kind>::step(double dt) {
   this->require(dt, nullptr);
   this->located(dt, [&] {
     branch(dt);
-    merge(predicted_, next().estimates);
+    merge(predicted_);
   });
   this->conclude(false);
 }
@@ -92,7 +82,8 @@ void SecondOrderFilter<Kind>::branch(double dt) {
 
 /// The belief is the ⊕ of the pairs' weights, and the predecessors of each mode collapse.
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::merge(const Estimates& pairs, Estimates& merged) {
+void SecondOrderFilter<Kind>::merge(const Estimates& pairs) {
+  Estimates& merged = next().estimates;
   next().belief.assign([&](std::size_t j) { return log_weight_[j]; });
   collapse_predecessors(pairs, merged);
   for (std::size_t j = 0; j < modes(); ++j) check::sound(this->model(j), merged.view(j));
@@ -114,7 +105,7 @@ void SecondOrderFilter<Kind>::collapse_predecessors(const Estimates& pairs, Esti
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::weigh(std::size_t j) {
   const auto log = [&](std::size_t l) { return joint_(j, l); };
-  log_weight_[j] = detail::log_combine<AlgebraOf<Kind>>(modes(), log, detail::unit);
+  log_weight_[j] = detail::log_total<Kind>(modes(), log);
   for (std::size_t l = 0; l < modes(); ++l)
     if (log_weight_[j] != log_zero)
       predecessor_(j, l) = std::exp(log(l) - log_weight_[j]);
@@ -140,9 +131,7 @@ void SecondOrderFilter<Kind>::summarize(std::size_t j) {
   innovation = Filter::collapsed(pair_innovations_, predecessor_.row(j).data(), winner);
   weigh(j);
   double whitened[max_measurement_size];
-  Filter::normalize(innovation, whitened);
-  innovation.squared_distance = 0.0;
-  for (int i = 0; i < innovation.size; ++i) innovation.squared_distance += whitened[i] * whitened[i];
+  innovation.squared_distance = Filter::normalize(innovation, whitened);
   innovation.log_likelihood = before == log_zero ? own : log_weight_[j] - before;
 }
 

@@ -49,9 +49,9 @@ void sound(const AnyModel& model, detail::ConstView estimate) {
                             "' is not positive semi-definite");
 }
 
-bool finite(detail::ConstView estimate) {
-  const auto are_finite = [](const double* numbers, int count) {
-    return std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
+bool finite(detail::ConstView estimate, double greatest) {
+  const auto are_finite = [greatest](const double* numbers, int count) {
+    return std::all_of(numbers, numbers + count, [greatest](double number) { return std::abs(number) <= greatest; });
   };
   return are_finite(estimate.mean, estimate.n) && are_finite(estimate.covariance, estimate.n * estimate.n);
 }

@@ -9,11 +9,11 @@
 #include <sigmax/estimation/filtering.hpp>
 
 namespace sigmax::detail {
+namespace {
 
-template <class Filter>
-double TargetLife<Filter>::Life::latest() const {
-  return waiting.empty() ? time : std::max(time, waiting.back().time);
-}
+Seen seen_of(const Plot& plot) { return {plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())}; }
+
+}  // namespace
 
 template <class Filter>
 TargetLife<Filter>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
@@ -112,12 +112,10 @@ Verdict TargetLife<Filter>::process(Filter& filter, const Plot& plot, const Step
 template <class Filter>
 Verdict TargetLife<Filter>::step(Filter& filter, const Plot& plot) {
   const double dt = plot.time - now_.time;
-  if (plot.seen()) {
-    const Seen seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())};
-    filter.step(dt, seen, gates_[static_cast<std::size_t>(plot.size())]);
-  } else {
+  if (plot.seen())
+    filter.step(dt, seen_of(plot), gates_[static_cast<std::size_t>(plot.size())]);
+  else
     filter.step(dt);
-  }
   now_.time = plot.time;
   if (filter.measured()) {
     now_.accepted_time = plot.time;
@@ -174,13 +172,16 @@ template <class Filter>
 void TargetLife<Filter>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
   if (!rules_.record) return;
   const bool measured = filter.measured();
-  const auto recorded = [&] {
-    if (!measured) return filter.recorded(dt);
-    return filter.recorded(dt, Seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())});
-  };
-  record_.push_back(
-      {now_.time, plot.tag, is_start, measured ? std::optional(filter.nis()) : std::nullopt, recorded(), {}});
-  if constexpr (KeepsHistories<Filter>) record_.back().links = filter.state().links();
+  record_.push_back({now_.time,
+                     plot.tag,
+                     is_start,
+                     measured ? std::optional(filter.nis()) : std::nullopt,
+                     measured ? filter.recorded(dt, seen_of(plot)) : filter.recorded(dt),
+                     {}});
+  if constexpr (KeepsHistories<Filter>) {
+    const auto all = filter.state().all();
+    record_.back().histories.assign(all.begin(), all.end());
+  }
   now_.recorded = record_.size();
 }
 
@@ -202,8 +203,8 @@ bool TargetLife<Filter>::transform(Filter& filter, const double* A, const double
 
 template <class Filter>
 void TargetLife<Filter>::smoothed(const Filter& filter,
-                                  const FunctionRef<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                                  const FunctionRef<void(const Kept&, const Table&, bool)>& paired) const {
+                                  const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                                  const std::function<void(const Kept&, const Table&, bool)>& paired) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -226,14 +227,14 @@ void TargetLife<Filter>::smoothed(const Filter& filter,
 }
 
 template <class Filter>
-void TargetLife<Filter>::explained(const FunctionRef<void(const Kept&, std::size_t)>& visit) const {
+void TargetLife<Filter>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
   std::vector<std::size_t> modes(record_.size());
   std::size_t h = 0;
   for (std::size_t k = record_.size(); k-- > 0;) {
-    const HistoryLinks& links = record_[k].links;
-    if (k + 1 == record_.size() || record_[k + 1].is_start) h = links.best;
-    modes[k] = links.all[h].mode;
-    h = links.all[h].parent;
+    const std::vector<History>& histories = record_[k].histories;
+    if (k + 1 == record_.size() || record_[k + 1].is_start) h = best_of(histories);
+    modes[k] = histories[h].mode;
+    h = histories[h].parent;
   }
   for (std::size_t k = 0; k < record_.size(); ++k)
     if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);

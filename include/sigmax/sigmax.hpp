@@ -8,7 +8,6 @@
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/computed_law.hpp>
 #include <sigmax/estimation/consistency.hpp>
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -24,7 +23,6 @@
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/estimation/grid_transition.hpp>
 #include <sigmax/estimation/independent_axes.hpp>
-#include <sigmax/estimation/innovation.hpp>
 #include <sigmax/estimation/jacobian.hpp>
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/known_turn.hpp>
@@ -34,7 +32,6 @@
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/model_ref.hpp>
 #include <sigmax/estimation/motion_numbers.hpp>
-#include <sigmax/estimation/named_motion.hpp>
 #include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/radar.hpp>

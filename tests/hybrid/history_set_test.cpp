@@ -32,12 +32,10 @@ TEST(HistorySet, KnowsTheFirstOfItsBestAndWhereEachCameFrom) {
   set[0] = {0, 1, -2.0};
   set[1] = {1, 0, -0.5};
   set[2] = {1, 1, -0.5};
-  EXPECT_EQ(set.best(), 1U);
-  const HistoryLinks links = set.links();
-  EXPECT_EQ(links.best, 1U);
-  ASSERT_EQ(links.all.size(), 3U);
-  EXPECT_EQ(links.all[0].mode, 0U);
-  EXPECT_EQ(links.all[0].parent, 1U);
+  ASSERT_EQ(set.all().size(), 3U);
+  EXPECT_EQ(best_of(set.all()), 1U);
+  EXPECT_EQ(set.all()[0].mode, 0U);
+  EXPECT_EQ(set.all()[0].parent, 1U);
 }
 
 TEST(HistorySet, IsCopiedAsFarAsItIsFilled) {

@@ -1,4 +1,4 @@
-/// What dispatch.cpp chooses from, defined for one instruction set: SIGMAX_INSTRUCTIONS names it.
+/// What shortcut.cpp chooses from, defined for one instruction set: SIGMAX_INSTRUCTIONS names it.
 
 #include "kinematic/kernel.hpp"
 #include "kinematic/kernels.hpp"

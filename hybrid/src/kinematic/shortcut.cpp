@@ -1,9 +1,32 @@
 #include <algorithm>
+#include <array>
 
 #include <sigmax/hybrid/kinematic_step.hpp>
 
+#include "kinematic/kernels.hpp"
+
 namespace sigmax::detail::kinematic {
 namespace {
+
+struct Available {
+  std::array<const Kernels*, 3> kernels{&baseline()};
+  std::size_t count = 1;
+
+  Available() {
+#ifdef SIGMAX_X86_KERNELS
+    const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (fma) kernels[count++] = &avx2();
+    if (fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
+      kernels[count++] = &avx512();
+#endif
+  }
+};
+
+const Kernels*& chosen() {
+  static const Kernels* kernels = available().back();
+  return kernels;
+}
 
 /// Whether F_s is made of shears and a scale, and the law in those terms.
 bool written(const AxisLaw& from, int axes, Law& law) {
@@ -44,28 +67,31 @@ Track track_of(const Estimates& estimates, const double* weights, std::size_t mo
 
 }  // namespace
 
-Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Random>& interaction) {
+std::span<const Kernels* const> available() {
+  static const Available all;
+  return {all.kernels.data(), all.count};
+}
+
+void choose(const Kernels& kernels) { chosen() = &kernels; }
+
+std::size_t lane_bytes() { return chosen()->lane_bytes; }
+
+template <ScalableUncertainty Kind>
+Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Kind>& interaction)
+    : selects_(SelectiveAlgebra<AlgebraOf<Kind>>) {
   plan_.lift = interaction.lift;
   plan_.output_tie = interaction.output_tie;
   plan_.likelihood = interaction.likelihood;
-  steps_ = interaction.mixed_start == MixedStart::of_each_mode &&
-           interaction.collapse.mixing_weights == MixingWeights::correct;
-  describe(models);
-}
-
-Shortcut::Shortcut(const std::vector<AnyModel>& models, const Interaction<Fuzzy>& interaction) : selects_(true) {
-  plan_.lift = interaction.lift;
-  plan_.output_tie = interaction.output_tie;
-  plan_.likelihood = interaction.likelihood;
-  plan_.mixing_tie = interaction.collapse.mixing_tie;
-  plan_.mixed_covariance = interaction.collapse.mixed_covariance;
-  if (plan_.mixed_covariance == MixedCovariance::envelope) return;
-  steps_ = interaction.mixed_start == MixedStart::of_each_mode && plan_.mixed_covariance != MixedCovariance::released;
-  describe(models);
-}
-
-void Shortcut::describe(const std::vector<AnyModel>& models) {
-  outputs_ = models.size() <= static_cast<std::size_t>(max_modes) && plan_.lift != Lift::prior;
+  steps_ = interaction.mixed_start == MixedStart::of_each_mode;
+  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) {
+    plan_.mixing_tie = interaction.collapse.mixing_tie;
+    plan_.mixed_covariance = interaction.collapse.mixed_covariance;
+    steps_ = steps_ && plan_.mixed_covariance != MixedCovariance::released;
+  } else {
+    steps_ = steps_ && interaction.collapse.mixing_weights == MixingWeights::correct;
+  }
+  outputs_ = models.size() <= static_cast<std::size_t>(max_modes) && plan_.lift != Lift::prior &&
+             plan_.mixed_covariance != MixedCovariance::envelope;
   for (std::size_t j = 0; outputs_ && j < models.size(); ++j) {
     const ModelRef& ref = models[j].ref();
     AxisLaw law;
@@ -82,6 +108,7 @@ void Shortcut::describe(const std::vector<AnyModel>& models) {
 }
 
 bool Shortcut::prepare(const std::vector<AxisLaw>& laws, double dt, const double* transition) {
+  if (!steps_) return false;
   std::copy_n(transition, plan_.modes * plan_.modes, plan_.transition.begin());
   if (dt != dt_) {
     dt_ = dt;
@@ -93,21 +120,32 @@ bool Shortcut::prepare(const std::vector<AxisLaw>& laws, double dt, const double
 
 bool Shortcut::step(const Estimates& now, const double* weights, std::size_t most_likely, const double* z,
                     const double* R, Told& told) const {
-  return kinematic::step(plan_, selects_, track_of(now, weights, most_likely), z, R, told);
+  const Track track = track_of(now, weights, most_likely);
+  return chosen()->step[plan_.axes - 1][selects_](plan_, track, z, R, told);
 }
 
-bool Shortcut::output(const Selection&, const Estimates& estimates, const double* weights, std::size_t most_likely,
-                      View result) const {
-  if (outputs_)
-    kinematic::output(plan_, true, track_of(estimates, weights, most_likely), result.mean, result.covariance);
-  return outputs_;
+unsigned Shortcut::step_block(double* block, const double* measurements) const {
+  return chosen()->step_block[plan_.axes - 1][selects_](plan_, block, measurements);
+}
+unsigned Shortcut::step_block(float* block, const float* measurements) const {
+  return chosen()->step_block_of_floats[plan_.axes - 1][selects_](plan_, block, measurements);
 }
 
-bool Shortcut::output(const MomentMatching& rule, const Estimates& estimates, const double* weights,
+template <class Rule>
+bool Shortcut::output([[maybe_unused]] const Rule& rule, const Estimates& estimates, const double* weights,
                       std::size_t most_likely, View result) const {
-  if (!outputs_ || rule.output_spread != OutputSpread::included) return false;
-  kinematic::output(plan_, false, track_of(estimates, weights, most_likely), result.mean, result.covariance);
+  constexpr bool selects = std::is_same_v<Rule, Selection>;
+  if (!outputs_) return false;
+  if constexpr (!selects)
+    if (rule.output_spread != OutputSpread::included) return false;
+  const Track track = track_of(estimates, weights, most_likely);
+  chosen()->output[plan_.axes - 1][selects](plan_, track, result.mean, result.covariance);
   return true;
 }
+
+template Shortcut::Shortcut(const std::vector<AnyModel>&, const Interaction<Random>&);
+template Shortcut::Shortcut(const std::vector<AnyModel>&, const Interaction<Fuzzy>&);
+template bool Shortcut::output(const Selection&, const Estimates&, const double*, std::size_t, View) const;
+template bool Shortcut::output(const MomentMatching&, const Estimates&, const double*, std::size_t, View) const;
 
 }  // namespace sigmax::detail::kinematic

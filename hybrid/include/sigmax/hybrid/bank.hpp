@@ -31,19 +31,11 @@ struct Bank<std::tuple<First, Others...>> {
 
 template <class Model>
 struct Bank<std::vector<Model>> {
-  static constexpr int axes = axes_of<Model>;
+  static constexpr int axes = std::is_same_v<Model, AnyModel> ? Eigen::Dynamic : axes_of<Model>;
   using Estimates = std::vector<EstimateOf<Model>>;
   static constexpr int max_components = Model::max_state_size;
   template <class Sensor>
   static constexpr bool seen_by = SensorOf<Sensor, Model>;
-};
-template <>
-struct Bank<std::vector<AnyModel>> {
-  static constexpr int axes = Eigen::Dynamic;
-  using Estimates = std::vector<EstimateOf<AnyModel>>;
-  static constexpr int max_components = AnyModel::max_state_size;
-  template <class Sensor>
-  static constexpr bool seen_by = SensorOf<Sensor, AnyModel>;
 };
 
 /// A sensor that a multiple-model filter can take: one of all models' states, of not too many quantities.
@@ -62,7 +54,7 @@ std::vector<AnyModel> bank_of(const std::vector<Model>& models) {
   return {models.begin(), models.end()};
 }
 
-/// Estimates of the models in the numbers' own row.
+/// Estimates of the models, or one of them all, in the numbers' own row.
 template <class... Estimate>
 Estimates starts_of(const std::tuple<Estimate...>& starts) {
   Estimates result;
@@ -72,6 +64,12 @@ Estimates starts_of(const std::tuple<Estimate...>& starts) {
 template <int N, int MaxN>
 Estimates starts_of(const std::vector<Gaussian<N, MaxN>>& starts) {
   return starts;
+}
+template <int N, int MaxN>
+Estimates starts_of(const Gaussian<N, MaxN>& start) {
+  Estimates result;
+  result.add(start);
+  return result;
 }
 inline Estimates starts_of(const Estimates& starts) { return starts; }
 
@@ -93,14 +91,12 @@ struct TablesOf;
 template <class Sensor, class... Model>
 struct TablesOf<Sensor, std::tuple<Model...>> {
   static constexpr bool one = false, asks_any = false;
-  static constexpr const SensorTable* tables[] = {
-      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>...};
+  static constexpr const SensorTable* tables[] = {table_for<Sensor, Model>...};
 };
 template <class Sensor, class Model>
 struct TablesOf<Sensor, std::vector<Model>> {
   static constexpr bool one = true, asks_any = std::is_same_v<Model, AnyModel>;
-  static constexpr const SensorTable* tables[] = {
-      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>};
+  static constexpr const SensorTable* tables[] = {table_for<Sensor, Model>};
 };
 
 template <class Models, class Sensor>
@@ -112,6 +108,9 @@ SensorOfModels sensor_of_models(const Sensor& sensor) {
     return {&sensor, Tables::tables, Tables::one, Tables::asks_any};
   }
 }
+
+/// That of the position along so many axes, which leads the state of every model.
+SensorOfModels position_sensor(int axes);
 
 }  // namespace detail
 

@@ -18,7 +18,6 @@ template <class Models, class Filter>
 class BankFilter : public Filter {
  public:
   using kind = typename Filter::kind;
-  using ModelsType = Models;
   using FilterType = Filter;
   using State = typename Filter::State;
   /// Along how many axes the models have their position; Eigen::Dynamic if they are chosen at run time.
@@ -40,8 +39,7 @@ class BankFilter : public Filter {
     require_components();
   }
   template <class... Rules>
-  BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start,
-             const Rules&... rules) requires(!std::is_same_v<Starts, Estimates>)
+  BankFilter(const Models& models, ModeTransition<kind> transition, const Estimates& start, const Rules&... rules)
       : Filter(detail::bank_of(models), std::move(transition), start, rules...) {
     require_components();
   }
@@ -59,12 +57,12 @@ class BankFilter : public Filter {
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
   template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
-    Filter::step(dt, Seen{detail::view(z), detail::sensor_of_models<Models>(sensor)}, gate);
+    Filter::step(dt, {detail::view(z), detail::sensor_of_models<Models>(sensor)}, gate);
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
   void step(double dt, const Measurement& z, double gate = no_gate) requires(axes != 0) {
-    with_position(z, [&](const auto& sensor) { Filter::step(dt, Seen{detail::view(z), sensor}, gate); });
+    Filter::step(dt, seen(z), gate);
   }
 
   /// One cycle without a measurement: the models predict and the mode moves on.
@@ -74,17 +72,17 @@ class BankFilter : public Filter {
   /// as missed. Throws std::logic_error without a measurement if the step had one.
   template <Sensing Sensor>
   RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
-    return Filter::recorded(dt, Seen{detail::view(z), detail::sensor_of_models<Models>(sensor)});
+    return Filter::recorded(dt, {detail::view(z), detail::sensor_of_models<Models>(sensor)});
   }
   RecordedStep<kind> recorded(double dt, const Measurement& z) const requires(axes != 0) {
-    return with_position(z, [&](const auto& sensor) { return Filter::recorded(dt, Seen{detail::view(z), sensor}); });
+    return Filter::recorded(dt, seen(z));
   }
   RecordedStep<kind> recorded(double dt) const { return Filter::recorded(dt); }
 
   /// @{
   /// As of MultipleModelFilter, from estimates of the models or one of them all.
   void restart(const Starts& starts) { Filter::restart(detail::starts_of(starts)); }
-  void restart(const Estimates& starts) requires(!std::is_same_v<Starts, Estimates>) { Filter::restart(starts); }
+  void restart(const Estimates& starts) { Filter::restart(starts); }
   template <int N, int MaxN>
   void restart(const Gaussian<N, MaxN>& start) {
     Filter::restart(detail::view(start));
@@ -137,21 +135,8 @@ class BankFilter : public Filter {
     return result;
   }
 
-  /// Calls act(sensor) with that of the position along as many axes as z has.
-  template <class Act>
-  static decltype(auto) with_position(const Measurement& z, const Act& act) {
-    if constexpr (axes != Eigen::Dynamic) {
-      const PositionSensor<axes> sensor;
-      return act(detail::sensor_of_models<Models>(sensor));
-    } else {
-      const PositionSensor<1> line;
-      const PositionSensor<2> plane;
-      const PositionSensor<3> space;
-      const auto m = z.size();
-      return act(m == 1   ? detail::sensor_of_models<Models>(line)
-                 : m == 2 ? detail::sensor_of_models<Models>(plane)
-                          : detail::sensor_of_models<Models>(space));
-    }
+  static Seen seen(const Measurement& z) {
+    return {detail::view(z), detail::position_sensor(static_cast<int>(z.size()))};
   }
 };
 

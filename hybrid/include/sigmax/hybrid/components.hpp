@@ -43,6 +43,12 @@ class Components {
 /// Estimates of the models' sizes, all zero.
 Estimates estimates_of(const std::vector<AnyModel>& models);
 
+/// Estimates without meaning, which a filter may hold before it starts.
+Estimates anywhere(const std::vector<AnyModel>& models);
+
+/// Zeros of the size of each estimate i, as many as there are estimates, at i · modes + j.
+Estimates pairs_of(const Estimates& estimates);
+
 /// What each model takes of one start, given in the order of all components. Throws std::invalid_argument for another
 /// size.
 Estimates shares_of(const std::vector<AnyModel>& models, ConstView start);

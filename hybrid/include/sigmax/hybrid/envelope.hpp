@@ -19,9 +19,6 @@ namespace sigmax {
 /// vary in others, and its weight counts in full. The covariance of the components that vary is positive definite.
 class Envelope {
  public:
-  /// One whose memory the calling thread keeps.
-  static Envelope& of_this_thread();
-
   /// No parts; those to come have `n` ≤ 32 components. Throws std::invalid_argument above.
   void clear(int n);
 

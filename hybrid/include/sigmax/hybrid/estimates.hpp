@@ -20,6 +20,9 @@ struct EstimateAt {
   Map<Eigen::VectorXd> mean;
   Map<Eigen::MatrixXd> covariance;
 
+  template <class View>
+  EstimateAt(const View& at) : mean(at.mean, at.n), covariance(at.covariance, at.n, at.n) {}
+
   Eigen::Index size() const { return mean.size(); }
 
   /// A copy. Throws std::invalid_argument unless its size is one of the type's.
@@ -46,14 +49,8 @@ class Estimates {
 
   std::size_t size() const { return sizes_.size(); }
 
-  EstimateAt<const double> operator[](std::size_t j) const {
-    const detail::ConstView at = view(j);
-    return {{at.mean, at.n}, {at.covariance, at.n, at.n}};
-  }
-  EstimateAt<double> operator[](std::size_t j) {
-    const detail::View at = view(j);
-    return {{at.mean, at.n}, {at.covariance, at.n, at.n}};
-  }
+  EstimateAt<const double> operator[](std::size_t j) const { return view(j); }
+  EstimateAt<double> operator[](std::size_t j) { return view(j); }
 
   /// One more, of n components, all zero.
   void add(int n) {

@@ -57,8 +57,12 @@ class TrackBank {
   /// independent axes.
   TrackBank(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Interaction<Kind>& interaction);
 
-  std::size_t add(detail::ConstView start);
-  std::size_t add(const Estimates& starts);
+  /// Begins a track from one estimate in the order of the components, or from one for each model.
+  template <class Start>
+  std::size_t add(const Start& start) {
+    general_.restart(start);
+    return add_started();
+  }
 
   /// Ends a track. Throws std::invalid_argument if there is none of that number.
   void remove(std::size_t track);
@@ -69,7 +73,7 @@ class TrackBank {
   bool lives(std::size_t track) const { return track < lives_.size() && lives_[track]; }
 
   /// An empty scan with room for the tracks that there are.
-  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, shortcut_.axes()}; }
+  ScanOfTracks<Number> scan() const { return {blocks(), lanes_, general_.shortcut().axes()}; }
 
   void run(double dt, std::span<const ScanOfTracks<Number>> scans, std::size_t threads);
 
@@ -94,9 +98,6 @@ class TrackBank {
   void step_generally(double dt, std::size_t track, const ScanOfTracks<Number>& scan, Filter& general);
 
   Filter general_;  ///< takes the steps that are not short
-  ModeTransition<Kind> transition_;
-  detail::kinematic::Shortcut shortcut_;
-  std::vector<detail::AxisLaw> laws_;
   std::size_t lanes_;
   std::size_t numbers_ = 0;  ///< of a track
   std::size_t lines_of_block_ = 0;
@@ -203,13 +204,9 @@ class FilterBank : public TrackBank<Kind, Number> {
   }
 };
 
-template <class Models, ScalableUncertainty Kind>
-FilterBank(Models, Relation<Kind, Kind>) -> FilterBank<Models, Kind>;
-template <class Models, ScalableUncertainty Kind>
-FilterBank(Models, Relation<Kind, Kind>, Interaction<Kind>) -> FilterBank<Models, Kind>;
-template <class Models, class Transition>
-FilterBank(Models, Transition) -> FilterBank<Models, typename Transition::kind>;
-template <class Models, class Transition, ScalableUncertainty Kind>
-FilterBank(Models, Transition, Interaction<Kind>) -> FilterBank<Models, Kind>;
+template <class Models, ScalableUncertainty Kind, class... Rules>
+FilterBank(Models, Relation<Kind, Kind>, Rules...) -> FilterBank<Models, Kind>;
+template <class Models, class Transition, class... Rules>
+FilterBank(Models, Transition, Rules...) -> FilterBank<Models, typename Transition::kind>;
 
 }  // namespace sigmax

@@ -52,8 +52,6 @@ class FixedIntervalSmoother {
 
  private:
   std::size_t modes() const { return system_.models().size(); }
-  template <class LogWeight>
-  double total(const LogWeight& log_weight) const;
   double smooth_pair(const Estimates& filtered, std::size_t i, std::size_t j);
   void merge(const Step& before);
 

@@ -46,8 +46,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   /// @{
   /// As of the other filters.
   void restore(const State& state);
-  void restart(const Estimates& starts);
-  void restart(detail::ConstView start);
   void transform(const double* A, const double* b, int axes);
   /// @}
 
@@ -57,14 +55,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   void output(detail::View result) const;
   /// That of another state by modes, say a smoothed one: as of the other filters.
   using Filter::output;
-
-  /// @{
-  /// As of the other filters, over the histories rather than the modes; tempering does not enter.
-  double nis() const;
-  int normalized_innovation(double* numbers) const;
-  double log_evidence() const;
-  double log_score() const;
-  /// @}
 
   /// A non-linear measurement is linearised about what the mode predicted: that of its histories, by their weights
   /// after the measurement.
@@ -84,8 +74,10 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   };
 
   void require_rules() const;
+  /// The histories: of the innovation's distance, the evidence and the score, in which tempering does not enter.
+  typename Filter::Predictors predictors() const override;
   State& next_set() { return sets_[1 - current_]; }
-  void begin();
+  void begin() override;
   void branch(double dt, State& predicted);
   void propose();
   std::size_t last_of(std::size_t j) const;
@@ -105,6 +97,7 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   std::vector<bool> lacks_;                   ///< whether mode l lacks what j has, at l · modes + j
   std::vector<AnyInnovation> innovation_of_;  ///< of each history
   std::vector<double> log_prior_;             ///< of each, before the measurement
+  std::size_t compared_;                      ///< so many predicted the last measurement
   std::vector<double> weight_;                ///< of each, given its mode
   std::vector<double> log_of_mode_;
   std::array<State, 2> sets_;
@@ -133,7 +126,6 @@ extern template class HistoriesOfModes<Fuzzy>;
 template <class Models, ScalableUncertainty Kind>
 class HistoryFilter : public BankFilter<Models, HistoriesOfModes<Kind>> {
  public:
-  using Rules = HistoryRules<Kind>;
   using BankFilter<Models, HistoriesOfModes<Kind>>::BankFilter;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <sigmax/core/logarithm.hpp>
@@ -15,14 +16,8 @@ struct History {
   double log_weight = log_zero;  ///< of all histories the ⊕ is one
 };
 
-/// Where the histories of one step came from: what is kept of them to tell the best one from its beginning.
-struct HistoryLinks {
-  struct Link {
-    std::size_t mode, parent;
-  };
-  std::vector<Link> all;  ///< in the order of the set
-  std::size_t best = 0;
-};
+/// The first of the greatest weight.
+std::size_t best_of(std::span<const History> histories);
 
 /// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true: all that its next step
 /// depends on.
@@ -42,17 +37,11 @@ class HistorySet {
   History& operator[](std::size_t h) { return histories_[h]; }
   const History& operator[](std::size_t h) const { return histories_[h]; }
 
-  /// The first of the greatest weight.
-  std::size_t best() const;
-
-  HistoryLinks links() const;
+  std::span<const History> all() const { return {histories_.data(), size_}; }
 
   /// @{
   /// The estimate of a history, in the components of its last mode.
-  EstimateAt<const double> estimate(std::size_t h) const {
-    const detail::ConstView at = view(h);
-    return {{at.mean, at.n}, {at.covariance, at.n, at.n}};
-  }
+  EstimateAt<const double> estimate(std::size_t h) const { return view(h); }
   detail::ConstView view(std::size_t h) const {
     const double* const at = numbers_.data() + h * stride_;
     const int n = sizes_[histories_[h].mode];

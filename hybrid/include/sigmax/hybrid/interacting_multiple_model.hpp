@@ -36,7 +36,6 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   using Filter::system_;
 
   void mix(double dt);
-  void coast();
 
   Estimates predicted_;  ///< before the measurement
   Inverse<Kind, Kind> move_in_;

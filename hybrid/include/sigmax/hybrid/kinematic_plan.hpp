@@ -66,23 +66,4 @@ struct Told {
   double posterior[max_modes];
 };
 
-/// One step of one track with the measurement z and R, a whole matrix, if there is one (else null). False, and nothing
-/// told, if the short forms would not be as good as the general step, which is then to be taken.
-bool step(const Plan& plan, bool selects, const Track& now, const double* z, const double* R, Told& told);
-
-/// The output, (64)–(68), in the components of the largest model; the covariance a whole matrix.
-void output(const Plan& plan, bool selects, const Track& track, double* mean, double* covariance);
-
-/// How many bytes a vector of this processor has; a block has as many tracks as it has numbers.
-std::size_t lane_bytes();
-
-/// @{
-/// One step of a block of tracks, in place; each of its numbers is that of all lanes, in this order: for each model the
-/// mean, and the lower triangle of the covariance row by row; the linear weights of the modes; and the most likely one.
-/// Measurements are z, the columns of R, and whether there is one (one or zero). Returns a bit for each track that must
-/// take the general step, and is as it was.
-unsigned step_block(const Plan& plan, bool selects, double* block, const double* measurements);
-unsigned step_block(const Plan& plan, bool selects, float* block, const float* measurements);
-/// @}
-
 }  // namespace sigmax::detail::kinematic

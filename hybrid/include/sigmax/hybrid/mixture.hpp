@@ -36,8 +36,10 @@ void collapse(const MomentMatching& rule, const Mixture& mixture, const double* 
               View result);
 /// @}
 
-/// Mean and covariance of the mixture Σ weight N, whose covariance may have weights of its own.
-void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result);
+/// Mean and covariance of the mixture Σ weight N, whose covariance may have weights of its own, or lack the spread of
+/// the means.
+void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result,
+                   OutputSpread spread = OutputSpread::included);
 
 /// Those of the envelope max weight N, (A-1); returns its integral β, (A-11).
 double match_envelope(const Mixture& mixture, const double* weights, View result);

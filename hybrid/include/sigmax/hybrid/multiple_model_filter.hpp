@@ -136,6 +136,9 @@ class MultipleModelFilter {
   /// What the smoother and other compiled code ask.
   /// The innovation of the predicted measurement in its own standard deviations, L⁻¹ν with S = LLᵀ; its size.
   int normalized_innovation(double* numbers) const;
+  /// The short step, made ready for `dt` seconds; false if it must be the general one.
+  bool shortens(double dt);
+  const detail::kinematic::Shortcut& shortcut() const { return shortcut_; }
   const detail::Correspondence* correspondences(std::size_t j) const { return components_.of_model(j); }
   /// The estimates that a lift borrows from: those of the receiving models, or what Lift::prior knows before.
   const Estimates& lenders(const Estimates& estimates) const {
@@ -146,11 +149,14 @@ class MultipleModelFilter {
  protected:
   MultipleModelFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                       const Interaction<Kind>& interaction);
-  ~MultipleModelFilter() = default;
+  virtual ~MultipleModelFilter() = default;
   MultipleModelFilter(const MultipleModelFilter&) = default;
   MultipleModelFilter& operator=(const MultipleModelFilter&) = default;
 
   const AnyModel& model(std::size_t j) const { return system_.models()[j]; }
+
+  /// After a restart.
+  virtual void begin() {}
 
   /// What the step is writing: until `conclude`, all that is public shows the state before.
   State& next() { return states_[1 - current_]; }
@@ -170,10 +176,18 @@ class MultipleModelFilter {
   detail::Mixture mixture(detail::ConstView receiver, const detail::Correspondence* maps, const Estimates& estimates,
                           detail::Mixture::Part* parts) const;
 
-  /// Whether the measurement of the step being taken passes the gate; `log_fit(i)` is the logarithm of the weight of
-  /// hypothesis i ⊗ exp(−d_i²/2).
-  template <class LogFit>
-  bool passes(double gate, std::size_t hypotheses, const LogFit& log_fit);
+  /// Whether the measurement of the step being taken passes the gate; its distance, if it is not that of the
+  /// predictors.
+  bool passes(double gate, std::optional<double> distance = std::nullopt);
+
+  /// What predicted the last measurement, with the logarithms of the weights before it, and which of them is the most
+  /// likely: the modes, or of a filter that keeps more all that it keeps.
+  struct Predictors {
+    std::span<const AnyInnovation> innovations;
+    std::span<const double> log_weights;
+    std::size_t most_likely;
+  };
+  virtual Predictors predictors() const { return {innovations_, prior_.logs(), predicted_mode_}; }
 
   /// A step by the short form for motions along independent axes, with a measurement of the position or none. False if
   /// it must be the general one; nothing has changed then.
@@ -191,8 +205,9 @@ class MultipleModelFilter {
 
   /// One Gaussian for innovations, as the mode's kind asks.
   static AnyInnovation collapsed(std::span<const AnyInnovation> innovations, const double* weights, std::size_t winner);
-  /// A residual in its own standard deviations; infinite if the covariance is not positive definite.
-  static void normalize(const AnyInnovation& innovation, double* numbers);
+  /// A residual in its own standard deviations, and the sum of their squares; infinite if the covariance is not
+  /// positive definite.
+  static double normalize(const AnyInnovation& innovation, double* numbers);
 
   /// Runs `action`; a domain_error is rethrown with the number of the step.
   template <class Action>
@@ -213,6 +228,7 @@ class MultipleModelFilter {
  private:
   template <class Rule>
   void write_output(const Rule& rule, const State& state, detail::View result) const;
+  AnyInnovation predicted_innovation() const;
   void forget_mode();
   void read_weights(const Belief<Kind>& belief, double* weights) const {
     for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief[j];

@@ -36,7 +36,7 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   using Filter::system_;
 
   void branch(double dt);
-  void merge(const Estimates& pairs, Estimates& merged);
+  void merge(const Estimates& pairs);
   void collapse_predecessors(const Estimates& pairs, Estimates& merged) const;
   void weigh(std::size_t j);
   void summarize(std::size_t j);

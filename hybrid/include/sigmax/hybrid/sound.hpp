@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/hybrid/estimates.hpp>
 #include <sigmax/hybrid/lift.hpp>
@@ -17,7 +19,7 @@ void prior(const EntryPrior& prior);
 /// next to nothing to see. Throws std::domain_error, naming the model.
 void sound(const AnyModel& model, detail::ConstView estimate);
 
-/// All numbers of an estimate are finite.
-bool finite(detail::ConstView estimate);
+/// All numbers of an estimate are finite, and of a size of at most `greatest`.
+bool finite(detail::ConstView estimate, double greatest = std::numeric_limits<double>::max());
 
 }  // namespace sigmax::check

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -52,7 +53,7 @@ class Target {
   /// whatever the filter's step throws; the target is then what it was before.
   template <class Stepped>
   Verdict take(const Plot& plot, const Stepped& stepped) {
-    return life_.take(filter_, plot, stepped);
+    return life_.take(filter_, plot, std::cref(stepped));
   }
 
   /// @{
@@ -67,14 +68,14 @@ class Target {
   const Filter& filter() const { return filter_; }
 
   /// Whether it has started and goes on.
-  bool running() const { return life_.running(); }
+  bool running() const { return life_.now().running; }
   /// How often it started, and how many measurements the gate has turned away.
-  std::size_t starts() const { return life_.starts(); }
-  std::size_t rejected() const { return life_.rejected(); }
+  std::size_t starts() const { return life_.now().starts; }
+  std::size_t rejected() const { return life_.now().rejected; }
 
   /// The time of the latest step or start, and of the latest measurement that was accepted or started the target.
-  double time() const { return life_.time(); }
-  double accepted_time() const { return life_.accepted_time(); }
+  double time() const { return life_.now().time; }
+  double accepted_time() const { return life_.now().accepted_time; }
 
   /// Tells all that is known in other coordinates, as the filter's `transform`; plots that wait or are in the buffer
   /// stay as they were measured, so a target with either is left alone: returns whether it was told.
@@ -92,14 +93,14 @@ class Target {
   /// of each start: log_pairs(i, j) is the smoothed weight of mode i before it and j after, and `kept` what came after.
   template <class Visit, class Paired>
   void smoothed(const Visit& visit, const Paired& paired) const {
-    life_.smoothed(filter_, visit, paired);
+    life_.smoothed(filter_, std::cref(visit), std::cref(paired));
   }
 
   /// When did the mode change? Calls visit(kept, mode) for the first step of each mode in the history that is the most
   /// possible or probable by all that was recorded, in order; of each start its own.
   template <class Visit>
   void explained(const Visit& visit) const requires KeepsHistories<Filter> {
-    life_.explained(visit);
+    life_.explained(std::cref(visit));
   }
 
  private:
@@ -110,36 +111,20 @@ class Target {
       if constexpr (std::invocable<const Start&, const Measurement&>) {
         const auto position = waiting.back().template position<Filter::axes>();
         if (!position) return std::nullopt;
-        return StartAt<Estimates>{waiting.back().time, one(start(*position)), true};
+        return StartAt<Estimates>{waiting.back().time, detail::starts_of(start(*position)), true};
       } else {
         const auto result = start(waiting, starts);
         if (!result) return std::nullopt;
-        return StartAt<Estimates>{result->time, one(result->estimates), result->from_plots};
+        return StartAt<Estimates>{result->time, detail::starts_of(result->estimates), result->from_plots};
       }
     };
-  }
-  template <int N, int MaxN>
-  static Estimates one(const Gaussian<N, MaxN>& estimate) {
-    Estimates result;
-    result.add(estimate);
-    return result;
-  }
-  template <class Starts>
-  static Estimates one(const Starts& starts) {
-    return detail::starts_of(starts);
   }
 
   Filter filter_;
   Life life_;
 };
 
-template <class Filter, class Start>
-Target(Filter, Start) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, Start, TargetRules) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, double, Start) -> Target<Filter>;
-template <class Filter, class Start>
-Target(Filter, double, Start, TargetRules) -> Target<Filter>;
+template <class Filter, class Start, class... Rest>
+Target(Filter, Start, Rest...) -> Target<Filter>;
 
 }  // namespace sigmax

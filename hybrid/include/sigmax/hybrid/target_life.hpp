@@ -1,10 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -31,28 +31,23 @@ struct KeptStep {
   bool is_start;
   std::optional<double> nis;
   RecordedStep<Kind> step;
-  HistoryLinks links;  ///< of a filter that keeps histories
+  std::vector<History> histories;  ///< of a filter that keeps them
 };
 
 namespace detail {
 
-template <class Signature>
-class FunctionRef;
+/// All of a target that is not its filter's; see Target.
+struct Life {
+  bool running = false;
+  double time = -std::numeric_limits<double>::infinity();
+  double accepted_time = -std::numeric_limits<double>::infinity();
+  std::size_t rejected = 0;
+  std::size_t starts = 0;
+  std::size_t recorded = 0;
+  std::vector<Plot> waiting;  ///< for a start; while it runs, those rejected in a row
 
-/// Any function with these arguments, called where it lies.
-template <class... Arguments>
-class FunctionRef<void(Arguments...)> {
- public:
-  template <class Function>
-  FunctionRef(const Function& function)
-      : function_(std::addressof(function)), call_([](const void* pointer, Arguments... arguments) {
-          (*static_cast<const Function*>(pointer))(arguments...);
-        }) {}
-  void operator()(Arguments... arguments) const { call_(function_, arguments...); }
-
- private:
-  const void* function_;
-  void (*call_)(const void*, Arguments...);
+  /// The time of the latest plot that is in it.
+  double latest() const { return waiting.empty() ? time : std::max(time, waiting.back().time); }
 };
 
 /// The life of a target, compiled once for each filter; see Target. The filter is the caller's, always the same.
@@ -61,7 +56,7 @@ class TargetLife {
  public:
   using Kind = typename Filter::kind;
   using Kept = KeptStep<Kind>;
-  using Stepped = FunctionRef<void(const Plot&, bool)>;
+  using Stepped = std::function<void(const Plot&, bool)>;
   using StartRule = std::function<std::optional<StartAt<Estimates>>(std::span<const Plot>, std::size_t)>;
 
   /// Throws std::invalid_argument if a rule makes no sense.
@@ -72,30 +67,13 @@ class TargetLife {
 
   Verdict take(Filter& filter, const Plot& plot, const Stepped& stepped);
   bool transform(Filter& filter, const double* A, const double* b, int axes);
-  void smoothed(const Filter& filter, const FunctionRef<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                const FunctionRef<void(const Kept&, const Table&, bool)>& paired) const;
-  void explained(const FunctionRef<void(const Kept&, std::size_t)>& visit) const;
+  void smoothed(const Filter& filter, const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                const std::function<void(const Kept&, const Table&, bool)>& paired) const;
+  void explained(const std::function<void(const Kept&, std::size_t)>& visit) const;
 
-  bool running() const { return now_.running; }
-  std::size_t starts() const { return now_.starts; }
-  std::size_t rejected() const { return now_.rejected; }
-  double time() const { return now_.time; }
-  double accepted_time() const { return now_.accepted_time; }
+  const Life& now() const { return now_; }
 
  private:
-  /// All of a target that is not its filter's.
-  struct Life {
-    bool running = false;
-    double time = -std::numeric_limits<double>::infinity();
-    double accepted_time = -std::numeric_limits<double>::infinity();
-    std::size_t rejected = 0;
-    std::size_t starts = 0;
-    std::size_t recorded = 0;
-    std::vector<Plot> waiting;  ///< for a start; while it runs, those rejected in a row
-
-    /// The time of the latest plot that is in it.
-    double latest() const;
-  };
   struct Entry {
     typename Filter::State state;  ///< before the plot, and the life then
     Life life;

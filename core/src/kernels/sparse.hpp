@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <sigmax/core/algebra.hpp>
-#include <sigmax/core/kernels/accumulate.hpp>
 #include <sigmax/core/rows.hpp>
+
+#include "kernels/plain.hpp"
 
 namespace sigmax::kernels {
 
@@ -53,44 +53,35 @@ class AscendingSet {
 };
 
 /// One row of a sparse result while it grows, indexed by column. Touching a column adds it to the row with the value
-/// zero().
-template <Algebra A>
+/// zero.
+template <bool WithWinners>
 class GrowingRow {
  public:
-  GrowingRow(std::size_t columns, bool with_winners)
-      : numbers_(columns, A::zero()), winners_(with_winners ? columns : 0, 0), touched_(columns) {}
+  GrowingRow(std::size_t columns, double zero)
+      : zero_(zero), numbers_(columns, zero), winners_(WithWinners ? columns : 0, 0), touched_(columns) {}
 
   double& operator[](std::size_t column) {
     touched_.insert(column);
     return numbers_[column];
   }
 
-  /// What takes note of the winners, by column, if `winners` wants them.
-  template <class Winners>
-  auto notes_for(const Winners& winners) {
-    if constexpr (Winners::wanted)
-      return FirstWinners::OfRow{winners_.data()};
-    else
-      return winners;
-  }
+  /// The winners of the row, by column.
+  Winner* winners() { return winners_.data(); }
 
   /// Writes the columns that were touched, ascending, and their numbers, and appends their winners; returns how many
   /// they are, and ends the row. There is room for one more column.
-  template <class Winners>
-  std::size_t drain(std::uint32_t* columns, double* numbers, Winners& winners) {
+  std::size_t drain(std::uint32_t* columns, double* numbers, FirstWinners* winners) {
     const std::size_t size = touched_.drain(columns);
-    for (std::size_t k = 0; k < size; ++k) numbers[k] = std::exchange(numbers_[columns[k]], A::zero());
-    if constexpr (Winners::wanted) {
-      const std::size_t before = winners.all.size();
-      winners.resize(before + size);
-      for (std::size_t k = 0; k < size; ++k) winners.all[before + k] = std::exchange(winners_[columns[k]], 0);
-    }
+    for (std::size_t k = 0; k < size; ++k) numbers[k] = std::exchange(numbers_[columns[k]], zero_);
+    if constexpr (WithWinners)
+      for (std::size_t k = 0; k < size; ++k) winners->push_back(std::exchange(winners_[columns[k]], 0));
     return size;
   }
 
  private:
+  double zero_;
   std::vector<double> numbers_;
-  std::vector<Winner> winners_;
+  FirstWinners winners_;
   AscendingSet touched_;
 };
 
@@ -129,28 +120,30 @@ std::size_t expected_terms(const Left& left, const Right& right) {
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), storing only what some j leads to: Gustavson's merge of rows, in time
 /// proportional to the products. Each number is added up in the order of j, as in a dense result, hence equal to the
-/// last bit. Sums may differ by rounding from those of the tiled kernel for large tables. `winners` is
-/// FirstWinners or NoWinners; `result` is neither of the parts, and its memory is used again.
-template <Algebra A, class Left, class Right, class Winners>
-void sparse_composition(const Left& left, const Right& right, SparseRows& result, Winners& winners) {
+/// last bit. Sums may differ by rounding from those of the tiled kernel for large tables. `result` is neither of the
+/// parts, and its memory is used again.
+template <bool WithWinners, class A, class Left, class Right>
+void sparse_composition(A algebra, const Left& left, const Right& right, SparseRows& result, FirstWinners* winners) {
   const std::size_t expected = expected_terms(left, right);
   result.clear(left.columns());
   result.reserve(right.rows(), expected);
-  winners.assign(0);
-  winners.reserve(expected);
-  GrowingRow<A> row(left.columns(), Winners::wanted);
-  const auto notes = row.notes_for(winners);
+  if constexpr (WithWinners) {
+    winners->clear();
+    winners->reserve(expected);
+  }
+  GrowingRow<WithWinners> row(left.columns(), algebra.zero());
   std::size_t terms = right.rows() > 0 ? announce(left, right.entries(0)) : 0;
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const std::size_t room = std::min(terms, left.columns()) + 1;
     if (i + 1 < right.rows()) terms = announce(left, right.entries(i + 1));
     const auto weights = right.entries(i);
     for (std::size_t j = 0; j < weights.size(); ++j) {
-      if (weights.value(j) == A::zero()) continue;
-      accumulate<A>(weights.value(j), left.entries(weights.index(j)), row, weights.index(j), notes);
+      if (weights.value(j) == algebra.zero()) continue;
+      accumulate<WithWinners>(algebra, weights.value(j), left.entries(weights.index(j)), row, weights.index(j),
+                              row.winners());
     }
-    result.append_written(
-        room, [&](std::uint32_t* columns, double* numbers) { return row.drain(columns, numbers, winners); });
+    const auto [columns, numbers] = result.room(room);
+    result.end_row(row.drain(columns, numbers, winners));
   }
 }
 
@@ -170,22 +163,23 @@ inline Reach reach(const BandedRows& left, const RunOfEntries& weights) {
 }
 
 /// The same of banded parts: again banded.
-template <Algebra A, class Winners>
-BandedRows banded_composition(const BandedRows& left, const BandedRows& right, Winners& winners) {
+template <bool WithWinners, class A>
+BandedRows banded_composition(A algebra, const BandedRows& left, const BandedRows& right, FirstWinners* winners) {
   BandedRows result(left.columns());
-  winners.assign(0);
+  if constexpr (WithWinners) winners->clear();
   for (std::size_t i = 0; i < right.rows(); ++i) {
     const RunOfEntries weights = right.entries(i);
     const Reach all = reach(left, weights);
     const std::size_t first = all.size() > 0 ? all.first : 0;
-    result.append(first, all.size(), A::zero());
-    winners.resize(result.stored());
+    result.append(first, all.size(), algebra.zero());
+    if constexpr (WithWinners) winners->resize(result.stored(), 0);
     double* const out = result.values(i).data();
     for (std::size_t j = 0; j < weights.size(); ++j) {
       RunOfEntries terms = left.entries(weights.index(j));
       if (terms.size() == 0) continue;
       terms.first -= first;
-      accumulate<A>(weights.value(j), terms, out, weights.index(j), winners.from(result.offset(i)));
+      accumulate<WithWinners>(algebra, weights.value(j), terms, out, weights.index(j),
+                              WithWinners ? winners->data() + result.offset(i) : nullptr);
     }
   }
   return result;
