@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/radar.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/filters/keys.hpp"
