@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
@@ -48,10 +49,11 @@ void run_train(const TrainOptions& options) {
   const auto all = classifiers(model, options.kinds);
   write_model(model, options.kinds, options.model);
 
-  print_text(options.output, fmt::format("{}: {}\n{}\n\n", data.file, described(data), described(options.learning)));
-  features_table(model).print(options.output.width());
-  for (const auto& warning : warnings(all)) print_text(options.output, "warning: " + warning);
-  fmt::print("\nWrote {}\n", options.model);
+  Result result = result_of_contest("", options.output);
+  result.say(fmt::format("{}: {}\n{}", data.file, described(data), described(options.learning)));
+  result.add(features_table(model), {});
+  for (const auto& warning : warnings(all)) result.say("warning: " + warning);
+  fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 
 }  // namespace

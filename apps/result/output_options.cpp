@@ -1,16 +1,9 @@
 #include "result/output_options.hpp"
 
-#include <cstdio>
-
 #include "result/pictures.hpp"
 #include "support/options.hpp"
 
 namespace sigmax::apps {
-
-void print_text(const OutputOptions& options, std::string_view text) {
-  constexpr std::size_t wide_text = 120;  // longer lines are hard to read
-  std::fputs(wrapped(text, options.wide ? wide_text : terminal_width).c_str(), stdout);
-}
 
 void add_quiet(CLI::App& app, bool& quiet) { Subcommand(app).flag("--quiet", quiet, "No progress bar"); }
 

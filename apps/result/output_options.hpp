@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 
 #include "support/text.hpp"
 
@@ -24,9 +23,6 @@ struct OutputOptions {
 
   std::size_t width() const { return wide ? any_width : terminal_width; }
 };
-
-/// Prints a paragraph, broken to the width of the tables.
-void print_text(const OutputOptions& options, std::string_view text);
 
 /// --out, --quiet and --wide; --report and --plots; --no-chart.
 void add_output(CLI::App& app, OutputOptions& options);

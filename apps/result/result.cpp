@@ -104,10 +104,10 @@ void ResultFiles::commit() {
   fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
 }
 
-Json summary_of(const OutputOptions& options) { return {{"version", version}, {"command", options.command}}; }
-
 Result::Result(const OutputOptions& options)
-    : words_width(options.width()), options_(options), summary_(std::make_unique<Json>(summary_of(options))) {
+    : words_width(options.width()),
+      options_(options),
+      summary_(std::make_unique<Json>(Json{{"version", version}, {"command", options.command}})) {
   page.command = options.command;
 }
 

@@ -130,7 +130,4 @@ void refuse_to_overwrite(const std::string& option, const std::string& file, con
 void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
                          std::vector<std::string> names = {});
 
-/// What every summary begins with: the version and the command.
-nlohmann::ordered_json summary_of(const OutputOptions& options);
-
 }  // namespace sigmax::apps

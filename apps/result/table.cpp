@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -284,8 +283,6 @@ std::string ResultTable::text(std::size_t width) const {
   }
   return table.text(width);
 }
-
-void ResultTable::print(std::size_t width) const { std::fputs(text(width).c_str(), stdout); }
 
 std::string ResultTable::csv() const {
   std::string text = csv_header();

@@ -159,7 +159,6 @@ class ResultTable {
 
   /// The columns with a header. See `TextTable` for what does not fit; `any_width` fits all.
   std::string text(std::size_t width = terminal_width) const;
-  void print(std::size_t width = terminal_width) const;
 
   /// The columns with a key, below their keys.
   std::string csv() const;
