@@ -51,10 +51,10 @@ function(sigmax_unity target)
   endif()
 endfunction()
 
-# sigmax_program(NAME LIBRARIES …): NAME/*.cpp as one program, which is installed; with a manual page made of its --help
+# sigmax_program(NAME LIBRARIES …): all .cpp in NAME as one program, which is installed; with a manual page made of its --help
 # where there is help2man.
 function(sigmax_program name)
-  file(GLOB sources CONFIGURE_DEPENDS ${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${name}/*.cpp)
   add_executable(${name} ${sources})
   sigmax_warnings(${name})
   sigmax_unity(${name})

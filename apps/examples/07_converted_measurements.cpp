@@ -9,8 +9,8 @@
 #include <string>
 
 #include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/metrics.hpp>
+#include <sigmax/estimation/radar.hpp>
 
 #include "support/random.hpp"
 

@@ -12,7 +12,8 @@
 
 #include <sigmax/core/mean_interval.hpp>
 
-#include "support/pictures.hpp"
+#include "result/pictures.hpp"
+#include "result/report.hpp"
 
 namespace examples {
 

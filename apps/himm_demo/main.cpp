@@ -1,10 +1,5 @@
-#include "himm_demo/filter_options.hpp"
-#include "himm_demo/merge.hpp"
-#include "himm_demo/reproduce.hpp"
-#include "himm_demo/simulate.hpp"
-#include "himm_demo/sweep.hpp"
-#include "himm_demo/track.hpp"
-#include "himm_demo/tune.hpp"
+#include "himm_demo/subcommands.hpp"
+#include "support/command_line.hpp"
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;

@@ -1,20 +1,17 @@
-#include "himm_demo/merge.hpp"
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "himm_demo/reproduce.hpp"
-#include "himm_demo/sweep.hpp"
+#include "himm_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "study/journal.hpp"
+#include "study/study.hpp"
 #include "support/error.hpp"
+#include "support/options.hpp"
 #include "support/output.hpp"
-#include "support/result_files.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -26,17 +23,17 @@ struct MergeOptions {
 };
 
 /// The cells of all parts, which must be of one campaign and agree where they have the same cell.
-ReadJournal joined(const std::vector<std::string>& parts) {
-  ReadJournal all;
+Journaled joined(const std::vector<std::string>& parts) {
+  Journaled all;
   for (const std::filesystem::path part : parts) {
     const auto path = part / journal_name;
-    const ReadJournal own = read_journal(path);
-    if (all.campaign.empty()) all.campaign = own.campaign;
-    if (own.campaign != all.campaign)
+    const Journaled own = read_journal(path);
+    if (all.study.empty()) all.study = own.study;
+    if (own.study != all.study)
       throw InputError(message({.where = path.native() + ":1",
                                 .what = "this is a shard of another campaign",
-                                .found = in_quotes(own.campaign),
-                                .expected = in_quotes(all.campaign)}));
+                                .found = in_quotes(own.study),
+                                .expected = in_quotes(all.study)}));
     for (const auto& [cell, row] : own.rows) {
       const auto [there, added] = all.rows.emplace(cell, row);
       if (!added && journal_line(cell, there->second) != journal_line(cell, row))
@@ -65,41 +62,30 @@ void merge(const MergeOptions& options) {
   std::vector<std::string> journals;
   for (const std::filesystem::path part : options.parts) journals.push_back(part / journal_name);
   refuse_to_overwrite(options.output, journals);
-  const ReadJournal all = joined(options.parts);
-  std::vector<std::string> arguments = command_of(all.campaign);
-  {
-    Journal journal(OutputDirectory(options.output.out).path() / journal_name, all.campaign);
-    for (const auto& [cell, row] : all.rows)
-      if (!journal.rows().contains(cell)) journal.append(cell, row);
-    journal.store();
-  }
+  const Journaled all = joined(options.parts);
+  std::vector<std::string> arguments = command_of(all.study);
+  Journal(output_directory(options.output.out) / journal_name, all.study).append(all.rows);
   arguments.insert(arguments.end(), {"--finished", "--out", options.output.out});
   if (options.output.wide) arguments.emplace_back("--wide");
   if (!options.output.report.empty()) arguments.insert(arguments.end(), {"--report", options.output.report});
-  CLI::App again{"", "himm_demo"};
-  const std::string command =
-      all.campaign.substr(0, all.campaign.find(' ')) + " " + fmt::format("{}", fmt::join(arguments, " "));
-  add_reproduce(again, command);
-  add_sweep(again, command);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
-  again.parse(arguments);
+  run_again({add_reproduce, add_sweep}, "himm_demo", arguments);
 }
 
 }  // namespace
 
 void add_merge(CLI::App& program, const std::string& command) {
-  CLI::App& app = *program.add_subcommand("merge", "The results of reproduce or sweep out of their shards.");
+  Subcommand app(program, "merge", "The results of reproduce or sweep out of their shards.");
   const auto options = std::make_shared<MergeOptions>();
   options->output.command = command;
-  app.add_option("parts", options->parts, "Directories that --shard … --out wrote")->required()->type_name("DIR");
+  app.option("parts", options->parts, "Directories that --shard … --out wrote").required().type("DIR");
   app.footer(
       "Examples:\n"
       "  himm_demo merge part1 part2 part3 part4 --out whole\n"
       "  himm_demo merge part* --out whole --wide");
   add_output(app, options->output);
   add_report(app, options->output);
-  app.get_option("--out")->required();
-  app.callback([options] { merge(*options); });
+  app.option("--out").required();
+  app.run([options] { merge(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -15,17 +15,19 @@ namespace {
 
 std::array<double, 3> by_axis(const Vector<3>& error) { return {error.x(), error.y(), error.z()}; }
 
-void record(TrackPoint<3> point, const Vector<6>& truth, std::size_t sample, Trace& trace) {
-  const auto& estimate = point.estimate;
-  trace.error[sample] = by_axis(estimate.mean.head<3>() - truth.head<3>());
-  trace.covariance[sample] = estimate.covariance.topLeftCorner<3, 3>();
-  trace.nees_position[sample] = normalized_error_squared<3, 3>(estimate.mean.head<3>() - truth.head<3>(),
-                                                               estimate.covariance.topLeftCorner<3, 3>());
-  if (estimate.size() >= 6)
-    trace.nees_velocity[sample] =
-        normalized_error_squared<6, 6>(estimate.mean.head<6>() - truth, estimate.covariance.topLeftCorner<6, 6>());
-  trace.nis[sample] = point.nis.value_or(nan);
-  trace.weights[sample] = std::move(point.weights);
+void record(const TargetPoint& point, const Vector<6>& truth, Trace& trace) {
+  const auto n = static_cast<Eigen::Index>(point.mean.size());
+  const Eigen::Map<const Eigen::VectorXd> mean(point.mean.data(), n);
+  const Eigen::Map<const Eigen::MatrixXd> covariance(point.covariance.data(), n, n);
+  trace.error[point.tag] = by_axis(mean.head<3>() - truth.head<3>());
+  trace.covariance[point.tag] = covariance.topLeftCorner<3, 3>();
+  trace.nees_position[point.tag] =
+      normalized_error_squared<3, 3>(mean.head<3>() - truth.head<3>(), trace.covariance[point.tag]);
+  if (n >= 6)
+    trace.nees_velocity[point.tag] =
+        normalized_error_squared<6, 6>(mean.head<6>() - truth, covariance.topLeftCorner<6, 6>());
+  trace.nis[point.tag] = point.nis.value_or(nan);
+  trace.weights[point.tag] = point.weights;
 }
 
 }  // namespace
@@ -38,29 +40,29 @@ Trace::Trace(std::size_t samples)
       nis(samples, nan),
       weights(samples) {}
 
-Reading<3> reading(const Polar& seen, const FilterSettings& filter) {
-  return radar_reading<3>(seen, filter.accuracy.radar, Vector<3>::Zero(), filter.radar_measurement);
+std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
+  std::vector<AnyPlot> plots;
+  for (const auto& [range, azimuth, elevation] : seen) {
+    const std::array z = {range, azimuth, elevation}, unknown = {nan, nan, nan};
+    AnyPlot plot = AnyPlot::polar(step_s * static_cast<double>(plots.size()), z, unknown);
+    plot.tag = plots.size();
+    plots.push_back(believed(filter, "", plot, 3));
+  }
+  return plots;
 }
 
 void follow(const FilterSettings& filter, double step_s, const Recording& recording,
-            const std::function<void(TrackPoint<3>, std::size_t)>& visit) {
-  Tracker<3> tracker(filter);
-  const std::size_t samples = recording.measured.size();
-  for (std::size_t k = 0; k < samples; ++k) {
-    try {
-      bool stepped_now = false;
-      tracker.take(step_s * static_cast<double>(k), reading(recording.measured[k], filter), k, [&](std::size_t tag) {
-        stepped_now = true;
-        if (!filter.smooth) visit(tracker.now(), tag);
+            const std::function<void(const TargetPoint&)>& visit) {
+  const auto plots = plots_of(filter, step_s, recording.measured);
+  AnyTarget target(choice_of(filter, 3));
+  for (std::size_t k = 0; k < plots.size(); ++k) try {
+      target.follow({&plots[k], 1}, [&](const TargetPoint& point) {
+        if (!filter.smooth) visit(point);
       });
-      if (tracker.running() && !stepped_now && !filter.smooth) visit(tracker.now(), k);  // the start
-      if (k + 1 == samples)
-        for (const auto& point : tracker.finish())
-          if (!point.is_start || filter.start != StartRule::given) visit(point, point.tag);
+      if (filter.smooth && k + 1 == plots.size()) target.smoothed(visit);
     } catch (const std::exception& error) {
       throw std::runtime_error(fmt::format("filter '{}', sample {}: {}", filter.name, k + 1, error.what()));
     }
-  }
 }
 
 TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const FilterSettings> filters,
@@ -73,9 +75,8 @@ TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const
     run.measurement.error[k] = by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
   try {
     for (std::size_t f = 0; f < filters.size(); ++f)
-      follow(filters[f], scenario.step_s, recording, [&](TrackPoint<3> point, std::size_t k) {
-        record(std::move(point), recording.truth[k], k, run.filters[f]);
-      });
+      follow(filters[f], scenario.step_s, recording,
+             [&](const TargetPoint& point) { record(point, recording.truth[point.tag], run.filters[f]); });
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("run {}, {}", number + 1, error.what()));
   }
@@ -89,7 +90,7 @@ std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
   for (std::size_t j = 0; j < motions.size(); ++j)
     if (motions[j].manoeuvres()) model = j;
   const bool all =
-      std::all_of(motions.begin(), motions.end(), [](const Motion& motion) { return motion.manoeuvres(); });
+      std::all_of(motions.begin(), motions.end(), [](const MotionChoice& motion) { return motion.manoeuvres(); });
   return all ? std::nullopt : model;
 }
 

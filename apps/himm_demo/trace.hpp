@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "himm_demo/filter_settings.hpp"
-#include "himm_demo/scenario.hpp"
-#include "himm_demo/tracker.hpp"
+#include <sigmax/estimation/gaussian.hpp>
+
+#include "himm_demo/experiment/scenario.hpp"
+#include "himm_demo/filters/settings.hpp"
 
 namespace sigmax::apps {
 
@@ -35,13 +36,13 @@ struct TracedRun {
   std::vector<Trace> filters;
 };
 
-/// What the experiment's radar saw, as the filter takes it.
-Reading<3> reading(const Polar& seen, const FilterSettings& filter);
+/// What the experiment's radar saw, sample by sample, as the filter takes it.
+std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen);
 
-/// Leads a filter through a recording and calls visit(point, sample), samples counted from 0, for each estimate. Throws
-/// std::runtime_error, naming filter and sample, where a filter throws.
+/// Leads a filter through a recording and calls visit(point) for each estimate, with the number of its sample, from 0, as
+/// its tag. Throws std::runtime_error, naming filter and sample, where a filter throws.
 void follow(const FilterSettings& filter, double step_s, const Recording& recording,
-            const std::function<void(TrackPoint<3>, std::size_t)>& visit);
+            const std::function<void(const TargetPoint&)>& visit);
 
 /// The run with that number, counted from 0; nothing but the seed and the number decides what is drawn.
 TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const FilterSettings> filters,
@@ -58,9 +59,9 @@ double weight_difference(const std::vector<double>& weights, std::size_t model);
 template <class Difference>
 std::optional<double> first_crossing(int onset, int samples, const Difference& difference) {
   for (int k = std::max(onset, 2); k <= samples; ++k) {
-    const double before = difference(k - 1);
+    const double previous = difference(k - 1);
     const double now = difference(k);
-    if (before <= 0.0 && now > 0.0) return k - 1 + before / (before - now);
+    if (previous <= 0.0 && now > 0.0) return k - 1 + previous / (previous - now);
   }
   return std::nullopt;
 }

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,15 +9,16 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
+#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
-#include "support/json.hpp"
+#include "support/options.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -180,12 +180,11 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Readi
                     contestant.classifier);
 }
 
-void print_explanation(const OutputOptions& options, const Contestant& contestant, const Readings& readings) {
-  fmt::print("\n");
+void say_explanation(Result& result, const Contestant& contestant, const Readings& readings) {
   if (const auto table = explanation(contestant, readings))
-    table->print(options.width());
+    result.add(*table, {});
   else
-    fmt::print("{}: the readings exclude every class\n", contestant.name);
+    result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
 }
 
 /// The rows of a file, classified one after the other.
@@ -308,23 +307,21 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
   return table;
 }
 
-Json summary_of_rows(const ClassifyOptions& options, const RandomVariable& pattern, const std::vector<Contestant>& all,
-                     const Classified& result, const RowReader& rows) {
-  Json summary = summary_of(options.output);
-  summary["model"] = options.model;
-  summary["file"] = options.file;
-  summary["rows"] = result.rows;
-  summary["least_margin"] = options.least_margin;
-  if (rows.unseen_cells() > 0) summary["unseen_cells_counted_as_missing"] = rows.unseen_cells();
+void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const std::vector<Contestant>& all,
+               const Classified& found, const RowReader& rows, Result& result) {
+  result.fact({"model"}, options.model);
+  result.fact({"file"}, options.file);
+  result.fact({"rows"}, found.rows);
+  result.fact({"least_margin"}, options.least_margin);
+  if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Tally& tally = result.tallies[i];
-    Json one;
-    for (std::size_t c = 0; c < pattern.size(); ++c) one["decided"][pattern.label(c)] = tally.decided[c];
-    one["rejected"] = tally.rejected;
-    if (tally.judged > 0) one["accuracy_of_the_decided"] = *tally.accuracy();
-    summary["classifiers"][all[i].name] = one;
+    const Tally& tally = found.tallies[i];
+    const auto& name = all[i].name;
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      result.fact({"classifiers", name, "decided", pattern.label(c)}, tally.decided[c]);
+    result.fact({"classifiers", name, "rejected"}, tally.rejected);
+    if (tally.judged > 0) result.fact({"classifiers", name, "accuracy_of_the_decided"}, *tally.accuracy());
   }
-  return summary;
 }
 
 /// The support that a row gives to each class, and why.
@@ -354,11 +351,11 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
   return view;
 }
 
-Report page_of(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-               const Classified& result, bool has_truth) {
+void fill(Report& page, const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
+          const Classified& result, bool has_truth) {
   constexpr std::size_t most_views = 200;
   const auto& pattern = model.counts.pattern();
-  Report page{.title = "Classes of " + options.file, .command = options.output.command, .chooser = "Row"};
+  page.chooser = "Row";
   page.verdict = {fmt::format("{} rows, classified by {}; {}.", result.rows, options.model, described(model.options))};
   page.panels.emplace_back(ReportTable{"All rows", totals_table(pattern, has_truth, all, result)});
   for (std::size_t i = 0; i < std::min(most_views, result.shown.size()); ++i)
@@ -366,7 +363,6 @@ Report page_of(const ClassifyOptions& options, const LearnedModel& model, const 
   if (page.views.size() < result.rows)
     page.verdict.push_back(fmt::format("The first {} rows can be chosen; --rows says how many.", page.views.size()));
   page.last = relation_maps(learned_relations(model.counts, model.options.smoothing), 6);
-  return page;
 }
 
 void run_classify(const ClassifyOptions& options) {
@@ -379,35 +375,30 @@ void run_classify(const ClassifyOptions& options) {
 
   CsvReader reader = open_csv(options.file);
   RowReader rows(model, reader, options.unseen == "missing");
-  const Classified result = classify_all(options, model, all, reader, rows, files.open("predictions.csv"));
-  if (result.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+  const Classified found = classify_all(options, model, all, reader, rows, files.open("predictions.csv"));
+  if (found.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
 
-  print_text(options.output, fmt::format("{}: {} rows, by {}\n\n", reader.file(), result.rows, options.model));
+  Result result = result_of_contest("Classes of " + options.file, options.output);
+  result.say(fmt::format("{}: {} rows, by {}", reader.file(), found.rows, options.model));
   if (rows.unseen_cells() > 0)
-    print_text(
-        options.output,
-        fmt::format("{} as missing, since the model does not know {}: {}\n\n",
+    result.say(
+        fmt::format("\n{} as missing, since the model does not know {}: {}",
                     rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
                     rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen()));
-  if (!result.shown.empty()) {
-    shown_table(model.label, rows.has_truth(), all, result.shown).print(options.output.width());
-    fmt::print("\n");
-  }
-  totals_table(pattern, rows.has_truth(), all, result).print(options.output.width());
+  if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
+  result.add(totals_table(pattern, rows.has_truth(), all, found), {});
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (result.tallies[i].excluded > 0)
-      print_text(options.output, fmt::format("{}: {} rows excluded every class and were judged by the prior",
-                                             all[i].name, result.tallies[i].excluded));
+    if (found.tallies[i].excluded > 0)
+      result.say(fmt::format("{}: {} rows excluded every class and were judged by the prior", all[i].name,
+                             found.tallies[i].excluded));
   if (options.explain)
-    for (const ShownRow& row : result.shown) {
-      fmt::print("\nline {}\n", row.line);
-      for (const Contestant& contestant : all) print_explanation(options.output, contestant, row.readings);
+    for (const ShownRow& row : found.shown) {
+      result.text += fmt::format("\nline {}\n", row.line);
+      for (const Contestant& contestant : all) say_explanation(result, contestant, row.readings);
     }
-  Json summary = summary_of_rows(options, pattern, all, result, rows);
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (files.report_wanted()) files.write_report(page_of(options, model, all, result, rows.has_truth()));
-  files.commit();
+  add_facts(options, pattern, all, found, rows, result);
+  if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());
+  result.publish(files);
 }
 
 }  // namespace
@@ -415,29 +406,27 @@ void run_classify(const ClassifyOptions& options) {
 void add_classify(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<ClassifyOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("classify", "Classifies the rows of a file by a model.");
-  app.add_option("model", options->model, "A model that `train` wrote")->required()->type_name("MODEL.json");
-  app.add_option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
-      ->required()
-      ->type_name("DATA");
-  app.add_flag("--explain", options->explain, "Say why, for the rows that are shown");
-  app.add_option("--rows", options->rows, "How many rows to show")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--least-margin", options->least_margin,
-                 "Reject decisions whose lead in probability, or necessity, is smaller")
-      ->check(number_in(0.0, 1.0))
-      ->capture_default_str();
-  app.add_option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
-      ->check(CLI::IsMember({"refuse", "missing"}))
-      ->capture_default_str();
+  Subcommand app(program, "classify", "Classifies the rows of a file by a model.");
+  app.option("model", options->model, "A model that `train` wrote").required().type("MODEL.json");
+  app.option("data", options->file, "A headed CSV file with the model's columns, or - for the standard input")
+      .required()
+      .type("DATA");
+  app.flag("--explain", options->explain, "Say why, for the rows that are shown");
+  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000).shows_default();
+  app.option("--least-margin", options->least_margin,
+             "Reject decisions whose lead in probability, or necessity, is smaller")
+      .number_in(0.0, 1.0)
+      .shows_default();
+  app.option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
+      .one_of(std::vector<std::string>{"refuse", "missing"})
+      .shows_default();
   add_output(app, options->output);
   add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
       "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
-  app.callback([options] { run_classify(*options); });
+  app.run([options] { run_classify(*options); });
 }
 
 }  // namespace sigmax::apps

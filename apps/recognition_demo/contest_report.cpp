@@ -1,8 +1,12 @@
 #include "recognition_demo/contest_report.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "support/command_line.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -23,7 +27,7 @@ Cell only_if(bool holds, double value) { return holds ? Cell(value) : Cell(); }
 }  // namespace
 
 void add_draws(CLI::App& app, DrawOptions& options) {
-  app.add_option("--runs", options.runs, "Simulated runs")->check(CLI::Range(2, 100000000))->capture_default_str();
+  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000).shows_default();
   add_seed(app, options.seed);
   add_threads(app, options.threads);
   add_output(app, options.output);
@@ -68,22 +72,29 @@ ResultTable scores_table(const std::vector<Score>& scores, const std::string& wh
   return table;
 }
 
-void print_scores(const OutputOptions& options, const std::vector<Score>& scores, const std::string& what_is_counted) {
-  scores_table(scores, what_is_counted).print(options.width());
-  print_text(options,
-             "(Ties share the credit. Differences ± 95 % by paired runs. Means over the runs. Necessity: 1 − the "
-             "possibility of the best other.)");
-  for (const Score& score : scores)
-    if (score.refused > 0)
-      print_text(options, fmt::format("{}: {} reports excluded every pattern that was left and were passed over",
-                                      score.name, score.refused));
+Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
+  constexpr std::size_t widest_words = 120;  // longer lines are hard to read
+  Result result(output);
+  result.words_width = output.wide ? widest_words : terminal_width;
+  result.page.title = std::move(title);
+  for (const Contestant& contestant : contestants) result.page.groups.push_back({.name = contestant.name});
+  return result;
 }
 
-std::string curves_csv(const std::vector<Score>& scores) {
-  ResultTable table({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
+void add_scores(Result& result, const std::vector<Score>& scores, const std::string& what_is_counted) {
+  result.add(scores_table(scores, what_is_counted),
+             {.summary = {"classifiers"}, .title = "Right decisions", .note = "Differences ± 95 % by paired runs."});
+  result.say(
+      "(Ties share the credit. Differences ± 95 % by paired runs. Means over the runs. Necessity: 1 − the possibility "
+      "of the best other.)");
   for (const Score& score : scores)
-    for (std::size_t k = 0; k < score.accuracy.size(); ++k) table.row({k + 1, score.name, score.accuracy[k]});
-  return table.csv();
+    if (score.refused > 0)
+      result.say(fmt::format("{}: {} reports excluded every pattern that was left and were passed over", score.name,
+                             score.refused));
+  ResultTable curves({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
+  for (const Score& score : scores)
+    for (std::size_t k = 0; k < score.accuracy.size(); ++k) curves.row({k + 1, score.name, score.accuracy[k]});
+  result.add(curves, {.printed = false, .csv = "curves.csv"});
 }
 
 }  // namespace sigmax::apps

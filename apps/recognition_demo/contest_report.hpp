@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "recognition_demo/contest.hpp"
-#include "support/command_line.hpp"
+#include "result/output_options.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
 #include "support/json.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 
 namespace sigmax::apps {
 
@@ -46,11 +46,11 @@ void for_each_draw(const DrawOptions& options, Progress& progress, const Draw& d
 /// first.
 ResultTable scores_table(const std::vector<Score>& scores, const std::string& what_is_counted = "reports");
 
-/// Prints this table, and what it cannot say.
-void print_scores(const OutputOptions& options, const std::vector<Score>& scores,
-                  const std::string& what_is_counted = "reports");
+/// A result begun: the page has its title, and the contestants are what it switches on and off.
+Result result_of_contest(std::string title, const OutputOptions& output,
+                         const std::vector<Contestant>& contestants = {});
 
-/// report,classifier,accuracy.
-std::string curves_csv(const std::vector<Score>& scores);
+/// The table in all its places, with what it cannot say, and curves.csv: report,classifier,accuracy.
+void add_scores(Result& result, const std::vector<Score>& scores, const std::string& what_is_counted = "reports");
 
 }  // namespace sigmax::apps

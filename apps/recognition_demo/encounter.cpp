@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "recognition_demo/encounter_data.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/options.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {
@@ -38,19 +38,19 @@ std::vector<Contestant> contestants(const Counts& counts) {
           max_by("max, Dubois-Prade-Sandri", counts, DuboisPradeSandri{})};
 }
 
-void print_counts(const EncounterOptions& options, const Counts& counts) {
-  print_text(options.draws.output,
-             fmt::format("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes "
-                         "are equally plausible before",
-                         options.file));
+void say_counts(const EncounterOptions& options, const Counts& counts, Result& result) {
+  result.say(
+      fmt::format("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
+                  "equally plausible before",
+                  options.file));
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     double samples = 0.0;
     for (const double count : counts.of(0, c)) samples += count;
-    fmt::print("  {}: {:.1f} million samples\n", counts.pattern().label(c), samples * 1e-6);
+    result.text += fmt::format("  {}: {:.1f} million samples\n", counts.pattern().label(c), samples * 1e-6);
   }
 }
 
-void draw_and_report(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
+Result result_of_draws(const EncounterOptions& options, const EncounterData& data) {
   const DrawOptions& draws = options.draws;
   const auto all = contestants(data.counts);
   const auto relations = learned_relations(data.counts, 0.0);
@@ -69,29 +69,23 @@ void draw_and_report(const EncounterOptions& options, const EncounterData& data,
   progress.finish();
 
   const auto scores = board.scores();
-  print_text(draws.output, fmt::format("{} seeded draws from the counts themselves, every feature and report "
-                                       "independent, as sigma inference assumes; seed {}\n\n",
-                                       draws.runs, draws.seed));
-  print_scores(draws.output, scores);
-
-  Json summary = summary_of(draws.output);
-  summary["file"] = options.file;
-  summary["drawn_from"] = "the counts";
-  summary["runs"] = draws.runs;
-  summary["reports"] = options.reports;
-  summary["seed"] = draws.seed;
-  summary["classifiers"] = scores_table(scores).json();
-  files.write("curves.csv", curves_csv(scores));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (!files.report_wanted()) return;
-  Report page = page_of_contest("What class of aircraft is it?", draws.output, all);
-  page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
-                              options.reports, options.file, draws.seed)};
-  page.panels = {accuracy_chart(scores)};
-  page.last = relation_maps(relations, relations.size());
-  page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
-  files.write_report(page);
+  Result result = result_of_contest("What class of aircraft is it?", draws.output, all);
+  say_counts(options, data.counts, result);
+  result.say(
+      fmt::format("{} seeded draws from the counts themselves, every feature and report independent, as sigma "
+                  "inference assumes; seed {}",
+                  draws.runs, draws.seed));
+  result.fact({"file"}, options.file);
+  result.fact({"drawn_from"}, "the counts");
+  result.fact({"runs"}, draws.runs);
+  result.fact({"reports"}, options.reports);
+  result.fact({"seed"}, draws.seed);
+  result.page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
+                                     options.reports, options.file, draws.seed)};
+  result.page.panels = {accuracy_chart(scores)};
+  result.page.last = relation_maps(relations, relations.size());
+  add_scores(result, scores);
+  return result;
 }
 
 /// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
@@ -181,7 +175,7 @@ View view_of(const EncounterData& data, const std::vector<Contestant>& contestan
   return view;
 }
 
-std::string reports_csv(const EncounterData& data, const TrackReports& track) {
+ResultTable reports_table(const EncounterData& data, const TrackReports& track) {
   std::vector<ResultColumn> columns = {{.key = "time_s"}};
   for (const auto& feature : data.counts.features()) columns.push_back({.key = feature.name()});
   ResultTable table(std::move(columns));
@@ -191,11 +185,10 @@ std::string reports_csv(const EncounterData& data, const TrackReports& track) {
       cells.push_back(report.readings[i] == missing ? Cell() : Cell(data.bins[i].labels()[report.readings[i]]));
     table.row(std::move(cells));
   }
-  return table.csv();
+  return table;
 }
 
-void track_and_report(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
-  const OutputOptions& output = options.draws.output;
+Result result_of_track(const EncounterOptions& options, const EncounterData& data) {
   const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
@@ -205,51 +198,41 @@ void track_and_report(const EncounterOptions& options, const EncounterData& data
         std::visit([&](const auto& classifier) { return follow_track(contestant.name, classifier, track.reports); },
                    contestant.classifier));
 
-  print_text(output,
-             fmt::format("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart "
-                         "or more\n\n",
-                         options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft,
-                         track.reports.size(), options.every_s));
-  seen_table(data, track).print(output.width());
-  fmt::print("\n");
-  decisions_table(pattern, outcomes).print(output.width());
-  print_text(output,
-             "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
-             "independent: the belief after all of them is more certain than it should be.)");
-
-  Json summary = summary_of(output);
-  summary["file"] = options.file;
-  summary["track"] = options.track;
-  summary["reports"] = track.reports.size();
-  summary["ground_ft"] = track.ground_ft;
-  for (const TrackOutcome& outcome : outcomes)
-    for (std::size_t c = 0; c < pattern.size(); ++c) {
-      Json& one = summary["classifiers"][outcome.name];
-      one["share_of_single_reports"][pattern.label(c)] = outcome.single[c];
-      one["belief_after_all"][pattern.label(c)] = outcome.belief[c];
-    }
-  files.write("reports.csv", reports_csv(data, track));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (!files.report_wanted()) return;
-  Report page = page_of_contest("What class of aircraft is " + options.track + "?", output, all);
-  page.verdict = {
+  Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
+  say_counts(options, data.counts, result);
+  result.say(fmt::format(
+      "{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more", options.track,
+      track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(), options.every_s));
+  result.page.verdict = {
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
                   track.reports.size(), options.every_s)};
-  page.views = {view_of(data, all, track)};
-  page.last = {ReportTable{"Decisions", decisions_table(pattern, outcomes), "Ties share a report."},
-               ReportTable{"What was seen", seen_table(data, track)}};
-  files.write_report(page);
+  result.page.views = {view_of(data, all, track)};
+  const auto decisions = decisions_table(pattern, outcomes);
+  result.page.last = {ReportTable{"Decisions", decisions, "Ties share a report."}};
+  result.add(seen_table(data, track), {.title = "What was seen"});
+  result.add(decisions, {});
+  result.say(
+      "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
+      "independent: the belief after all of them is more certain than it should be.)");
+  result.add(reports_table(data, track), {.printed = false, .csv = "reports.csv"});
+  result.fact({"file"}, options.file);
+  result.fact({"track"}, options.track);
+  result.fact({"reports"}, track.reports.size());
+  result.fact({"ground_ft"}, track.ground_ft);
+  for (const TrackOutcome& outcome : outcomes)
+    for (std::size_t c = 0; c < pattern.size(); ++c) {
+      result.fact({"classifiers", outcome.name, "share_of_single_reports", pattern.label(c)}, outcome.single[c]);
+      result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.belief[c]);
+    }
+  return result;
 }
 
 void run_encounter(const EncounterOptions& options) {
   refuse_to_overwrite(options.draws.output, {options.file, options.track}, {"curves.csv", "reports.csv"});
   ResultFiles files(options.draws.output);
   const EncounterData data = read_encounter(options.file);
-  print_counts(options, data.counts);
-  (options.track.empty() ? draw_and_report : track_and_report)(options, data, files);
-  files.commit();
+  (options.track.empty() ? result_of_draws : result_of_track)(options, data).publish(files);
 }
 
 }  // namespace
@@ -258,28 +241,26 @@ void add_encounter(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EncounterOptions>();
   options->draws.output.command = command;
   options->draws.runs = 50000;
-  CLI::App& app = *program.add_subcommand(
-      "encounter", "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
-  app.add_option("counts", options->file,
-                 "Counts by class and feature: class,feature,bin,lower,upper,count; or - for the standard input")
-      ->required()
-      ->type_name("COUNTS.csv");
-  app.add_option("--reports", options->reports, "Reports in a drawn run")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  CLI::Option* const track =
-      app.add_option("--track", options->track,
-                     "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), "
-                     "groundspeed_kt (or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
-          ->type_name("FILE.csv");
-  app.add_option("--every", options->every_s, "Seconds between two reports of a recording")
-      ->check(number_in(0.001, 1e6))
-      ->needs(track)
-      ->capture_default_str();
-  app.add_option("--ground", options->ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
-      ->check(number_in(-2000.0, 30000.0))
-      ->needs(track)
-      ->type_name("FT");
+  Subcommand app(program, "encounter",
+                 "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
+  app.option("counts", options->file,
+             "Counts by class and feature: class,feature,bin,lower,upper,count; or - for the standard input")
+      .required()
+      .type("COUNTS.csv");
+  app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000).shows_default();
+  const Option track =
+      app.option("--track", options->track,
+                 "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), "
+                 "groundspeed_kt (or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
+          .type("FILE.csv");
+  app.option("--every", options->every_s, "Seconds between two reports of a recording")
+      .number_in(0.001, 1e6)
+      .needs(track)
+      .shows_default();
+  app.option("--ground", options->ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
+      .number_in(-2000.0, 30000.0)
+      .needs(track)
+      .type("FT");
   add_draws(app, options->draws);
   add_report(app, options->draws.output);
   app.footer(
@@ -287,7 +268,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
       "  recognition_demo encounter encounter_features.csv\n"
       "  recognition_demo encounter encounter_features.csv --track helicopter.csv \\\n"
       "    --every 30");
-  app.callback([options] { run_encounter(*options); });
+  app.run([options] { run_encounter(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/error.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -101,7 +101,8 @@ void run_esm(const EsmOptions& options) {
   if (runs_file) runs_file->write(runs.csv_header());
 
   constexpr std::size_t runs_in_page = 6;
-  Report page = page_of_contest("Which platform is it?", draws.output, all);
+  Result result = result_of_contest("Which platform is it?", draws.output, all);
+  Report& page = result.page;
   page.chooser = "Show";
   Scoreboard board(all);
   Progress progress("runs", draws.runs, draws.output.quiet);
@@ -119,36 +120,25 @@ void run_esm(const EsmOptions& options) {
   progress.finish();
 
   const auto scores = board.scores();
-  print_text(draws.output,
-             fmt::format("Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor "
-                         "reports the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of "
-                         "{} reports, seed {}\n\n",
-                         sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports,
-                         draws.seed));
-  print_scores(draws.output, scores);
-
-  Json summary = summary_of(draws.output);
-  summary["synthetic"] = true;
-  summary["usage"] = options.usage;
-  if (options.usage == "dirichlet") summary["alpha"] = options.alpha;
-  summary["probability_of_a_right_reading"] = sensor_hit;
-  summary["runs"] = draws.runs;
-  summary["reports"] = options.reports;
-  summary["seed"] = draws.seed;
-  summary["classifiers"] = scores_table(scores).json();
-  files.write("curves.csv", curves_csv(scores));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (files.report_wanted()) {
-    page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
-                                described_usage(options))};
-    page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
-    page.last.emplace_back(
-        witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
-    page.last.emplace_back(ReportTable{"Right decisions", scores_table(scores), "Differences ± 95 % by paired runs."});
-    files.write_report(page);
-  }
-  files.commit();
+  result.say(fmt::format(
+      "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports "
+      "the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, "
+      "seed {}",
+      sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed));
+  result.fact({"synthetic"}, true);
+  result.fact({"usage"}, options.usage);
+  if (options.usage == "dirichlet") result.fact({"alpha"}, options.alpha);
+  result.fact({"probability_of_a_right_reading"}, sensor_hit);
+  result.fact({"runs"}, draws.runs);
+  result.fact({"reports"}, options.reports);
+  result.fact({"seed"}, draws.seed);
+  page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
+                              described_usage(options))};
+  page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
+  page.last.emplace_back(
+      witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
+  add_scores(result, scores);
+  result.publish(files);
 }
 
 }  // namespace
@@ -157,26 +147,23 @@ void add_esm(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EsmOptions>();
   options->draws.output.command = command;
   options->draws.runs = 20000;
-  CLI::App& app =
-      *program.add_subcommand("esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
-  app.add_option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
-      ->check(CLI::IsMember({"uniform", "dirichlet"}))
-      ->capture_default_str();
-  const CLI::Option* const alpha =
-      app.add_option("--alpha", options->alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
-          ->check(number_in(0.01, 1000.0))
-          ->capture_default_str();
-  app.add_option("--reports", options->reports, "Reports in a run")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  Subcommand app(program, "esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
+  app.option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
+      .one_of(std::vector<std::string>{"uniform", "dirichlet"})
+      .shows_default();
+  const Option alpha =
+      app.option("--alpha", options->alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
+          .number_in(0.01, 1000.0)
+          .shows_default();
+  app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws);
   add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo esm --usage dirichlet --alpha 0.5\n"
       "  recognition_demo esm --reports 100 --runs 5000 --out results");
-  app.callback([options, alpha] {
-    if (alpha->count() > 0 && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
+  app.run([options, alpha] {
+    if (alpha.given() && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
     run_esm(*options);
   });
 }

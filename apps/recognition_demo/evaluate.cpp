@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -14,14 +13,16 @@
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>
 
+#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/json.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
+#include "support/command_line.hpp"
+#include "support/options.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
 #include "support/scratch.hpp"
 
 namespace sigmax::apps {
@@ -255,29 +256,32 @@ ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::
   return table;
 }
 
-std::string confusion_csv(const DataTable& data, const Results& results, std::size_t foldings) {
+ResultTable rows_of_confusion(const DataTable& data, const Results& results, std::size_t foldings) {
   ResultTable table({{.key = "classifier"}, {.key = "truth"}, {.key = "decision"}, {.key = "rows"}});
   for (const Outcome& outcome : results.outcomes())
     for (std::size_t truth = 0; truth < data.classes.size(); ++truth)
       for (std::size_t c = 0; c < data.classes.size(); ++c)
         table.row({outcome.name, data.classes[truth], data.classes[c],
                    outcome.confusion()(truth, c) / static_cast<double>(foldings)});
-  return table.csv();
+  return table;
 }
 
 /// The bins of each classifier, with as many statements as a folding has.
-Json reliability_json(const Results& results, std::size_t foldings) {
-  Json json;
-  for (const Outcome& outcome : results.outcomes())
-    for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
-      json[outcome.name].push_back({{"from", bin.from},
-                                    {"to", bin.to},
-                                    {"statements", bin.count},
-                                    {"mean_degree", bin.mean_degree},
-                                    {"share_that_is_true", bin.share},
-                                    {"lower", bin.lower},
-                                    {"upper", bin.upper}});
-  return json;
+void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
+  std::size_t place = 0;
+  for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings))) {
+    const auto fact = [&](const char* key, double value) {
+      result.fact({"reliability", outcome.name, place, key}, value);
+    };
+    fact("from", bin.from);
+    fact("to", bin.to);
+    fact("statements", bin.count);
+    fact("mean_degree", bin.mean_degree);
+    fact("share_that_is_true", bin.share);
+    fact("lower", bin.lower);
+    fact("upper", bin.upper);
+    ++place;
+  }
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
@@ -338,56 +342,28 @@ Results evaluated(const DataTable& data, const EvaluateOptions& options) {
   return results;
 }
 
-void print_evaluation(const DataTable& data, const Results& results, const EvaluateOptions& options) {
-  const OutputOptions& output = options.output;
-  print_text(output, fmt::format("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}\n\n", data.file,
-                                 described(data), options.folds,
-                                 options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
-                                 options.seed, described(options.learning)));
-  outcomes_table(results, options.foldings).print(output.width());
-  print_text(
-      output,
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. "
-      "Necessity: 1 − the possibility of the best other class. A truth is covered if its possibility is at least "
-      "½.)");
+void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
+  result.say(fmt::format("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
+                         options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
+                         options.seed, described(options.learning)));
+  result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
+  result.say(
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
+      "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
-      print_text(output, fmt::format("{}: {} rows excluded every class and were judged by the prior", outcome.name,
-                                     outcome.excluded));
-  if (options.learning.misread == 0.0)
-    print_text(output,
-               "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
-               "inference.)");
+      result.say(
+          fmt::format("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded));
   constexpr std::size_t most_classes = 10;
+  result.say({{options.learning.misread == 0.0,
+               "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
+               "inference.)"}});
   if (data.classes.size() > most_classes) return;
-  for (const std::size_t i : {0U, 1U}) {
-    fmt::print("\n");
-    confusion_table(data, results.outcomes()[i], options.foldings).print(output.width());
-  }
-}
-
-void write_results(const DataTable& data, const Results& results, const EvaluateOptions& options, ResultFiles& files) {
-  Json summary = summary_of(options.output);
-  summary["file"] = data.file;
-  summary["rows"] = data.size();
-  summary["classes"] = data.classes;
-  summary["folds"] = options.folds;
-  summary["foldings"] = options.foldings;
-  summary["seed"] = options.seed;
-  summary["smoothing"] = options.learning.smoothing;
-  summary["misread"] = options.learning.misread;
-  summary["bins"] = options.learning.bins;
-  summary["classifiers"] = outcomes_table(results, options.foldings).json();
-  summary["reliability"] = reliability_json(results, options.foldings);
-  write_predictions(data, options, *files.open("predictions.csv"));
-  files.write("confusion.csv", confusion_csv(data, results, options.foldings));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
+  for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes()[i], options.foldings), {});
 }
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.
-Report page_of(const DataTable& data, const Results& results, const EvaluateOptions& options) {
-  Report page{.title = "Cross-validation of " + data.file, .command = options.output.command};
+void fill(Report& page, const DataTable& data, const Results& results, const EvaluateOptions& options) {
   page.verdict = {fmt::format("{}. {} folds, {} foldings, seed {}; {}.", described(data), options.folds,
                               options.foldings, options.seed, described(options.learning))};
   page.panels.emplace_back(
@@ -401,7 +377,6 @@ Report page_of(const DataTable& data, const Results& results, const EvaluateOpti
                                                std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation),
                                                options.foldings));
   page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
-  return page;
 }
 
 void run_evaluate(const EvaluateOptions& options) {
@@ -415,10 +390,22 @@ void run_evaluate(const EvaluateOptions& options) {
                               .expected = fmt::format("at least as many as the {} folds", options.folds)}));
   refuse_rare_classes(data);
   const Results results = evaluated(data, options);
-  print_evaluation(data, results, options);
-  if (files.wanted()) write_results(data, results, options, files);
-  if (files.report_wanted()) files.write_report(page_of(data, results, options));
-  files.commit();
+  Result result = result_of_contest("Cross-validation of " + data.file, options.output);
+  result.fact({"file"}, data.file);
+  result.fact({"rows"}, data.size());
+  result.fact({"classes"}, data.classes);
+  result.fact({"folds"}, options.folds);
+  result.fact({"foldings"}, options.foldings);
+  result.fact({"seed"}, options.seed);
+  result.fact({"smoothing"}, options.learning.smoothing);
+  result.fact({"misread"}, options.learning.misread);
+  result.fact({"bins"}, options.learning.bins);
+  say_scores(data, results, options, result);
+  for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
+  result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
+  if (files.wanted()) write_predictions(data, options, *files.open("predictions.csv"));
+  if (files.report_wanted()) fill(result.page, data, results, options);
+  result.publish(files);
 }
 
 }  // namespace
@@ -426,14 +413,14 @@ void run_evaluate(const EvaluateOptions& options) {
 void add_evaluate(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EvaluateOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("evaluate", "Cross-validates every kind of classifier on labelled data.");
+  Subcommand app(program, "evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.add_option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
-      ->check(CLI::Range(2, 1000000))
-      ->capture_default_str();
-  app.add_option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
+      .in(2, 1000000)
+      .shows_default();
+  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
+      .in(1, 100000)
+      .shows_default();
   add_seed(app, options->seed, "of the folds");
   add_threads(app, options->threads);
   add_output(app, options->output);
@@ -443,7 +430,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
       "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"
       "  recognition_demo evaluate letter.csv --label letter --categorical all \\\n"
       "    --out results");
-  app.callback([options] { run_evaluate(*options); });
+  app.run([options] { run_evaluate(*options); });
 }
 
 }  // namespace sigmax::apps

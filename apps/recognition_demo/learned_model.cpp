@@ -1,6 +1,5 @@
 #include "recognition_demo/learned_model.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <sigmax/recognition/dominance.hpp>
 #include <sigmax/recognition/equal_frequency_fit.hpp>
 
+#include "support/options.hpp"
 #include "support/run.hpp"
 
 namespace sigmax::apps {
@@ -122,36 +122,31 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   }
 }
 
-void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning) {
+void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
+  Subcommand app(program);
   const auto add_list = [&](const char* name, std::vector<std::string>& words, const char* help, const char* type) {
-    app.add_option(name, words, help)
-        ->type_name(type)
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.option(name, words, help).type(type).list_alone();
   };
-  app.add_option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
-      ->required()
-      ->type_name("DATA");
-  app.add_option("--label", data.label, "The column with the class")->required()->type_name("COLUMN");
+  app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
+      .required()
+      .type("DATA");
+  app.option("--label", data.label, "The column with the class").required().type("COLUMN");
   add_list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all",
            "COLUMN,…|all");
   add_list("--ignore", data.ignore, "Columns to leave out", "COLUMN,…");
   add_list("--missing", data.missing,
            "Words that are missing values; - NA N/A nan null inf are so in columns of numbers", "WORD,…");
-  app.add_option("--bins", learning.bins, "Bins of a numeric column")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
-  app.add_option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
-      ->check(number_in(0.0, 1e9))
-      ->capture_default_str();
-  app.add_option("--misread", learning.misread,
-                 "Probability that a reading is not the feature's value but one of the others")
-      ->check(number_in(0.0, 0.999))
-      ->capture_default_str();
-  app.add_flag("--equal-prior", learning.equal_prior,
-               "Every class is equally plausible before, whatever its share of the rows");
+  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000).shows_default();
+  app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
+  app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
+      .number_in(0.0, 1e9)
+      .shows_default();
+  app.option("--misread", learning.misread,
+             "Probability that a reading is not the feature's value but one of the others")
+      .number_in(0.0, 0.999)
+      .shows_default();
+  app.flag("--equal-prior", learning.equal_prior,
+           "Every class is equally plausible before, whatever its share of the rows");
 }
 
 void print_warnings(const DataTable& data) {

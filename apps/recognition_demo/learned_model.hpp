@@ -14,7 +14,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
-#include "support/command_line.hpp"
+#include "result/output_options.hpp"
 
 namespace sigmax::apps {
 

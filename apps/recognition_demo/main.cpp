@@ -1,4 +1,5 @@
 #include "recognition_demo/subcommands.hpp"
+#include "support/command_line.hpp"
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "recognition_demo/manoeuvre_scenario.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -83,15 +83,13 @@ ResultTable differences_table(const std::vector<TargetScores>& all) {
   return table;
 }
 
-void print_dominated(const OutputOptions& options, const std::vector<Contestant>& contestants) {
+void say_dominated(Result& result, const std::vector<Contestant>& contestants) {
   for (const Contestant& contestant : contestants)
     std::visit(
         [&](const auto& classifier) {
           const auto& target = classifier.prior().variable();
           for (const Dominance& found : dominated_patterns(classifier))
-            print_text(options,
-                       fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as "
-                                   "possible",
+            result.say(fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as possible",
                                    contestant.name, target.label(found.pattern), target.label(found.dominator)));
         },
         contestant.classifier);
@@ -159,32 +157,24 @@ Flight flown(const ManoeuvreScenario& scenario, const std::vector<Pairing>& pair
   return flight;
 }
 
-std::string curves_of_targets(const std::vector<TargetScores>& all) {
+ResultTable curves_of_targets(const std::vector<TargetScores>& all) {
   ResultTable table({{.key = "target"}, {.key = "sample"}, {.key = "classifier"}, {.key = "accuracy"}});
   for (const TargetScores& target : all)
     for (const Score& score : target.scores)
       for (std::size_t k = 0; k < score.accuracy.size(); ++k)
         table.row({target.target, ManoeuvreScenario::first_classified + k, score.name, score.accuracy[k]});
-  return table.csv();
+  return table;
 }
 
-void print_manoeuvres(const DrawOptions& options, const ManoeuvreScenario& scenario,
-                      const std::vector<TargetScores>& results, const std::vector<Contestant>& contestants) {
+std::string described(const DrawOptions& options) {
   using Scenario = ManoeuvreScenario;
-  const OutputOptions& output = options.output;
-  print_text(output,
-             fmt::format("Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to "
-                         "{} m; from {} m at {} m/s, accelerated during samples {}-{}. IMM and HIMM: constant "
-                         "velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. From sample {} on their mode weights are the "
-                         "reports: cv weak, ±3 g medium, ±5 g strong.\n\n",
-                         options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position,
-                         Scenario::start_m, Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated,
-                         Scenario::sigma_w, Scenario::stay, Scenario::first_classified));
-  targets_table(scenario, results).print(output.width());
-  print_text(output, "(Ties share the credit.)\n\n");
-  differences_table(results).print(output.width());
-  print_text(output, "(± 95 % by paired runs.)\n\n");
-  print_dominated(output, contestants);
+  return fmt::format(
+      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
+      "{} m/s, accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. "
+      "From sample {} on their mode weights are the reports: cv weak, ±3 g medium, ±5 g strong.",
+      options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position, Scenario::start_m,
+      Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated, Scenario::sigma_w, Scenario::stay,
+      Scenario::first_classified);
 }
 
 LineChart with_acceleration(LineChart chart) {
@@ -246,7 +236,8 @@ void run_manoeuvre(const DrawOptions& options) {
 
   const std::size_t targets = scenario.target.size();
   std::vector<TargetScores> results;
-  Report page = page_of_contest("Airliner, bomber or fighter?", options.output, contestants);
+  Result result = result_of_contest("Airliner, bomber or fighter?", options.output, contestants);
+  Report& page = result.page;
   page.chooser = "Show";
   Progress progress("runs", options.runs * targets, options.output.quiet);
   for (std::size_t target = 0; target < targets; ++target) {
@@ -262,27 +253,25 @@ void run_manoeuvre(const DrawOptions& options) {
     results.push_back({scenario.target.label(target), board.scores()});
   }
   progress.finish();
-  print_manoeuvres(options, scenario, results, contestants);
 
-  Json summary = summary_of(options.output);
-  summary["simulated"] = true;
-  summary["runs"] = options.runs;
-  summary["seed"] = options.seed;
-  for (const TargetScores& result : results) summary["targets"][result.target] = scores_table(result.scores).json();
-  files.write("curves.csv", curves_of_targets(results));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (files.report_wanted()) {
-    page.verdict = {
-        fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and "
-                    "HIMM are the reports.",
-                    options.runs, options.seed)};
-    page.views.insert(page.views.begin(), view_of_all(options.runs, results));
-    page.last.emplace_back(ReportTable{"After the last sample", targets_table(scenario, results)});
-    page.last.emplace_back(ReportTable{"Differences, ± 95 % by paired runs", differences_table(results)});
-    files.write_report(page);
-  }
-  files.commit();
+  result.say(described(options));
+  result.add(targets_table(scenario, results), {.title = "After the last sample"});
+  result.say("(Ties share the credit.)");
+  result.add(differences_table(results), {.title = "Differences, ± 95 % by paired runs"});
+  result.say("(± 95 % by paired runs.)\n\n");
+  say_dominated(result, contestants);
+  result.fact({"simulated"}, true);
+  result.fact({"runs"}, options.runs);
+  result.fact({"seed"}, options.seed);
+  for (const TargetScores& target : results)
+    result.add(scores_table(target.scores), {.printed = false, .summary = {"targets", target.target}});
+  result.add(curves_of_targets(results), {.printed = false, .csv = "curves.csv"});
+  page.verdict = {
+      fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the "
+                  "reports.",
+                  options.runs, options.seed)};
+  page.views.insert(page.views.begin(), view_of_all(options.runs, results));
+  result.publish(files);
 }
 
 }  // namespace
@@ -291,15 +280,14 @@ void add_manoeuvre(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<DrawOptions>();
   options->runs = 1000;
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand(
-      "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
+  Subcommand app(program, "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
   add_draws(app, *options);
   add_report(app, options->output);
   app.footer(
       "Examples:\n"
       "  recognition_demo manoeuvre\n"
       "  recognition_demo manoeuvre --runs 20000 --out results");
-  app.callback([options] { run_manoeuvre(*options); });
+  app.run([options] { run_manoeuvre(*options); });
 }
 
 }  // namespace sigmax::apps

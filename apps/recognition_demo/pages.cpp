@@ -36,12 +36,6 @@ HeatMap relation_map(const Relation<Random, Random>& relation) {
 
 }  // namespace
 
-Report page_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
-  Report page{.title = std::move(title), .command = output.command};
-  for (const Contestant& contestant : contestants) page.groups.push_back({.name = contestant.name});
-  return page;
-}
-
 std::vector<double> counted_from(std::size_t first, std::size_t count) {
   std::vector<double> numbers(count);
   std::iota(numbers.begin(), numbers.end(), static_cast<double>(first));

@@ -11,7 +11,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 namespace sigmax::apps {
 
@@ -21,9 +21,6 @@ std::vector<std::string> labels_of(const Variable& variable) {
   for (std::size_t i = 0; i < variable.size(); ++i) labels.push_back(variable.label(i));
   return labels;
 }
-
-/// A page begun: title, command, and the contestants as what is switched on and off.
-Report page_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants);
 
 /// Shares of right decisions over the reports, one curve a contestant, from the report with number `first` on.
 LineChart accuracy_chart(const std::vector<Score>& scores, const std::string& what_is_counted = "reports",

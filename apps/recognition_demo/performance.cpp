@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/performance_data.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -131,23 +131,19 @@ RunTraces drawn_run(const PerformanceData& data, const World& world, const Perfo
   return follow_all(world.contestants, truth, reports);
 }
 
-void print_performance(const PerformanceOptions& options, const PerformanceData& data,
-                       const std::vector<Score>& scores) {
-  const OutputOptions& output = options.draws.output;
-  print_text(output,
-             fmt::format("{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
-                         "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to "
-                         "be {}",
-                         options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data),
-                         options.least));
-  for (const auto& remark : data.remarks) print_text(output, remark);
-  print_text(output, fmt::format("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} "
-                                 "bins a quantity\n\n",
-                                 options.draws.runs,
-                                 options.drawn_from == "density" ? "the densities: sigma inference knows them"
-                                                                 : "densities in proportion to the triangles",
-                                 options.draws.seed, options.bins));
-  print_scores(output, scores, "quantities");
+void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
+  result.say(fmt::format(
+      "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
+      "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
+      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least));
+  for (const auto& remark : data.remarks) result.say(remark);
+  result.say(
+      fmt::format("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
+                  "quantity",
+                  options.draws.runs,
+                  options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                                  : "densities in proportion to the triangles",
+                  options.draws.seed, options.bins));
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.
@@ -190,10 +186,9 @@ std::vector<std::size_t> most_telling(const PerformanceData& data, const World& 
   return best;
 }
 
-Report page_of(const PerformanceOptions& options, const PerformanceData& data, const World& world,
-               const std::vector<Score>& scores) {
+void fill(Report& page, const PerformanceOptions& options, const PerformanceData& data, const World& world,
+          const std::vector<Score>& scores) {
   constexpr std::size_t most_types = 20, most_quantities = 6;
-  Report page = page_of_contest("Which type of aircraft is it?", options.draws.output, world.contestants);
   page.verdict = {
       fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
                   "those of the {} quantities that tell the types apart best.",
@@ -206,9 +201,6 @@ Report page_of(const PerformanceOptions& options, const PerformanceData& data, c
     for (const std::size_t variable : quantities)
       view.panels.emplace_back(quantity_chart(data, options, world, variable, type));
   }
-  page.last = {
-      ReportTable{"Right decisions", scores_table(scores, "quantities"), "Differences ± 95 % by paired runs."}};
-  return page;
 }
 
 void run_performance(const PerformanceOptions& options) {
@@ -224,22 +216,18 @@ void run_performance(const PerformanceOptions& options) {
       [&](std::size_t, const RunTraces& traces) { board.add(traces); });
   progress.finish();
   const auto scores = board.scores();
-  print_performance(options, data, scores);
-
-  Json summary = summary_of(draws.output);
-  summary["file"] = options.file;
-  summary["drawn_from"] = options.drawn_from;
-  summary["bins"] = options.bins;
-  summary["least_possibility"] = options.least;
-  summary["runs"] = draws.runs;
-  summary["seed"] = draws.seed;
-  summary["remarks"] = data.remarks;
-  summary["classifiers"] = scores_table(scores).json();
-  files.write("curves.csv", curves_csv(scores));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (files.report_wanted()) files.write_report(page_of(options, data, world, scores));
-  files.commit();
+  Result result = result_of_contest("Which type of aircraft is it?", draws.output, world.contestants);
+  say_performance(options, data, result);
+  result.fact({"file"}, options.file);
+  result.fact({"drawn_from"}, options.drawn_from);
+  result.fact({"bins"}, options.bins);
+  result.fact({"least_possibility"}, options.least);
+  result.fact({"runs"}, draws.runs);
+  result.fact({"seed"}, draws.seed);
+  result.fact({"remarks"}, data.remarks);
+  if (files.report_wanted()) fill(result.page, options, data, world, scores);
+  add_scores(result, scores, "quantities");
+  result.publish(files);
 }
 
 }  // namespace
@@ -248,21 +236,20 @@ void add_performance(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<PerformanceOptions>();
   options->draws.output.command = command;
   options->draws.runs = 60000;  // intervals below a tenth of the differences
-  CLI::App& app = *program.add_subcommand(
-      "performance", "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
-  app.add_option(
-         "data", options->file,
-         "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard "
-         "input")
-      ->required()
-      ->type_name("PERFORMANCE.csv");
-  app.add_option("--draws", options->drawn_from, "What the quantities are drawn from")
-      ->check(CLI::IsMember({"density", "triangle"}))
-      ->capture_default_str();
-  app.add_option("--bins", options->bins, "Bins of a quantity")->check(CLI::Range(2, 10000))->capture_default_str();
-  app.add_option("--least", options->least, "Possibility of what lies outside [min, max]")
-      ->check(number_in(0.0, 1.0))
-      ->capture_default_str();
+  Subcommand app(program, "performance",
+                 "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
+  app.option("data", options->file,
+             "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard "
+             "input")
+      .required()
+      .type("PERFORMANCE.csv");
+  app.option("--draws", options->drawn_from, "What the quantities are drawn from")
+      .one_of(std::vector<std::string>{"density", "triangle"})
+      .shows_default();
+  app.option("--bins", options->bins, "Bins of a quantity").in(2, 10000).shows_default();
+  app.option("--least", options->least, "Possibility of what lies outside [min, max]")
+      .number_in(0.0, 1.0)
+      .shows_default();
   add_draws(app, options->draws);
   add_report(app, options->draws.output);
   app.footer(
@@ -270,7 +257,7 @@ void add_performance(CLI::App& program, const std::string& command) {
       "  recognition_demo performance openap_performance.csv\n"
       "  recognition_demo performance openap_performance.csv --draws triangle \\\n"
       "    --least 0.1");
-  app.callback([options] { run_performance(*options); });
+  app.run([options] { run_performance(*options); });
 }
 
 }  // namespace sigmax::apps

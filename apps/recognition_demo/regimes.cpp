@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -14,7 +13,8 @@
 #include "recognition_demo/esm_classifiers.hpp"
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/report.hpp"
+#include "result/report.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -201,12 +201,6 @@ Verdict verdict_of(const std::vector<SettingScores>& all) {
           std::move(better)};
 }
 
-void print_verdict(const OutputOptions& options, const Verdict& verdict) {
-  fmt::print("\n");
-  print_text(options, verdict.sentence + (verdict.better.empty() ? "" : "\n\n"));
-  if (!verdict.better.empty()) verdict.better.print(options.width());
-}
-
 /// Points more than sigma inference, by setting and classifier.
 HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings) {
   HeatMap map{.title = fmt::format("Regime {}", regime.name),
@@ -222,40 +216,19 @@ HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings
               .sign = true,
               .most = 0.2,
               .note = regime.description + "."};
-  const auto& first = settings.front().scores;
-  for (std::size_t i = 1; i < first.size(); ++i) map.columns.push_back(first[i].name);
-  for (const SettingScores& setting : settings) {
-    map.rows.push_back(setting.setting);
-    auto& values = map.values.emplace_back();
-    auto& texts = map.texts.emplace_back();
-    for (std::size_t i = 1; i < first.size(); ++i) {
-      const Score& score = setting.scores[i];
-      const Interval points = score.minus_first.interval();
-      values.push_back(std::abs(points.mean) < 1e-12 ? 0.0 : points.mean);  // what only rounding parts
-      texts.push_back(fmt::format("± {:.1f}; {:.1f} % right, sigma {:.1f} %", 100.0 * points.half_width,
-                                  100.0 * score.accuracy.back(), 100.0 * setting.scores.front().accuracy.back()));
-    }
-  }
+  for (const Score& score : std::span(settings.front().scores).subspan(1)) map.columns.push_back(score.name);
+  for (const SettingScores& setting : settings) map.rows.push_back(setting.setting);
+  map.fill([&](std::size_t r, std::size_t c) {
+    const auto& scores = settings[r].scores;
+    const Interval points = scores[c + 1].minus_first.interval();
+    return HeatMap::Cell{std::abs(points.mean) < 1e-12 ? 0.0 : points.mean,  // what only rounding parts
+                         fmt::format("± {:.1f}; {:.1f} % right, sigma {:.1f} %", 100.0 * points.half_width,
+                                     100.0 * scores[c + 1].accuracy.back(), 100.0 * scores.front().accuracy.back())};
+  });
   return map;
 }
 
-Report page_of(const RegimesOptions& options, const std::vector<Regime>& all, const std::vector<SettingScores>& results,
-               const Verdict& verdict) {
-  Report page{.title = "Where is max inference the better one?", .command = options.draws.output.command};
-  page.verdict = {verdict.sentence,
-                  fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more "
-                              "often right than sigma inference, orange: more seldom; the colours end at 20 points.",
-                              options.draws.runs, options.reports, options.draws.seed)};
-  std::span<const SettingScores> rest = results;
-  for (const Regime& regime : all) {
-    page.panels.emplace_back(regime_map(regime, rest.first(regime.settings.size())));
-    rest = rest.subspan(regime.settings.size());
-  }
-  if (!verdict.better.empty()) page.last.emplace_back(ReportTable{"Better than sigma inference", verdict.better});
-  return page;
-}
-
-std::string regimes_csv(const std::vector<SettingScores>& all) {
+ResultTable regimes_table(const std::vector<SettingScores>& all) {
   ResultTable table({{.key = "regime"},
                      {.key = "setting"},
                      {.key = "classifier"},
@@ -269,7 +242,7 @@ std::string regimes_csv(const std::vector<SettingScores>& all) {
       table.row({setting.regime, setting.setting, score.name, score.accuracy.back(), difference.mean,
                  difference.lower(), difference.upper()});
     }
-  return table.csv();
+  return table;
 }
 
 SettingScores scores_of(const EsmWorld& world, const Regime& regime, const Setting& setting,
@@ -304,31 +277,38 @@ void run_regimes(const RegimesOptions& options) {
       results.push_back(scores_of(world, regime, setting, options, progress));
   progress.finish();
 
-  print_text(draws.output, fmt::format("Synthetic emitter world, not recorded data; {} runs of {} reports for each "
-                                       "setting, seed {}. Differences are points ± 95 % by paired runs.",
-                                       draws.runs, options.reports, draws.seed));
+  Result result = result_of_contest("Where is max inference the better one?", draws.output);
+  const Verdict verdict = verdict_of(results);
+  result.page.verdict = {
+      verdict.sentence,
+      fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more often right "
+                  "than sigma inference, orange: more seldom; the colours end at 20 points.",
+                  draws.runs, options.reports, draws.seed)};
+  result.say(
+      fmt::format("Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
+                  "Differences are points ± 95 % by paired runs.",
+                  draws.runs, options.reports, draws.seed));
   std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
-    fmt::print("\n");
-    print_text(draws.output, regime.description + "\n\n");
-    regime_table(rest.first(regime.settings.size())).print(draws.output.width());
-    rest = rest.subspan(regime.settings.size());
+    const auto own = rest.first(regime.settings.size());
+    rest = rest.subspan(own.size());
+    result.text += "\n";
+    result.say(regime.description);
+    result.add(regime_table(own), {});
+    result.page.panels.emplace_back(regime_map(regime, own));
   }
-  const Verdict verdict = verdict_of(results);
-  print_verdict(draws.output, verdict);
-
-  Json summary = summary_of(draws.output);
-  summary["synthetic"] = true;
-  summary["runs"] = draws.runs;
-  summary["reports"] = options.reports;
-  summary["seed"] = draws.seed;
+  result.text += "\n";
+  result.say(verdict.sentence);
+  if (!verdict.better.empty()) result.add(verdict.better, {.title = "Better than sigma inference"});
+  result.fact({"synthetic"}, true);
+  result.fact({"runs"}, draws.runs);
+  result.fact({"reports"}, options.reports);
+  result.fact({"seed"}, draws.seed);
   for (const SettingScores& setting : results)
-    summary["regimes"][setting.regime][setting.setting] = scores_table(setting.scores).json();
-  files.write("regimes.csv", regimes_csv(results));
-  if (files.report_wanted()) summary["report_data"] = report_data_name;
-  files.write_json("summary.json", summary);
-  if (files.report_wanted()) files.write_report(page_of(options, all, results, verdict));
-  files.commit();
+    result.add(scores_table(setting.scores),
+               {.printed = false, .summary = {"regimes", setting.regime, setting.setting}});
+  result.add(regimes_table(results), {.printed = false, .csv = "regimes.csv"});
+  result.publish(files);
 }
 
 }  // namespace
@@ -337,19 +317,17 @@ void add_regimes(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<RegimesOptions>();
   options->draws.output.command = command;
   options->draws.runs = 5000;
-  CLI::App& app = *program.add_subcommand(
-      "regimes",
+  Subcommand app(
+      program, "regimes",
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
-  app.add_option("--reports", options->reports, "Reports in a run")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws);
   add_report(app, options->draws.output);
   app.footer(
       "Examples:\n"
       "  recognition_demo regimes\n"
       "  recognition_demo regimes --reports 10 --runs 5000 --out results");
-  app.callback([options] { run_regimes(*options); });
+  app.run([options] { run_regimes(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -2,7 +2,9 @@
 
 #include <string>
 
-#include "support/command_line.hpp"
+namespace CLI {
+class App;
+}
 
 namespace sigmax::apps {
 

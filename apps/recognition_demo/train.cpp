@@ -1,14 +1,15 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/result_files.hpp"
-#include "support/result_table.hpp"
+#include "result/result.hpp"
+#include "result/table.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -48,10 +49,11 @@ void run_train(const TrainOptions& options) {
   const auto all = classifiers(model, options.kinds);
   write_model(model, options.kinds, options.model);
 
-  print_text(options.output, fmt::format("{}: {}\n{}\n\n", data.file, described(data), described(options.learning)));
-  features_table(model).print(options.output.width());
-  for (const auto& warning : warnings(all)) print_text(options.output, "warning: " + warning);
-  fmt::print("\nWrote {}\n", options.model);
+  Result result = result_of_contest("", options.output);
+  result.say(fmt::format("{}: {}\n{}", data.file, described(data), described(options.learning)));
+  result.add(features_table(model), {});
+  for (const auto& warning : warnings(all)) result.say("warning: " + warning);
+  fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 
 }  // namespace
@@ -59,13 +61,13 @@ void run_train(const TrainOptions& options) {
 void add_train(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<TrainOptions>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand("train", "Learns a model from labelled data.");
+  Subcommand app(program, "train", "Learns a model from labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.add_option("--model", options->model, "The model to write")->required()->type_name("MODEL.json");
-  app.add_option("--kinds", options->kinds, "The kinds of classifiers in the model")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"sigma", "max", "sigma-max"}))
-      ->option_text("sigma,max,sigma-max [all]");
+  app.option("--model", options->model, "The model to write").required().type("MODEL.json");
+  app.option("--kinds", options->kinds, "The kinds of classifiers in the model")
+      .list()
+      .one_of(std::vector<std::string>{"sigma", "max", "sigma-max"})
+      .text("sigma,max,sigma-max [all]");
   add_quiet(app, options->output.quiet);
   add_wide(app, options->output.wide);
   app.footer(
@@ -74,7 +76,7 @@ void add_train(CLI::App& program, const std::string& command) {
       "    --model zoo.json\n"
       "  recognition_demo train wine.csv --label class --bins 5 --kinds sigma,max \\\n"
       "    --model wine.json");
-  app.callback([options] { run_train(*options); });
+  app.run([options] { run_train(*options); });
 }
 
 }  // namespace sigmax::apps

@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 
 #include "support/error.hpp"
-#include "support/gnuplot.hpp"
 #include "support/input.hpp"
 #include "support/run.hpp"
 #include "support/spelling.hpp"
+#include "support/text.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -93,39 +93,6 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
 
 }  // namespace
 
-void print_text(const OutputOptions& options, std::string_view text) {
-  constexpr std::size_t wide_text = 120;  // longer lines are hard to read
-  std::fputs(wrapped(text, options.wide ? wide_text : terminal_width).c_str(), stdout);
-}
-
-void add_quiet(CLI::App& app, bool& quiet) { app.add_flag("--quiet", quiet, "No progress bar"); }
-
-void add_wide(CLI::App& app, bool& wide) {
-  app.add_flag("--wide", wide, "Tables with one line a row, however long, for terminals of more than 80 columns");
-}
-
-void add_output(CLI::App& app, OutputOptions& options) {
-  app.add_option("--out", options.out, "Directory for the result files")->type_name("DIR");
-  add_quiet(app, options.quiet);
-  add_wide(app, options.wide);
-}
-
-void add_report(CLI::App& app, OutputOptions& options) {
-  app.add_option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
-      ->type_name("FILE");
-  const auto needs_gnuplot = [](const std::string&) {
-    Gnuplot{};  // throws, before any work
-    return std::string();
-  };
-  app.add_option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
-      ->type_name("DIR")
-      ->check(CLI::Validator(needs_gnuplot, ""));
-}
-
-void add_no_chart(CLI::App& app, bool& no_chart) {
-  app.add_flag("--no-chart", no_chart, "No charts at the end, where the output is a terminal of 80 columns or more");
-}
-
 void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
   const auto check = [](const std::string& text) -> std::string {
     std::uint64_t number = 0;
@@ -138,16 +105,6 @@ void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
 
 void add_threads(CLI::App& app, int& threads) {
   app.add_option("--threads", threads, "Threads; the results do not depend on it [all]")->check(CLI::Range(1, 4096));
-}
-
-CLI::Validator number_in(double least, double greatest) {
-  const std::string range = fmt::format("[{} - {}]", least, greatest);
-  const auto check = [=](const std::string& text) -> std::string {
-    const auto number = parse_number(text);
-    if (number && *number >= least && *number <= greatest) return "";
-    return fmt::format("found {}, expected a number in {}", in_quotes(text), range);
-  };
-  return CLI::Validator(check, "FLOAT in " + range);
 }
 
 int run_command_line(const ProgramOutline& outline, int argc, char** argv) {

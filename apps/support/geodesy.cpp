@@ -20,12 +20,6 @@ LocalCartesian cartesian(const Geodetic& origin) {
   return LocalCartesian(origin.latitude_deg, origin.longitude_deg, origin.altitude_m);
 }
 
-/// Unit vectors along an azimuth and to the right of it.
-SquareMatrix<2> along_and_right(double azimuth_deg) {
-  const double s = std::sin(azimuth_deg * degree), c = std::cos(azimuth_deg * degree);
-  return SquareMatrix<2>{{s, c}, {c, -s}};
-}
-
 }  // namespace
 
 Geodetic Geodetic::checked(double latitude_deg, double longitude_deg, double altitude_m) {
@@ -38,57 +32,51 @@ Geodetic Geodetic::checked(double latitude_deg, double longitude_deg, double alt
   return {latitude_deg, longitude_deg, altitude_m};
 }
 
-template <int Axes>
-Vector<Axes> LocalFrame<Axes>::to_local(const Geodetic& point) const {
-  Vector<Axes> position;
-  if constexpr (Axes == 3)
-    cartesian(origin_).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, position(0), position(1),
-                               position(2));
-  else if constexpr (Axes == 1)
-    position(0) = point.altitude_m - origin_.altitude_m;
+Position LocalFrame::to_local(const Geodetic& point) const {
+  Position p{};
+  if (axes_ == 3)
+    cartesian(origin_).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, p[0], p[1], p[2]);
+  else if (axes_ == 1)
+    p[0] = point.altitude_m - origin_.altitude_m;
   else
     AzimuthalEquidistant().Forward(origin_.latitude_deg, origin_.longitude_deg, point.latitude_deg, point.longitude_deg,
-                                   position(0), position(1));
-  return position;
+                                   p[0], p[1]);
+  return p;
 }
 
-template <int Axes>
-Geodetic LocalFrame<Axes>::to_geodetic(const Vector<Axes>& position) const {
+Geodetic LocalFrame::to_geodetic(const Position& p) const {
   Geodetic point;
-  if constexpr (Axes == 3)
-    cartesian(origin_).Reverse(position(0), position(1), position(2), point.latitude_deg, point.longitude_deg,
-                               point.altitude_m);
-  else if constexpr (Axes == 1)
-    point = {origin_.latitude_deg, origin_.longitude_deg, origin_.altitude_m + position(0)};
+  if (axes_ == 3)
+    cartesian(origin_).Reverse(p[0], p[1], p[2], point.latitude_deg, point.longitude_deg, point.altitude_m);
+  else if (axes_ == 1)
+    point = {origin_.latitude_deg, origin_.longitude_deg, origin_.altitude_m + p[0]};
   else
-    AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, position(0), position(1),
-                                   point.latitude_deg, point.longitude_deg);
+    AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, p[0], p[1], point.latitude_deg,
+                                   point.longitude_deg);
   return point;
 }
 
-template <int Axes>
-SquareMatrix<Axes> LocalFrame<Axes>::local_axes(const Vector<Axes>& position) const {
+std::array<Position, 3> LocalFrame::local_axes(const Position& p) const {
+  std::array<Position, 3> axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   double latitude = 0.0, longitude = 0.0;
-  if constexpr (Axes == 1) {
-    return SquareMatrix<1>::Identity();
-  } else if constexpr (Axes == 3) {
+  if (axes_ == 3) {
     double altitude = 0.0;
-    std::vector<double> rows(9);  // from there to here
-    cartesian(origin_).Reverse(position(0), position(1), position(2), latitude, longitude, altitude, rows);
-    return Eigen::Map<const SquareMatrix<3>>(rows.data());  // by columns: the transpose
-  } else {
-    if (position.isZero()) return SquareMatrix<2>::Identity();
-    double azimuth = 0.0, shrinking = 1.0;
-    AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, position(0), position(1), latitude,
-                                   longitude, azimuth, shrinking);
-    const double azimuth_here = std::atan2(position(0), position(1)) / degree;
-    return along_and_right(azimuth) * Vector<2>(1.0, shrinking).asDiagonal() *
-           along_and_right(azimuth_here).transpose();
+    std::vector<double> back(9);  // from there to here, row by row
+    cartesian(origin_).Reverse(p[0], p[1], p[2], latitude, longitude, altitude, back);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) axes[i][j] = back[3 * j + i];
+  } else if (axes_ == 2 && (p[0] != 0.0 || p[1] != 0.0)) {
+    const double here = std::atan2(p[0], p[1]) / degree;  // azimuths, in degrees
+    double there = 0.0, shrinking = 1.0;
+    AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, p[0], p[1], latitude, longitude, there,
+                                   shrinking);
+    const double s = std::sin(there * degree), c = std::cos(there * degree);
+    const double sh = std::sin(here * degree), ch = std::cos(here * degree);
+    // Along the azimuth, and to its right, where the map stretches.
+    axes[0] = {s * sh + c * shrinking * ch, s * ch - c * shrinking * sh, 0.0};
+    axes[1] = {c * sh - s * shrinking * ch, c * ch + s * shrinking * sh, 0.0};
   }
+  return axes;
 }
-
-template class LocalFrame<1>;
-template class LocalFrame<2>;
-template class LocalFrame<3>;
 
 }  // namespace sigmax::apps

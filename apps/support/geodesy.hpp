@@ -1,8 +1,11 @@
 #pragma once
 
-#include <sigmax/estimation/gaussian.hpp>
+#include <array>
 
 namespace sigmax::apps {
+
+/// x, y and z, or east, north and up, in m; 0 along the axes that there are not.
+using Position = std::array<double, 3>;
 
 /// A point above the WGS 84 ellipsoid: degrees, and metres along the ellipsoid's normal.
 struct Geodetic {
@@ -14,33 +17,28 @@ struct Geodetic {
   static Geodetic checked(double latitude_deg, double longitude_deg, double altitude_m);
 };
 
-/// East, north and, with three axes, up about an origin, in m. At a pole the origin's longitude says which way is
-/// north.
+/// East, north and, with three axes, up about an origin. At a pole the origin's longitude says which way is north.
 ///
 /// Three axes are Cartesian; a single one is the height. Two axes are a map of the ellipsoid that keeps distances and
 /// directions from the origin (azimuthal equidistant), so that no point of the Earth comes out near another.
-template <int Axes>
 class LocalFrame {
  public:
-  explicit LocalFrame(const Geodetic& origin) : origin_(origin) {}
+  LocalFrame(const Geodetic& origin, int axes) : origin_(origin), axes_(axes) {}
 
   const Geodetic& origin() const { return origin_; }
 
-  Vector<Axes> to_local(const Geodetic& point) const;
+  Position to_local(const Geodetic& point) const;
 
   /// With two axes the altitude is 0.
-  Geodetic to_geodetic(const Vector<Axes>& position) const;
+  Geodetic to_geodetic(const Position& position) const;
 
-  /// What a velocity at this position is to east, north and up there: a rotation; with two axes it also undoes the
-  /// map's stretching.
-  SquareMatrix<Axes> local_axes(const Vector<Axes>& position) const;
+  /// What a velocity at this position is to east, north and up there, row by row: a rotation; with two axes it also
+  /// undoes the map's stretching. Along the axes that there are not, it leaves everything as it is.
+  std::array<Position, 3> local_axes(const Position& position) const;
 
  private:
   Geodetic origin_;
+  int axes_;
 };
-
-extern template class LocalFrame<1>;
-extern template class LocalFrame<2>;
-extern template class LocalFrame<3>;
 
 }  // namespace sigmax::apps

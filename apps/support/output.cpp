@@ -17,37 +17,32 @@
 #include "support/error.hpp"
 
 namespace sigmax::apps {
-namespace {
 
-constexpr std::size_t written_at_once = std::size_t{1} << 16;
-
-/// The names of the temporary files that there are, where a signal handler can read them.
-struct Unfinished {
+/// The name of a temporary file, where a signal handler can read it.
+struct UnfinishedFile {
   std::atomic<bool> taken = false;
   std::atomic<bool> named = false;
   std::array<char, PATH_MAX> name{};
 };
-std::array<Unfinished, 16> unfinished;
 
-std::size_t take_place() {
-  for (std::size_t place = 0; place < unfinished.size(); ++place)
-    if (!unfinished[place].taken.exchange(true)) return place;
+namespace {
+
+std::array<UnfinishedFile, 16> unfinished;
+
+UnfinishedFile* free_place() {
+  for (UnfinishedFile& file : unfinished)
+    if (!file.taken.exchange(true)) return &file;
   throw std::logic_error(fmt::format("more than {} files are written at a time", unfinished.size()));
 }
 
-void name_place(std::size_t place, const std::string& name) {
-  auto& entry = unfinished[place];
-  entry.named = false;
-  if (name.size() >= entry.name.size()) return;  // too long to be opened
-  std::copy(name.begin(), name.end(), entry.name.begin());
-  entry.name[name.size()] = '\0';
-  entry.named = true;
+void put_name(const std::string& name, UnfinishedFile& file) {
+  file.named = false;
+  if (name.size() >= file.name.size()) return;  // too long to be opened
+  *std::copy(name.begin(), name.end(), file.name.begin()) = '\0';
+  file.named = true;
 }
 
-void free_place(std::size_t place) {
-  unfinished[place].named = false;
-  unfinished[place].taken = false;
-}
+constexpr std::size_t written_at_once = std::size_t{1} << 16;
 
 /// What helps against a failure to write.
 std::string_view remedy(int error_number) {
@@ -63,13 +58,22 @@ std::string_view remedy(int error_number) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), place_(take_place()) {
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const auto written = ::write(descriptor, text.data(), text.size());
+    if (written == 0 || (written < 0 && errno != EINTR)) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), listed_(free_place()) {
   // Not mkstemp: its files are the owner's alone, whatever the umask says. A name is taken only by the remains of a
   // killed program of the same number, or by another writer of this one.
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = path_;
     temporary_.replace_filename(fmt::format(".{}.{}-{}.part", path_.filename().native(), ::getpid(), attempt));
-    name_place(*place_, temporary_);  // before it exists, so that an interrupt finds it
+    put_name(temporary_, *listed_);  // before it exists, so that an interrupt finds it
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) {
       const int error_number = errno;
@@ -79,27 +83,6 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), pla
   }
   buffer_.reserve(written_at_once);
 }
-
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      temporary_(std::exchange(other.temporary_, {})),
-      buffer_(std::move(other.buffer_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      place_(std::exchange(other.place_, std::nullopt)) {}
-
-AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
-  if (this != &other) {
-    discard();
-    path_ = std::move(other.path_);
-    temporary_ = std::exchange(other.temporary_, {});
-    buffer_ = std::move(other.buffer_);
-    descriptor_ = std::exchange(other.descriptor_, -1);
-    place_ = std::exchange(other.place_, std::nullopt);
-  }
-  return *this;
-}
-
-AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::write(std::string_view text) {
   if (descriptor_ < 0) throw std::logic_error(path_.native() + " is written after its commit");
@@ -123,13 +106,7 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::flush() {
-  for (std::string_view rest = buffer_; !rest.empty();) {
-    const auto written = ::write(descriptor_, rest.data(), rest.size());
-    if (written >= 0)
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
-      fail(errno);
-  }
+  if (!write_all(descriptor_, buffer_)) fail(errno);
   buffer_.clear();
 }
 
@@ -137,8 +114,9 @@ void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
-  if (place_) free_place(*place_);
-  place_.reset();
+  if (listed_ == nullptr) return;
+  listed_->named = false;
+  std::exchange(listed_, nullptr)->taken = false;
 }
 
 void AtomicFile::fail(int error_number) {
@@ -148,19 +126,20 @@ void AtomicFile::fail(int error_number) {
 }
 
 void remove_unfinished_files() noexcept {
-  for (const auto& entry : unfinished)
-    if (entry.named) ::unlink(entry.name.data());
+  for (const UnfinishedFile& file : unfinished)
+    if (file.named) ::unlink(file.name.data());
 }
 
-OutputDirectory::OutputDirectory(std::filesystem::path path) : path_(std::move(path)) {
+std::filesystem::path output_directory(std::filesystem::path path) {
   std::error_code error;
-  std::filesystem::create_directories(path_, error);
-  if (!error && !std::filesystem::is_directory(path_, error) && !error)
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
-    throw InputError(message({.where = path_.native(),
+    throw InputError(message({.where = path.native(),
                               .what = "the directory cannot be created: " + reason(error.value()),
                               .remedy = remedy(error.value())}));
+  return path;
 }
 
 std::string shortest(double value) {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,8 @@
 
 namespace sigmax::apps {
 
+struct UnfinishedFile;
+
 /// A file that appears whole or not at all: written beside its place under another name, and renamed by `commit`. What
 /// is not committed is removed. Failures (a full disk, a directory without permission) throw InputError with path and
 /// reason; more than 16 files at a time throw std::logic_error.
@@ -18,9 +19,9 @@ class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
 
-  AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&& other) noexcept;
-  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile() { discard(); }
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -46,31 +47,18 @@ class AtomicFile {
   std::filesystem::path temporary_;
   std::string buffer_;
   int descriptor_ = -1;
-  std::optional<std::size_t> place_;  // in the list of unfinished files
+  UnfinishedFile* listed_;  // where a signal handler finds it
 };
 
-/// Commits files that belong together: none is put into its place before all are on the disk.
-template <class... Files>
-void commit_all(Files&... files) {
-  (files.store(), ...);
-  (files.commit(), ...);
-}
+/// Writes all to a descriptor; false, with errno, where that fails.
+bool write_all(int descriptor, std::string_view text);
 
 /// Removes what uncommitted files of this program have written. A signal handler may call it if the program ends then.
 void remove_unfinished_files() noexcept;
 
-/// A directory for results; it is created, with its parents, unless it exists. Throws InputError with path and reason.
-class OutputDirectory {
- public:
-  explicit OutputDirectory(std::filesystem::path path);
-
-  const std::filesystem::path& path() const { return path_; }
-
-  AtomicFile file(std::string_view name) const { return AtomicFile{path_ / name}; }
-
- private:
-  std::filesystem::path path_;
-};
+/// Creates a directory for results, with its parents, unless it exists, and returns it. Throws InputError with path and
+/// reason.
+std::filesystem::path output_directory(std::filesystem::path path);
 
 /// The shortest decimal number that reads back as the same double.
 std::string shortest(double value);

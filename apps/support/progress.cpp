@@ -9,7 +9,8 @@
 #include <fmt/core.h>
 
 #include "support/error.hpp"
-#include "support/table.hpp"
+#include "support/output.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -36,25 +37,24 @@ Progress::Progress(std::string_view label, std::uint64_t total, bool quiet, int 
       total_(total),
       terminal_(terminal),
       silent_(quiet || ::isatty(terminal) == 0),
-      start_(Clock::now()),
       next_(start_ + period) {}
 
 void Progress::advance(std::uint64_t work) {
-  done_.fetch_add(work, std::memory_order_relaxed);
-  if (silent_) return;
-  const auto now = Clock::now();
-  if (now < next_.load(std::memory_order_relaxed)) return;
-  // Whoever finds another thread drawing goes back to work.
-  const std::unique_lock lock{drawing_, std::try_to_lock};
-  if (!lock || finished_ || now < next_.load(std::memory_order_relaxed)) return;
-  next_.store(now + period, std::memory_order_relaxed);
-  draw(now);
+  const std::lock_guard lock{advancing_};
+  done_ += work;
+  const auto now = silent_ || finished_ ? start_ : Clock::now();
+  if (now < next_) return;
+  next_ = now + period;
+  // A line as wide as the terminal would wrap. One that went away is no reason to stop the work.
+  const std::string text = line(label_, done_, total_, now - start_, columns_of(terminal_) - 1);
+  const std::size_t width = display_width(text), left_over = shown_ > width ? shown_ - width : 0;
+  write_all(terminal_, "\r" + text + std::string(left_over, ' ') + std::string(left_over, '\b'));
+  shown_ = width;
 }
 
 void Progress::finish() {
-  const std::lock_guard lock{drawing_};
-  if (std::exchange(finished_, true) || shown_ == 0) return;
-  put("\r" + std::string(shown_, ' ') + "\r");
+  const std::lock_guard lock{advancing_};
+  if (!std::exchange(finished_, true) && shown_ > 0) write_all(terminal_, "\r" + std::string(shown_, ' ') + "\r");
 }
 
 std::string Progress::line(std::string_view label, std::uint64_t done, std::uint64_t total,
@@ -68,24 +68,6 @@ std::string Progress::line(std::string_view label, std::uint64_t done, std::uint
   const std::size_t bar = std::min(longest_bar, width - rest);
   const auto full = static_cast<std::size_t>(part * static_cast<double>(bar));
   return fmt::format("{} [{}{}] {}", label, std::string(full, '#'), std::string(bar - full, '.'), state);
-}
-
-void Progress::draw(Clock::time_point now) {
-  // A line as wide as the terminal would wrap.
-  const std::string text = line(label_, done(), total_, now - start_, columns_of(terminal_) - 1);
-  const std::size_t width = display_width(text);
-  const std::size_t left_over = shown_ > width ? shown_ - width : 0;
-  put("\r" + text + std::string(left_over, ' ') + std::string(left_over, '\b'));
-  shown_ = width;
-}
-
-void Progress::put(std::string_view text) const {
-  // A terminal that went away is no reason to stop the work.
-  while (!text.empty()) {
-    const auto written = ::write(terminal_, text.data(), text.size());
-    if (written <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
 }
 
 }  // namespace sigmax::apps

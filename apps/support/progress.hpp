@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +27,7 @@ class Progress {
   /// Wipes the line; nothing is drawn afterwards.
   void finish();
 
-  std::uint64_t done() const { return done_.load(std::memory_order_relaxed); }
+  std::uint64_t done() const { return done_; }
 
   /// One line of at most `width` columns: "runs [#####.....]  50 %, 7 s left".
   static std::string line(std::string_view label, std::uint64_t done, std::uint64_t total,
@@ -37,17 +36,14 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw(Clock::time_point now);
-  void put(std::string_view text) const;
-
   const std::string label_;
   const std::uint64_t total_;
   const int terminal_;
   const bool silent_;
-  const Clock::time_point start_;
-  std::atomic<std::uint64_t> done_ = 0;
-  std::atomic<Clock::time_point> next_;
-  std::mutex drawing_;
+  const Clock::time_point start_ = Clock::now();
+  std::mutex advancing_;
+  std::uint64_t done_ = 0;
+  Clock::time_point next_;  // time to draw
   std::size_t shown_ = 0;
   bool finished_ = false;
 };

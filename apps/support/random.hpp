@@ -6,15 +6,13 @@
 #include <cstdint>
 #include <numbers>
 
-#include <Random123/philox.h>
-
 namespace sigmax::apps {
 
 /// Random numbers that depend on the seed and the number of the stream alone, never on threads or on what other streams
 /// drew: Philox4x64-10 (Salmon et al., SC 2011) with the key (seed, 0) and the counter (block, stream, 0, 0).
 class RandomStream {
  public:
-  RandomStream(std::uint64_t seed, std::uint64_t stream) : key_{{seed, 0}}, counter_{{0, stream, 0, 0}} {}
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
 
   /// Uniform over the multiples of 2⁻⁵³ inside (0, 1).
   double uniform() {
@@ -38,18 +36,14 @@ class RandomStream {
 
  private:
   std::uint64_t next() {
-    if (used_ == block_.size()) {
-      block_ = r123::Philox4x64{}(counter_, key_);
-      ++counter_[0];
-      used_ = 0;
-    }
+    if (used_ == block_.size()) refill();
     return block_[used_++];
   }
+  void refill();
 
-  r123::Philox4x64::key_type key_;
-  r123::Philox4x64::ctr_type counter_;
-  r123::Philox4x64::ctr_type block_{};
-  std::size_t used_ = r123::Philox4x64::ctr_type::static_size;
+  std::uint64_t seed_, stream_, blocks_ = 0;
+  std::array<std::uint64_t, 4> block_{};
+  std::size_t used_ = block_.size();
   double spare_ = 0.0;
   bool has_spare_ = false;
 };

@@ -14,7 +14,7 @@
 
 #include "support/error.hpp"
 #include "support/output.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "support/input.hpp"
-#include "support/output.hpp"
 #include "support/spelling.hpp"
 
 namespace sigmax::apps {
@@ -67,16 +67,6 @@ struct Reader {
     value = *number;
   }
 
-  void read(const toml::node& node, std::int64_t& value) const {
-    // toml++ converts a number only where nothing is lost, so that 1e3 is an integer and 0.5 is none; but 1e300, which
-    // no integer can hold, it converts all the same, and that is undefined behaviour.
-    const auto* fractional = node.as_floating_point();
-    const bool fits = fractional ? std::abs(fractional->get()) < 0x1p63 : node.is_number();
-    const auto integer = fits ? node.value<std::int64_t>() : std::nullopt;
-    if (!integer) throw error(node, "an integer", as_in("3"));
-    value = *integer;
-  }
-
   void read(const toml::node& node, bool& value) const {
     const auto* boolean = node.as_boolean();
     if (!boolean) throw error(node, "true or false", as_in("true"));
@@ -123,31 +113,6 @@ struct Reader {
     for (const auto& element : *array) read(element, values.emplace_back());
   }
 };
-
-std::string written(double value) { return toml_number(value); }
-std::string written(std::int64_t value) { return std::to_string(value); }
-std::string written(bool value) { return value ? "true" : "false"; }
-
-std::string written(const std::string& value) {
-  std::string text = "\"";
-  for (const char byte : value) {
-    const auto code = static_cast<unsigned char>(byte);
-    if (byte == '"' || byte == '\\')
-      text.append({'\\', byte});
-    else if (code < 0x20U || code == 0x7FU)
-      text += fmt::format("\\u{:04X}", code);
-    else
-      text += byte;
-  }
-  return text += '"';
-}
-
-template <class Value>
-std::string written(const std::vector<Value>& values) {
-  std::string text = "[";
-  for (const auto& value : values) text.append(text.size() > 1 ? ", " : "").append(written(value));
-  return text += ']';
-}
 
 /// Refuses characters beyond ASCII except in comments and in strings of one line. Elsewhere they are no TOML or, in
 /// strings of many lines, no use to settings, and toml++ may run into undefined behaviour (its issues 190 and 295).
@@ -308,53 +273,38 @@ const Settings::Layer* Settings::find(std::string_view key) const {
 
 bool Settings::has(std::string_view key) const { return find(key) != nullptr; }
 
-void Settings::record(std::string_view key, std::string value) const {
-  const auto known =
-      std::find_if(in_force_.begin(), in_force_.end(), [key](const auto& entry) { return entry.first == key; });
-  if (known == in_force_.end())
-    in_force_.emplace_back(key, std::move(value));
-  else
-    known->second = std::move(value);
-}
-
 template <class Value>
 std::optional<Value> Settings::get(std::string_view key) const {
   const Layer* const layer = find(key);
   if (!layer) return std::nullopt;
   Value value{};
   layer->reader(key).read(*layer->table->get(key), value);
-  record(key, written(value));
   return value;
 }
 
 template <class Value>
 Value Settings::get(std::string_view key, Value otherwise) const {
   if (auto value = get<Value>(key)) return *std::move(value);
-  record(key, written(otherwise));
+  defaults_.insert_or_assign(std::string(key), fmt::format("{}", otherwise));
   return otherwise;
 }
 
-std::optional<double> Settings::number(std::string_view key) const { return get<double>(key); }
-std::optional<std::int64_t> Settings::integer(std::string_view key) const { return get<std::int64_t>(key); }
-std::optional<bool> Settings::boolean(std::string_view key) const { return get<bool>(key); }
-std::optional<std::string> Settings::string(std::string_view key) const { return get<std::string>(key); }
-std::optional<Strings> Settings::strings(std::string_view key) const { return get<Strings>(key); }
-std::optional<Numbers> Settings::numbers(std::string_view key) const { return get<Numbers>(key); }
-std::optional<Matrix> Settings::matrix(std::string_view key) const { return get<Matrix>(key); }
-
-double Settings::number(std::string_view key, double otherwise) const { return get(key, otherwise); }
-std::int64_t Settings::integer(std::string_view key, std::int64_t otherwise) const { return get(key, otherwise); }
-bool Settings::boolean(std::string_view key, bool otherwise) const { return get(key, otherwise); }
-std::string Settings::string(std::string_view key, std::string_view otherwise) const {
-  return get(key, std::string{otherwise});
-}
-Strings Settings::strings(std::string_view key, Strings otherwise) const { return get(key, std::move(otherwise)); }
-Numbers Settings::numbers(std::string_view key, Numbers otherwise) const { return get(key, std::move(otherwise)); }
-Matrix Settings::matrix(std::string_view key, Matrix otherwise) const { return get(key, std::move(otherwise)); }
+template std::optional<double> Settings::get(std::string_view) const;
+template std::optional<bool> Settings::get(std::string_view) const;
+template std::optional<std::string> Settings::get(std::string_view) const;
+template std::optional<Strings> Settings::get(std::string_view) const;
+template std::optional<Numbers> Settings::get(std::string_view) const;
+template std::optional<Matrix> Settings::get(std::string_view) const;
+template double Settings::get(std::string_view, double) const;
+template bool Settings::get(std::string_view, bool) const;
+template std::string Settings::get(std::string_view, std::string) const;
+template Strings Settings::get(std::string_view, Strings) const;
+template Numbers Settings::get(std::string_view, Numbers) const;
+template Matrix Settings::get(std::string_view, Matrix) const;
 
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> names,
                              std::string_view otherwise) const {
-  std::string chosen = string(key, otherwise);
+  std::string chosen = get(key, std::string(otherwise));
   if (chosen != otherwise && std::find(names.begin(), names.end(), chosen) == names.end())
     throw error(key, fmt::format("one of {}", fmt::join(names, ", ")), nearest_word(chosen, names));
   return chosen;
@@ -390,9 +340,8 @@ void Settings::refuse_unknown() const {
 
 InputError Settings::error(std::string_view key, std::string_view expected, std::string_view remedy) const {
   if (const Layer* const layer = find(key)) return layer->reader(key).error(*layer->table->get(key), expected, remedy);
-  const auto known =
-      std::find_if(in_force_.begin(), in_force_.end(), [key](const auto& entry) { return entry.first == key; });
-  const std::string found = known == in_force_.end() ? "nothing" : "the default " + in_quotes(known->second);
+  const auto known = defaults_.find(key);
+  const std::string found = known == defaults_.end() ? "nothing" : "the default " + in_quotes(known->second);
   return InputError(message({.what = key_name(key), .found = found, .expected = expected, .remedy = remedy}));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,7 +19,7 @@ namespace sigmax::apps {
 /// The keys of a TOML file, overridden by `--set key=value` in their order, read by name and type.
 ///
 ///     const Settings settings = Settings::read("himm.toml", {"sigma_w=5", "filter.imm.sigma_w=3", "lift=zero"});
-///     const double sigma_w = settings.number("sigma_w", 3.0);
+///     const double sigma_w = settings.get("sigma_w", 3.0);
 ///     const Settings filters = settings.sub("filter");
 ///     for (const auto& name : filters.names()) make(settings.overlaid_by(filters.sub(name)));
 ///     settings.refuse_unknown();
@@ -36,32 +36,17 @@ class Settings {
 
   bool has(std::string_view key) const;
 
-  std::optional<double> number(std::string_view key) const;
-  std::optional<std::int64_t> integer(std::string_view key) const;
-  std::optional<bool> boolean(std::string_view key) const;
-  std::optional<std::string> string(std::string_view key) const;
-
-  /// One string, or one number, stands for a list of one.
-  std::optional<std::vector<std::string>> strings(std::string_view key) const;
-  std::optional<std::vector<double>> numbers(std::string_view key) const;
-
-  /// Rows of equal length.
-  std::optional<std::vector<std::vector<double>>> matrix(std::string_view key) const;
-
-  double number(std::string_view key, double otherwise) const;
-  std::int64_t integer(std::string_view key, std::int64_t otherwise) const;
-  bool boolean(std::string_view key, bool otherwise) const;
-  std::string string(std::string_view key, std::string_view otherwise) const;
-  std::vector<std::string> strings(std::string_view key, std::vector<std::string> otherwise) const;
-  std::vector<double> numbers(std::string_view key, std::vector<double> otherwise) const;
-  std::vector<std::vector<double>> matrix(std::string_view key, std::vector<std::vector<double>> otherwise) const;
+  /// @{
+  /// A value: a finite double, bool, std::string, std::vector of strings or of doubles, for which one stands, too, or
+  /// rows of equal length.
+  template <class Value>
+  std::optional<Value> get(std::string_view key) const;
+  template <class Value>
+  Value get(std::string_view key, Value otherwise) const;
+  /// @}
 
   /// One of the names.
   std::string choice(std::string_view key, std::span<const std::string_view> names, std::string_view otherwise) const;
-  std::string choice(std::string_view key, std::initializer_list<std::string_view> names,
-                     std::string_view otherwise) const {
-    return choice(key, std::span{names.begin(), names.size()}, otherwise);
-  }
 
   /// What one of the names stands for: choice("lift", {{"zero", Lift::zero}, {"unbiased", Lift::unbiased}},
   /// Lift::zero).
@@ -94,27 +79,17 @@ class Settings {
   /// that was. To be called when everything has been read.
   void refuse_unknown() const;
 
-  /// What was read from this object, in order, with values in a notation common to TOML and JSON.
-  const std::vector<std::pair<std::string, std::string>>& in_force() const { return in_force_; }
-
   /// An error about one key, for rules that only the caller knows.
   InputError error(std::string_view key, std::string_view expected, std::string_view remedy = {}) const;
 
  private:
   struct Layer;
 
-  template <class Value>
-  std::optional<Value> get(std::string_view key) const;
-  template <class Value>
-  Value get(std::string_view key, Value otherwise) const;
-
   /// The last layer that holds the key, or null; the key counts as asked for.
   const Layer* find(std::string_view key) const;
 
-  void record(std::string_view key, std::string value) const;
-
   std::vector<std::shared_ptr<Layer>> layers_;
-  mutable std::vector<std::pair<std::string, std::string>> in_force_;
+  mutable std::map<std::string, std::string, std::less<>> defaults_;  // that were asked for, as text
 };
 
 }  // namespace sigmax::apps

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -15,103 +14,69 @@
 namespace sigmax::apps {
 namespace {
 
-bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
+/// Takes text apart from the left, as a form says in which 0 stands for a digit, and T for itself or a blank. Nothing
+/// is taken of a text that does not begin so.
+bool take(std::string_view& text, std::string_view form) {
+  const auto fits = [](char wanted, char found) {
+    if (wanted == '0') return found >= '0' && found <= '9';
+    return found == wanted || (wanted == 'T' && found == ' ');
+  };
+  if (text.size() < form.size() || !std::equal(form.begin(), form.end(), text.begin(), fits)) return false;
+  text.remove_prefix(form.size());
+  return true;
+}
 
-/// Takes text apart from the left; every call says whether it found what it wants.
-class Scanner {
- public:
-  explicit Scanner(std::string_view text) : rest_(text) {}
-
-  bool at_end() const { return rest_.empty(); }
-
-  bool take(char wanted) {
-    if (!rest_.starts_with(wanted)) return false;
-    rest_.remove_prefix(1);
-    return true;
-  }
-
-  /// A number of exactly so many digits that is at most `greatest`.
-  std::optional<int> number(std::size_t digits, int greatest) {
-    if (rest_.size() < digits ||
-        !std::all_of(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(digits), is_digit))
-      return std::nullopt;
-    int value = 0;
-    for (std::size_t i = 0; i < digits; ++i) value = 10 * value + (rest_[i] - '0');
-    if (value > greatest) return std::nullopt;
-    rest_.remove_prefix(digits);
-    return value;
-  }
-
-  /// Digits after the decimal sign, at least one.
-  std::optional<double> fraction() {
-    const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_digit);
-    if (end == rest_.begin()) return std::nullopt;
-    const auto size = static_cast<std::size_t>(end - rest_.begin());
-    const auto value = parse_number("0." + std::string{rest_.substr(0, size)});
-    rest_.remove_prefix(size);
-    return value;
-  }
-
- private:
-  std::string_view rest_;
-};
+/// The number that these digits of a text are.
+int number_at(std::string_view text, std::size_t place, std::size_t digits = 2) {
+  int number = 0;
+  for (const char digit : text.substr(place, digits)) number = 10 * number + (digit - '0');
+  return number;
+}
 
 struct TimeOfDay {
   std::int64_t whole_s;
   double fraction_s;
 };
 
-/// hh:mm:ss, and a fraction if any.
-std::optional<TimeOfDay> time_of_day(Scanner& scan) {
-  const auto hour = scan.number(2, 23);
-  if (!hour || !scan.take(':')) return std::nullopt;
-  const auto minute = scan.number(2, 59);
-  if (!minute || !scan.take(':')) return std::nullopt;
-  const auto second = scan.number(2, 60);
-  if (!second) return std::nullopt;
-  TimeOfDay time{(*hour * 60 + *minute) * 60 + *second, 0.0};
-  if (scan.take('.') || scan.take(',')) {
-    const auto fraction = scan.fraction();
-    if (!fraction) return std::nullopt;
-    time.fraction_s = *fraction;
-  }
+/// Takes hh:mm:ss, and a fraction if any.
+std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
+  const std::string_view from = text;
+  if (!take(text, "00:00:00")) return std::nullopt;
+  const int hour = number_at(from, 0), minute = number_at(from, 3), second = number_at(from, 6);
+  if (hour > 23 || minute > 59 || second > 60) return std::nullopt;
+  TimeOfDay time{(hour * 60 + minute) * 60 + second, 0.0};
+  if (!take(text, ".") && !take(text, ",")) return time;
+  std::string fraction = "0.";
+  for (std::string_view left = text; take(text, "0"); left = text) fraction += left[0];
+  if (fraction.size() == 2) return std::nullopt;
+  time.fraction_s = *parse_number(fraction);
   return time;
 }
 
 std::optional<double> parse_time_of_day(std::string_view text) {
-  Scanner scan(text);
-  const auto time = time_of_day(scan);
-  if (!time || !scan.at_end()) return std::nullopt;
+  const auto time = take_time_of_day(text);
+  if (!time || !text.empty()) return std::nullopt;
   return static_cast<double>(time->whole_s) + time->fraction_s;
 }
 
 std::optional<double> parse_date_and_time(std::string_view text) {
   using namespace std::chrono;
-  Scanner scan(text);
-  const auto year_number = scan.number(4, 9999);
-  if (!year_number || !scan.take('-')) return std::nullopt;
-  const auto month_number = scan.number(2, 12);
-  if (!month_number || !scan.take('-')) return std::nullopt;
-  const auto day_number = scan.number(2, 31);
-  if (!day_number || !(scan.take('T') || scan.take(' '))) return std::nullopt;
-  const year_month_day date{year{*year_number}, month{static_cast<unsigned>(*month_number)},
-                            day{static_cast<unsigned>(*day_number)}};
-  if (!date.ok()) return std::nullopt;
-  const auto time = time_of_day(scan);
-  if (!time) return std::nullopt;
-  const std::int64_t days = sys_days{date}.time_since_epoch().count();
-  std::int64_t whole = days * 86400 + time->whole_s;
-
-  if (!scan.take('Z') && !scan.at_end()) {
-    const bool ahead = scan.take('+');
-    if (!ahead && !scan.take('-')) return std::nullopt;
-    const auto hours = scan.number(2, 23);
-    if (!hours || !scan.take(':')) return std::nullopt;
-    const auto minutes = scan.number(2, 59);
-    if (!minutes) return std::nullopt;
-    whole -= (ahead ? 60 : -60) * (*hours * 60 + *minutes);
+  const std::string_view from = text;
+  if (!take(text, "0000-00-00T")) return std::nullopt;
+  const year_month_day date{year{number_at(from, 0, 4)}, month{static_cast<unsigned>(number_at(from, 5))},
+                            day{static_cast<unsigned>(number_at(from, 8))}};
+  const auto time = take_time_of_day(text);
+  if (!date.ok() || !time) return std::nullopt;
+  std::int64_t whole = std::int64_t{sys_days{date}.time_since_epoch().count()} * 86400 + time->whole_s;
+  const std::string_view zone = text;
+  if (const bool ahead = take(text, "+00:00"); ahead || take(text, "-00:00")) {
+    const int hours = number_at(zone, 1), minutes = number_at(zone, 4);
+    if (hours > 23 || minutes > 59) return std::nullopt;
+    whole -= (ahead ? 60 : -60) * (hours * 60 + minutes);
+  } else {
+    take(text, "Z");
   }
-  if (!scan.at_end()) return std::nullopt;
+  if (!text.empty()) return std::nullopt;
   return static_cast<double>(whole) + time->fraction_s;
 }
 

@@ -6,9 +6,10 @@
 #include <random>
 #include <vector>
 
-#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 
 #include "core/peak.hpp"
+#include "kernels/plain.hpp"
 
 namespace sigmax {
 namespace {
@@ -61,7 +62,7 @@ void winners(benchmark::State& state) {
   kernels::FirstWinners winners;
   BesidePeak beside{state, Operation::multiply_max};
   for (auto _ : state) {
-    kernels::compose<Max>(left, right, result, winners);
+    kernels::compose<Max>(left, right, result, &winners);
     benchmark::DoNotOptimize(result.data());
     benchmark::ClobberMemory();
   }
@@ -73,10 +74,9 @@ void plain_loops(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Table left = numbers(n, 1), right = numbers(n, 2);
   Table result(n, n);
-  kernels::NoWinners none;
   BesidePeak beside{state, Operation::multiply_max};
   for (auto _ : state) {
-    kernels::compose_plainly<Max>(left, right, result, none);
+    kernels::compose_plainly<false>(Max{}, left, right, result, nullptr);
     benchmark::DoNotOptimize(result.data());
     benchmark::ClobberMemory();
   }

@@ -19,7 +19,7 @@ void update_distribution(benchmark::State& state) {
   const Variable<Kind> x{"x", size(state)};
   const auto prior = normalized(x, std::span<const double>(bench::numbers(x.size(), 1)));
   const Likelihood<Kind> likelihood{x, bench::numbers(x.size(), 2)};
-  using Number = typename Likelihood<Kind>::Row::Number;
+  using Number = decltype(likelihood.number(0));
   bench::BesideBandwidth beside{state, x.size() * (2 * sizeof(double) + sizeof(Number))};  // prior, result; likelihood
   for (auto _ : state) benchmark::DoNotOptimize(update(prior, likelihood));
   beside.report(state.range(0));

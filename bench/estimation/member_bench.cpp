@@ -10,11 +10,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
+#include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 

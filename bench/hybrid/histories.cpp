@@ -33,7 +33,7 @@
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include "himm_demo/scenario.hpp"
+#include "himm_demo/experiment/scenario.hpp"
 #include "support/parallel.hpp"
 #include "support/random.hpp"
 

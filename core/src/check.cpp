@@ -1,6 +1,7 @@
 #include <sigmax/core/check.hpp>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -58,10 +59,29 @@ void rows(const Outcomes& to, const Outcomes& from, std::size_t rows) {
                                 std::to_string(from.size()) + " rows, but " + std::to_string(rows) + " were given");
 }
 
-void some_positive(const Outcomes& variable, Row row, std::span<const double> values) {
-  for (const double value : values)
-    if (value > 0.0) return;
+void normalized(const Outcomes& variable, Row row, std::span<const double> numbers, const detail::AnyAlgebra& algebra,
+                std::string_view name_of_total) {
+  size(variable, row, numbers.size());
+  values(variable, row, numbers, 1.0 + normalization_tolerance);
+  total(variable, row, detail::total(algebra, numbers), name_of_total);
+}
+
+void likelihoods(const Outcomes& variable, Row row, std::span<const double> numbers,
+                 const detail::AnyAlgebra& algebra) {
+  values(variable, row, numbers, algebra.scales ? std::numeric_limits<double>::max() : algebra.one);
+}
+
+void weights(const Outcomes& variable, Row row, std::span<const double> weights, const detail::AnyAlgebra& algebra) {
+  likelihoods(variable, row, weights, algebra);
+  for (const double weight : weights)
+    if (weight > 0.0) return;
   throw std::invalid_argument("every weight of variable " + named(variable, row) + " is zero");
+}
+
+void log_likelihood(const Outcomes& variable, std::size_t index, double log) {
+  if (!(log <= std::numeric_limits<double>::max()))
+    throw std::invalid_argument("the log-likelihood of '" + variable.name() + "' at outcome '" + variable.label(index) +
+                                "' is not a number below infinity");
 }
 
 void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total) {
@@ -70,13 +90,21 @@ void total(const Outcomes& variable, Row row, double total, std::string_view nam
                                 shown(total) + ", not 1");
 }
 
-void same(const Outcomes& expected, const Outcomes& found, std::string_view where) {
-  if (expected == found) return;
+void differ(const Outcomes& expected, const Outcomes& found, std::string_view where) {
   throw std::invalid_argument(std::string(where) + ": " + difference(expected, found));
 }
 
 void excluded(const Outcomes& variable, Row row) {
   throw std::domain_error("the evidence excludes every outcome of variable " + named(variable, row));
+}
+
+void other_kind(const std::string& variable, std::string_view kind, std::string_view expected) {
+  throw std::invalid_argument("variable '" + variable + "' is " + std::string(kind) + ", not " + std::string(expected));
+}
+
+void impossible(const std::string& event, std::string_view name_of_measure) {
+  throw std::domain_error("the event " + event + " has " + std::string(name_of_measure) +
+                          " 0 and cannot be a condition");
 }
 
 }  // namespace sigmax::check

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 namespace sigmax {
+
 namespace {
 
 std::string listed(const Outcomes& outcomes) {
@@ -28,6 +29,9 @@ Outcomes::Outcomes(std::string name, std::vector<std::string> labels) {
   const std::size_t size = labels.size();
   table_ = std::make_shared<const Table>(Table{std::move(name), size, std::move(labels)});
 }
+
+Outcomes::Outcomes(std::string name, std::initializer_list<std::string_view> labels)
+    : Outcomes(std::move(name), std::vector<std::string>(labels.begin(), labels.end())) {}
 
 Outcomes::Outcomes(std::string name, std::size_t size) {
   if (size == 0) throw std::invalid_argument("variable '" + name + "' needs at least one outcome");
@@ -54,9 +58,8 @@ std::size_t Outcomes::index_of(std::string_view label) const {
                               "'; its outcomes are " + listed(*this));
 }
 
-bool operator==(const Outcomes& a, const Outcomes& b) {
-  if (a.table_ == b.table_) return true;
-  return a.table_->size == b.table_->size && a.table_->name == b.table_->name && a.table_->labels == b.table_->labels;
+bool Outcomes::equals(const Outcomes& other) const {
+  return size() == other.size() && name() == other.name() && table_->labels == other.table_->labels;
 }
 
 std::string difference(const Outcomes& expected, const Outcomes& found) {

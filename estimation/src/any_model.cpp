@@ -1,10 +1,16 @@
 #include <sigmax/estimation/any_model.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 namespace sigmax {
 
-void AnyModel::require_size() const {
+AnyModel::AnyModel(std::shared_ptr<const void> motion, const detail::ModelRef& ref, std::vector<std::string> components)
+    : motion_(std::move(motion)),
+      ref_{motion_.get(), ref.table, ref.points},
+      size_(ref_.size()),
+      name_(ref_.name()),
+      components_(std::move(components)) {
   if (size_ > max_state_size)
     throw std::invalid_argument("model '" + name_ + "' has " + std::to_string(size_) + " states; a bank takes " +
                                 std::to_string(max_state_size) + " at most");

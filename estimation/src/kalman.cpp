@@ -8,6 +8,7 @@
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/filtering.hpp>
+#include <sigmax/estimation/motion_numbers.hpp>
 
 #include "sigma_points.hpp"
 
@@ -45,15 +46,6 @@ int seen_of(const SensorRef& sensor, const ModelRef& model, int n, int m) {
     throw std::invalid_argument("a sensor sees " + std::to_string(seen) + " components, but model '" + model.name() +
                                 "' has " + std::to_string(n));
   return seen == 0 ? n : seen;
-}
-
-/// F of a motion along independent axes over all of its state.
-void spread_over_axes(const double* law, int order, int axes, double* matrix) {
-  const int n = order * axes;
-  std::fill_n(matrix, n * n, 0.0);
-  for (int b = 0; b < order; ++b)
-    for (int a = 0; a < order; ++a)
-      for (int i = 0; i < axes; ++i) matrix[a * axes + i + (b * axes + i) * n] = law[a + b * order];
 }
 
 /// F, Q and the known input of a linear motion.
@@ -314,28 +306,25 @@ void prediction_covariance(const ModelRef& model, ConstView prior, double dt, do
 void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView next, View result) {
   const int n = filtered.n;
   require_size(model, next.n);
-  Scratch mean(n), covariance(n * n), cross(n * n), root(n * n), gain(n * n), product(n * n);
+  Scratch mean(n), covariance(n * n), A(n * n), root(n * n), row(n), product(n * n);
   predict(model, filtered, dt, {mean, covariance, n});
-  prediction_covariance(model, filtered, dt, cross);
+  prediction_covariance(model, filtered, dt, A);
   if (covariance_root(covariance, n, root) != 0)
     throw std::domain_error("the predicted covariance of model '" + model.name() + "' is not positive semi-definite");
   for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < n; ++k) gain[k + i * n] = cross[i + k * n];
-    solve_by_root(root, n, gain + i * n);  // Aᵀ
+    for (int k = 0; k < n; ++k) row[k] = A[i + k * n];
+    solve_by_root(root, n, row);
+    for (int k = 0; k < n; ++k) A[i + k * n] = row[k];
   }
   double* const moved = mean;
   double* const gained = covariance;
   for (int i = 0; i < n; ++i) moved[i] = next.mean[i] - mean[i];
   for (int i = 0; i < n * n; ++i) gained[i] = next.covariance[i] - covariance[i];
-  multiply(gained, n, columns_of(gain, n), product, n, n, n, n);
+  multiply(gained, n, transposed(A, n), product, n, n, n, n);
   if (result.mean != filtered.mean) {
     std::copy_n(filtered.mean, n, result.mean);
     std::copy_n(filtered.covariance, n * n, result.covariance);
   }
-  const double* const A_transposed = gain;
-  Scratch A(n * n);
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k) A[i + k * n] = A_transposed[k + i * n];
   multiply(A, n, columns_of(moved, n), result.mean, n, n, n, 1, Into::plus);
   multiply(A, n, columns_of(product, n), result.covariance, n, n, n, n, Into::plus);
   mirror_lower(result.covariance, n);
@@ -361,38 +350,17 @@ void linearised_measurement(const ModelRef& model, ConstView predicted, ConstVie
 }
 
 void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z) {
-  const int n = model.size(), seen = seen_of(sensor, model, n, m);
-  const SensorTable& table = *sensor.table;
-  if (table.leading) {
-    std::copy_n(x, m, z);
-  } else if (table.linear) {
-    Scratch<64> H(m * seen);
-    table.measure(sensor.sensor, sensor.model, x, n, m, nullptr, H);
-    multiply(H, m, columns_of(x, seen), z, m, m, seen, 1);
-  } else {
-    table.measure(sensor.sensor, sensor.model, x, n, m, z, nullptr);
-  }
+  sensor.table->measure(sensor.sensor, sensor.model, x, model.size(), m, z, nullptr);
   require_finite(z, m, "h(x)", model, x);
-}
-
-void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H) {
-  const int n = model.size(), seen = seen_of(sensor, model, n, m);
-  std::fill_n(H, m * n, 0.0);
-  if (sensor.table->leading)
-    for (int i = 0; i < m; ++i) H[i + i * m] = 1.0;
-  else
-    sensor.table->measure(sensor.sensor, sensor.model, x, n, m, nullptr, H);
-  require_finite(H, m * seen, "the Jacobian of h", model, x);
 }
 
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
   const int n = model.size();
   if (model.linear()) {
-    Scratch own_F(F ? 0 : n * n), own_Q(Q ? 0 : n * n), input(n);
-    double* const slope = F ? F : own_F;
-    linear_motion(model, dt, slope, Q ? Q : own_Q, input);
-    multiply(slope, n, columns_of(x, n), input, n, n, n, 1, Into::plus);
-    std::copy_n(input.data(), n, image);
+    Scratch moved(n);
+    linear_motion(model, dt, F, Q, moved);
+    multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
+    std::copy_n(moved.data(), n, image);
   } else {
     model.table->tangent(model.motion, x, dt, image, F, Q);
   }

@@ -201,6 +201,14 @@ void coordinated_turn(int axes, double q, double q_omega, const double* x, doubl
   }
 }
 
+void spread_over_axes(const double* law, int order, int axes, double* matrix) {
+  const int n = order * axes;
+  std::fill_n(matrix, n * n, 0.0);
+  for (int b = 0; b < order; ++b)
+    for (int a = 0; a < order; ++a)
+      for (int i = 0; i < axes; ++i) matrix[a * axes + i + (b * axes + i) * n] = law[a + b * order];
+}
+
 std::vector<std::string> motion_components(int axes, int orders) {
   std::vector<std::string> names;
   for (const char* derivative : {"", "v", "a"})
@@ -215,11 +223,10 @@ double finite_rate(double omega) {
   throw std::invalid_argument("the rate of model 'known_turn' is " + std::to_string(omega) + "; expected a finite one");
 }
 
-double motion_parameter(double value, std::string_view parameter, std::string_view model, double least) {
-  if (value >= least && value <= 1e150) return value;
+double motion_parameter(double value, std::string_view parameter, std::string_view model) {
+  if (value >= 0.0 && value <= 1e150) return value;
   throw std::invalid_argument(std::string(parameter) + " of model '" + std::string(model) + "' is " +
-                              std::to_string(value) + "; expected a finite number of at least " +
-                              std::to_string(least));
+                              std::to_string(value) + "; expected a finite number of at least 0.000000");
 }
 
 }  // namespace sigmax::detail

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/estimation/unscented.hpp>
 
 namespace sigmax::detail {
 namespace {
@@ -120,11 +123,7 @@ void measure(const ModelRef& model, SigmaPoints& points, const double* x, const 
     if (there) at_mean = i;
   }
   mean_of(sensor, points, deviations, m, mean);
-  Scratch<6> apart(m);
-  for (int i = 0; i < points.count(); ++i) {
-    difference(sensor, deviations + i * m, mean, m, apart);
-    std::copy_n(apart.data(), m, deviations + i * m);
-  }
+  for (int i = 0; i < points.count(); ++i) difference(sensor, deviations + i * m, mean, m, deviations + i * m);
 }
 
 /// Writes a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
@@ -225,6 +224,17 @@ void regressed_measurement(const ModelRef& model, ConstView predicted, ConstView
   difference(sensor, z.mean, mean, m, residual);
   regress(points, n, seen, m, H, R);
   for (int i = 0; i < m * m; ++i) R[i] += z.covariance[i];
+}
+
+SigmaPointWeights unscented_weights(const UnscentedScaling& scaling, std::string_view model, int n) {
+  const auto& [alpha, beta, kappa] = scaling;
+  const double spread = alpha * alpha * (n + kappa), centre = 1.0 - n / spread;
+  if (!(spread > 0.0 && std::isfinite(spread) && std::isfinite(beta)))
+    throw std::invalid_argument("the unscented filter of model '" + std::string(model) +
+                                "' with alpha = " + std::to_string(alpha) + ", beta = " + std::to_string(beta) +
+                                ", kappa = " + std::to_string(kappa) + " and " + std::to_string(n) +
+                                " states; expected alpha² (n + kappa) > 0");
+  return {spread, centre, centre + 1.0 - alpha * alpha + beta};
 }
 
 }  // namespace sigmax::detail

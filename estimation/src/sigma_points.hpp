@@ -2,15 +2,28 @@
 
 #include <sigmax/estimation/filtering.hpp>
 
-/// What a filter with sigma points does instead of tangents; see the functions of these names in filtering.hpp.
+/// What kalman.cpp and sigma_points.cpp ask of each other.
 namespace sigmax::detail {
 
+/// @{
+/// What a filter with sigma points does instead of tangents; see the functions of these names in filtering.hpp.
 void predict_by_points(const ModelRef& model, ConstView prior, double dt, View result);
 void update_by_points(const ModelRef& model, ConstView prior, ConstView z, const SensorRef& sensor, View posterior,
                       InnovationView& innovation);
 void regressed_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q);
 void regressed_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
                            double* residual, double* H, double* R);
+/// @}
+
+/// @{
+/// h(x) of a sensor that is not linear, and f(x); ∂f/∂x and the noise's covariance are needed of a linear motion. Throw
+/// std::domain_error, naming the function, the model and the state, unless they are finite.
+void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z);
+void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q);
+/// @}
+
+/// z − predicted by the sensor's own difference, also in the place of z.
+void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, double* result);
 
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
 /// gives S⁻¹. Throws as `update`.

@@ -338,4 +338,15 @@ std::vector<ModeStay> AnyTarget::explained() const {
   return stays;
 }
 
+void AnyTarget::follow(std::span<const AnyPlot> plots, const std::function<void(const TargetPoint&)>& visit) {
+  TargetPoint point;
+  const auto stepped = [&](std::size_t tag, bool is_start) {
+    output(point);
+    point.tag = tag;
+    point.is_start = is_start;
+    visit(point);
+  };
+  for (const AnyPlot& plot : plots) take(plot, stepped);
+}
+
 }  // namespace sigmax

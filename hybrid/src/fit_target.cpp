@@ -11,19 +11,13 @@ namespace sigmax {
 
 std::vector<double> log_scores(const TargetChoice& choice, std::span<const AnyPlot> plots) {
   std::vector<double> scores(plots.size(), std::numeric_limits<double>::quiet_NaN());
-  AnyTarget target(choice);
-  TargetPoint now;
-  const auto stepped = [&](std::size_t tag, bool is_start) {
-    if (is_start) return;
-    target.output(now);
-    if (now.log_score) scores[tag] = *now.log_score;
-  };
-  for (const AnyPlot& plot : plots) {
+  for (const AnyPlot& plot : plots)
     if (plot.tag >= plots.size())
       throw std::invalid_argument("the tag " + std::to_string(plot.tag) + " among " + std::to_string(plots.size()) +
                                   " plots; expected their numbers from 0 on");
-    target.take(plot, stepped);
-  }
+  AnyTarget(choice).follow(plots, [&](const TargetPoint& now) {
+    if (!now.is_start && now.log_score) scores[now.tag] = *now.log_score;
+  });
   return scores;
 }
 

@@ -18,7 +18,7 @@ inline constexpr bool manoeuvre = true;
 inline constexpr bool no_manoeuvre = false;
 
 /// A motion in a member of the Kalman family.
-template <StateModel Moves>
+template <Motion Moves>
 AnyModel in_member(const Moves& motion, MemberType member) {
   if (member == MemberType::ukf) return Unscented{motion};
   if (member == MemberType::ckf) return Cubature{motion};
@@ -30,14 +30,15 @@ struct MotionRow {
   KnownMotion known;
   AnyModel (*make)(const MotionChoice& choice, int axes, MemberType member);
 
-  /// Of a class template of the number of axes: `make`, a lambda template, goes along one, two and three.
-  template <class Make>
+  /// Of a class template of the number of axes: `make`, a lambda template, goes along `Least`, one or two, to three.
+  template <int Least = 1, class Make>
   static constexpr MotionRow of(std::string_view name, bool manoeuvres, Make,
                                 std::initializer_list<MotionParameter> needs) {
     using InThePlane = decltype(Make{}.template operator()<2>(MotionChoice{}));
-    return {{name, InThePlane::state_size / 2, 1, LinearMotion<InThePlane>, manoeuvres, parameters(needs)},
+    return {{name, InThePlane::state_size / 2, Least, LinearMotion<InThePlane>, manoeuvres, parameters(needs)},
             [](const MotionChoice& choice, int axes, MemberType member) {
-              if (axes == 1) return in_member(Make{}.template operator()<1>(choice), member);
+              if constexpr (Least == 1)
+                if (axes == 1) return in_member(Make{}.template operator()<1>(choice), member);
               return axes == 2 ? in_member(Make{}.template operator()<2>(choice), member)
                                : in_member(Make{}.template operator()<3>(choice), member);
             }};

@@ -3,7 +3,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <sigmax/estimation/named_motion.hpp>
+#include <sigmax/estimation/coordinated_turn.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/known_turn.hpp>
+#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/white_noise.hpp>
 
 #include "known_motions.hpp"
 
@@ -23,44 +27,35 @@ constexpr std::array<KnownParameter, 4> parameters{{
      [](double value) { return value >= 0.0; }, "numbers that are not negative, in °/s"},
 }};
 
-/// A row of a motion that the library computes: its name, whether it stands for a manoeuvre, how many derivatives it
-/// has, and what its two parameters are made of.
-template <NamedMotion::Type Type, int Order, class Numbers>
-constexpr MotionRow named(std::string_view name, bool manoeuvres, Numbers,
-                          std::initializer_list<MotionParameter> needs) {
-  constexpr bool turns = Type == NamedMotion::Type::known_turn || Type == NamedMotion::Type::coordinated_turn;
-  constexpr bool linear = Type != NamedMotion::Type::coordinated_turn;
-  return {{name, Order, turns ? 2 : 1, linear, manoeuvres, MotionRow::parameters(needs)},
-          [](const MotionChoice& choice, int axes, MemberType member) {
-            const auto [first, second] = Numbers{}(choice);
-            const NamedMotion motion{Type, Order, axes, first, second};
-            motion.require();
-            return in_member(motion, member);
-          }};
-}
-
-struct Two {
-  double first, second = 0.0;
-};
 constexpr double square(double value) { return value * value; }
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr auto sigma = [](const MotionChoice& c) { return Two{c[sigma_w]}; };
-constexpr auto density = [](const MotionChoice& c) { return Two{square(c[sigma_w])}; };
-constexpr auto memory = [](const MotionChoice& c) { return Two{1.0 / c[tau], c[sigma_w]}; };
-constexpr auto rate = [](const MotionChoice& c) { return Two{c[turn_rate] * degree, square(c[sigma_w])}; };
-constexpr auto drift = [](const MotionChoice& c) { return Two{square(c[sigma_w]), square(c[turn_drift] * degree)}; };
 
 /// The motions that can be chosen by name, in the order of the documentation: a row here is all that a new one needs.
-using enum NamedMotion::Type;
-constexpr std::array rows{named<discrete_white_noise, 2>("dwna", no_manoeuvre, sigma, {sigma_w}),
-                          named<discrete_white_noise, 3>("dwpa", manoeuvre, sigma, {sigma_w}),
-                          named<white_noise, 2>("cwna", no_manoeuvre, density, {sigma_w}),
-                          named<white_noise, 3>("cwpa", manoeuvre, density, {sigma_w}),
-                          named<ornstein_uhlenbeck, 3>("singer", manoeuvre, memory, {sigma_w, tau}),
-                          named<ornstein_uhlenbeck, 1>("ou_position", no_manoeuvre, memory, {sigma_w, tau}),
-                          named<ornstein_uhlenbeck, 2>("ou_velocity", no_manoeuvre, memory, {sigma_w, tau}),
-                          named<known_turn, 2>("known_turn", manoeuvre, rate, {sigma_w, turn_rate}),
-                          named<coordinated_turn, 2>("ct", manoeuvre, drift, {sigma_w, turn_drift})};
+constexpr std::array rows{
+    MotionRow::of("dwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return dwna<A>(c[sigma_w]); }, {sigma_w}),
+    MotionRow::of("dwpa", manoeuvre, []<int A>(const MotionChoice& c) { return dwpa<A>(c[sigma_w]); }, {sigma_w}),
+    MotionRow::of("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(square(c[sigma_w])); },
+                  {sigma_w}),
+    MotionRow::of("cwpa", manoeuvre, []<int A>(const MotionChoice& c) { return cwpa<A>(square(c[sigma_w])); },
+                  {sigma_w}),
+    MotionRow::of("singer", manoeuvre, []<int A>(const MotionChoice& c) { return singer<A>(1.0 / c[tau], c[sigma_w]); },
+                  {sigma_w, tau}),
+    MotionRow::of("ou_position", no_manoeuvre,
+                  []<int A>(const MotionChoice& c) { return ou_position<A>(1.0 / c[tau], c[sigma_w]); },
+                  {sigma_w, tau}),
+    MotionRow::of("ou_velocity", no_manoeuvre,
+                  []<int A>(const MotionChoice& c) { return ou_velocity<A>(1.0 / c[tau], c[sigma_w]); },
+                  {sigma_w, tau}),
+    MotionRow::of<2>("known_turn", manoeuvre,
+                     []<int A>(const MotionChoice& c) {
+                       return KnownTurn<A>{c[turn_rate] * degree, square(c[sigma_w])};
+                     },
+                     {sigma_w, turn_rate}),
+    MotionRow::of<2>("ct", manoeuvre,
+                     []<int A>(const MotionChoice& c) {
+                       return CoordinatedTurn<A>{square(c[sigma_w]), square(c[turn_drift] * degree)};
+                     },
+                     {sigma_w, turn_drift})};
 
 constexpr auto motions = [] {
   std::array<KnownMotion, rows.size()> all{};

@@ -7,7 +7,7 @@
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/computed_law.hpp>
-#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/covariance_root.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -23,7 +23,6 @@
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/estimation/grid_transition.hpp>
 #include <sigmax/estimation/independent_axes.hpp>
-#include <sigmax/estimation/innovation.hpp>
 #include <sigmax/estimation/jacobian.hpp>
 #include <sigmax/estimation/kalman.hpp>
 #include <sigmax/estimation/known_turn.hpp>
@@ -33,12 +32,12 @@
 #include <sigmax/estimation/model.hpp>
 #include <sigmax/estimation/model_ref.hpp>
 #include <sigmax/estimation/motion_numbers.hpp>
-#include <sigmax/estimation/named_motion.hpp>
 #include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/radar_numbers.hpp>
 #include <sigmax/estimation/refs.hpp>
+#include <sigmax/estimation/root_mean_square.hpp>
 #include <sigmax/estimation/rts_smoother.hpp>
 #include <sigmax/estimation/sensing.hpp>
 #include <sigmax/estimation/sensor_ref.hpp>
@@ -53,6 +52,7 @@
 #include <sigmax/hybrid/bank_filter.hpp>
 #include <sigmax/hybrid/collapse.hpp>
 #include <sigmax/hybrid/components.hpp>
+#include <sigmax/hybrid/cross_validation.hpp>
 #include <sigmax/hybrid/envelope.hpp>
 #include <sigmax/hybrid/estimates.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>

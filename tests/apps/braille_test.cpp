@@ -1,4 +1,4 @@
-#include "support/braille.hpp"
+#include "result/braille.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "apps/temporary_directory.hpp"
+#include "result/report.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {

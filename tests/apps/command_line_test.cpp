@@ -1,6 +1,5 @@
 #include "support/command_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -8,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "result/output_options.hpp"
 #include "support/error.hpp"
+#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -26,14 +27,15 @@ Given given;
 void add(CLI::App& program, const std::string& command, const std::string& name) {
   const auto options = std::make_shared<Given>();
   options->output.command = command;
-  CLI::App& app = *program.add_subcommand(
-      name, "Does nothing but to say at some length, so that the line has to be broken, what it was given.");
+  Subcommand app(program, name,
+                 "Does nothing but to say at some length, so that the line has to be broken, what it was given.");
   add_seed(app, options->seed);
   add_threads(app, options->threads);
-  app.add_option("--share", options->share, "A share")->check(number_in(0.0, 1.0));
-  app.add_option("--label", options->output.out, "A label")->required(name == "train");
+  app.option("--share", options->share, "A share").number_in(0.0, 1.0);
+  Option label = app.option("--label", options->output.out, "A label");
+  if (name == "train") label.required();
   add_output(app, options->output);
-  app.callback([options, name] {
+  app.run([options, name] {
     given = *options;
     given.subcommand = name;
   });
@@ -118,13 +120,12 @@ TEST(CommandLine, HelpFitsATerminal) {
 }
 
 TEST(CommandLine, AFailureOfTheWorkEndsTheProgram) {
-  const ProgramOutline failing = {
-      "example",
-      "An example.",
-      {[](CLI::App& program, const std::string&) {
-        program.add_subcommand("fail", "Fails.")->callback([] { throw InputError("no data"); });
-      }},
-      "fail"};
+  const ProgramOutline failing = {"example",
+                                  "An example.",
+                                  {[](CLI::App& program, const std::string&) {
+                                    Subcommand(program, "fail", "Fails.").run([] { throw InputError("no data"); });
+                                  }},
+                                  "fail"};
   std::string name = "example";
   char* arguments[] = {name.data()};
   testing::internal::CaptureStderr();

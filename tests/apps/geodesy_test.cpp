@@ -23,11 +23,14 @@ void expect_near(const Geodetic& a, const Geodetic& b, double tolerance_m) {
 const Geodetic epsg_point{dms(53, 48, 33.820), dms(2, 7, 46.380), 73.0};
 const Geodetic epsg_origin{55.0, 5.0, 200.0};
 
+Position operator-(const Position& a, const Position& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double norm(const Position& p) { return std::hypot(p[0], p[1], p[2]); }
+
 TEST(LocalFrame, AgreesWithTheWorkedExampleOfEpsg) {
-  const Vector<3> local = LocalFrame<3>(epsg_origin).to_local(epsg_point);
-  EXPECT_NEAR(local.x(), -189013.869, 6e-4);
-  EXPECT_NEAR(local.y(), -128642.040, 6e-4);
-  EXPECT_NEAR(local.z(), -4220.171, 6e-4);
+  const auto [x, y, z] = LocalFrame(epsg_origin, 3).to_local(epsg_point);
+  EXPECT_NEAR(x, -189013.869, 6e-4);
+  EXPECT_NEAR(y, -128642.040, 6e-4);
+  EXPECT_NEAR(z, -4220.171, 6e-4);
 }
 
 // The radii of curvature of WGS 84: across the meridian N, along it M.
@@ -35,34 +38,35 @@ TEST(LocalFrame, AxesAreTheDirectionsInWhichTheCoordinatesGrow) {
   constexpr double radian = 57.29577951308232, e2 = 6.69437999014e-3, a = 6378137.0, step_deg = 1e-4;
   const double sine = std::sin(epsg_origin.latitude_deg / radian);
   const double N = a / std::sqrt(1.0 - e2 * sine * sine), M = N * (1.0 - e2) / (1.0 - e2 * sine * sine);
-  const auto check = [&](auto frame, double altitude) {
+  for (const int axes : {2, 3}) {
+    const double altitude = axes == 3 ? epsg_origin.altitude_m : 0.0;
+    const LocalFrame frame({epsg_origin.latitude_deg, epsg_origin.longitude_deg, altitude}, axes);
     const auto slope = [&](double north, double east) {
-      const auto place = [&](double sign) {
-        return Geodetic{epsg_origin.latitude_deg + sign * north, epsg_origin.longitude_deg + sign * east, altitude};
+      const auto at = [&](double sign) {
+        return frame.to_local(
+            {epsg_origin.latitude_deg + sign * north, epsg_origin.longitude_deg + sign * east, altitude});
       };
-      return decltype(frame.to_local(place(1.0)))((frame.to_local(place(1.0)) - frame.to_local(place(-1.0))) /
-                                                  (2.0 * step_deg / radian));
+      const Position step = at(1.0) - at(-1.0);
+      return Position{step[0] / (2.0 * step_deg / radian), step[1] / (2.0 * step_deg / radian), 0.0};
     };
-    EXPECT_NEAR(slope(step_deg, 0.0)(1), M + altitude, 5e-3);
-    EXPECT_NEAR(slope(step_deg, 0.0)(0), 0.0, 5e-3);
-    EXPECT_NEAR(slope(0.0, step_deg)(0), (N + altitude) * std::cos(epsg_origin.latitude_deg / radian), 5e-3);
-    EXPECT_NEAR(slope(0.0, step_deg)(1), 0.0, 5e-3);
-  };
-  check(LocalFrame<3>(epsg_origin), epsg_origin.altitude_m);
-  check(LocalFrame<2>({epsg_origin.latitude_deg, epsg_origin.longitude_deg, 0.0}), 0.0);
+    EXPECT_NEAR(slope(step_deg, 0.0)[1], M + altitude, 5e-3);
+    EXPECT_NEAR(slope(step_deg, 0.0)[0], 0.0, 5e-3);
+    EXPECT_NEAR(slope(0.0, step_deg)[0], (N + altitude) * std::cos(epsg_origin.latitude_deg / radian), 5e-3);
+    EXPECT_NEAR(slope(0.0, step_deg)[1], 0.0, 5e-3);
+  }
 }
 
 TEST(LocalFrame, InverseUndoesForward) {
   for (const double latitude : {-90.0, -89.9999, -33.0, 0.0, 52.0, 90.0}) {
-    const LocalFrame<3> frame({latitude, 151.0, 30.0});
-    EXPECT_TRUE(frame.to_local(frame.origin()).isZero(1e-8));
-    for (const Vector<3>& point :
-         {Vector<3>(0, 0, 0), Vector<3>(20000, -10000, 3000), Vector<3>(-3e5, 4e5, 1e4), Vector<3>(1e-3, 2e-3, -3e-3)})
-      EXPECT_LT((frame.to_local(frame.to_geodetic(point)) - point).norm(), 1e-8);
-    const LocalFrame<2> flat({latitude, 151.0, 0.0});
-    for (const Vector<2>& point :
-         {Vector<2>(0, 0), Vector<2>(20000, -10000), Vector<2>(-3e5, 4e5), Vector<2>(9e6, 9e6)})
-      EXPECT_LT((flat.to_local(flat.to_geodetic(point)) - point).norm(), 1e-6);
+    const LocalFrame frame({latitude, 151.0, 30.0}, 3);
+    EXPECT_LT(norm(frame.to_local(frame.origin())), 1e-8);
+    for (const Position& point :
+         {Position{}, Position{20000, -10000, 3000}, Position{-3e5, 4e5, 1e4}, Position{1e-3, 2e-3, -3e-3}})
+      EXPECT_LT(norm(frame.to_local(frame.to_geodetic(point)) - point), 1e-8);
+    const LocalFrame flat({latitude, 151.0, 0.0}, 2);
+    for (const Position& point :
+         {Position{}, Position{20000, -10000, 0}, Position{-3e5, 4e5, 0}, Position{9e6, 9e6, 0}})
+      EXPECT_LT(norm(flat.to_local(flat.to_geodetic(point)) - point), 1e-6);
   }
 }
 
@@ -71,45 +75,45 @@ TEST(LocalFrame, TwoAxesAreWithinMillimetresTheTangentPlaneNearBy) {
   const Geodetic origin{50.8, -1.1, 0.0};
   for (int k = 0; k < 60; ++k) {
     const Geodetic point{50.8 + 0.001 * k, -1.1 - 0.0015 * k, 0.0};
-    const Vector<2> map = LocalFrame<2>(origin).to_local(point);
-    const Vector<3> tangent = LocalFrame<3>(origin).to_local(point);
-    const double d = map.norm();
-    EXPECT_LT((map - tangent.head<2>()).norm(), d * d * d / (6.0 * 6.35e6 * 6.35e6) + 1e-6);
+    const Position map = LocalFrame(origin, 2).to_local(point);
+    Position tangent = LocalFrame(origin, 3).to_local(point);
+    tangent[2] = 0.0;
+    const double d = norm(map);
+    EXPECT_LT(norm(map - tangent), d * d * d / (6.0 * 6.35e6 * 6.35e6) + 1e-6);
   }
 }
 
 TEST(LocalFrame, NoPlaceOfTheEarthComesOutNearAnother) {
-  const LocalFrame<2> frame({0.0, 0.0, 0.0});
-  EXPECT_GT(frame.to_local({0.0, 120.0, 0.0}).norm(), 1.3e7);  // 60° on the tangent plane
+  const LocalFrame frame({0.0, 0.0, 0.0}, 2);
+  EXPECT_GT(norm(frame.to_local({0.0, 120.0, 0.0})), 1.3e7);  // 60° on the tangent plane
   expect_near(frame.to_geodetic(frame.to_local({0.0, 120.0, 0.0})), {0.0, 120.0, 0.0}, 1e-6);
-  EXPECT_GT(LocalFrame<2>({50.0, -1.0, 0.0}).to_local({-36.0, 175.0, 0.0}).norm(), 1.7e7);
+  EXPECT_GT(norm(LocalFrame({50.0, -1.0, 0.0}, 2).to_local({-36.0, 175.0, 0.0})), 1.7e7);
 }
 
-/// The axes there by a small step in this frame.
-template <int Axes>
-SquareMatrix<Axes> stepped_axes(const LocalFrame<Axes>& frame, const Vector<Axes>& position) {
-  const LocalFrame<Axes> there(frame.to_geodetic(position));
-  SquareMatrix<Axes> result;
-  for (int axis = 0; axis < Axes; ++axis) {
-    const Vector<Axes> step = 10.0 * Vector<Axes>::Unit(axis);
-    result.col(axis) =
-        (there.to_local(frame.to_geodetic(position + step)) - there.to_local(frame.to_geodetic(position - step))) /
-        20.0;
-  }
-  return result;
+TEST(LocalFrame, OneAxisIsTheHeight) {
+  const LocalFrame frame({50.0, 8.0, 100.0}, 1);
+  EXPECT_EQ(frame.to_local({51.0, 9.0, 130.0}), (Position{30.0, 0.0, 0.0}));
+  expect_near(frame.to_geodetic({30.0, 0.0, 0.0}), {50.0, 8.0, 130.0}, 1e-9);
+  EXPECT_EQ(frame.local_axes({30.0, 0.0, 0.0})[0], (Position{1.0, 0.0, 0.0}));
 }
 
 TEST(LocalFrame, LocalAxesAreWhatAStepIsThere) {
-  for (const double latitude : {-80.0, 0.0, 50.0, 89.0})
-    for (const double east : {0.0, 1e3, 6e5, -4e6})
-      for (const double north : {0.0, -5e4, 2e6}) {
-        const LocalFrame<3> frame({latitude, 20.0, 0.0});
-        const Vector<3> position(east, north, 2e3);
-        EXPECT_LT((frame.local_axes(position) - stepped_axes(frame, position)).norm(), 1e-8);
-        const LocalFrame<2> flat({latitude, 20.0, 0.0});
-        const Vector<2> place(east, north);
-        EXPECT_LT((flat.local_axes(place) - stepped_axes(flat, place)).norm(), 1e-7);
-      }
+  for (const int axes : {2, 3})
+    for (const double latitude : {-80.0, 0.0, 50.0, 89.0})
+      for (const double east : {0.0, 1e3, 6e5, -4e6})
+        for (const double north : {0.0, -5e4, 2e6}) {
+          const LocalFrame frame({latitude, 20.0, 0.0}, axes);
+          const Position position{east, north, axes == 3 ? 2e3 : 0.0};
+          const LocalFrame there(frame.to_geodetic(position), axes);
+          const auto found = frame.local_axes(position);
+          for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes); ++axis) {
+            Position ahead = position, behind = position;
+            ahead[axis] += 10.0;
+            behind[axis] -= 10.0;
+            const Position step = there.to_local(frame.to_geodetic(ahead)) - there.to_local(frame.to_geodetic(behind));
+            for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i][axis], step[i] / 20.0, 1e-7);
+          }
+        }
 }
 
 TEST(Geodetic, RefusesWhatIsNoPlace) {

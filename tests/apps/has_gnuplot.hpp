@@ -2,13 +2,13 @@
 
 #include <exception>
 
-#include "support/gnuplot.hpp"
+#include "result/pictures.hpp"
 
 namespace sigmax::apps {
 
 inline bool has_gnuplot() {
   try {
-    Gnuplot{};
+    need_gnuplot();
     return true;
   } catch (const std::exception&) {
     return false;

@@ -345,13 +345,13 @@ TEST(HimmDemoRecording, AMeasurementThatNoFilterExpectsIsNamed) {
 }
 
 TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
-  const LocalFrame<2> frame({50.8, -1.1, 0.0});
+  const LocalFrame frame({50.8, -1.1, 0.0}, 2);
   std::string geodetic = "time_s,latitude_deg,longitude_deg\n", cartesian = "time_s,x_m,y_m\n";
   for (int k = 0; k < 60; ++k) {
     const double latitude = 50.8 + 0.002 * k, longitude = -1.1 - 0.003 * k;
-    const Vector<2> point = frame.to_local({latitude, longitude, 0.0});
+    const auto [x, y, z] = frame.to_local({latitude, longitude, 0.0});
     geodetic += std::to_string(10 * k) + "," + exact(latitude) + "," + exact(longitude) + "\n";
-    cartesian += std::to_string(10 * k) + "," + exact(point.x()) + "," + exact(point.y()) + "\n";
+    cartesian += std::to_string(10 * k) + "," + exact(x) + "," + exact(y) + "\n";
   }
   const auto found = rows(estimates(geodetic));
   const auto expected = rows(estimates(cartesian));
@@ -364,10 +364,10 @@ TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
     EXPECT_NEAR(std::stod(found[k].at("vx_mps")), std::stod(expected[k].at("vx_mps")), 0.1);
     EXPECT_EQ(found[k].at("z_m"), "");
     EXPECT_EQ(found[k].at("altitude_m"), "");
-    const Vector<2> back =
+    const auto [x, y, z] =
         frame.to_local({std::stod(found[k].at("latitude_deg")), std::stod(found[k].at("longitude_deg")), 0.0});
-    EXPECT_NEAR(back.x(), std::stod(found[k].at("x_m")), 1e-6);
-    EXPECT_NEAR(back.y(), std::stod(found[k].at("y_m")), 1e-6);
+    EXPECT_NEAR(x, std::stod(found[k].at("x_m")), 1e-6);
+    EXPECT_NEAR(y, std::stod(found[k].at("y_m")), 1e-6);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "support/report.hpp"
+#include "result/report.hpp"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/temporary_directory.hpp"
-#include "support/program.hpp"
+#include "apps/campaigns.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -25,6 +24,19 @@ TEST(HimmDemoSimulate, TheNumberOfThreadsChangesNoByte) {
     ASSERT_EQ(simulate(directory.path() / threads, {"--runs", "70", "--threads", threads}).status, 0);
   for (const char* file : {"rmse.csv", "weights.csv"})
     EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+}
+
+TEST(HimmDemoSimulate, RanksShareTheRunsAndChangeNoByte) {
+  if (!has_mpirun()) GTEST_SKIP() << "there is no mpirun";
+  const TemporaryDirectory directory;
+  const Arguments arguments = {"simulate", "--quiet", "--runs", "20", "--out", directory.path() / "out"};
+  const auto alone = program::run(SIGMAX_HIMM_DEMO, arguments);
+  ASSERT_EQ(alone.status, 0) << alone.output;
+  const auto files = results(directory.path() / "out");
+  const auto ranks = run_in_ranks(arguments);
+  if (ranks.output.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << "this build has no MPI";
+  EXPECT_EQ(ranks.output, alone.output);
+  EXPECT_TRUE(results(directory.path() / "out") == files);
 }
 
 TEST(HimmDemoSimulate, TheSeedChoosesTheRuns) {

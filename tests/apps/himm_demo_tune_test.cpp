@@ -12,7 +12,7 @@
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

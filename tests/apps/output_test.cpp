@@ -8,8 +8,10 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <limits>
+#include <list>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -94,19 +96,6 @@ TEST(AtomicFile, IsFinishedByItsCommit) {
   EXPECT_THROW(file.commit(), std::logic_error);
 }
 
-TEST(AtomicFile, CanBeMoved) {
-  const TemporaryDirectory directory;
-  AtomicFile first{directory.path() / "a"};
-  first.write("1");
-  AtomicFile second = std::move(first);
-  second.write("2");
-  AtomicFile third{directory.path() / "b"};
-  third = std::move(second);
-  third.commit();
-  EXPECT_EQ(contents(directory.path() / "a"), "12");
-  EXPECT_EQ(count_files(directory.path()), 1);
-}
-
 TEST(AtomicFile, NamesPathAndReasonOfAFailure) {
   const TemporaryDirectory directory;
   const std::string lost = directory.path() / "none" / "a.csv";
@@ -154,36 +143,10 @@ TEST(AtomicFile, ReportsMissingPermission) {
   fs::permissions(directory.path(), fs::perms::owner_all);
 }
 
-TEST(CommitAll, PutsNoFileIntoItsPlaceUnlessAllAreOnTheDisk) {
-  const TemporaryDirectory directory;
-  AtomicFile small{directory.path() / "small"};
-  AtomicFile large{directory.path() / "large"};
-  small.write("1");
-  large.write(std::string(60'000, 'x'));  // stays in memory until it is stored
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit limit{20'000, before.rlim_max};
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-  const std::string refusal = message_of<InputError>([&] { commit_all(small, large); });
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
-  EXPECT_NE(refusal.find("large: cannot be written: File too large"), std::string::npos) << refusal;
-  EXPECT_FALSE(fs::exists(directory.path() / "small"));
-
-  AtomicFile again{directory.path() / "large"};
-  again.write("2");
-  commit_all(small, again);
-  EXPECT_EQ(contents(directory.path() / "small"), "1");
-  EXPECT_EQ(contents(directory.path() / "large"), "2");
-  EXPECT_EQ(count_files(directory.path()), 2);
-}
-
 TEST(RemoveUnfinishedFiles, RemovesWhatIsNotCommitted) {
   const TemporaryDirectory directory;
   AtomicFile committed{directory.path() / "committed"};
   AtomicFile first{directory.path() / "first"};
-  AtomicFile moved{std::move(first)};
   committed.commit();
   EXPECT_EQ(count_files(directory.path()), 2);
   remove_unfinished_files();
@@ -194,7 +157,7 @@ TEST(RemoveUnfinishedFiles, RemovesWhatIsNotCommitted) {
 TEST(AtomicFile, AtMost16AreWrittenAtATime) {
   const TemporaryDirectory directory;
   for (int round = 0; round < 3; ++round) {
-    std::vector<AtomicFile> files;
+    std::list<AtomicFile> files;
     for (int i = 0; i < 16; ++i) files.emplace_back(directory.path() / std::to_string(i));
     EXPECT_THROW(AtomicFile{directory.path() / "more"}, std::logic_error);
   }
@@ -204,19 +167,15 @@ TEST(AtomicFile, AtMost16AreWrittenAtATime) {
 TEST(OutputDirectory, IsCreatedWithItsParents) {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "a" / "b";
-  const OutputDirectory output{path};
-  EXPECT_EQ(output.path(), path);
-  AtomicFile file = output.file("c.csv");
-  file.write("1");
-  file.commit();
-  EXPECT_EQ(contents(path / "c.csv"), "1");
-  EXPECT_EQ((OutputDirectory{path}.path()), path);
+  EXPECT_EQ(output_directory(path), path);
+  std::ofstream(path / "c.csv") << "1";
+  EXPECT_EQ(output_directory(path), path);
   EXPECT_EQ(contents(path / "c.csv"), "1");
 }
 
 TEST(OutputDirectory, TakesATrailingSlash) {
   const TemporaryDirectory directory;
-  const OutputDirectory output{directory.path() / "a" / ""};
+  output_directory(directory.path() / "a" / "");
   EXPECT_TRUE(fs::is_directory(directory.path() / "a"));
 }
 
@@ -224,7 +183,7 @@ TEST(OutputDirectory, SaysWhyItCannotBe) {
   const TemporaryDirectory directory;
   const fs::path file = directory.write("file", "");
   for (const fs::path& path : {file, file / "below"})
-    EXPECT_EQ(message_of<InputError>([&] { OutputDirectory{path}; }),
+    EXPECT_EQ(message_of<InputError>([&] { output_directory(path); }),
               path.string() + ": the directory cannot be created: Not a directory; choose another place");
 }
 

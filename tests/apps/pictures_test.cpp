@@ -1,10 +1,14 @@
-#include "support/pictures.hpp"
+#include "result/pictures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "apps/temporary_directory.hpp"
+#include "result/report.hpp"
+#include "support/error.hpp"
+#include "support/program.hpp"
+#include "support/throws.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -106,14 +110,61 @@ TEST(Pictures, AreThoseThatTheReportOpensWith) {
   EXPECT_EQ(names, (std::vector<std::string>{"first", "rmse_in_x", "rmse_in_x_2", "figure", "first_2"}));
 }
 
-/// Every kind of picture with labels that gnuplot, SVG and shells take for their own.
-TEST(Pictures, TakeAnyText) {
-  std::optional<Gnuplot> gnuplot;
-  try {
-    gnuplot.emplace();
-  } catch (const std::exception& error) {
-    GTEST_SKIP() << error.what();
+using sigmax::support::throws;
+
+/// Tests of gnuplot itself skip, visibly, where it is not installed.
+class InstalledGnuplot : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      need_gnuplot();
+    } catch (const UsageError& error) {
+      GTEST_SKIP() << error.what();
+    }
   }
+};
+
+TEST(Gnuplot, TextsAreQuotedAndOnOneLine) {
+  EXPECT_EQ(in_gnuplot("it's"), "'it''s'");
+  EXPECT_EQ(in_gnuplot("a\nb\tc\x7F"), "'a b c '");
+  EXPECT_EQ(in_gnuplot("\\n"), "'\\n'");
+  EXPECT_EQ(in_gnuplot("a\xFF π"), "'a\xEF\xBF\xBD π'");
+}
+
+TEST_F(InstalledGnuplot, ShowsEachLetterAsItIs) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.path() / "made";
+  const std::string title = "a_b^2 {/Bold x} @y ~z \\n \"q\" 'r' `touch " + file + "` %d </text><b> & π";
+  const std::string svg = svg_of({"", "set title " + in_gnuplot(title) + "\nplot x title " + in_gnuplot(title)});
+  std::string escaped;
+  for (const char letter : title)
+    escaped += letter == '<' ? std::string("&lt;") : letter == '&' ? std::string("&amp;") : std::string(1, letter);
+  const std::string shown = "<text>" + escaped + "</text>";
+  const auto first = svg.find(shown);
+  ASSERT_NE(first, std::string::npos) << svg;
+  EXPECT_NE(svg.find(shown, first + 1), std::string::npos) << "as title and in the legend";
+  EXPECT_EQ(svg.find("<b>"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(InstalledGnuplot, WritesDocumentsWithoutTheTimeOfDay) {
+  const Picture picture{"", "plot sin(x)", 8.0, 5.0};
+  const std::string svg = svg_of(picture), pdf = pdf_of(picture);
+  EXPECT_NE(svg.find("width=\"336\" height=\"210\""), std::string::npos);
+  EXPECT_TRUE(pdf.starts_with("%PDF-"));
+  EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
+  EXPECT_EQ(pdf, pdf_of(picture));
+  // The table of places is where the document says.
+  const auto place = pdf.rfind("startxref\n") + 10;
+  EXPECT_EQ(pdf.compare(std::stoul(pdf.substr(place)), 4, "xref"), 0);
+}
+
+TEST_F(InstalledGnuplot, HandsOnWhatGnuplotComplainsOf) {
+  EXPECT_TRUE(throws<std::runtime_error>([&] { svg_of({"", "plot nothing\n"}); }, {"gnuplot", "undefined"}));
+}
+
+/// Every kind of picture with labels that gnuplot, SVG and shells take for their own.
+TEST_F(InstalledGnuplot, TakesAnyText) {
   const std::string nasty = "</script><b> 'q' \"r\" \\ _{@} `id` ^2\n%s \xFF";
   LineChart chart = chart_of(nasty, {{nasty, nasty, {1.0, NAN, 2.0}, {0.5, NAN, 1.5}, {1.5, NAN, 2.5}}});
   chart.shaded = {{1.5, 2.5, nasty}};
@@ -136,11 +187,11 @@ TEST(Pictures, TakeAnyText) {
   for (const Picture& picture : pictures) {
     EXPECT_EQ(picture.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
         << picture.name;
-    const std::string svg = gnuplot->svg(picture);
+    const std::string svg = svg_of(picture);
     EXPECT_TRUE(holds(svg, "&lt;/script>&lt;b> 'q' \"r\" \\ _{@} `id` ^2 %s \xEF\xBF\xBD")) << svg;
     EXPECT_FALSE(holds(svg, "<b>"));
     EXPECT_FALSE(holds(svg, "%%") || holds(svg, "0.000000")) << svg;
-    EXPECT_TRUE(gnuplot->pdf(picture).starts_with("%PDF"));
+    EXPECT_TRUE(pdf_of(picture).starts_with("%PDF"));
   }
 }
 

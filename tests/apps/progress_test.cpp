@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

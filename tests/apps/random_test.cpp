@@ -1,5 +1,7 @@
 #include "support/random.hpp"
 
+#include <Random123/philox.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

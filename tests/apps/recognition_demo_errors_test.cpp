@@ -2,7 +2,7 @@
 
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

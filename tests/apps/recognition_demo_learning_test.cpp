@@ -10,7 +10,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/near.hpp"
-#include "support/table.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

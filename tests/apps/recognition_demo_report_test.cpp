@@ -7,8 +7,8 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/report_pages.hpp"
 #include "apps/temporary_directory.hpp"
+#include "result/report.hpp"
 #include "support/near.hpp"
-#include "support/report.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "support/statistic.hpp"
+#include "study/statistic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 
 #include "support/near.hpp"
 #include "support/plain.hpp"

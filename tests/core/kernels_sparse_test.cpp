@@ -14,6 +14,7 @@
 
 #include <sigmax/core/kernels/compose.hpp>
 
+#include "kernels/sparse.hpp"
 #include "support/drawn_tables.hpp"
 #include "support/throws.hpp"
 
@@ -84,10 +85,6 @@ bool ascend(const SparseRows& rows) {
   return true;
 }
 
-Table numbers_of(const AnyRows& any) {
-  return std::visit([](const auto& rows) { return dense_table(rows); }, any);
-}
-
 /// Composes parts stored in any way, over a former result, and compares to the bit; winners as well where ⊕ selects.
 template <class A, class Add>
 void expect_as_defined(Draw draw, Add add) {
@@ -102,14 +99,15 @@ void expect_as_defined(Draw draw, Add add) {
                                std::to_string(size.columns) + " as " + std::to_string(l.index()) +
                                std::to_string(r.index());
         kernels::compose<A>(l, r, result);
-        ASSERT_TRUE(std::ranges::equal(numbers_of(result).values(), expected.values())) << at;
-        if (const auto* const rows = std::get_if<SparseRows>(&result)) ASSERT_TRUE(ascend(*rows)) << at;
+        ASSERT_TRUE(std::ranges::equal(dense_table(result).values(), expected.values())) << at;
+        if (const auto* const rows = std::get_if<SparseRows>(&result)) {
+          ASSERT_TRUE(ascend(*rows)) << at;
+        }
         if constexpr (SelectiveAlgebra<A>) {
           kernels::FirstWinners winners;
-          kernels::compose<A>(l, r, result, winners);
-          ASSERT_TRUE(std::ranges::equal(numbers_of(result).values(), expected.values())) << at;
-          ASSERT_EQ(std::visit([&](const auto& rows) { return dense_winners(rows, winners.all); }, result), first)
-              << at;
+          kernels::compose<A>(l, r, result, &winners);
+          ASSERT_TRUE(std::ranges::equal(dense_table(result).values(), expected.values())) << at;
+          ASSERT_EQ(std::visit([&](const auto& rows) { return dense_winners(rows, winners); }, result), first) << at;
         }
       }
   }
@@ -136,8 +134,7 @@ TEST(Sparse, ManyTermsOfOneColumnNeedNoMoreRoomThanTheResult) {
     right.end_row();
   }
   SparseRows result;
-  kernels::NoWinners none;
-  kernels::sparse_composition<Max>(left, right, result, none);
+  kernels::sparse_composition<false>(Max{}, left, right, result, nullptr);
   ASSERT_EQ(result.stored(), 2000U);
   EXPECT_EQ(result.at(999, 0), 0.5);
   EXPECT_EQ(result.at(999, 1), 0.999);
@@ -152,8 +149,7 @@ TEST(Sparse, RowsOfNoneAndOfVeryDifferentSizesAreComposed) {
   for (std::size_t i = 0; i < 50; ++i) right.append({{i, 1.0}});
   for (std::size_t i = 0; i < 50; ++i) right.append({{99, 1.0}});
   SparseRows result;
-  kernels::NoWinners none;
-  kernels::sparse_composition<Sigma>(left, right, result, none);
+  kernels::sparse_composition<false>(Sigma{}, left, right, result, nullptr);
   ASSERT_EQ(result.rows(), 100U);
   ASSERT_EQ(result.stored(), 50U * 5000U);
   EXPECT_EQ(result.entries(49).size(), 0U);

@@ -4,15 +4,15 @@
 #include <limits>
 #include <vector>
 
-#include <sigmax/core/kernels/unbounded_row.hpp>
-#include <sigmax/core/rows.hpp>
-
+#include "kernels/unbounded_row.hpp"
 #include "support/near.hpp"
 
 namespace sigmax::kernels {
 namespace {
 
 using support::near;
+
+using sigmax::detail::any_algebra;
 
 constexpr double subnormal = std::numeric_limits<double>::denorm_min();
 constexpr double least = std::numeric_limits<double>::min();
@@ -34,17 +34,16 @@ TEST(UnboundedRow, ComposesInBandsWhatDoublesCannotHoldTogether) {
   row[1] = row[1] * ScaledNumber(1.0, -1000);
   row[2] = row[2] * ScaledNumber(1.0, -5000);
   UnboundedRow sum, max;
-  NoWinners none;
-  FirstWinners winners;
-  sum.assign_composition<Sigma>(table, row, none);
-  max.assign_composition<Max>(table, row, winners);
+  Winners winners;
+  sum.assign_composition(table, row, any_algebra<Sigma>(), nullptr);
+  max.assign_composition(table, row, any_algebra<Max>(), &winners);
   for (const UnboundedRow* const result : {&sum, &max}) {
     EXPECT_EQ((*result)[0], ScaledNumber(1.0));
     EXPECT_EQ((*result)[1], ScaledNumber(1.0, -1001));
     EXPECT_EQ((*result)[2], ScaledNumber(1.0, -5002));
     EXPECT_EQ((*result)[3], ScaledNumber(1.0, -1002));  // ½ · 2^−1001, above 2^−1074
   }
-  EXPECT_EQ(winners.all, (std::vector<Winner>{0, 1, 2, 1}));
+  EXPECT_EQ(winners.first, (std::vector<Winner>{0, 1, 2, 1}));
 }
 
 TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
@@ -53,9 +52,9 @@ TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
   UnboundedRow row(std::vector{1.0, 1.0, 1.0}), result;
   row[0] = row[0] * ScaledNumber(1.0, -1000);  // a tie with 1 · 2^−1000, of another band
   row[2] = ScaledNumber{};
-  FirstWinners winners;
-  result.assign_composition<Max>(table, row, winners);
-  EXPECT_EQ(winners.all, (std::vector<Winner>{0}));
+  Winners winners;
+  result.assign_composition(table, row, any_algebra<Max>(), &winners);
+  EXPECT_EQ(winners.first, (std::vector<Winner>{0}));
   EXPECT_EQ(result[0], ScaledNumber(1.0, -1000));
 }
 
@@ -65,8 +64,8 @@ TEST(UnboundedRow, CarriesEvidenceBackInBands) {
   std::copy(rows.begin(), rows.end(), table.data());
   UnboundedRow after(std::vector{0.0, 1.0, 0.5}), sum, max;
   after[2] = after[2] * ScaledNumber(1.0, -3000);
-  sum.assign_carried_back<Sigma>(table, after);
-  max.assign_carried_back<Max>(table, after);
+  sum.assign_carried_back(table, after, any_algebra<Sigma>());
+  max.assign_carried_back(table, after, any_algebra<Max>());
   for (const UnboundedRow* const result : {&sum, &max}) {
     EXPECT_EQ((*result)[0], ScaledNumber(subnormal));
     EXPECT_EQ((*result)[1], ScaledNumber(0.25));
@@ -77,27 +76,33 @@ TEST(UnboundedRow, OfZerosStaysZero) {
   const UnboundedRow row(std::vector{0.0, -0.0});
   EXPECT_TRUE(row.is_zero());
   UnboundedRow result;
-  NoWinners none;
-  result.assign_composition<Sigma>(Table(2, 3, 1.0), row, none);
+  result.assign_composition(Table(2, 3, 1.0), row, any_algebra<Sigma>(), nullptr);
   EXPECT_EQ(result.size(), 3U);
   EXPECT_TRUE(result.is_zero());
-  EXPECT_EQ(result.log_total<Sigma>(), log_zero);
+  EXPECT_EQ(result.log_total(any_algebra<Sigma>()), log_zero);
 }
 
-TEST(PlainRow, IsMaxMin) {
-  const PlainRow<MaxMin> before(std::vector{0.5, 1.0});
+TEST(UnboundedRow, OfGradesIsPlainMaxMin) {
+  const UnboundedRow before(std::vector{0.5, 1.0});
   Table table(2, 2);
   table(0, 0) = 1.0, table(0, 1) = 0.25, table(1, 0) = 0.75, table(1, 1) = 0.5;
-  FirstWinners winners;
-  PlainRow<MaxMin> row, back;
-  row.assign_composition<MaxMin>(table, before, winners);
-  EXPECT_EQ(row[0], 0.75);
-  EXPECT_EQ(row[1], 0.5);
+  Winners winners;
+  UnboundedRow row, back;
+  row.assign_composition(table, before, any_algebra<MaxMin>(), &winners);
+  EXPECT_EQ(row[0], ScaledNumber{0.75});
+  EXPECT_EQ(row[1], ScaledNumber{0.5});
   EXPECT_EQ(row.greatest(), 0U);
-  EXPECT_EQ(winners.all, (std::vector<Winner>{1, 1}));
-  back.assign_carried_back<MaxMin>(table, before);
-  EXPECT_EQ(back[0], 0.5);
-  EXPECT_EQ(back[1], 0.5);
+  ASSERT_EQ(winners.attempts.size(), 2U);
+  for (const std::size_t k : {0U, 1U}) {  // the first attains ½ and ¼, the second more
+    ASSERT_EQ(winners.attempts[k].size(), 2U);
+    EXPECT_EQ(winners.attempts[k][0].index, 0U);
+    EXPECT_EQ(winners.attempts[k][0].value, k == 0 ? 0.5 : 0.25);
+    EXPECT_EQ(winners.attempts[k][1].index, 1U);
+    EXPECT_EQ(winners.attempts[k][1].value, row[k].value());
+  }
+  back.assign_carried_back(table, before, any_algebra<MaxMin>());
+  EXPECT_EQ(back[0], ScaledNumber{0.5});
+  EXPECT_EQ(back[1], ScaledNumber{0.5});
 }
 
 }  // namespace

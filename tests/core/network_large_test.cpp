@@ -212,6 +212,19 @@ TEST(Sample, NeverDrawsWhatIsImpossible) {
   EXPECT_TRUE(throws<std::invalid_argument>([&] { sample(fuzzy, generator); }, {"'y'", "fuzzy"}));
 }
 
+TEST(Sample, DrawsItsNumberAsTheStandardLibraryDoes) {
+  const auto expect_alike = [](auto ours) {
+    auto theirs = ours;
+    for (int k = 0; k < 1000; ++k) {
+      const double expected = std::generate_canonical<double, 53>(theirs);
+      ASSERT_EQ(detail::unit_number(ours), expected);
+    }
+  };
+  expect_alike(std::mt19937(1));
+  expect_alike(std::mt19937_64(2));
+  expect_alike(std::minstd_rand(3));
+}
+
 TEST(Bif, WritesWhatItReads) {
   RelationNetwork network = grid(2);
   const RandomVariable odd{"an odd name", {"a b", "c|d", "50%"}};

@@ -1,4 +1,4 @@
-#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/radar.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <sigmax/estimation/innovation.hpp>
+#include <sigmax/estimation/kalman.hpp>
 
 #include <gtest/gtest.h>
 

@@ -16,6 +16,13 @@ namespace {
 
 using namespace support;
 
+/// A member is of a motion: an AnyModel has its member already.
+template <class Model>
+concept HasMembers = requires(const Model& model) {
+  Extended{model};
+};
+static_assert(HasMembers<CoordinatedTurn<2>> && !HasMembers<AnyModel>);
+
 /// Also where nobody says that the model is linear.
 TEST(Member, OfALinearModelIsTheKalmanFilter) {
   Draws draws(1);

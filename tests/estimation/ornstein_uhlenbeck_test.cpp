@@ -87,6 +87,7 @@ TEST(OrnsteinUhlenbeck, ShowsItsParameters) {
 
 TEST(OrnsteinUhlenbeck, RefusesParametersThatAreNone) {
   EXPECT_TRUE(throws<std::invalid_argument>([] { singer<3>(-1.0, 1.0); }, {"rate", "singer", "-1"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([] { ou_position<1>(-1.0, 1.0); }, {"the rate", "ou_position", "-1"}));
   EXPECT_TRUE(throws<std::invalid_argument>([] { ou_velocity<3>(1.0, -2.0); }, {"sigma", "ou_velocity", "-2"}));
 }
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include <sigmax/estimation/converted_measurement.hpp>
-
 #include "support/matrices.hpp"
 #include "support/throws.hpp"
 

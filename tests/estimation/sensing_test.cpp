@@ -8,6 +8,7 @@
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
 #include "support/matrices.hpp"
@@ -96,46 +97,60 @@ static_assert(!SensorOf<PositionSensor<3>, IndependentAxes<1, DiscreteWhiteNoise
 static_assert(!SensorOf<LinearSensor<1, 7>, Dwna> && SensorOf<LinearSensor<1, 7>, Dwpa>);
 static_assert(SensorOf<LinearSensor<1, 7>, AnyModel>, "it is seen at run time");
 
+/// A measurement of nothing as it is seen about a state: its H, and as residual −h(x).
+template <class Model, class Sensor>
+auto seen(const Model& model, const Sensor& sensor, const StateOf<Model>& x) {
+  const StateMatrixOf<Model> P = StateMatrixOf<Model>::Identity(x.size(), x.size());
+  return linearised_measurement(model, {x, P},
+                                {MeasuredOf<Sensor>::Zero(), SquareMatrix<Sensor::measurement_size>::Zero()}, sensor);
+}
+
 TEST(Sensing, ASensorOfMoreThanARunTimeModelHasIsRefused) {
   const AnyModel six = dwna_now, nine = dwpa_now;
   const LinearSensor<1, 9> acceleration{RectangularMatrix<1, 9>::Unit(8)};
-  EXPECT_EQ(predicted_measurement(nine, acceleration, Vector<9>::Constant(2.0)), Vector<1>(2.0));
+  EXPECT_EQ(-seen(nine, acceleration, Vector<9>::Constant(2.0)).residual, Vector<1>(2.0));
   const std::initializer_list<std::string_view> words{"sees 9 components", "dwna", "6"};
   const Vector<6> x = Vector<6>::Ones();
-  EXPECT_NO_THROW(predicted_measurement(six, PolarSensor<3>{}, x));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { predicted_measurement(six, acceleration, x); }, words));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { measurement_jacobian(six, acceleration, x); }, words));
+  EXPECT_NO_THROW(seen(six, PolarSensor<3>{}, x));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { seen(six, acceleration, x); }, words));
 }
 
 TEST(Sensing, WhatASensorSeesIsTheLeadingPartOfTheState) {
   const CoordinatedTurn<3> turn{0.5, 0.1};
   const PolarSensor<2> radar{Vector<2>(500.0, 600.0)};
   const Vector<7> x(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
-  EXPECT_EQ(predicted_measurement(turn, radar, x), radar.measure(x.head<2>()));
+  EXPECT_EQ(-seen(turn, radar, x).residual, radar.measure(x.head<2>()));
   RectangularMatrix<2, 7> H = RectangularMatrix<2, 7>::Zero();
   H.leftCols<2>() = radar.measurement_jacobian(x.head<2>());
-  EXPECT_EQ(measurement_jacobian(turn, radar, x), H);
+  EXPECT_EQ(seen(turn, radar, x).H, H);
 }
+
+/// Says its matrix row by row.
+struct ByRows {
+  static constexpr int seen_size = 4;
+  static constexpr int measurement_size = 2;
+  Eigen::Matrix<double, 2, 4, Eigen::RowMajor> measurement_matrix() const {
+    return RectangularMatrix<2, 4>{{1, 2, 3, 4}, {5, 6, 7, 8}};
+  }
+};
 
 TEST(Sensing, AMatrixIsOverAllComponents) {
   const LinearSensor<2, 4> sensor{RectangularMatrix<2, 4>{{1, 2, 3, 4}, {5, 6, 7, 8}}};
   const RectangularMatrix<2, 6> all{{1, 2, 3, 4, 0, 0}, {5, 6, 7, 8, 0, 0}};
-  EXPECT_EQ(measurement_jacobian(dwna_now, sensor, Vector<6>::Ones()), all);
-  EXPECT_EQ(measurement_jacobian(AnyModel{dwna_now}, sensor, Vector<6>::Ones()), all);
-  EXPECT_EQ(predicted_measurement(dwna_now, sensor, Vector<6>::Ones()), (Vector<2>(10.0, 26.0)));
-  EXPECT_EQ(measurement_jacobian(dwna_now, PositionSensor<2>{}, Vector<6>::Ones()),
-            (RectangularMatrix<2, 6>::Identity()));
+  EXPECT_EQ(seen(dwna_now, sensor, Vector<6>::Ones()).H, all);
+  EXPECT_EQ(seen(AnyModel{dwna_now}, sensor, Vector<6>::Ones()).H, all);
+  EXPECT_EQ(seen(dwna_now, ByRows{}, Vector<6>::Ones()).H, all);
+  EXPECT_EQ(-seen(dwna_now, sensor, Vector<6>::Ones()).residual, (Vector<2>(10.0, 26.0)));
+  EXPECT_EQ(seen(dwna_now, PositionSensor<2>{}, Vector<6>::Ones()).H, (RectangularMatrix<2, 6>::Identity()));
 }
 
 TEST(Sensing, ASensorMayAskTheModel) {
   const Vector<9> x = Vector<9>::LinSpaced(1.0, 9.0);
-  EXPECT_EQ(predicted_measurement(dwpa_now, SquaredLast{}, x), Vector<1>(81.0));
-  EXPECT_EQ(predicted_measurement(dwna_now, SquaredLast{}, x.head<6>()), Vector<1>(36.0));
-  EXPECT_EQ(measurement_jacobian(dwna_now, SquaredLast{}, x.head<6>()),
-            (RectangularMatrix<1, 6>(0.0, 0.0, 0.0, 0.0, 0.0, 12.0)));
-  EXPECT_EQ(measurement_jacobian(dwna_now, Last{}, x.head<6>()),
-            (RectangularMatrix<1, 6>(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)));
-  EXPECT_EQ(predicted_measurement(AnyModel{dwpa_now}, Last{}, x), Vector<1>(9.0));
+  EXPECT_EQ(-seen(dwpa_now, SquaredLast{}, x).residual, Vector<1>(81.0));
+  EXPECT_EQ(-seen(dwna_now, SquaredLast{}, x.head<6>()).residual, Vector<1>(36.0));
+  EXPECT_EQ(seen(dwna_now, SquaredLast{}, x.head<6>()).H, (RectangularMatrix<1, 6>(0.0, 0.0, 0.0, 0.0, 0.0, 12.0)));
+  EXPECT_EQ(seen(dwna_now, Last{}, x.head<6>()).H, (RectangularMatrix<1, 6>(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)));
+  EXPECT_EQ(-seen(AnyModel{dwpa_now}, Last{}, x).residual, Vector<1>(9.0));
 }
 
 struct WithJacobian : Sideways {
@@ -143,10 +158,9 @@ struct WithJacobian : Sideways {
 };
 
 TEST(Sensing, JacobiansAreDifferentiatedWhereTheyAreNotGiven) {
-  EXPECT_PRED_FORMAT3(near, measurement_jacobian(dwna_now, Sideways{}, 0.3 * Vector<6>::Ones())(0), std::cos(0.3),
-                      1e-15);
-  EXPECT_EQ(measurement_jacobian(AnyModel{dwna_now}, SquaredLast{}, Vector<6>::Constant(2.0))(5), 4.0);
-  EXPECT_EQ(measurement_jacobian(dwna_now, WithJacobian{}, Vector<6>::Ones())(0), 7.0);
+  EXPECT_PRED_FORMAT3(near, seen(dwna_now, Sideways{}, 0.3 * Vector<6>::Ones()).H(0), std::cos(0.3), 1e-15);
+  EXPECT_EQ(seen(AnyModel{dwna_now}, SquaredLast{}, Vector<6>::Constant(2.0)).H(5), 4.0);
+  EXPECT_EQ(seen(dwna_now, WithJacobian{}, Vector<6>::Ones()).H(0), 7.0);
 }
 
 /// Sees the angle itself, modulo a turn.

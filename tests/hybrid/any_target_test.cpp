@@ -58,6 +58,22 @@ TEST(AnyTarget, StartsFromThreePointsAndTellsTheTagOfEveryStep) {
   EXPECT_FALSE(point.nis);
 }
 
+TEST(AnyTarget, FollowsPlotsAndTellsWhatIsKnownAfterEach) {
+  AnyTarget target{choice(false, Scheme::interacting)}, other = target;
+  std::vector<AnyPlot> plots;
+  for (int k = 0; k < 6; ++k) plots.push_back(at(k, 100.0 * k, 0.0, static_cast<std::size_t>(10 + k)));
+  std::vector<std::size_t> tags;
+  target.follow(plots, [&](const TargetPoint& point) {
+    tags.push_back(point.tag);
+    EXPECT_EQ(point.is_start, point.tag == 12);
+    EXPECT_EQ(point.time, static_cast<double>(point.tag) - 10.0);
+    EXPECT_NEAR(point.mean[0], 100.0 * point.time, 1e-6);
+  });
+  EXPECT_EQ(tags, (std::vector<std::size_t>{12, 13, 14, 15}));
+  for (const AnyPlot& plot : plots) other.take(plot);
+  EXPECT_EQ(target.output().mean, other.output().mean);
+}
+
 TEST(AnyTarget, CopiedGoesItsOwnWayAndMovedGoesOn) {
   for (const bool fuzzy : {false, true})
     for (const Scheme scheme : {Scheme::interacting, Scheme::second_order, Scheme::histories}) {

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <vector>
 
-#include <sigmax/estimation/converted_measurement.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
@@ -15,6 +14,7 @@
 #include <sigmax/estimation/known_turn.hpp>
 #include <sigmax/estimation/linearised.hpp>
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
+#include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensors.hpp>
 #include <sigmax/estimation/unscented.hpp>
 #include <sigmax/estimation/white_noise.hpp>

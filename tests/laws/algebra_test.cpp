@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <sigmax/core/algebra.hpp>
-#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 
 #include "laws/generate.hpp"
 #include "support/type_names.hpp"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sigmax/core/tie.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/classifier.hpp>
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include <sigmax/core/kernels/accumulate.hpp>
+#include <sigmax/core/kernels/winner.hpp>
 #include <sigmax/core/table.hpp>
 
 /// Tables for the kernels, and what a composition of them is by its definition.

@@ -10,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <sigmax/estimation/dense.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/known_model.hpp>
 
@@ -103,7 +104,7 @@ class SoakDraws {
       root(i, i) = sigma * log_uniform(1.0, 10.0);
     }
     SquareMatrix<Eigen::Dynamic, 3> R = root * root.transpose();
-    detail::mirror_lower(R);
+    detail::mirror_lower(R.data(), axes);
     return R;
   }
 

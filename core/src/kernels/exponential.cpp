@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <sigmax/core/kernels/exponential.hpp>
+#include "kernels/exponential.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sigmax::kernels::HWY_NAMESPACE {

@@ -18,9 +18,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <sigmax/core/kernels/tiled.hpp>
-
 #include "kernels/flush.hpp"
+#include "kernels/tiled.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sigmax::kernels::HWY_NAMESPACE {
@@ -39,6 +38,8 @@ constexpr std::size_t tile_columns = tile_vectors * lanes;
 // The rows of a tile lie in the first cache while the strips of a block, which is in the second, pass by.
 constexpr std::size_t inner_block = 512, column_block = 144;
 static_assert(column_block % tile_columns == 0);
+// With winners a tile is smaller, for their indices lie in registers, too.
+constexpr std::size_t winner_rows = many_registers ? 4 : 2;
 // Up to this size strips are read where they are.
 constexpr std::size_t in_place_inner = 128, in_place_columns = 256;
 
@@ -64,55 +65,80 @@ struct Rows {
   HWY_INLINE const double* row(std::size_t r) const { return first + r * step; }
 };
 
-/// sums(r, ·) = sums(r, ·) ⊕ ⊕_j weights(r, j) ⊗ strip(j, ·), for R rows and V vectors.
-template <class A, std::size_t R, std::size_t V>
-HWY_INLINE void add(std::size_t inner, Rows weights, Rows strip, Vector (&sums)[R][V]) {
+/// Where a tile of the result is, and its winners.
+struct Out {
+  double* numbers;
+  Winner* first;
+  std::size_t step;
+};
+
+/// out(r, ·) = out(r, ·) ⊕ ⊕_j weights(r, j) ⊗ strip(j, ·), for R rows and V vectors; `fresh` if there is nothing in
+/// `out` yet. With winners it always is fresh, and j goes over all there are.
+template <class A, bool WithWinners, std::size_t R, std::size_t V>
+HWY_NOINLINE void add_tile(std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
+  Vector sums[R][V], firsts[R][V];
+  for (std::size_t r = 0; r < R; ++r)
+    for (std::size_t v = 0; v < V; ++v) {
+      sums[r][v] = fresh ? hn::Zero(all) : hn::LoadU(all, out.numbers + r * out.step + v * lanes);
+      if constexpr (WithWinners) firsts[r][v] = hn::Zero(all);
+    }
+  Vector index = hn::Zero(all);
   for (std::size_t j = 0; j < inner; ++j) {
     Vector values[V];
     for (std::size_t v = 0; v < V; ++v) values[v] = hn::LoadU(all, strip.row(j) + v * lanes);
     for (std::size_t r = 0; r < R; ++r) {
       const Vector weight = hn::Set(all, weights.row(r)[j]);
-      for (std::size_t v = 0; v < V; ++v) sums[r][v] = added(A{}, weight, values[v], sums[r][v]);
+      for (std::size_t v = 0; v < V; ++v) {
+        if constexpr (WithWinners) {
+          const Vector term = product(A{}, weight, values[v]);
+          firsts[r][v] = hn::IfThenElse(hn::Lt(sums[r][v], term), index, firsts[r][v]);
+          sums[r][v] = greater(term, sums[r][v]);
+        } else {
+          sums[r][v] = added(A{}, weight, values[v], sums[r][v]);
+        }
+      }
     }
+    if constexpr (WithWinners) index = hn::Add(index, hn::Set(all, 1.0));
   }
-}
-
-/// The same where the sums are; `fresh` if they are not there yet and begin as zero.
-template <class A, std::size_t R, std::size_t V>
-HWY_NOINLINE void add_tile(std::size_t inner, Rows weights, Rows strip, double* out, std::size_t step, bool fresh) {
-  Vector sums[R][V];
+  constexpr hn::Rebind<std::int32_t, Doubles> integers;
+  constexpr hn::RebindToUnsigned<decltype(integers)> indices;
   for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t v = 0; v < V; ++v) sums[r][v] = fresh ? hn::Zero(all) : hn::LoadU(all, out + r * step + v * lanes);
-  add<A>(inner, weights, strip, sums);
-  for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t v = 0; v < V; ++v) hn::StoreU(sums[r][v], all, out + r * step + v * lanes);
+    for (std::size_t v = 0; v < V; ++v) {
+      const std::size_t at = r * out.step + v * lanes;
+      hn::StoreU(sums[r][v], all, out.numbers + at);
+      if constexpr (WithWinners)
+        hn::StoreU(hn::BitCast(indices, hn::DemoteTo(integers, firsts[r][v])), indices, out.first + at);
+    }
 }
 
 /// The same for up to a tile's vectors.
-template <class A, std::size_t R>
-HWY_INLINE void add_vectors(std::size_t vectors, std::size_t inner, Rows weights, Rows strip, double* out,
-                            std::size_t step, bool fresh) {
+template <class A, bool WithWinners, std::size_t R>
+HWY_INLINE void add_vectors(std::size_t vectors, std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
   if (vectors == 1)
-    add_tile<A, R, 1>(inner, weights, strip, out, step, fresh);
+    add_tile<A, WithWinners, R, 1>(inner, weights, strip, out, fresh);
   else if (vectors == 2)
-    add_tile<A, R, 2>(inner, weights, strip, out, step, fresh);
+    add_tile<A, WithWinners, R, 2>(inner, weights, strip, out, fresh);
   else
-    add_tile<A, R, tile_vectors>(inner, weights, strip, out, step, fresh);
+    add_tile<A, WithWinners, R, tile_vectors>(inner, weights, strip, out, fresh);
 }
 
 /// The same for up to a tile's columns. Those that do not fill a vector go through a copy.
-template <class A, std::size_t R>
-HWY_INLINE void add_columns(std::size_t columns, std::size_t inner, Rows weights, Rows strip, double* out,
-                            std::size_t step, bool fresh) {
+template <class A, bool WithWinners, std::size_t R>
+HWY_INLINE void add_columns(std::size_t columns, std::size_t inner, Rows weights, Rows strip, Out out, bool fresh) {
   const std::size_t vectors = hwy::DivCeil(columns, lanes);
   if (columns == vectors * lanes) {
-    add_vectors<A, R>(vectors, inner, weights, strip, out, step, fresh);
+    add_vectors<A, WithWinners, R>(vectors, inner, weights, strip, out, fresh);
     return;
   }
   double copy[R * tile_columns];
-  for (std::size_t r = 0; r < R && !fresh; ++r) std::copy_n(out + r * step, columns, copy + r * tile_columns);
-  add_vectors<A, R>(vectors, inner, weights, strip, copy, tile_columns, fresh);
-  for (std::size_t r = 0; r < R; ++r) std::copy_n(copy + r * tile_columns, columns, out + r * step);
+  Winner firsts[R * tile_columns];
+  for (std::size_t r = 0; r < R && !fresh; ++r)
+    std::copy_n(out.numbers + r * out.step, columns, copy + r * tile_columns);
+  add_vectors<A, WithWinners, R>(vectors, inner, weights, strip, {copy, firsts, tile_columns}, fresh);
+  for (std::size_t r = 0; r < R; ++r) {
+    std::copy_n(copy + r * tile_columns, columns, out.numbers + r * out.step);
+    if constexpr (WithWinners) std::copy_n(firsts + r * tile_columns, columns, out.first + r * out.step);
+  }
 }
 
 /// action(r, constant) for every group of rows that makes a tile: as many as fit, then fewer.
@@ -126,121 +152,87 @@ HWY_INLINE void for_each_group(std::size_t rows, const Action& action) {
 }
 
 /// Memory that a thread keeps for its next composition.
-double* room(std::vector<double>& kept, std::size_t size) {
+double* room(std::size_t size) {
+  thread_local std::vector<double> kept;
   if (kept.size() < size) kept.resize(size);
   return kept.data();
 }
 
-/// A strip of left(j0 + j, k + ·), filled up with zeros to whole vectors, `width` numbers a row.
-void copy_strip(const DenseParts& parts, std::size_t j0, std::size_t inner, std::size_t k, std::size_t width,
-                double* out) {
-  const std::size_t columns = std::min(width, parts.columns - k);
-  for (std::size_t j = 0; j < inner; ++j, out += width) {
+/// A strip of left(j0 + j, k + ·), filled up with zeros to a tile's columns.
+void copy_strip(const DenseParts& parts, std::size_t j0, std::size_t inner, std::size_t k, double* out) {
+  const std::size_t columns = std::min(tile_columns, parts.columns - k);
+  for (std::size_t j = 0; j < inner; ++j, out += tile_columns) {
     const double* const row = parts.left + (j0 + j) * parts.columns + k;
-    if (columns == width) {
-      for (std::size_t v = 0; v < width; v += lanes) hn::StoreU(hn::LoadU(all, row + v), all, out + v);
+    if (columns == tile_columns) {
+      for (std::size_t v = 0; v < tile_columns; v += lanes) hn::StoreU(hn::LoadU(all, row + v), all, out + v);
     } else {
-      std::fill(std::copy_n(row, columns, out), out + width, 0.0);
+      std::fill(std::copy_n(row, columns, out), out + tile_columns, 0.0);
     }
   }
 }
 
-/// A composition whose strips are copied.
-template <class A>
-void compose_copied(const DenseParts& parts) {
-  thread_local std::vector<double> kept;
-  double* const strips = room(kept, std::min(inner_block, parts.inner) * column_block);
-  for (std::size_t k0 = 0; k0 < parts.columns; k0 += column_block) {
-    const std::size_t columns = std::min(column_block, parts.columns - k0);
-    for (std::size_t j0 = 0; j0 < parts.inner; j0 += inner_block) {
-      const std::size_t inner = std::min(inner_block, parts.inner - j0);
-      for (std::size_t k = 0; k < columns; k += tile_columns)
-        copy_strip(parts, j0, inner, k0 + k, tile_columns, strips + k * inner);
-      for_each_group<tile_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
-        for (std::size_t k = 0; k < columns; k += tile_columns)
-          add_columns<A, group>(std::min(tile_columns, columns - k), inner,
-                                {parts.right + i * parts.inner + j0, parts.inner}, {strips + k * inner, tile_columns},
-                                parts.result + i * parts.columns + k0 + k, parts.columns, j0 == 0);
+/// Some columns of a composition, to which `inner` indices add their terms. Strips are read where they are, if they are
+/// of whole vectors, or from copies.
+template <class A, bool WithWinners>
+struct Block {
+  const DenseParts& parts;
+  Winner* first;
+  bool in_place;
+  double* copies;
+  std::size_t k0, columns, j0, inner;
+
+  std::size_t width(std::size_t k) const { return std::min(tile_columns, columns - k); }
+  bool is_copied(std::size_t k) const { return !in_place || width(k) % lanes != 0; }
+  double* copy(std::size_t k) const { return in_place ? copies : copies + k * inner; }
+
+  void copy_strips() const {
+    for (std::size_t k = 0; k < columns; k += tile_columns)
+      if (is_copied(k)) copy_strip(parts, j0, inner, k0 + k, copy(k));
+  }
+
+  template <std::size_t R>
+  HWY_INLINE void add(std::size_t i, std::size_t k) const {
+    const Rows strip = is_copied(k) ? Rows{copy(k), tile_columns} : Rows{parts.left + k, parts.columns};
+    const std::size_t at = i * parts.columns + k0 + k;
+    add_columns<A, WithWinners, R>(width(k), inner, {parts.right + i * parts.inner + j0, parts.inner}, strip,
+                                   {parts.result + at, WithWinners ? first + at : nullptr, parts.columns}, j0 == 0);
+  }
+};
+
+template <class A, bool WithWinners>
+HWY_NOINLINE void compose_all(const DenseParts& parts, Winner* first) {
+  constexpr std::size_t most_rows = WithWinners ? winner_rows : tile_rows;
+  if (parts.inner <= in_place_inner && parts.columns <= in_place_columns) {
+    double last[in_place_inner * tile_columns];
+    const Block<A, WithWinners> whole{parts, first, true, last, 0, parts.columns, 0, parts.inner};
+    whole.copy_strips();
+    for (std::size_t k = 0; k < parts.columns; k += tile_columns)
+      for_each_group<most_rows>(parts.rows,
+                                [&, k](std::size_t i, auto group) HWY_ATTR { whole.template add<group>(i, k); });
+    return;
+  }
+  const std::size_t inner_step = WithWinners ? parts.inner : inner_block;
+  constexpr std::size_t column_step = WithWinners ? tile_columns : column_block;
+  double* const copies = room(inner_step * column_step);
+  for (std::size_t k0 = 0; k0 < parts.columns; k0 += column_step)
+    for (std::size_t j0 = 0; j0 < parts.inner; j0 += inner_step) {
+      const std::size_t columns = std::min(column_step, parts.columns - k0);
+      const std::size_t inner = std::min(inner_step, parts.inner - j0);
+      const Block<A, WithWinners> some{parts, first, false, copies, k0, columns, j0, inner};
+      some.copy_strips();
+      for_each_group<most_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
+        for (std::size_t k = 0; k < columns; k += tile_columns) some.template add<group>(i, k);
       });
     }
-  }
 }
 
-/// A composition whose strips are read where they are, but for columns that do not fill a vector.
-template <class A>
-void compose_in_place(const DenseParts& parts) {
-  const auto compose_strip = [&](std::size_t k, std::size_t columns, Rows strip) HWY_ATTR {
-    for_each_group<tile_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
-      add_columns<A, group>(columns, parts.inner, {parts.right + i * parts.inner, parts.inner}, strip,
-                            parts.result + i * parts.columns + k, parts.columns, true);
-    });
-  };
-  const std::size_t filled = parts.columns / lanes * lanes;
-  for (std::size_t k = 0; k < filled; k += tile_columns)
-    compose_strip(k, std::min(tile_columns, filled - k), {parts.left + k, parts.columns});
-  if (filled == parts.columns) return;
-  double rest[in_place_inner * lanes];
-  copy_strip(parts, 0, parts.inner, filled, lanes, rest);
-  compose_strip(filled, parts.columns - filled, {rest, lanes});
-}
-
-template <class A>
-void compose_all(const DenseParts& parts) {
-  if (parts.inner <= in_place_inner && parts.columns <= in_place_columns)
-    compose_in_place<A>(parts);
+void compose_by(const AnyAlgebra& algebra, const DenseParts& parts, Winner* first) {
+  if (algebra.name == AnyAlgebra::sigma)
+    compose_all<Sigma, false>(parts, nullptr);
+  else if (algebra.name == AnyAlgebra::max)
+    first ? compose_all<Max, true>(parts, first) : compose_all<Max, false>(parts, nullptr);
   else
-    compose_copied<A>(parts);
-}
-
-// With winners a tile is smaller, for their indices lie in registers, too.
-constexpr std::size_t winner_rows = many_registers ? 4 : 2;
-
-/// Up to a tile's columns of R rows, and the first index that attains each number; strips as they are copied.
-template <class A, std::size_t R>
-void compose_with_winners(std::size_t columns, std::size_t inner, Rows weights, const double* strip, double* out,
-                          Winner* first, std::size_t step) {
-  constexpr hn::Rebind<std::int32_t, Doubles> integers;
-  Vector sums[R][tile_vectors], firsts[R][tile_vectors];
-  for (std::size_t r = 0; r < R; ++r)
-    for (std::size_t v = 0; v < tile_vectors; ++v) sums[r][v] = firsts[r][v] = hn::Zero(all);
-  Vector index = hn::Zero(all);
-  const Vector one = hn::Set(all, 1.0);
-  for (std::size_t j = 0; j < inner; ++j, strip += tile_columns, index = hn::Add(index, one)) {
-    Vector values[tile_vectors];
-    for (std::size_t v = 0; v < tile_vectors; ++v) values[v] = hn::LoadU(all, strip + v * lanes);
-    for (std::size_t r = 0; r < R; ++r) {
-      const Vector weight = hn::Set(all, weights.row(r)[j]);
-      for (std::size_t v = 0; v < tile_vectors; ++v) {
-        const Vector term = product(A{}, weight, values[v]);
-        firsts[r][v] = hn::IfThenElse(hn::Lt(sums[r][v], term), index, firsts[r][v]);
-        sums[r][v] = greater(term, sums[r][v]);
-      }
-    }
-  }
-  double numbers[tile_columns];
-  std::int32_t indices[tile_columns];
-  for (std::size_t r = 0; r < R; ++r) {
-    for (std::size_t v = 0; v < tile_vectors; ++v) {
-      hn::StoreU(sums[r][v], all, numbers + v * lanes);
-      hn::StoreU(hn::DemoteTo(integers, firsts[r][v]), integers, indices + v * lanes);
-    }
-    std::copy_n(numbers, columns, out + r * step);
-    std::copy_n(indices, columns, first + r * step);
-  }
-}
-
-template <class A>
-void compose_all_with_winners(const DenseParts& parts, Winner* first) {
-  thread_local std::vector<double> kept;
-  double* const strip = room(kept, parts.inner * tile_columns);
-  for (std::size_t k = 0; k < parts.columns; k += tile_columns) {
-    copy_strip(parts, 0, parts.inner, k, tile_columns, strip);
-    for_each_group<winner_rows>(parts.rows, [&](std::size_t i, auto group) HWY_ATTR {
-      compose_with_winners<A, group>(
-          std::min(tile_columns, parts.columns - k), parts.inner, {parts.right + i * parts.inner, parts.inner}, strip,
-          parts.result + i * parts.columns + k, first + i * parts.columns + k, parts.columns);
-    });
-  }
+    first ? compose_all<MaxMin, true>(parts, first) : compose_all<MaxMin, false>(parts, nullptr);
 }
 
 /// The least of all numbers.
@@ -256,12 +248,6 @@ double least_of_all(const double* numbers, std::size_t size) {
   return least;
 }
 
-void compose_sum(const DenseParts& parts) { compose_all<Sigma>(parts); }
-void compose_max(const DenseParts& parts) { compose_all<Max>(parts); }
-void compose_max_min(const DenseParts& parts) { compose_all<MaxMin>(parts); }
-void winners_max(const DenseParts& parts, Winner* first) { compose_all_with_winners<Max>(parts, first); }
-void winners_max_min(const DenseParts& parts, Winner* first) { compose_all_with_winners<MaxMin>(parts, first); }
-
 }  // namespace
 }  // namespace sigmax::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -270,11 +256,7 @@ HWY_AFTER_NAMESPACE();
 namespace sigmax::kernels {
 namespace {
 
-HWY_EXPORT(compose_sum);
-HWY_EXPORT(compose_max);
-HWY_EXPORT(compose_max_min);
-HWY_EXPORT(winners_max);
-HWY_EXPORT(winners_max_min);
+HWY_EXPORT(compose_by);
 HWY_EXPORT(least_of_all);
 
 constexpr double least_normal = std::numeric_limits<double>::min();
@@ -295,7 +277,7 @@ Range range_of(const double* numbers, std::size_t size) {
 /// Composes by products, without arithmetic on subnormal numbers. Where a result is so small that what was lost
 /// matters, it is composed again of larger numbers: scaling by powers of two rounds nothing.
 template <class Compose>
-bool compose_products(const DenseParts& parts, double least_exact, const Compose& compose, Winner* first = nullptr) {
+bool compose_products(const DenseParts& parts, double least_exact, const Compose& compose, Winner* first) {
   const std::size_t size = parts.rows * parts.columns;
   {
     const FlushedSubnormals flushed;
@@ -326,25 +308,16 @@ bool compose_products(const DenseParts& parts, double least_exact, const Compose
 
 }  // namespace
 
-bool compose_tiled(Sigma, const DenseParts& parts) {
-  // Each term may have lost up to the least normal number: that is below rounding in sums above this.
-  const double least_exact = static_cast<double>(parts.inner) * least_normal * 0x1p54;
-  return compose_products(parts, least_exact, HWY_DYNAMIC_DISPATCH(compose_sum));
-}
-bool compose_tiled(Max, const DenseParts& parts) {
-  return compose_products(parts, least_normal, HWY_DYNAMIC_DISPATCH(compose_max));
-}
-bool compose_tiled(MaxMin, const DenseParts& parts) {
-  HWY_DYNAMIC_DISPATCH(compose_max_min)(parts);
-  return true;
-}
-bool compose_tiled(Max, const DenseParts& parts, Winner* first) {
-  const auto compose = [first](const DenseParts& some) { HWY_DYNAMIC_DISPATCH(winners_max)(some, first); };
-  return compose_products(parts, least_normal, compose, first);
-}
-bool compose_tiled(MaxMin, const DenseParts& parts, Winner* first) {
-  HWY_DYNAMIC_DISPATCH(winners_max_min)(parts, first);
-  return true;
+bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts, Winner* first) {
+  if (algebra.name == AnyAlgebra::other || (first && !algebra.selective)) return false;
+  const auto compose = [&](const DenseParts& some) { HWY_DYNAMIC_DISPATCH(compose_by)(algebra, some, first); };
+  if (algebra.name == AnyAlgebra::max_min) {
+    compose(parts);
+    return true;
+  }
+  // Each term of a sum may have lost up to the least normal number: that is below rounding in sums above this.
+  const double terms = algebra.selective ? 1.0 : static_cast<double>(parts.inner) * 0x1p54;
+  return compose_products(parts, terms * least_normal, compose, first);
 }
 
 }  // namespace sigmax::kernels

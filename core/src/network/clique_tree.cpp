@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "exponents.hpp"
+
 namespace sigmax::elimination {
 namespace {
 
@@ -135,37 +137,15 @@ class Walk {
   std::vector<Extent> extents_;  // neighbours that go along, fastest first
 };
 
-/// The range of the numbers that are not zero: the exponent of the greatest, and how far below it that of the least is.
-struct Range {
-  std::int64_t unit = 0;
-  std::int64_t depth = 0;
-};
-
 /// Doubles, in units of a power of two for each table.
 template <ScalingAlgebra A>
 struct Plain {
   using Number = double;
   static constexpr std::int64_t deepest = 900;  // no product below 2^-900 of its unit
 
-  static Range range(std::span<const double> numbers) {
-    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-    for (const double number : numbers) {
-      greatest = std::max(greatest, number);
-      if (number > 0.0) least = std::min(least, number);
-    }
-    if (greatest == 0.0) return {};
-    return {std::ilogb(greatest) + 1, std::ilogb(greatest) - std::ilogb(least)};
-  }
-  static Range range(std::span<const ScaledNumber> numbers) {
-    std::int64_t least = 0, greatest = 0;
-    bool some = false;
-    for (const ScaledNumber number : numbers) {
-      if (number.is_zero()) continue;
-      least = some ? std::min(least, number.exponent()) : number.exponent();
-      greatest = some ? std::max(greatest, number.exponent()) : number.exponent();
-      some = true;
-    }
-    return {greatest, greatest - least};
+  template <class AnyNumber>
+  static detail::Exponents range(const std::vector<AnyNumber>& numbers) {
+    return detail::exponents_of(numbers);
   }
   static void scale(std::span<double> numbers, std::int64_t unit) {
     if (unit == 0) return;
@@ -184,7 +164,7 @@ struct Unbounded {
   using Number = ScaledNumber;
   static constexpr std::int64_t deepest = std::numeric_limits<std::int64_t>::max();
 
-  static Range range(std::span<const ScaledNumber>) { return {}; }
+  static detail::Exponents range(const std::vector<ScaledNumber>&) { return {}; }
   static void scale(std::span<ScaledNumber>, std::int64_t) {}
   static ScaledNumber load(ScaledNumber number, std::int64_t) { return number; }
   static ScaledNumber number(ScaledNumber value) { return value; }

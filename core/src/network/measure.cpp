@@ -32,4 +32,16 @@ double necessity(const NetworkAnswer& answer, const JointEvent& event) {
   return 1.0 - measure<Fuzzy>(answer, [&event](std::span<const std::size_t> outcomes) { return !event(outcomes); });
 }
 
+double probability(const RelationNetwork& network, const Event<Random>& event, const Evidence& evidence) {
+  return probability(query(network, {event.variable().name()}, evidence).normalized<Random>(), event);
+}
+
+double possibility(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence) {
+  return possibility(query(network, {event.variable().name()}, evidence).normalized<Fuzzy>(), event);
+}
+
+double necessity(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence) {
+  return necessity(query(network, {event.variable().name()}, evidence).normalized<Fuzzy>(), event);
+}
+
 }  // namespace sigmax

@@ -68,7 +68,9 @@ void RelationNetwork::declare(const NetworkVariable& variable, const std::vector
   prove_number_of_rows(variable, parents, rows.rows());
   for (std::size_t row = 0; row < rows.rows(); ++row)
     variable.visit([&]<class Kind>(const Variable<Kind>& typed) {
-      prove_row(parents, row, [&](check::Row at) { prove_entries_normalized<Kind>(typed, at, rows.entries(row)); });
+      prove_row(parents, row, [&](check::Row at) {
+        detail::prove_entries(typed, at, rows.entries(row), detail::algebra_of<Kind>(), Kind::total);
+      });
     });
   rows.widen(variable.size());
   append(variable, parents, std::move(rows));
@@ -79,20 +81,25 @@ Distribution<Random> RelationNetwork::given(std::size_t v, std::span<const std::
   std::size_t row = 0;
   for (const std::size_t parent : vertices_[v].parents)
     row = row * vertices_[parent].variable.size() + outcomes[parent];
-  Table values(1, variable.size());
-  std::visit(
-      [&](const auto& rows) {
-        const auto entries = rows.entries(row);
-        for (std::size_t k = 0; k < entries.size(); ++k) values(0, entries.index(k)) = entries.value(k);
-      },
-      vertices_[v].rows);
-  return {variable, std::move(values), detail::ByLaw{}};
+  return {variable, detail::dense_row(vertices_[v].rows, row), detail::ByLaw{}};
 }
 
 std::size_t RelationNetwork::index_of(std::string_view name) const {
-  const auto found = index_.find(name);
-  if (found == index_.end()) throw std::invalid_argument("the network has no variable '" + std::string(name) + "'");
-  return found->second;
+  const auto place = place_of(name);
+  if (place == by_name_.end() || vertices_[*place].variable.name() != name)
+    throw std::invalid_argument("the network has no variable '" + std::string(name) + "'");
+  return *place;
+}
+
+std::vector<std::size_t>::const_iterator RelationNetwork::place_of(std::string_view name) const {
+  return std::lower_bound(by_name_.begin(), by_name_.end(), name, [this](std::size_t v, std::string_view other) {
+    return vertices_[v].variable.name() < other;
+  });
+}
+
+bool RelationNetwork::has(std::string_view name) const {
+  const auto place = place_of(name);
+  return place != by_name_.end() && vertices_[*place].variable.name() == name;
 }
 
 std::size_t RelationNetwork::index_of(const NetworkVariable& variable) const {
@@ -107,11 +114,10 @@ std::size_t RelationNetwork::index_of(const NetworkVariable& variable) const {
 
 void RelationNetwork::append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                              AnyRows rows) {
-  if (index_.contains(variable.name()))
-    throw std::invalid_argument("variable '" + variable.name() + "' is declared twice");
+  if (has(variable.name())) throw std::invalid_argument("variable '" + variable.name() + "' is declared twice");
   std::vector<std::size_t> indices;
   for (const auto& parent : parents) {
-    if (!index_.contains(parent.name()))
+    if (!has(parent.name()))
       throw std::invalid_argument("variable '" + variable.name() + "' has the parent '" + parent.name() +
                                   "', which is not declared before it");
     const std::size_t index = index_of(parent);
@@ -119,8 +125,9 @@ void RelationNetwork::append(const NetworkVariable& variable, const std::vector<
       throw std::invalid_argument("variable '" + variable.name() + "' has the parent '" + parent.name() + "' twice");
     indices.push_back(index);
   }
+  const auto place = place_of(variable.name()) - by_name_.begin();
   vertices_.push_back({variable, std::move(indices), std::move(rows)});
-  index_.emplace(variable.name(), vertices_.size() - 1);
+  by_name_.insert(by_name_.begin() + place, vertices_.size() - 1);
 }
 
 RelationNetwork as_fuzzy(const RelationNetwork& network, const RowTransform& transform) {
@@ -146,10 +153,8 @@ RelationNetwork as_fuzzy(const RelationNetwork& network, const RowTransform& tra
       result.append(variable, conditions, table);
       continue;
     }
-    AnyRows rows = table;
     const FuzzyVariable fuzzy = interpreted_as<Fuzzy>(variable.outcomes());
-    detail::transform_rows<Max>(rows, fuzzy, nullptr, transform);
-    result.append(fuzzy, conditions, std::move(rows));
+    result.append(fuzzy, conditions, detail::transformed<Fuzzy>(table, fuzzy, nullptr, transform));
   }
   return result;
 }

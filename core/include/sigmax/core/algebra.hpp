@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 
 namespace sigmax {
@@ -45,7 +44,7 @@ struct Max {
   static constexpr bool selective = true;
   static constexpr double zero() { return 0.0; }
   static constexpr double one() { return 1.0; }
-  static constexpr double plus(double a, double b) { return std::max(a, b); }
+  static constexpr double plus(double a, double b) { return a < b ? b : a; }
   static constexpr double times(double a, double b) { return a * b; }
   static constexpr double divide(double a, double b) { return a / b; }
 };
@@ -56,8 +55,8 @@ struct MaxMin {
   static constexpr bool selective = true;
   static constexpr double zero() { return 0.0; }
   static constexpr double one() { return 1.0; }
-  static constexpr double plus(double a, double b) { return std::max(a, b); }
-  static constexpr double times(double a, double b) { return std::min(a, b); }
+  static constexpr double plus(double a, double b) { return a < b ? b : a; }
+  static constexpr double times(double a, double b) { return b < a ? b : a; }
 };
 
 }  // namespace sigmax

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
@@ -22,35 +21,26 @@ struct BandOfRow {
 class BandedRows {
  public:
   explicit BandedRows(std::size_t columns = 0) : columns_(columns) {}
-  BandedRows(std::initializer_list<BandOfRow> rows) {
-    for (const BandOfRow& row : rows) append(row.first, row.values);
-  }
+  BandedRows(std::initializer_list<BandOfRow> rows);
 
   /// Appends a row.
-  void append(std::size_t first, std::span<const double> values) {
-    columns_ = std::max(columns_, first + values.size());
-    rows_.push_back({first, values_.size(), values.size()});
-    values_.insert(values_.end(), values.begin(), values.end());
-  }
+  void append(std::size_t first, std::span<const double> values);
 
-  /// Appends `size` equal numbers.
+  /// Appends a row of `size` equal numbers.
   void append(std::size_t first, std::size_t size, double value) { append(first, std::vector<double>(size, value)); }
 
   std::size_t rows() const { return rows_.size(); }
   std::size_t columns() const { return columns_; }
   std::size_t stored() const { return values_.size(); }
-  void widen(std::size_t columns) { columns_ = std::max(columns_, columns); }
+  void widen(std::size_t columns) { columns_ = columns > columns_ ? columns : columns_; }
 
   std::size_t offset(std::size_t r) const { return rows_[r].offset; }
   RunOfEntries entries(std::size_t r) const&& = delete;
   RunOfEntries entries(std::size_t r) const& {
-    return {rows_[r].first, std::span(values_).subspan(rows_[r].offset, rows_[r].size)};
+    return {rows_[r].first, {values_.data() + rows_[r].offset, rows_[r].size}};
   }
-  double at(std::size_t r, std::size_t column) const {
-    const RunOfEntries row = entries(r);
-    return column >= row.first && column - row.first < row.size() ? row.value(column - row.first) : 0.0;
-  }
-  std::span<double> values(std::size_t r) & { return std::span(values_).subspan(rows_[r].offset, rows_[r].size); }
+  double at(std::size_t r, std::size_t column) const { return detail::AnyEntries(entries(r)).at(column); }
+  std::span<double> values(std::size_t r) & { return {values_.data() + rows_[r].offset, rows_[r].size}; }
 
  private:
   struct Row {

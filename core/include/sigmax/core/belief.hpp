@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,10 +9,27 @@
 #include <vector>
 
 #include <sigmax/core/distribution.hpp>
-#include <sigmax/core/kernels/exponential.hpp>
 #include <sigmax/core/logarithm.hpp>
 
 namespace sigmax {
+
+namespace detail {
+
+/// Divides numbers by their ⊕, both given as logarithms, and returns that of the ⊕. Some number is not zero.
+double normalize_logs(std::span<double> logs, const AnyAlgebra& algebra);
+
+/// Sets all logarithms to log_weight(i), normalised by normalize(logs), as `Belief::assign` does.
+template <class LogWeight, class Normalize>
+double assign_logs(const Outcomes& variable, std::span<double> logs, const LogWeight& log_weight,
+                   const Normalize& normalize) {
+  std::size_t left = 0;
+  while (left < logs.size() && log_weight(left) == log_zero) ++left;
+  if (left == logs.size()) check::excluded(variable);
+  for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log_weight(i);
+  return normalize(logs);
+}
+
+}  // namespace detail
 
 /// A distribution that accumulates evidence over time: its logarithms are kept, so that an outcome that was almost
 /// excluded can come back. Normalised: ⊕ exp(log) = 1.
@@ -26,8 +41,7 @@ class Belief {
 
   explicit Belief(const Distribution<Kind>& distribution)
       : variable_(distribution.variable()), logs_(1, distribution.size()) {
-    const auto values = distribution.values();
-    std::transform(values.begin(), values.end(), logs_.data(), [](double value) { return std::log(value); });
+    for (std::size_t i = 0; i < size(); ++i) logs_(0, i) = std::log(distribution[i]);
   }
 
   const Variable<Kind>& variable() const& { return variable_; }
@@ -38,6 +52,7 @@ class Belief {
   std::span<const double> logs() const& { return logs_.values(); }
   std::vector<double> logs() const&& { return Table(logs_).values(); }
   double log(std::size_t index) const { return logs_(0, index); }
+  const Table& log_table() const& { return logs_; }
 
   /// The same, for a verb that writes them here; it alone knows that they are normalised.
   std::span<double> logs(detail::ByLaw) & { return logs_.values(); }
@@ -49,7 +64,7 @@ class Belief {
   /// The belief as numbers; weights below the smallest double become zero here, and only here.
   Distribution<Kind> distribution() const {
     Table table(1, size());
-    std::transform(logs().begin(), logs().end(), table.data(), [](double log) { return std::exp(log); });
+    for (std::size_t i = 0; i < size(); ++i) table(0, i) = std::exp(log(i));
     return {variable_, std::move(table), detail::ByLaw{}};
   }
 
@@ -57,29 +72,12 @@ class Belief {
   /// Throws std::domain_error if every outcome is excluded, and is then unchanged.
   template <class LogWeight>
   double assign(const LogWeight& log_weight) {
-    std::size_t left = 0;
-    while (left < size() && log_weight(left) == log_zero) ++left;
-    if (left == size()) check::excluded(variable_);
-    const std::span<double> logs = logs_.values();
-    for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log_weight(i);
-    // Shifted by the greatest first: far from zero, the logarithm of the ⊕ is too coarse a number to normalise by.
-    const double greatest = kernels::greatest(logs);
-    for (double& log : logs) log -= greatest;
-    const double log_total = log_of_total(logs);
-    for (double& log : logs) log -= log_total;
-    return greatest + log_total;
+    return detail::assign_logs(variable_, logs_.values(), log_weight, [](std::span<double> logs) {
+      return detail::normalize_logs(logs, detail::algebra_of<Kind>());
+    });
   }
 
  private:
-  /// log ⊕ exp(log) of logarithms whose greatest is zero.
-  static double log_of_total(std::span<const double> logs) {
-    using A = AlgebraOf<Kind>;
-    if constexpr (SelectiveAlgebra<A>) return 0.0;
-    if constexpr (std::same_as<A, Sigma>) return std::log(kernels::sum_of_exponentials(logs));
-    return detail::log_combine<A>(
-        logs.size(), [logs](std::size_t i) { return logs[i]; }, [](std::size_t) { return 1.0; });
-  }
-
   Variable<Kind> variable_;
   Table logs_;
 };

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/kernels/unbounded_row.hpp>
@@ -28,7 +27,7 @@ template <Uncertainty Kind>
 class Chain {
  public:
   using kind = Kind;
-  using Row = kernels::LosslessRow<AlgebraOf<Kind>>;
+  using Row = kernels::UnboundedRow;
 
   explicit Chain(const Distribution<Kind>& start) : Chain(start.variable(), Row(start.values()), detail::ByLaw{}) {}
   Chain(Variable<Kind> variable, Row row, detail::ByLaw) : variable_(std::move(variable)), row_(std::move(row)) {}
@@ -53,10 +52,10 @@ class Chain {
   std::size_t size() const { return row_.size(); }
 
   /// The logarithm of the number of one outcome; −∞ if it is excluded.
-  double log(std::size_t index) const { return row_.log(index); }
+  double log(std::size_t index) const { return row_.log(index, detail::algebra_of<Kind>()); }
 
   /// The logarithm of the ⊕ of all numbers: the evidence; or β, if the kinds alternated. −∞ if nothing is left.
-  double log_total() const { return row_.template log_total<AlgebraOf<Kind>>(); }
+  double log_total() const { return row_.log_total(detail::algebra_of<Kind>()); }
 
   /// Index of the outcome with the greatest number, the lowest on a tie.
   std::size_t winner() const { return row_.greatest(); }
@@ -64,10 +63,7 @@ class Chain {
   /// The distribution reading, (16): divided by the ⊕. Throws std::domain_error if nothing is left.
   Distribution<Kind> normalized() const {
     if (row_.is_zero()) check::excluded(variable_);
-    Table values(1, size());
-    row_.to_values(values.values());
-    condition<AlgebraOf<Kind>>(values.values());
-    return {variable_, std::move(values), detail::ByLaw{}};
+    return {variable_, row_.conditioned(detail::algebra_of<Kind>()), detail::ByLaw{}};
   }
 
   /// The row of numbers, and memory for another one, for the verbs.
@@ -82,12 +78,12 @@ class Chain {
 
 namespace detail {
 
-/// One relation further, in the memory of `row`; `winners` is what the row takes note of them with.
-template <Conditional Left, Uncertainty Kind, class Winners>
-Chain<typename Left::to_kind> further(const Left& left, const Chain<Kind>& chain, typename Chain<Kind>::Row row,
-                                      Winners& winners) {
-  std::visit([&](const auto& rows) { row.template assign_composition<AlgebraOf<Kind>>(rows, chain.row(), winners); },
-             left.rows());
+/// One relation further, in the memory of `row`; `winners` may be null.
+template <Conditional Left, Uncertainty Kind>
+Chain<typename Left::to_kind> further(const Left& left, const Chain<Kind>& chain, kernels::UnboundedRow row,
+                                      kernels::Winners* winners = nullptr) {
+  check::same(left.from(), chain.variable(), "compose");
+  row.assign_composition(left.rows(), chain.row(), algebra_of<Kind>(), winners);
   return {left.to(), std::move(row), ByLaw{}};
 }
 
@@ -96,33 +92,22 @@ Chain<typename Left::to_kind> further(const Left& left, const Chain<Kind>& chain
 /// The chain one relation further: ⊕ over its current outcome of left(to|·) ⊗ it, (5), (15), (16), (51), (53).
 template <Conditional Left, Uncertainty Kind>
   requires std::same_as<typename Left::from_kind, Kind>
-auto compose(const Left& left, const Chain<Kind>& right) {
-  check::same(left.from(), right.variable(), "compose");
-  kernels::NoWinners none;
-  return detail::further(left, right, {}, none);
-}
+auto compose(const Left& left, const Chain<Kind>& right) { return detail::further(left, right, {}); }
 
 /// The same without allocation: in the memory that `right` keeps beside its numbers, which stay as they are.
 template <Conditional Left, Uncertainty Kind>
   requires std::same_as<typename Left::from_kind, Kind>
 auto compose(const Left& left, Chain<Kind>&& right) {
-  check::same(left.from(), right.variable(), "compose");
-  kernels::NoWinners none;
-  return detail::further(left, right, right.take_room(detail::ByLaw{}), none);
+  return detail::further(left, right, right.take_room(detail::ByLaw{}));
 }
 
 /// The chain with evidence about its current outcome: multiplied by the likelihood, not divided by anything, (8).
 /// Throws std::domain_error if that excludes every outcome; `prior` is then as it was.
 template <Uncertainty Kind>
 Chain<Kind> update(Chain<Kind>&& prior, const Likelihood<Kind>& likelihood) {
-  using Row = typename Chain<Kind>::Row;
   check::same(prior.variable(), likelihood.variable(), "update");
-  Row& row = prior.row(detail::ByLaw{});
-  bool some_left = false;
-  for (std::size_t i = 0; i < row.size() && !some_left; ++i)
-    some_left = !Row::is_zero(row[i]) && !likelihood.excludes(i);
-  if (!some_left) check::excluded(prior.variable());
-  for (std::size_t i = 0; i < row.size(); ++i) row[i] = Row::times(row[i], likelihood.number(i));
+  if (!prior.row(detail::ByLaw{}).take(likelihood.evidence(), detail::algebra_of<Kind>()))
+    check::excluded(prior.variable());
   return std::move(prior);
 }
 template <Uncertainty Kind>

@@ -16,8 +16,8 @@ inline constexpr double normalization_tolerance = 1e-9;
 
 /// ⊕ of numbers in the algebra of `Kind`, (2) or (3).
 template <Uncertainty Kind>
-constexpr double total(std::span<const double> values) {
-  return detail::total<AlgebraOf<Kind>>(values);
+double total(std::span<const double> values) {
+  return detail::total(detail::algebra_of<Kind>(), values);
 }
 
 /// The failures of the constructors, with the variable, the row and the value in the message. All but `excluded` throw
@@ -48,36 +48,43 @@ void size(const Outcomes& variable, Row row, std::size_t size);
 /// There are as many rows of a relation as `from` has outcomes.
 void rows(const Outcomes& to, const Outcomes& from, std::size_t rows);
 
-/// Not every value is zero.
-void some_positive(const Outcomes& variable, Row row, std::span<const double> values);
-
 /// The ⊕ of the values is one to within `normalization_tolerance`.
 void total(const Outcomes& variable, Row row, double total, std::string_view name_of_total);
 
 /// Both are the same variable; `where` says who asks.
-void same(const Outcomes& expected, const Outcomes& found, std::string_view where);
+[[noreturn]] void differ(const Outcomes& expected, const Outcomes& found, std::string_view where);
+inline void same(const Outcomes& expected, const Outcomes& found, std::string_view where) {
+  if (!(expected == found)) differ(expected, found, where);
+}
+
+/// The values are a distribution: as many as outcomes, each in [0, 1], their ⊕ one.
+void normalized(const Outcomes& variable, Row row, std::span<const double> values, const detail::AnyAlgebra& algebra,
+                std::string_view name_of_total);
+
+/// The values are likelihoods: finite, not negative, and at most one where ⊗ does not scale.
+void likelihoods(const Outcomes& variable, Row row, std::span<const double> values, const detail::AnyAlgebra& algebra);
+
+/// The same of weights, of which some is not zero.
+void weights(const Outcomes& variable, Row row, std::span<const double> values, const detail::AnyAlgebra& algebra);
+
+/// The logarithm of a likelihood is not NaN, nor +∞.
+void log_likelihood(const Outcomes& variable, std::size_t index, double log);
 
 /// Throws std::domain_error: no outcome of the variable is left, whatever excluded them.
 [[noreturn]] void excluded(const Outcomes& variable, Row row = {});
+
+/// Throws std::invalid_argument: the variable of a network is of another kind.
+[[noreturn]] void other_kind(const std::string& variable, std::string_view kind, std::string_view expected);
+
+/// Throws std::domain_error: an event is a condition, but its measure is zero.
+[[noreturn]] void impossible(const std::string& event, std::string_view name_of_measure);
 
 }  // namespace check
 
 /// Proves that the values are a distribution of `variable`: each in [0, 1], their ⊕ one.
 template <Uncertainty Kind>
 void prove_normalized(const Outcomes& variable, check::Row row, std::span<const double> values) {
-  check::size(variable, row, values.size());
-  check::values(variable, row, values, 1.0 + normalization_tolerance);
-  check::total(variable, row, total<Kind>(values), Kind::total);
-}
-
-/// The same of a row that stores only some of its values.
-template <Uncertainty Kind, class Entries>
-void prove_entries_normalized(const Outcomes& variable, check::Row row, const Entries& entries) {
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    check::ascending(variable, row, k == 0 ? 0 : entries.index(k - 1) + 1, entries.index(k));
-    check::value(variable, row, entries.index(k), entries.value(k), 1.0 + normalization_tolerance);
-  }
-  check::total(variable, row, total<Kind>(entries.values), Kind::total);
+  check::normalized(variable, row, values, detail::algebra_of<Kind>(), Kind::total);
 }
 
 }  // namespace sigmax

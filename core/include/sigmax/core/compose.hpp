@@ -1,14 +1,13 @@
 #pragma once
 
 #include <concepts>
+#include <span>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/induced.hpp>
 #include <sigmax/core/kernels/compose.hpp>
-#include <sigmax/core/kernels/transpose.hpp>
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/relation.hpp>
 
@@ -32,15 +31,19 @@ using InducedBy = std::conditional_t<is_induced<Left> || is_induced<Right> ||
 
 namespace detail {
 
-/// The same of every row of a relation.
-template <Algebra A>
-void settle(AnyRows& rows) {
-  std::visit(
-      [](auto& all) {
-        for (std::size_t i = 0; i < all.rows(); ++i) settle<A>(all.values(i));
-      },
-      rows);
-}
+/// `left` after `right` by the algebra of the variable between them, written into `result`, which may be one of them;
+/// `winners` may be null. If the result is normalised by law, what has drifted is divided out.
+void compose(const AnyAlgebra& middle, const AnyRows& left, const AnyRows& right, bool normalized, AnyRows& result,
+             kernels::FirstWinners* winners = nullptr);
+Table composed(const AnyAlgebra& middle, const AnyRows& left, const Table& right, bool normalized);
+
+/// The logarithms of a belief one relation further, which are none of `result`. Throws std::domain_error if nothing is
+/// left.
+void compose_logs(const AnyAlgebra& middle, const AnyRows& left, std::span<const double> right, const Outcomes& to,
+                  std::span<double> result);
+
+/// Evidence carried back through a relation.
+kernels::UnboundedRow carried_back(const AnyAlgebra& middle, const kernels::Evidence& left, const AnyRows& right);
 
 }  // namespace detail
 
@@ -58,8 +61,8 @@ auto compose(const Left& left, const Right& right) {
   using Composed = InducedBy<Left, Right, Relation<typename Left::to_kind, typename Right::from_kind>>;
   check::same(left.from(), right.to(), "compose");
   AnyRows rows = Table(0, 0);
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows);
-  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
+  detail::compose(detail::algebra_of<typename Left::from_kind>(), left.rows(), right.rows(), !is_induced<Composed>,
+                  rows);
   return Composed{left.to(), right.from(), std::move(rows), detail::ByLaw{}};
 }
 
@@ -72,14 +75,8 @@ void compose(const Left& left, const Right& right,
   check::same(left.from(), right.to(), "compose");
   check::same(left.to(), result.to(), "compose");
   check::same(right.from(), result.from(), "compose");
-  using Composed = std::decay_t<decltype(result)>;
-  AnyRows& rows = result.rows(detail::ByLaw{});
-  if (&left.rows() == &rows || &right.rows() == &rows) {
-    result = compose(left, right);
-    return;
-  }
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows);
-  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
+  detail::compose(detail::algebra_of<typename Left::from_kind>(), left.rows(), right.rows(),
+                  !is_induced<std::decay_t<decltype(result)>>, result.rows(detail::ByLaw{}));
 }
 
 /// The distribution of `left.to()` when its condition has the distribution `right`: (5), (15), (16).
@@ -88,12 +85,11 @@ void compose(const Left& left, const Right& right,
 template <Conditional Left, Marginal Right>
   requires std::same_as<typename Left::from_kind, typename Right::kind>
 auto compose(const Left& left, const Right& right) {
-  check::same(left.from(), right.variable(), "compose");
-  Table table(1, left.to().size());
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.table(), table);
   using Composed = InducedBy<Left, Right, Distribution<typename Left::to_kind>>;
-  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(table.values());
-  return Composed{left.to(), std::move(table), detail::ByLaw{}};
+  check::same(left.from(), right.variable(), "compose");
+  const auto& middle = detail::algebra_of<typename Left::from_kind>();
+  return Composed{left.to(), detail::composed(middle, left.rows(), right.table(), !is_induced<Composed>),
+                  detail::ByLaw{}};
 }
 
 /// The belief about the next value of a variable after a transition, (51), (53): log b(j) = log ⊕ᵢ p(j|i) ⊗ exp b(i).
@@ -112,28 +108,16 @@ void compose(const Relation<Kind, Kind>& left, const Belief<Kind>& right, Belief
     compose(left, Belief<Kind>(right), result);
     return;
   }
-  const auto assign_from = [&](const auto& columns) {
-    result.assign([&](std::size_t to) {
-      const auto column = columns.entries(to);
-      return detail::log_combine<AlgebraOf<Kind>>(
-          column.size(), [&](std::size_t k) { return right.log(column.index(k)); },
-          [&](std::size_t k) { return column.value(k); });
-    });
-  };
-  std::visit([&](const auto& rows) { assign_from(kernels::columns_of(rows)); }, left.rows());
+  detail::compose_logs(detail::algebra_of<Kind>(), left.rows(), right.logs(), left.to(), result.logs(detail::ByLaw{}));
 }
 
 /// How well each outcome of `right.from()` explains evidence about `right.to()`: (42), (45), and with a random sensor
 /// over a fuzzy feature the p⁺ of (17), unnormalised as a likelihood should be.
 template <Uncertainty Middle, Uncertainty From>
 Likelihood<From> compose(const Likelihood<Middle>& left, const Relation<Middle, From>& right) {
-  using Row = typename Likelihood<Middle>::Row;
   check::same(left.variable(), right.to(), "compose");
-  Row evidence(left.size(), 0.0), result;
-  for (std::size_t i = 0; i < left.size(); ++i) evidence[i] = left.number(i);
-  std::visit([&](const auto& rows) { result.template assign_carried_back<AlgebraOf<Middle>>(rows, evidence); },
-             right.rows());
-  return {right.from(), std::move(result), detail::ByLaw{}};
+  const auto& middle = detail::algebra_of<Middle>();
+  return {right.from(), detail::carried_back(middle, left.evidence(), right.rows()), detail::ByLaw{}};
 }
 
 }  // namespace sigmax

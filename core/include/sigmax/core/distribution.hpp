@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <cstddef>
 #include <initializer_list>
-#include <limits>
-#include <ostream>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +18,22 @@
 
 namespace sigmax {
 
+/// Index of the greatest value, the lowest on a tie.
+std::size_t index_of_greatest(std::span<const double> values);
+
+namespace detail {
+
+/// Whether the ⊕ of numbers is one, as far as what is right by law may be off.
+bool is_normalized(std::span<const double> values, const AnyAlgebra& algebra);
+
+/// Weights, turned into the distribution in proportion to them. Throws std::invalid_argument if there is none.
+Table conditioned(const Outcomes& variable, std::span<const double> weights, const AnyAlgebra& algebra);
+
+bool same_numbers(std::span<const double> a, std::span<const double> b);
+void write(std::ostream& out, const Outcomes& variable, std::span<const double> values);
+
+}  // namespace detail
+
 /// A normalised distribution of one variable: p with Σ p = 1, (3), or π with max π = 1, (2).
 ///
 /// The constructor proves |⊕ − 1| ≤ 1e-9 and every value in [0, 1], and stores the values unchanged.
@@ -30,18 +44,17 @@ class Distribution {
 
   /// Throws std::invalid_argument, naming the variable and the value, if the values are not a distribution.
   Distribution(Variable<Kind> variable, std::initializer_list<double> values)
-      : Distribution(std::move(variable), std::span(values.begin(), values.size())) {}
+      : Distribution(std::move(variable), std::span<const double>(values.begin(), values.size())) {}
   Distribution(Variable<Kind> variable, const std::vector<double>& values)
-      : Distribution(std::move(variable), std::span(values)) {}
+      : Distribution(std::move(variable), std::span<const double>(values.data(), values.size())) {}
   Distribution(Variable<Kind> variable, std::span<const double> values)
-      : variable_(std::move(variable)), table_(1, values.size()) {
+      : variable_(std::move(variable)), table_(values) {
     prove_normalized<Kind>(variable_, {}, values);
-    std::copy(values.begin(), values.end(), table_.data());
   }
 
   Distribution(Variable<Kind> variable, Table table, detail::ByLaw)
       : variable_(std::move(variable)), table_(std::move(table)) {
-    assert(std::abs(total<Kind>(values()) - 1.0) <= 4.0 * normalization_tolerance);
+    assert(detail::is_normalized(values(), detail::algebra_of<Kind>()));
   }
 
   const Variable<Kind>& variable() const& { return variable_; }
@@ -69,7 +82,7 @@ class Distribution {
 
   /// Whether the variables and all numbers are the same.
   friend bool operator==(const Distribution& a, const Distribution& b) {
-    return a.variable_ == b.variable_ && std::equal(a.begin(), a.end(), b.begin());
+    return a.variable_ == b.variable_ && detail::same_numbers(a.values(), b.values());
   }
 
   /// Itself: generic code need not ask whether a composition was only induced.
@@ -84,36 +97,15 @@ class Distribution {
 /// "age: young 0.5, middle 1, old 0.4", with the digits that the stream shows.
 template <Uncertainty Kind>
 std::ostream& operator<<(std::ostream& out, const Distribution<Kind>& distribution) {
-  out << distribution.variable().name() << ':';
-  for (std::size_t i = 0; i < distribution.size(); ++i)
-    out << (i > 0 ? ", " : " ") << distribution.variable().label(i) << ' ' << distribution[i];
+  detail::write(out, distribution.variable(), distribution.values());
   return out;
 }
-
-namespace detail {
-
-/// The greatest number that a weight or a likelihood may be: any where ⊗ scales, else one.
-template <Algebra A>
-inline constexpr double greatest_weight = ScalingAlgebra<A> ? std::numeric_limits<double>::max() : A::one();
-
-/// Proves that weights are finite, not negative, not too great for their algebra and not all zero.
-template <Algebra A>
-void prove_weights(const Outcomes& variable, check::Row row, std::span<const double> weights) {
-  check::values(variable, row, weights, greatest_weight<A>);
-  check::some_positive(variable, row, weights);
-}
-
-}  // namespace detail
 
 /// The conditional of weights that are finite, not negative and not all zero: for a random or fuzzy variable the
 /// distribution in proportion to them. Those of an ordinal one are at most one. Throws std::invalid_argument otherwise.
 template <Uncertainty Kind>
 Distribution<Kind> normalized(Variable<Kind> variable, std::span<const double> weights) {
-  check::size(variable, {}, weights.size());
-  detail::prove_weights<AlgebraOf<Kind>>(variable, {}, weights);
-  Table table(1, weights.size());
-  std::copy(weights.begin(), weights.end(), table.data());
-  condition<AlgebraOf<Kind>>(table.values());
+  Table table = detail::conditioned(variable, weights, detail::algebra_of<Kind>());
   return {std::move(variable), std::move(table), detail::ByLaw{}};
 }
 
@@ -122,7 +114,7 @@ template <Uncertainty Kind, class Number>
   requires(std::is_arithmetic_v<Number>)
 Distribution<Kind> normalized(Variable<Kind> variable, const std::vector<Number>& weights) {
   const std::vector<double> numbers(weights.begin(), weights.end());
-  return normalized(std::move(variable), std::span(numbers));
+  return normalized(std::move(variable), std::span<const double>(numbers.data(), numbers.size()));
 }
 
 /// What is known of a variable before anything is known: 1/n each for a random, one each for any other variable.
@@ -130,11 +122,6 @@ template <Uncertainty Kind>
 Distribution<Kind> uninformative(Variable<Kind> variable) {
   Table shares(1, variable.size(), equal_share<AlgebraOf<Kind>>(variable.size()));
   return {std::move(variable), std::move(shares), detail::ByLaw{}};
-}
-
-/// Index of the greatest value, the lowest on a tie.
-inline std::size_t index_of_greatest(std::span<const double> values) {
-  return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
 /// Label of the most probable or most possible outcome; on a tie the first declared.

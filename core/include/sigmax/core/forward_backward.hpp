@@ -1,19 +1,31 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include <sigmax/core/check.hpp>
-#include <sigmax/core/distribution.hpp>
-#include <sigmax/core/kernels/forward_backward.hpp>
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/relation.hpp>
 
 namespace sigmax {
+
+namespace detail {
+
+/// Posteriors, a row for every time, and the logarithm of the evidence. transitions[t] leads from time t to t + 1,
+/// where reports[t] is about the variable.
+struct Posteriors {
+  Table table;
+  double log_total;
+};
+Posteriors forward_backward(const Outcomes& variable, std::span<const double> start,
+                            std::span<const AnyRows* const> transitions, std::span<const kernels::Evidence> reports,
+                            const AnyAlgebra& algebra);
+
+Table row_at(const Table& table, std::size_t time);
+void check_reports(std::size_t transitions, std::size_t reports);
+
+}  // namespace detail
 
 /// What a chain says of its variable at every time, given the evidence of all times: before, then, and after.
 template <Uncertainty Kind>
@@ -35,14 +47,7 @@ class ChainPosteriors {
   Table table() && { return std::move(table_); }
 
   /// The distribution at one time, 0 being the start. Throws std::invalid_argument if there is no such time.
-  Distribution<Kind> at(std::size_t time) const {
-    if (time >= size())
-      throw std::invalid_argument("time " + std::to_string(time) + " of a chain of " + std::to_string(size()) +
-                                  " times");
-    Table row(1, table_.columns());
-    std::copy_n(table_.row(time).begin(), row.columns(), row.data());
-    return {variable_, std::move(row), detail::ByLaw{}};
-  }
+  Distribution<Kind> at(std::size_t time) const { return {variable_, detail::row_at(table_, time), detail::ByLaw{}}; }
 
   /// The logarithm of the evidence, as `Chain` has it.
   double log_total() const { return log_total_; }
@@ -58,24 +63,19 @@ namespace detail {
 template <Uncertainty Kind, class Transition>
 ChainPosteriors<Kind> forward_backward(const Distribution<Kind>& start, const Transition& transition,
                                        const std::vector<Likelihood<Kind>>& reports) {
-  using A = AlgebraOf<Kind>;
-  for (const auto& report : reports) check::same(start.variable(), report.variable(), "forward_backward");
-  for (std::size_t t = 0; t < reports.size(); ++t) {
-    check::same(start.variable(), transition(t).from(), "forward_backward");
-    check::same(start.variable(), transition(t).to(), "forward_backward");
+  std::vector<const AnyRows*> transitions;
+  std::vector<kernels::Evidence> evidence;
+  for (const auto& report : reports) {
+    const Relation<Kind, Kind>& relation = transition(transitions.size());
+    check::same(start.variable(), report.variable(), "forward_backward");
+    check::same(start.variable(), relation.from(), "forward_backward");
+    check::same(start.variable(), relation.to(), "forward_backward");
+    transitions.push_back(&relation.rows());
+    evidence.push_back(report.evidence());
   }
-  const auto stored = [&](std::size_t t) -> const AnyRows& { return transition(t).rows(); };
-  const auto begin = [&] {
-    Table table(reports.size() + 1, start.size());
-    std::copy(start.begin(), start.end(), table.row(0).begin());
-    return table;
-  };
-  Table table = begin();
-  ScaledNumber total;
-  if (!kernels::ForwardBackward<A>{}.run(stored, reports, table, total))
-    kernels::forward_backward_without_bounds<A>(stored, reports, table = begin(), total);
-  if (total.is_zero()) check::excluded(start.variable());
-  return {start.variable(), std::move(table), total.log(), ByLaw{}};
+  auto [table, log_total] =
+      forward_backward(start.variable(), start.values(), transitions, evidence, algebra_of<Kind>());
+  return {start.variable(), std::move(table), log_total, ByLaw{}};
 }
 
 }  // namespace detail
@@ -102,9 +102,7 @@ template <Uncertainty Kind>
 ChainPosteriors<Kind> forward_backward(
     const Distribution<Kind>& start, const std::vector<Relation<Kind, Kind>>& transitions,
     const std::vector<Likelihood<Kind>>& reports) requires ScalingAlgebra<AlgebraOf<Kind>> {
-  if (transitions.size() != reports.size())
-    throw std::invalid_argument("forward_backward: " + std::to_string(transitions.size()) + " transitions, but " +
-                                std::to_string(reports.size()) + " reports");
+  detail::check_reports(transitions.size(), reports.size());
   const auto each = [&](std::size_t t) -> const Relation<Kind, Kind>& { return transitions[t]; };
   return detail::forward_backward(start, each, reports);
 }

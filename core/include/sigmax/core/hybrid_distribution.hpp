@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -9,7 +11,7 @@
 #include <vector>
 
 #include <sigmax/core/induced.hpp>
-#include <sigmax/core/kernels/dense.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 #include <sigmax/core/update.hpp>
 
 namespace sigmax {
@@ -94,7 +96,12 @@ class HybridDistribution {
   }
 
   /// ⊕ over outer of ⊕ over inner: one. (11) if outer is fuzzy and inner random, (10) if it is the other way round.
-  double total() const { return outer_total(table_); }
+  double total() const {
+    double sum = AlgebraOf<Outer>::zero();
+    for (std::size_t o = 0; o < outer_.size(); ++o)
+      sum = AlgebraOf<Outer>::plus(sum, sigmax::total<Inner>(table_.row(o)));
+    return sum;
+  }
 
   /// ⊕ over inner of ⊕ over outer, the other one of (10) and (11): the β of (14) and (16).
   double beta() const { return sigmax::total<Inner>(inner_marginal().values()); }
@@ -106,21 +113,15 @@ class HybridDistribution {
   /// The other conditional, (14), (19), (20): each column divided by its ⊕. With `inner_marginal()` it is the joint
   /// again. An outcome of `inner` without mass gets the uninformative row and is listed.
   Inverse<Outer, Inner> outer_given_inner() const {
-    Table columns(0, 0);
-    kernels::transpose(table_, columns);
+    Table columns(inner_.size(), outer_.size());
+    for (std::size_t o = 0; o < outer_.size(); ++o)
+      for (std::size_t i = 0; i < inner_.size(); ++i) columns(i, o) = table_(o, i);
     return conditioned(outer_, inner_, std::move(columns));
   }
 
  private:
   HybridDistribution(Variable<Outer> outer, Variable<Inner> inner)
       : outer_(std::move(outer)), inner_(std::move(inner)), table_(outer_.size(), inner_.size()) {}
-
-  static double outer_total(const Table& table) {
-    double sum = AlgebraOf<Outer>::zero();
-    for (std::size_t o = 0; o < table.rows(); ++o)
-      sum = AlgebraOf<Outer>::plus(sum, sigmax::total<Inner>(table.row(o)));
-    return sum;
-  }
 
   void prove(double tolerance) const {
     for (std::size_t o = 0; o < outer_.size(); ++o)
@@ -133,7 +134,7 @@ class HybridDistribution {
   template <Uncertainty To, Uncertainty From>
   static Inverse<To, From> conditioned(const Variable<To>& to, const Variable<From>& from, Table rows) {
     std::vector<std::size_t> unreachable;
-    detail::condition_rows<AlgebraOf<To>>(rows, unreachable);
+    detail::condition_rows(detail::algebra_of<To>(), rows, unreachable);
     return {{to, from, std::move(rows), detail::ByLaw{}}, std::move(unreachable)};
   }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <sigmax/core/relation.hpp>
@@ -58,9 +58,7 @@ class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
       : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {}
 
   /// The normalisation factors β, one for each outcome of `from`: they differ.
-  double beta(std::size_t from) const {
-    return std::visit([&](const auto& rows) { return total<To>(rows.entries(from).values); }, this->rows_);
-  }
+  double beta(std::size_t from) const { return total<To>(detail::entries_of(this->rows_, from).values); }
   std::vector<double> betas() const {
     std::vector<double> all(this->from_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = beta(i);
@@ -69,12 +67,12 @@ class Induced<Relation<To, From>> : public ConditionalTable<To, From> {
 
   /// The distribution reading of (17), (18): every row divided by its β. Throws std::domain_error if a row is all zero.
   Relation<To, From> normalized() const {
-    AnyRows all = this->rows_;
+    AnyRows rows = this->rows_;
     for (std::size_t i = 0; i < this->from_.size(); ++i) {
       if (beta(i) == 0.0) check::excluded(this->to_, {&this->from_, i});
-      std::visit([&](auto& rows) { condition<AlgebraOf<To>>(rows.values(i)); }, all);
+      condition<AlgebraOf<To>>(detail::values_of(rows, i));
     }
-    return {this->to_, this->from_, std::move(all), detail::ByLaw{}};
+    return {this->to_, this->from_, std::move(rows), detail::ByLaw{}};
   }
 };
 

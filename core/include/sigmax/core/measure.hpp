@@ -1,12 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <initializer_list>
-#include <limits>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -134,9 +131,7 @@ double necessity(const Distribution<Kind>& distribution, const Event<Kind>& even
 template <Uncertainty Kind>
   requires(ScalingAlgebra<AlgebraOf<Kind>>)
 Distribution<Kind> given(const Distribution<Kind>& distribution, const Event<Kind>& event) {
-  if (measure(distribution, event) == 0.0)
-    throw std::domain_error("the event " + event.description() + " has " + std::string(Kind::measure) +
-                            " 0 and cannot be a condition");
+  if (measure(distribution, event) == 0.0) check::impossible(event.description(), Kind::measure);
   Table left(1, distribution.size());
   for (std::size_t i = 0; i < left.size(); ++i) left(0, i) = event.contains(i) ? distribution[i] : 0.0;
   return normalized(distribution.variable(), left.values());
@@ -151,29 +146,7 @@ Distribution<Kind> given(const Distribution<Kind>& distribution, const Event<Kin
 ///
 /// Throws std::invalid_argument if the lengths differ, a degree is outside [0, 1], a measure is negative or not
 /// finite, or X has no feature of positive measure.
-inline double compatibility(std::span<const double> object, std::span<const double> outcome,
-                            std::span<const double> measure) {
-  if (object.size() != outcome.size() || object.size() != measure.size())
-    throw std::invalid_argument("compatibility needs object, outcome and measure of as many features, but has " +
-                                std::to_string(object.size()) + ", " + std::to_string(outcome.size()) + " and " +
-                                std::to_string(measure.size()));
-  double shared = 0.0, all = 0.0;
-  for (std::size_t f = 0; f < object.size(); ++f) {
-    const auto refuse = [f](const std::string& what, double value) {
-      throw std::invalid_argument("compatibility: the " + what + " of feature " + std::to_string(f) + " is " +
-                                  std::to_string(value));
-    };
-    if (!(object[f] >= 0.0 && object[f] <= 1.0)) refuse("object's degree", object[f]);
-    if (!(outcome[f] >= 0.0 && outcome[f] <= 1.0)) refuse("outcome's degree", outcome[f]);
-    if (!(measure[f] >= 0.0)) refuse("measure", measure[f]);
-    shared += measure[f] * std::min(object[f], outcome[f]);
-    all += measure[f] * object[f];
-  }
-  if (!(all > 0.0 && std::isfinite(all)))
-    throw std::invalid_argument("compatibility needs an object whose features have a positive, finite measure, not " +
-                                std::to_string(all));
-  return shared / all;
-}
+double compatibility(std::span<const double> object, std::span<const double> outcome, std::span<const double> measure);
 
 /// Compatibility (1) of sets of features (intensions): |f_X ∩ f_x| / |f_X|, where |·| sums `measure(feature)`.
 template <class Feature, class Measure>

@@ -2,11 +2,9 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include <sigmax/core/network/variable.hpp>
@@ -32,9 +30,7 @@ class RelationNetwork {
     AnyRows rows;                      ///< a row per outcome of the parents, of which the last varies fastest
 
     /// All rows as one dense table.
-    Table table() const {
-      return std::visit([](const auto& stored) { return dense_table(stored); }, rows);
-    }
+    Table table() const { return dense_table(rows); }
   };
 
   /// A variable without parents. Throws std::invalid_argument if one of its name was declared.
@@ -60,7 +56,7 @@ class RelationNetwork {
   std::size_t size() const { return vertices_.size(); }
 
   /// Views that live as long as the network and nothing more is declared; of a temporary, copies.
-  std::span<const Vertex> vertices() const& { return vertices_; }
+  std::span<const Vertex> vertices() const& { return {vertices_.data(), vertices_.size()}; }
   std::vector<Vertex> vertices() const&& { return vertices_; }
   const Vertex& operator[](std::size_t index) const& { return vertices_[index]; }
   Vertex operator[](std::size_t index) const&& { return vertices_[index]; }
@@ -87,8 +83,12 @@ class RelationNetwork {
                                   const std::vector<std::string>&);
   void append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, AnyRows rows);
 
+  /// Where the index of a variable of this name is, or would be, in `by_name_`.
+  std::vector<std::size_t>::const_iterator place_of(std::string_view name) const;
+  bool has(std::string_view name) const;
+
   std::vector<Vertex> vertices_;
-  std::map<std::string, std::size_t, std::less<>> index_;
+  std::vector<std::size_t> by_name_;  // the indices of all vertices, in the order of the names
 };
 
 }  // namespace sigmax

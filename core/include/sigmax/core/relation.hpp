@@ -1,12 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <cstddef>
 #include <initializer_list>
+#include <iosfwd>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -18,6 +16,22 @@
 #include <sigmax/core/rows.hpp>
 
 namespace sigmax {
+
+namespace detail {
+
+/// Proves that a row that stores only some of its values is a distribution of `variable`.
+void prove_entries(const Outcomes& variable, check::Row row, const AnyEntries& entries, const AnyAlgebra& algebra,
+                   std::string_view name_of_total);
+
+/// Whether rows are what the library's verbs promise: of the right shape, and distributions.
+bool are_right(const Outcomes& to, const Outcomes& from, const AnyRows& rows, const AnyAlgebra& algebra);
+
+/// The table of rows that are dense. Throws std::invalid_argument, naming the variables, if they are not.
+const Table& table_of(const Outcomes& to, const Outcomes& from, const AnyRows& rows);
+
+void write(std::ostream& out, const Outcomes& to, const Outcomes& from, const AnyRows& rows);
+
+}  // namespace detail
 
 /// The numbers p(to|from) or π(to|from), one row per outcome of `from`: what Relation and Induced<Relation> share.
 template <Uncertainty To, Uncertainty From>
@@ -41,21 +55,14 @@ class ConditionalTable {
 
   /// The table of a dense relation. Throws std::invalid_argument, naming it, if it is not: see `dense`, `for_each`.
   /// This and `row` are views that live as long as the relation; of a temporary, copies.
-  const Table& table() const& {
-    if (const Table* const table = std::get_if<Table>(&rows_)) return *table;
-    throw std::invalid_argument("'" + to_.name() + "' given '" + from_.name() +
-                                "' is stored sparsely, not as a table; call dense() first");
-  }
-  Table table() const&& {
-    const ConditionalTable& named = *this;
-    return named.table();
-  }
+  const Table& table() const& { return detail::table_of(to_, from_, rows_); }
+  Table table() const&& { return detail::table_of(to_, from_, rows_); }
 
   /// p(to|from) by index: `from` first, as the table is written. `at` throws std::invalid_argument if there is no such
   /// index, () does not look.
   double operator()(std::size_t from, std::size_t to) const {
     if (const Table* const table = std::get_if<Table>(&rows_)) return (*table)(from, to);
-    return std::visit([&](const auto& rows) { return rows.at(from, to); }, rows_);
+    return detail::entries_of(rows_, from).at(to);
   }
 
   double at(std::size_t from, std::size_t to) const {
@@ -79,25 +86,19 @@ class ConditionalTable {
   ///     cell_given_cell.for_each(17, [](std::size_t to, double p) { … });
   template <class Action>
   void for_each(std::size_t from, const Action& action) const {
-    std::visit(
-        [&](const auto& rows) {
-          const auto entries = rows.entries(from);
-          for (std::size_t k = 0; k < entries.size(); ++k) action(entries.index(k), entries.value(k));
-        },
-        rows_);
+    const detail::AnyEntries entries = detail::entries_of(rows_, from);
+    for (std::size_t k = 0; k < entries.size(); ++k) action(entries.index(k), entries.value(k));
   }
 
   /// The column of one outcome of `to`, read as a function of `from`: a likelihood, hence without normalisation.
   Likelihood<From> likelihood(std::string_view to) const { return likelihood(to_.index_of(to)); }
   Likelihood<From> likelihood(std::size_t to) const {
     check::index(to_, to);
-    std::vector<double> column(from_.size());
-    for (std::size_t i = 0; i < column.size(); ++i) column[i] = (*this)(i, to);
-    return {from_, column};
+    return {from_, detail::column_of(rows_, to)};
   }
 
  protected:
-  ConditionalTable(Variable<To> to, Variable<From> from, AnyRows rows)
+  ConditionalTable(Variable<To> to, Variable<From> from, AnyRows&& rows)
       : to_(std::move(to)), from_(std::move(from)), rows_(std::move(rows)) {}
 
   Variable<To> to_;
@@ -118,46 +119,30 @@ class Relation : public ConditionalTable<To, From> {
   using Rows = std::initializer_list<std::initializer_list<double>>;
 
   /// Throws std::invalid_argument, naming variable, row and value, if a row is not a distribution of `to`.
-  Relation(Variable<To> to, Variable<From> from, Rows rows)
-      : Relation(std::move(to), std::move(from), std::vector<std::vector<double>>(rows.begin(), rows.end())) {}
-  Relation(Variable<To> to, Variable<From> from, const std::vector<std::vector<double>>& rows)
-      : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
-    check::rows(this->to_, this->from_, rows.size());
-    Table table(this->from_.size(), this->to_.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      prove_normalized<To>(this->to_, {&this->from_, i}, rows[i]);
-      std::copy(rows[i].begin(), rows[i].end(), table.row(i).begin());
-    }
-    this->rows_ = std::move(table);
-  }
+  Relation(const Variable<To>& to, const Variable<From>& from, Rows rows)
+      : ConditionalTable<To, From>(to, from, proved(to, from, rows)) {}
+  Relation(const Variable<To>& to, const Variable<From>& from, const std::vector<std::vector<double>>& rows)
+      : ConditionalTable<To, From>(to, from, proved(to, from, rows)) {}
 
   /// The same of rows that store only some of their numbers; what they do not is zero. It is used like any other.
   ///
   ///     Relation{cell, cell, SparseRows{{{0, 0.9}, {7, 0.1}}, …}}   // a row per condition: outcome, value
   ///     Relation{cell, cell, BandedRows{{0, {0.9, 0.1}}, …}}        // a row per condition: from this outcome on
-  Relation(Variable<To> to, Variable<From> from, SparseRows rows)
-      : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
-    this->rows_ = proved(std::move(rows));
-  }
-  Relation(Variable<To> to, Variable<From> from, BandedRows rows)
-      : ConditionalTable<To, From>(std::move(to), std::move(from), Table(0, 0)) {
-    this->rows_ = proved(std::move(rows));
-  }
+  Relation(const Variable<To>& to, const Variable<From>& from, SparseRows rows)
+      : ConditionalTable<To, From>(to, from, proved_entries(to, from, std::move(rows))) {}
+  Relation(const Variable<To>& to, const Variable<From>& from, BandedRows rows)
+      : ConditionalTable<To, From>(to, from, proved_entries(to, from, std::move(rows))) {}
 
   Relation(Variable<To> to, Variable<From> from, AnyRows rows, detail::ByLaw)
       : ConditionalTable<To, From>(std::move(to), std::move(from), std::move(rows)) {
-    assert(std::visit([](const auto& stored) { return stored.rows(); }, this->rows_) == this->from_.size());
-    assert(std::visit([](const auto& stored) { return stored.columns(); }, this->rows_) == this->to_.size());
-    assert(is_normalized());
+    assert(detail::are_right(this->to_, this->from_, this->rows(), detail::algebra_of<To>()));
   }
 
   /// The distribution of `to` when `from` has this outcome.
   Distribution<To> given(std::string_view from) const { return given(this->from_.index_of(from)); }
   Distribution<To> given(std::size_t from) const {
     check::index(this->from_, from);
-    Table row(1, this->to_.size());
-    this->for_each(from, [&](std::size_t to, double value) { row(0, to) = value; });
-    return {this->to_, std::move(row), detail::ByLaw{}};
+    return {this->to_, detail::dense_row(this->rows(), from), detail::ByLaw{}};
   }
 
   /// Itself: generic code need not ask whether a composition was only induced.
@@ -165,37 +150,31 @@ class Relation : public ConditionalTable<To, From> {
   Relation normalized() && { return std::move(*this); }
 
   /// The same relation stored as a dense table.
-  Relation dense() const {
-    return {this->to_, this->from_, std::visit([](const auto& rows) { return dense_table(rows); }, this->rows_),
-            detail::ByLaw{}};
-  }
+  Relation dense() const { return {this->to_, this->from_, dense_table(this->rows()), detail::ByLaw{}}; }
 
   /// Whether the variables and all numbers are the same, however they are stored.
   friend bool operator==(const Relation& a, const Relation& b) {
-    if (!(a.to_ == b.to_ && a.from_ == b.from_)) return false;
-    for (std::size_t i = 0; i < a.from_.size(); ++i)
-      if (!(a.given(i) == b.given(i))) return false;
-    return true;
+    return a.to_ == b.to_ && a.from_ == b.from_ && detail::same_numbers(a.rows(), b.rows());
   }
 
  private:
-  bool is_normalized() const {
-    bool all = true;
-    const auto each = [&all](const auto& rows) {
-      detail::for_each_stored_row(rows, [&](std::size_t r) {
-        all = all && std::abs(total<To>(rows.entries(r).values) - 1.0) <= 4.0 * normalization_tolerance;
-      });
-    };
-    std::visit(each, this->rows_);
-    return all;
-  }
-
   template <class SomeRows>
-  SomeRows proved(SomeRows rows) const {
-    check::rows(this->to_, this->from_, rows.rows());
+  static Table proved(const Outcomes& to, const Outcomes& from, const SomeRows& rows) {
+    check::rows(to, from, rows.size());
+    Table table(from.size(), to.size());
+    std::size_t i = 0;
+    for (const auto& row : rows) {
+      prove_normalized<To>(to, {&from, i}, {row.begin(), row.end()});
+      for (double* out = table.row(i++).data(); const double value : row) *out++ = value;
+    }
+    return table;
+  }
+  template <class SomeRows>
+  static SomeRows proved_entries(const Outcomes& to, const Outcomes& from, SomeRows rows) {
+    check::rows(to, from, rows.rows());
     for (std::size_t i = 0; i < rows.rows(); ++i)
-      prove_entries_normalized<To>(this->to_, {&this->from_, i}, rows.entries(i));
-    rows.widen(this->to_.size());
+      detail::prove_entries(to, {&from, i}, rows.entries(i), detail::algebra_of<To>(), To::total);
+    rows.widen(to.size());
     return rows;
   }
 };
@@ -211,11 +190,11 @@ template <Uncertainty To, Uncertainty From, class Number>
     check::rows(to, from, rows.size());
     Table table(from.size(), to.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      check::size(to, {&from, i}, rows[i].size());
-      const std::span<double> row = table.row(i);
-      for (std::size_t k = 0; k < row.size(); ++k) row[k] = static_cast<double>(rows[i][k]);
-      detail::prove_weights<AlgebraOf<To>>(to, {&from, i}, row);
-      condition<AlgebraOf<To>>(row);
+      const std::vector<double> weights(rows[i].begin(), rows[i].end());
+      check::size(to, {&from, i}, weights.size());
+      check::weights(to, {&from, i}, weights, detail::algebra_of<To>());
+      std::copy(weights.begin(), weights.end(), table.row(i).begin());
+      condition<AlgebraOf<To>>(table.row(i));
     }
     return {to, from, std::move(table), detail::ByLaw{}};
   }
@@ -223,14 +202,7 @@ template <Uncertainty To, Uncertainty From, class Number>
 /// A line per row: "mood given age = young: calm 0.3, wild 1".
 template <Uncertainty To, Uncertainty From>
 std::ostream& operator<<(std::ostream& out, const Relation<To, From>& relation) {
-  for (std::size_t i = 0; i < relation.from().size(); ++i) {
-    out << relation.to().name() << " given " << relation.from().name() << " = " << relation.from().label(i) << ':';
-    const char* separator = " ";
-    relation.for_each(i, [&](std::size_t to, double value) {
-      out << std::exchange(separator, ", ") << relation.to().label(to) << ' ' << value;
-    });
-    out << '\n';
-  }
+  detail::write(out, relation.to(), relation.from(), relation.rows());
   return out;
 }
 

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <memory>
-#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <sigmax/core/chain.hpp>
@@ -21,62 +18,22 @@ struct Route {
 
 namespace detail {
 
-/// For every outcome the indices that attain it better than all before them, with what they attain: for a ⊗ that
-/// selects, where a later minimum may make any of them a tie.
-struct Attempts {
-  static constexpr bool wanted = true;
-  struct Attempt {
-    kernels::Winner index;
-    double value;
-  };
-  std::vector<std::vector<Attempt>> all;
-
-  void assign(std::size_t size) { all.assign(size, {}); }
-  struct OfRow {
-    static constexpr bool wanted = true;
-    Attempts* attempts;
-    void note(std::size_t k, bool better, kernels::Winner index, double value) const {
-      if (better) attempts->all[k].push_back({index, value});
-    }
-  };
-  OfRow from(std::size_t) { return {this}; }
-
-  /// The first index that attains at least this much; 0 if none does.
-  kernels::Winner first(std::size_t k, double least) const {
-    for (const Attempt& attempt : all[k])
-      if (least > 0.0 && attempt.value >= least) return attempt.index;
-    return 0;
-  }
-};
-
-/// The winners of all relations of a chain; a copy shares them, and what was appended stays as it is.
-template <class Winners>
+/// What won at every relation of a chain; a copy shares it, and what was appended stays as it is.
 class History {
  public:
   History() = default;
   History(const History&) = default;
   History(History&&) noexcept = default;
-  History& operator=(History other) noexcept {
-    std::swap(last_, other.last_);
-    return *this;
-  }
-  ~History() {  // one after the other: a long chain is too deep for recursion
-    while (last_ && last_.use_count() == 1) last_ = std::shared_ptr<Step>(std::move(last_->before));
-  }
+  History& operator=(History other) noexcept;
+  ~History();
 
-  void append(Winners winners) { last_ = std::make_shared<Step>(Step{std::move(winners), std::move(last_)}); }
+  void append(kernels::Winners winners);
 
-  /// action(winners) from the last relation to the first.
-  template <class Action>
-  void backwards(const Action& action) const {
-    for (const Step* step = last_.get(); step != nullptr; step = step->before.get()) action(step->winners);
-  }
+  /// The outcomes of the best way to `last`, whose number is `value`.
+  std::vector<std::size_t> way_to(std::size_t last, double value) const;
 
  private:
-  struct Step {
-    Winners winners;
-    std::shared_ptr<Step> before;
-  };
+  struct Step;
   std::shared_ptr<Step> last_;
 };
 
@@ -94,8 +51,7 @@ template <Uncertainty Kind>
 class Routes {
  public:
   using kind = Kind;
-  using Winners = std::conditional_t<ScalingAlgebra<AlgebraOf<Kind>>, kernels::FirstWinners, detail::Attempts>;
-  using History = detail::History<Winners>;
+  using History = detail::History;
 
   explicit Routes(const Distribution<Kind>& start) : chain_(start) {}
   Routes(Chain<Kind> chain, History history, detail::ByLaw) : chain_(std::move(chain)), history_(std::move(history)) {}
@@ -108,12 +64,7 @@ class Routes {
 
   /// The best way to one outcome of the current variable; on ties the first outcome, decided from the end backwards.
   Route to(std::size_t outcome) const {
-    Route route{{outcome}, chain_.log(outcome)};
-    const double value = Chain<Kind>::Row::value_of(chain_.row()[outcome]);
-    history_.backwards(
-        [&](const Winners& winners) { route.outcomes.push_back(winners.first(route.outcomes.back(), value)); });
-    std::reverse(route.outcomes.begin(), route.outcomes.end());
-    return route;
+    return {history_.way_to(outcome, chain_.row()[outcome].value()), chain_.log(outcome)};
   }
 
  private:
@@ -124,10 +75,9 @@ class Routes {
 namespace detail {
 
 template <Uncertainty Kind>
-Routes<Kind> further(const Relation<Kind, Kind>& left, const Routes<Kind>& right, typename Chain<Kind>::Row room) {
-  check::same(left.from(), right.chain().variable(), "compose");
-  typename Routes<Kind>::Winners winners;
-  auto chain = further(left, right.chain(), std::move(room), winners);
+Routes<Kind> further(const Relation<Kind, Kind>& left, const Routes<Kind>& right, kernels::UnboundedRow room) {
+  kernels::Winners winners;
+  auto chain = further(left, right.chain(), std::move(room), &winners);
   auto history = right.history();
   history.append(std::move(winners));
   return {std::move(chain), std::move(history), ByLaw{}};

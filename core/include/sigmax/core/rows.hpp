@@ -1,54 +1,47 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <variant>
 #include <vector>
 
 #include <sigmax/core/banded_rows.hpp>
+#include <sigmax/core/entries.hpp>
 #include <sigmax/core/sparse_rows.hpp>
 #include <sigmax/core/table.hpp>
 
 namespace sigmax {
 
-/// How a relation stores its rows; chosen when it is constructed, and by a verb to fit its result.
-using AnyRows = std::variant<Table, SparseRows, BandedRows>;
+/// How a relation stores its rows; chosen when it is constructed, and by a verb to fit its result. It is copied, moved
+/// and destroyed by compiled functions.
+struct AnyRows : std::variant<Table, SparseRows, BandedRows> {
+  using variant::variant;
+  using variant::operator=;
+  AnyRows(const AnyRows& other);
+  AnyRows(AnyRows&& other) noexcept;
+  AnyRows& operator=(const AnyRows& other);
+  AnyRows& operator=(AnyRows&& other) noexcept;
+  ~AnyRows();
+};
 
 /// The dense table that a result is written to; allocates nothing if it is one already.
-inline Table& as_table(AnyRows& rows) {
-  if (Table* const table = std::get_if<Table>(&rows)) return *table;
-  return rows.emplace<Table>(std::size_t{0}, std::size_t{0});
-}
+Table& as_table(AnyRows& rows);
 
-/// The sparse rows that a result is written to; keeps their memory if it is some already.
-inline SparseRows& as_sparse_rows(AnyRows& rows) {
-  if (SparseRows* const sparse = std::get_if<SparseRows>(&rows)) return *sparse;
-  return rows.emplace<SparseRows>();
-}
+/// The same numbers as a dense table.
+Table dense_table(const AnyRows& rows);
 
 namespace detail {
 
-/// action(r) once for every row that is stored: rows without a number of their own share one.
-template <class Rows, class Action>
-void for_each_stored_row(const Rows& rows, const Action& action) {
-  std::vector<bool> done(rows.stored() + 1, false);  // by where a row begins
-  for (std::size_t r = 0; r < rows.rows(); ++r) {
-    if (done[rows.offset(r)]) continue;
-    done[rows.offset(r)] = true;
-    action(r);
-  }
-}
+AnyEntries entries_of(const AnyRows& rows, std::size_t r);
+std::span<double> values_of(AnyRows& rows, std::size_t r);
+std::size_t offset_of(const AnyRows& rows, std::size_t r);
+Table dense_row(const AnyRows& rows, std::size_t r);
+std::vector<double> column_of(const AnyRows& rows, std::size_t column);
+bool same_numbers(const AnyRows& a, const AnyRows& b);
+
+/// The rows that are stored, each once: those without numbers of their own share one.
+std::vector<std::size_t> stored_rows(const AnyRows& rows);
 
 }  // namespace detail
-
-/// The same numbers as a dense table.
-template <class Rows>
-Table dense_table(const Rows& rows) {
-  Table result(rows.rows(), rows.columns());
-  for (std::size_t r = 0; r < rows.rows(); ++r) {
-    const auto entries = rows.entries(r);
-    for (std::size_t k = 0; k < entries.size(); ++k) result(r, entries.index(k)) = entries.value(k);
-  }
-  return result;
-}
 
 }  // namespace sigmax

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <random>
+#include <span>
 #include <vector>
 
 #include <sigmax/core/distribution.hpp>
@@ -10,19 +10,30 @@
 
 namespace sigmax {
 
+namespace detail {
+
+/// A number in [0, 1) of 53 bits, drawn as std::generate_canonical does.
+template <class Generator>
+double unit_number(Generator& generator) {
+  constexpr long double range = static_cast<long double>(Generator::max()) - Generator::min() + 1.0L;
+  double sum = 0.0, scale = 1.0;
+  while (scale < 0x1p53) {
+    sum += static_cast<double>(generator() - Generator::min()) * scale;
+    scale = static_cast<double>(scale * range);
+  }
+  return std::min(sum / scale, 1.0 - 0x1p-53);
+}
+
+/// The outcome at which the sum of the values passes `level`, a number in [0, 1).
+std::size_t outcome_at(std::span<const double> values, double level);
+
+}  // namespace detail
+
 /// Index of an outcome drawn with its probability, from a generator as those of the standard library. One number of 53
 /// bits is drawn.
 template <class Generator>
 std::size_t sample(const Distribution<Random>& distribution, Generator& generator) {
-  double left = std::generate_canonical<double, std::numeric_limits<double>::digits>(generator);
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < distribution.size(); ++i) {
-    if (distribution[i] == 0.0) continue;
-    last = i;
-    left -= distribution[i];
-    if (left < 0.0) break;
-  }
-  return last;
+  return detail::outcome_at(distribution.values(), detail::unit_number(generator));
 }
 
 /// One outcome for every variable of a network, in the order of declaration, drawn parents first. Throws

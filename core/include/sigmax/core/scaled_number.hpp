@@ -49,7 +49,7 @@ class ScaledNumber {
   /// Its logarithm: where a normal double holds the number, that of the double to the last bit.
   double log() const {
     if (is_zero()) return log_zero;
-    if (exponent_ > -1022 && exponent_ < 1024) return std::log(normal_value_in_units_of(0));
+    if (is_normal(exponent_)) return std::log(normal_value_in_units_of(0));
     return std::log(significand_) + static_cast<double>(exponent_) * std::numbers::ln2;
   }
   constexpr bool is_zero() const { return significand_ == 0.0; }
@@ -60,7 +60,9 @@ class ScaledNumber {
 
   /// Divided by 2^unit, as a double: zero or infinity where a double cannot say better.
   double value_in_units_of(std::int64_t unit) const {
-    return std::ldexp(significand_, static_cast<int>(std::clamp<std::int64_t>(exponent_ - unit, -3000, 3000)));
+    const std::int64_t exponent = exponent_ - unit;
+    if (is_normal(exponent)) return normal_value_in_units_of(unit);
+    return std::ldexp(significand_, static_cast<int>(std::clamp<std::int64_t>(exponent, -3000, 3000)));
   }
 
   /// The same, faster, where the result is zero or a normal double.
@@ -81,15 +83,18 @@ class ScaledNumber {
     return ScaledNumber(a.significand_ * b.significand_, a.exponent_ + b.exponent_);
   }
 
-  /// The ⊕ of an algebra, through which scaling passes.
+  /// The ⊕ of an algebra, through which scaling passes; the second form takes it as a function of doubles.
   template <ScalingAlgebra A>
   static constexpr ScaledNumber plus(ScaledNumber a, ScaledNumber b) {
+    return plus(a, b, [](double x, double y) { return A::plus(x, y); });
+  }
+  template <class Plus>
+  static constexpr ScaledNumber plus(ScaledNumber a, ScaledNumber b, const Plus& plus) {
     if (a.is_zero()) return b;
     if (b.is_zero()) return a;
     if (a.exponent_ < b.exponent_) std::swap(a, b);
     const bool negligible = a.exponent_ - b.exponent_ > 1000;  // less than any rounding of the result
-    return ScaledNumber(A::plus(a.significand_, negligible ? 0.0 : b.normal_value_in_units_of(a.exponent_)),
-                        a.exponent_);
+    return ScaledNumber(plus(a.significand_, negligible ? 0.0 : b.normal_value_in_units_of(a.exponent_)), a.exponent_);
   }
 
   friend constexpr bool operator==(ScaledNumber, ScaledNumber) = default;
@@ -99,6 +104,7 @@ class ScaledNumber {
   }
 
  private:
+  static constexpr bool is_normal(std::int64_t exponent) { return exponent > -1022 && exponent < 1024; }
   static constexpr std::uint64_t sign = std::uint64_t{1} << 63;                                   // that zero may have
   static constexpr std::int64_t exponent_of_zero = std::numeric_limits<std::int64_t>::min() / 4;  // below all others
 

@@ -1,15 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
-#include <memory>
 #include <new>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -52,100 +47,51 @@ class SparseRows {
   using Values = std::vector<double, detail::UnsetAllocator<double>>;
 
   explicit SparseRows(std::size_t columns = 0) : columns_(columns) {}
-  SparseRows(std::initializer_list<std::initializer_list<Entry>> rows) {
-    for (const auto& row : rows) append(row);
-  }
+  SparseRows(std::initializer_list<std::initializer_list<Entry>> rows);
 
   /// The arrays of compressed sparse rows as they are: row r has entries `ends[r − 1]` up to `ends[r]`.
   /// Throws std::invalid_argument if the arrays do not fit together.
-  SparseRows(std::size_t columns, std::span<const std::size_t> ends, Columns indices, Values values)
-      : columns_(columns), indices_(std::move(indices)), values_(std::move(values)) {
-    for (const std::size_t end : ends) {
-      if (end < end_) throw std::invalid_argument("the ends of sparse rows do not ascend");
-      extents_.push_back({end_, end - end_});
-      end_ = end;
-    }
-    if (indices_.size() != values_.size() || end_ != values_.size())
-      throw std::invalid_argument("sparse rows need as many columns as values, and their last end to be that number");
-    for (const std::size_t index : indices_) columns_ = std::max(columns_, index + 1);
-  }
+  SparseRows(std::size_t columns, std::span<const std::size_t> ends, Columns indices, Values values);
 
   /// Appends a row; its columns ascend.
-  void append(std::span<const Entry> row) {
-    for (const Entry& entry : row) append_entry(entry.column, entry.value);
-    end_row();
-  }
-  void append(std::initializer_list<Entry> row) { append(std::span(row.begin(), row.size())); }
+  void append(std::span<const Entry> row);
+  void append(std::initializer_list<Entry> row) { append(std::span<const Entry>(row.begin(), row.size())); }
 
   /// Appends a row entry by entry: the entries, then `end_row`. Throws std::invalid_argument if the column does not fit
   /// into 32 bits.
-  void append_entry(std::size_t column, double value) {
-    if (column > std::numeric_limits<std::uint32_t>::max())
-      throw std::invalid_argument("sparse rows have columns below 2^32, not " + std::to_string(column));
-    columns_ = std::max(columns_, column + 1);
-    indices_.push_back(static_cast<std::uint32_t>(column));
-    values_.push_back(value);
-  }
-  void end_row() {
-    extents_.push_back({end_, values_.size() - end_});
-    end_ = values_.size();
-  }
+  void append_entry(std::size_t column, double value);
+  void end_row();
 
   /// Removes all rows and keeps their memory.
-  void clear(std::size_t columns) {
-    columns_ = columns;
-    extents_.clear();
-    indices_.clear();
-    values_.clear();
-    end_ = 0;
-  }
-  void reserve(std::size_t rows, std::size_t numbers) {
-    extents_.reserve(rows);
-    indices_.reserve(numbers);
-    values_.reserve(numbers);
-  }
+  void clear(std::size_t columns);
+  void reserve(std::size_t rows, std::size_t numbers);
 
-  /// Appends a row of at most so many entries: write(columns, values) writes them to where these point, columns below
-  /// `columns()`, and returns how many they are.
-  template <class Write>
-  void append_written(std::size_t most, const Write& write) {
-    indices_.resize(end_ + most);
-    values_.resize(end_ + most);
-    const std::size_t size = write(indices_.data() + end_, values_.data() + end_);
-    indices_.resize(end_ + size);
-    values_.resize(end_ + size);
-    end_row();
-  }
+  /// Room for the next row, of at most so many entries: columns below `columns()`. `end_row` says how many were
+  /// written.
+  struct Room {
+    std::uint32_t* columns;
+    double* values;
+  };
+  Room room(std::size_t most);
+  void end_row(std::size_t size);
 
   /// Makes rows share one further row of equal numbers in every column: what is stored grows by one row only.
-  void fill_rows(std::span<const std::size_t> rows, double value) {
-    if (rows.empty()) return;
-    for (std::size_t column = 0; column < columns_; ++column) append_entry(column, value);
-    for (const std::size_t row : rows) extents_[row] = {end_, columns_};
-    end_ = values_.size();
-  }
+  void fill_rows(std::span<const std::size_t> rows, double value);
 
   std::size_t rows() const { return extents_.size(); }
   std::size_t columns() const { return columns_; }
   std::size_t stored() const { return values_.size(); }
-  void widen(std::size_t columns) { columns_ = std::max(columns_, columns); }
+  void widen(std::size_t columns) { columns_ = columns > columns_ ? columns : columns_; }
 
   /// Where row r begins among the stored numbers.
   std::size_t offset(std::size_t r) const { return extents_[r].first; }
   ListOfEntries entries(std::size_t r) const&& = delete;
   ListOfEntries entries(std::size_t r) const& {
     const auto [first, size] = extents_[r];
-    return {std::span(indices_).subspan(first, size), std::span(values_).subspan(first, size)};
+    return {{indices_.data() + first, size}, {values_.data() + first, size}};
   }
-  double at(std::size_t r, std::size_t column) const {
-    const ListOfEntries row = entries(r);
-    const auto found = std::lower_bound(row.columns.begin(), row.columns.end(), column);
-    if (found == row.columns.end() || *found != column) return 0.0;
-    return row.value(static_cast<std::size_t>(found - row.columns.begin()));
-  }
-  std::span<double> values(std::size_t r) & {
-    return std::span(values_).subspan(extents_[r].first, extents_[r].second);
-  }
+  double at(std::size_t r, std::size_t column) const { return detail::AnyEntries(entries(r)).at(column); }
+  std::span<double> values(std::size_t r) & { return {values_.data() + extents_[r].first, extents_[r].second}; }
 
  private:
   std::size_t columns_ = 0, end_ = 0;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -24,16 +23,16 @@ struct ByLaw {
 /// A dense rows × columns table of numbers, row by row; up to 16 of them are stored without allocation.
 class Table {
  public:
-  Table(std::size_t rows, std::size_t columns, double value = 0.0) {
-    reshape(rows, columns);
-    std::fill_n(data(), size(), value);
-  }
+  Table(std::size_t rows, std::size_t columns, double value = 0.0);
+
+  /// A single row.
+  explicit Table(std::span<const double> row);
 
   /// Changes the shape and leaves the values unspecified; allocates nothing if they fit into what is there.
   void reshape(std::size_t rows, std::size_t columns) {
     rows_ = rows;
     columns_ = columns;
-    if (size() > inline_capacity) heap_.resize(size());
+    if (size() > inline_capacity && size() != heap_.size()) grow();
   }
 
   std::size_t rows() const { return rows_; }
@@ -55,9 +54,7 @@ class Table {
   std::size_t stored() const { return size(); }
   std::size_t offset(std::size_t r) const { return r * columns_; }
   std::span<double> values(std::size_t r) & { return row(r); }
-  void fill_rows(std::span<const std::size_t> rows, double value) {
-    for (const std::size_t r : rows) std::fill_n(row(r).data(), columns_, value);
-  }
+  void fill_rows(std::span<const std::size_t> rows, double value);
   double at(std::size_t r, std::size_t column) const { return (*this)(r, column); }
   RunOfEntries entries(std::size_t r) const& { return {0, row(r)}; }
   RunOfEntries entries(std::size_t r) const&& = delete;
@@ -72,6 +69,8 @@ class Table {
   }
 
  private:
+  void grow();
+
   static constexpr std::size_t inline_capacity = 16;
   std::size_t rows_ = 0;
   std::size_t columns_ = 0;

@@ -18,6 +18,11 @@ class Variable : public Outcomes {
  public:
   using kind = Kind;
   using Outcomes::Outcomes;
+
+ private:
+  template <Uncertainty Other>
+  friend Variable<Other> interpreted_as(const Outcomes& outcomes);
+  explicit Variable(const Outcomes& outcomes) : Outcomes(outcomes) {}
 };
 
 /// Variables of different kinds are not compared: one is never the other.

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <utility>
-#include <variant>
 
 #include <sigmax/core/compose.hpp>
 
@@ -20,27 +19,14 @@ class Witnessed {
   const Composed& relation() const& { return relation_; }
   Composed relation() && { return std::move(relation_); }
 
-  /// Through which outcome of the variable between the best way leads `from` → `to`: the first on a tie. It is 0 if no
-  /// way does, for then all tie.
+  /// The outcome of the variable between on the best way `from` → `to`: the first if several tie, 0 if there is no way.
   std::size_t winner(std::size_t from, std::size_t to) const {
-    return std::visit(
-        [&](const auto& rows) -> std::size_t {
-          const auto k = position(rows.entries(from), to);
-          return k == none ? 0 : winners_.all[rows.offset(from) + k];
-        },
-        relation_.rows());
+    const auto row = detail::entries_of(relation_.rows(), from);
+    const std::size_t k = row.place_of(to);
+    return k == row.size() ? 0 : winners_[detail::offset_of(relation_.rows(), from) + k];
   }
 
  private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  static std::size_t position(const RunOfEntries& row, std::size_t to) {
-    return to >= row.first && to - row.first < row.size() ? to - row.first : none;
-  }
-  static std::size_t position(const ListOfEntries& row, std::size_t to) {
-    const auto found = std::lower_bound(row.columns.begin(), row.columns.end(), to);
-    return found != row.columns.end() && *found == to ? static_cast<std::size_t>(found - row.columns.begin()) : none;
-  }
-
   Composed relation_;
   kernels::FirstWinners winners_;  // one for every number that the relation stores, in its order
 };
@@ -58,8 +44,8 @@ auto compose_with_witness(const Left& left, const Right& right) {
   check::same(left.from(), right.to(), "compose_with_witness");
   AnyRows rows = Table(0, 0);
   kernels::FirstWinners winners;
-  kernels::compose<AlgebraOf<typename Left::from_kind>>(left.rows(), right.rows(), rows, winners);
-  if constexpr (!is_induced<Composed>) detail::settle<AlgebraOf<typename Left::to_kind>>(rows);
+  detail::compose(detail::algebra_of<typename Left::from_kind>(), left.rows(), right.rows(), !is_induced<Composed>,
+                  rows, &winners);
   return Witnessed<Composed>{Composed{left.to(), right.from(), std::move(rows), detail::ByLaw{}}, std::move(winners),
                              detail::ByLaw{}};
 }

@@ -24,7 +24,9 @@ class AnyModel {
   /// Throws std::invalid_argument, naming the model, if it has more than `max_state_size` states.
   template <FilterModel Model>
     requires(!std::is_same_v<Model, AnyModel>)
-  AnyModel(const Model& model) : AnyModel(detail::AskedAs<Model>::of(model), model, detail::model_ref(model)) {}
+  AnyModel(const Model& model)
+      : AnyModel(std::make_shared<const detail::AskedAs<Model>>(detail::asked(model)), detail::model_ref(model),
+                 model.components()) {}
 
   Eigen::Index size() const { return size_; }
   std::string_view name() const { return name_; }
@@ -36,16 +38,8 @@ class AnyModel {
   const detail::ModelRef& ref() const { return ref_; }
 
  private:
-  template <class Moves, class Model>
-  AnyModel(const Moves& motion, const Model& model, const detail::ModelRef& ref)
-      : motion_(std::make_shared<const Moves>(motion)),
-        ref_{motion_.get(), ref.table, ref.points},
-        size_(ref.size()),
-        name_(model.name()),
-        components_(model.components()) {
-    require_size();
-  }
-  void require_size() const;
+  /// Of a copy of the motion that `ref` sees.
+  AnyModel(std::shared_ptr<const void> motion, const detail::ModelRef& ref, std::vector<std::string> components);
 
   std::shared_ptr<const void> motion_;
   detail::ModelRef ref_;

@@ -10,7 +10,7 @@ namespace sigmax {
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ n Σ B_ii² − ¼ (tr B)², in one dimension gᵀg; the exact one is gᵀg + ½ Σ B_ij².
-template <StateModel Moves>
+template <Motion Moves>
 class Cubature : public Member<Moves> {
  public:
   using Member<Moves>::Member;
@@ -18,7 +18,7 @@ class Cubature : public Member<Moves> {
   SigmaPointWeights weights() const { return {static_cast<double>(this->size()), 0.0, 0.0}; }
 };
 
-template <StateModel Moves>
+template <Motion Moves>
 Cubature(Moves) -> Cubature<Moves>;
 
 }  // namespace sigmax

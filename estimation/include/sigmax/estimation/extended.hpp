@@ -13,13 +13,13 @@ namespace sigmax {
 ///
 /// Jacobians are the motion's and the sensor's own, else by automatic differentiation (Bar-Shalom, Li, Kirubarajan
 /// 2001, 10.3). A linear motion has the same update without this wrapper.
-template <StateModel Moves>
+template <Motion Moves>
 class Extended : public Member<Moves> {
  public:
   using Member<Moves>::Member;
 };
 
-template <StateModel Moves>
+template <Motion Moves>
 Extended(Moves) -> Extended<Moves>;
 
 }  // namespace sigmax

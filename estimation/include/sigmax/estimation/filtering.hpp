@@ -38,18 +38,6 @@ void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView
 void linearised_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
                             double* residual, double* H, double* R);
 
-/// @{
-/// h(x) and ∂h/∂x, f(x) and ∂f/∂x. Throw std::domain_error, naming the function, the model and the state, unless they
-/// are finite.
-void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z);
-void slope_of_measurement(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* H);
-void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F = nullptr,
-                double* Q = nullptr);
-/// @}
-
-/// z − predicted by the sensor's own difference.
-void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, double* result);
-
 /// p → A p + b of the position along `axes` axes, which leads the state, and A p of its derivatives; A by columns.
 void transform(const double* A, const double* b, int axes, View estimate);
 

@@ -32,21 +32,4 @@ struct Gaussian {
   Eigen::Index size() const { return mean.size(); }
 };
 
-namespace detail {
-
-/// Whether no entry is infinite or not a number.
-template <int N, int MaxN>
-bool all_finite(const Gaussian<N, MaxN>& gaussian) {
-  return gaussian.mean.allFinite() && gaussian.covariance.allFinite();
-}
-
-/// Copies the lower triangle over the upper one, so that rounding cannot make a covariance unsymmetric.
-template <class Derived>
-void mirror_lower(Eigen::MatrixBase<Derived>& covariance) {
-  for (Eigen::Index column = 1; column < covariance.cols(); ++column)
-    for (Eigen::Index row = 0; row < column; ++row) covariance(row, column) = covariance(column, row);
-}
-
-}  // namespace detail
-
 }  // namespace sigmax

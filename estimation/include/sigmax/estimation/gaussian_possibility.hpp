@@ -26,7 +26,7 @@ class GaussianPossibility {
   /// The ratio-scale transform (34) of a Gaussian density: same m, same Σ, without the factor √((2π)ᴺ det Σ).
   /// Throws std::invalid_argument if a number is not finite, std::domain_error if Σ is not positive semi-definite.
   explicit GaussianPossibility(Gaussian<N> density) : density_(std::move(density)) {
-    if (!detail::all_finite(density_))
+    if (!density_.mean.allFinite() || !density_.covariance.allFinite())
       throw std::invalid_argument("a Gaussian possibility function needs finite numbers");
     // Σ = Σ_k d_k l_k l_kᵀ, the greatest remaining variance first; what is left when none remains must be rounding.
     SquareMatrix<N> rest = density_.covariance;

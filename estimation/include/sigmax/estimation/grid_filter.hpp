@@ -67,12 +67,10 @@ class GridFilter {
   void predict(const Dynamics& f, const SquareMatrix<N>& Q) {
     const GridNoise<N> noise(Q, options_.negligible);
     crop();
+    constexpr double any = std::numeric_limits<double>::infinity();
     for (Eigen::Index axis = 0; axis < N; ++axis) {
-      while ((grid_.extent()(axis) < std::min<Eigen::Index>(options_.cells, fewest) ||
-              (!selective && grid_.step()(axis) > noise.widths()(axis))) &&
-             2 * grid_.size() <= options_.most)
-        cut(axis);
-      join(axis, noise.widths()(axis));
+      const double width = noise.widths()(axis);
+      resize(axis, std::min<Eigen::Index>(options_.cells, fewest), selective ? any : width, width);
     }
     std::vector<Vector<N>> means(grid_.size());
     typename Grid<N>::Lattice first, last;
@@ -142,12 +140,7 @@ class GridFilter {
   /// the greater step. `predict` needs no cells cut; a state that does not move needs this called.
   void adapt(const Vector<N>& widest = Vector<N>::Constant(std::numeric_limits<double>::infinity())) {
     crop();
-    for (Eigen::Index axis = 0; axis < N; ++axis) {
-      while ((grid_.extent()(axis) < options_.cells || grid_.step()(axis) > widest(axis)) &&
-             2 * grid_.size() <= options_.most)
-        cut(axis);
-      join(axis, widest(axis));
-    }
+    for (Eigen::Index axis = 0; axis < N; ++axis) resize(axis, options_.cells, widest(axis), widest(axis));
   }
 
   /// The centre of the most probable or most possible cell.
@@ -236,22 +229,21 @@ class GridFilter {
     return grid;
   }
 
-  /// Cells become two along an axis.
-  void cut(Eigen::Index axis) {
-    move(grid_.halved(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
-      typename Grid<N>::Lattice place = grid_.place(i);
-      place(axis) *= 2;
-      row.add(to.cell(place), 0.0);
-      ++place(axis);
-      row.add(to.cell(place), 0.0);
-    });
-  }
-
-  /// Cells become one in pairs, while there are more than four times as many as wanted and they stay below `widest`.
-  void join(Eigen::Index axis, double widest) {
-    while (grid_.extent()(axis) > 4 * options_.cells && 2.0 * grid_.step()(axis) <= widest)
+  /// Cells become two along an axis while there are fewer than `least` or they are wider than `widest`, and one in
+  /// pairs while there are more than four times as many as wanted and they stay below `widest_joined`.
+  void resize(Eigen::Index axis, Eigen::Index least, double widest, double widest_joined) {
+    using Lattice = typename Grid<N>::Lattice;
+    while ((grid_.extent()(axis) < least || grid_.step()(axis) > widest) && 2 * grid_.size() <= options_.most)
+      move(grid_.halved(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
+        Lattice place = grid_.place(i);
+        place(axis) *= 2;
+        row.add(to.cell(place), 0.0);
+        ++place(axis);
+        row.add(to.cell(place), 0.0);
+      });
+    while (grid_.extent()(axis) > 4 * options_.cells && 2.0 * grid_.step()(axis) <= widest_joined)
       move(grid_.doubled(axis), [&](const Grid<N>& to, std::size_t i, GridRow& row) {
-        typename Grid<N>::Lattice place = grid_.place(i);
+        Lattice place = grid_.place(i);
         place(axis) = Grid<N>::half(place(axis));
         row.add(to.cell(place), 0.0);
       });

@@ -59,10 +59,8 @@ class IndependentAxes {
 
  private:
   static Matrix for_all_axes(const SquareMatrix<order>& law) {
-    Matrix result = Matrix::Zero();
-    for (int a = 0; a < order; ++a)
-      for (int b = 0; b < order; ++b)
-        for (int i = 0; i < Axes; ++i) result(a * Axes + i, b * Axes + i) = law(a, b);
+    Matrix result;
+    detail::spread_over_axes(law.data(), order, Axes, result.data());
     return result;
   }
 

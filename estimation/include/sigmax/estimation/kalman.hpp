@@ -1,11 +1,23 @@
 #pragma once
 
 #include <sigmax/estimation/filtering.hpp>
-#include <sigmax/estimation/innovation.hpp>
 #include <sigmax/estimation/sensor_ref.hpp>
 #include <sigmax/estimation/sensors.hpp>
 
 namespace sigmax {
+
+/// What a measurement told beyond its prediction.
+template <int M, int MaxM = M>
+struct Innovation {
+  Vector<M, MaxM> residual;          ///< ν = z − h(x)
+  SquareMatrix<M, MaxM> covariance;  ///< S, (31)
+  double squared_distance = 0.0;     ///< d² = νᵀ S⁻¹ ν, the NIS
+  double log_likelihood = 0.0;       ///< log N(ν; 0, S)
+};
+
+/// The innovation of a sensor's measurement.
+template <Sensing Sensor>
+using InnovationOf = Innovation<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>>;
 
 /// A model that has a prediction: a linear motion, or any motion in a member of the Kalman family.
 template <class Model>
@@ -88,27 +100,5 @@ EstimateOf<Model> update(const Model& model, const EstimateOf<Model>& prior, con
   return update(model, prior, measurement, PositionSensor<Model::axes>{});
 }
 /// @}
-
-/// h(x), (22), of a sensor and a state. Throws std::domain_error, naming model and state, unless it is finite.
-template <StateModel Model, SensorOf<Model> Sensor>
-  requires(Sensor::measurement_size != Eigen::Dynamic)
-MeasuredOf<Sensor> predicted_measurement(const Model& model, const Sensor& sensor, const StateOf<Model>& x) {
-  MeasuredOf<Sensor> z;
-  detail::measured_at(detail::model_ref(model), detail::sensor_ref(sensor, model), x.data(), Sensor::measurement_size,
-                      z.data());
-  return z;
-}
-
-/// ∂h/∂x, m × n, as the sensor gives it, else by automatic differentiation; of a linear sensor H. Throws as
-/// `predicted_measurement`.
-template <StateModel Model, SensorOf<Model> Sensor>
-  requires(Sensor::measurement_size != Eigen::Dynamic)
-MeasurementMatrixOf<Sensor, Model> measurement_jacobian(const Model& model, const Sensor& sensor,
-                                                        const StateOf<Model>& x) {
-  MeasurementMatrixOf<Sensor, Model> H(Sensor::measurement_size, x.size());
-  detail::slope_of_measurement(detail::model_ref(model), detail::sensor_ref(sensor, model), x.data(),
-                               Sensor::measurement_size, H.data());
-  return H;
-}
 
 }  // namespace sigmax

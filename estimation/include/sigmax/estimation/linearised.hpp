@@ -5,28 +5,20 @@
 namespace sigmax {
 
 /// One step of a motion as a linear one about an estimate with mean m: x_k = mean + F (x_k−1 − m) + w, w ~ N(0, Q).
-template <int N, int MaxN = N>
-struct LinearisedStep {
-  Vector<N, MaxN> mean;
-  SquareMatrix<N, MaxN> F;
-  SquareMatrix<N, MaxN> Q;
+template <class Model>
+struct LinearisedStepOf {
+  StateOf<Model> mean;
+  StateMatrixOf<Model> F;
+  StateMatrixOf<Model> Q;
 };
 
 /// A measurement as a linear one about an estimate with mean m: residual = H (x − m) + v, v ~ N(0, R).
-template <int M, int MaxM, int N, int MaxN>
-struct LinearisedMeasurement {
-  Vector<M, MaxM> residual;
-  RectangularMatrix<M, N, MaxM, MaxN> H;
-  SquareMatrix<M, MaxM> R;
-};
-
-/// That of a model's state by a sensor.
 template <class Model, Sensing Sensor>
-using LinearisedMeasurementOf = LinearisedMeasurement<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>,
-                                                      Model::state_size, Model::max_state_size>;
-/// A step of a model.
-template <class Model>
-using LinearisedStepOf = LinearisedStep<Model::state_size, Model::max_state_size>;
+struct LinearisedMeasurementOf {
+  MeasuredOf<Sensor> residual;
+  MeasurementMatrixOf<Sensor, Model> H;
+  SquareMatrix<Sensor::measurement_size, detail::max_measurement_size_of<Sensor>> R;
+};
 
 /// Of a linear motion: the step itself. Of the extended Kalman filter by the Jacobian at the mean; of a filter with
 /// sigma points by regression over them, and what that leaves unexplained is noise.

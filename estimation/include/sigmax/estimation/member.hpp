@@ -12,7 +12,7 @@ namespace sigmax {
 
 /// What a non-linear member of the Kalman family shows of its motion, so that it can stand where a motion stands: in a
 /// multiple-model filter. One that uses sigma points says where, `weights()`; another uses tangents.
-template <StateModel Moves>
+template <Motion Moves>
 class Member {
  public:
   using MotionType = Moves;

@@ -92,21 +92,20 @@ inline constexpr MotionTable motion_table = [] {
   return table;
 }();
 
+/// A member of the Kalman family that uses sigma points, and so wants no Jacobian.
+template <class Model>
+concept UsesPoints = requires(const Model& model) {
+  model.weights();
+};
+
 /// A model as compiled code sees it: a motion by itself, in a member of the Kalman family, or one that knows its own.
-/// Its motion is differentiated if the member has no sigma points.
 template <class Model>
 ModelRef model_ref(const Model& model) {
   if constexpr (requires { model.ref(); }) {
     return model.ref();
   } else if constexpr (requires { typename Model::MotionType; }) {
-    using Moves = typename Model::MotionType;
-    ModelRef result{&model.motion(), nullptr};
-    if constexpr (requires { model.motion().ref(); })
-      result = model.motion().ref();
-    else
-      result.table = &motion_table < Moves, !requires { model.weights(); }
-    > ;
-    if constexpr (requires { model.weights(); }) result.points = model.weights();
+    ModelRef result{&model.motion(), &motion_table<typename Model::MotionType, !UsesPoints<Model>>};
+    if constexpr (UsesPoints<Model>) result.points = model.weights();
     return result;
   } else {
     return {&model, &motion_table<Model, false>};

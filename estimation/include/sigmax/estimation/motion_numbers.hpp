@@ -15,6 +15,9 @@ void white_noise(int order, double q, double dt, double* F, double* Q, double* g
 void ornstein_uhlenbeck(int order, double theta, double sigma, double dt, double* F, double* Q, double* gain);
 /// @}
 
+/// law ⊗ I: what a matrix of one axis is of all, which are independent.
+void spread_over_axes(const double* law, int order, int axes, double* matrix);
+
 /// F and Q of a turn at a known rate.
 void known_turn(int axes, double omega, double q, double dt, double* F, double* Q);
 
@@ -29,8 +32,8 @@ std::vector<std::string> motion_components(int axes, int orders);
 /// Returns the rate of a turn. Throws std::invalid_argument unless it is finite.
 double finite_rate(double omega);
 
-/// Returns the parameter of a model. Throws std::invalid_argument, naming both, unless `least` ≤ value ≤ 1e150, so that
-/// its square is finite.
-double motion_parameter(double value, std::string_view parameter, std::string_view model, double least = 0.0);
+/// Returns the parameter of a model. Throws std::invalid_argument, naming both, unless 0 ≤ value ≤ 1e150, so that its
+/// square is finite.
+double motion_parameter(double value, std::string_view parameter, std::string_view model);
 
 }  // namespace sigmax::detail

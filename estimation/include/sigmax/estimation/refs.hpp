@@ -78,7 +78,7 @@ struct SensorTable {
   /// h(x), m numbers, and H = ∂h/∂x by columns, where they are asked for. Throws std::invalid_argument if it measures
   /// another number of quantities.
   void (*measure)(const void* sensor, const void* model, const double* x, int n, int m, double* z, double* H) = nullptr;
-  /// z − predicted; the plain difference if there is none.
+  /// z − predicted, also in the place of z; the plain difference if there is none.
   void (*difference)(const void* sensor, const double* z, const double* predicted, int m, double* result) = nullptr;
   /// The weighted mean of measurements, a column each; by differences if there is none.
   void (*mean)(const void* sensor, const double* points, const double* weights, int m, int count,

@@ -80,22 +80,23 @@ concept SeenOf = (axes_of<Model> == 0 ||
                   axes_of<Sensor> <= axes_of<Model>)&&(!SeesLeading<Sensor> || Model::state_size == Eigen::Dynamic ||
                                                        requires { requires Sensor::seen_size <= Model::state_size; });
 
-/// Whether the Jacobian that a sensor gives, if it gives one, is of the right shape.
-template <class Sensor, int Columns, class... Asked>
-concept JacobianFits = !requires(const Sensor& sensor, const Asked&... asked) {
-  sensor.measurement_jacobian(asked...);
+/// Whether a sensor of what it sees, and of the model if that is its whole state, is a matrix or a function, and its
+/// Jacobian and its difference, if it gives them, are of the right shapes.
+template <class Sensor, class Seen, class... Asked>
+concept Tells = requires(const Sensor& sensor, const Asked&... asked) {
+  { sensor.measurement_matrix(asked...) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
 }
-|| requires(const Sensor& sensor, const Asked&... asked) {
-  { sensor.measurement_jacobian(asked...) } -> MatrixOf<Sensor::measurement_size, Columns>;
-};
-
-/// The same of the difference.
-template <class Sensor, class Measured = Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>>
-concept DifferenceFits = !requires(const Sensor& sensor, const Measured& z) {
-  sensor.measurement_difference(z, z);
-}
-|| requires(const Sensor& sensor, const Measured& z) {
-  { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
+|| requires(const Sensor& sensor, const Seen& x,
+            const Vector<Sensor::measurement_size, max_measurement_size_of<Sensor>>& z, const Asked&... asked) {
+  { sensor.measure(asked..., x) } -> MatrixOf<Sensor::measurement_size>;
+  requires !requires { sensor.measurement_jacobian(asked..., x); }
+  || requires {
+    { sensor.measurement_jacobian(asked..., x) } -> MatrixOf<Sensor::measurement_size, Seen::RowsAtCompileTime>;
+  };
+  requires !requires { sensor.measurement_difference(z, z); }
+  || requires {
+    { sensor.measurement_difference(z, z) } -> MatrixOf<Sensor::measurement_size>;
+  };
 };
 
 }  // namespace detail
@@ -138,21 +139,8 @@ inline constexpr bool measures_leading_components = requires {
 template <class Sensor, class Model>
 concept SensorOf = Sensing<Sensor> && StateModel<Model> && detail::SeenOf<Sensor, Model> &&(
     measures_leading_components<Sensor> || detail::ComputesItself<Sensor> || std::same_as<Sensor, AnySensor> ||
-    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-      { sensor.measurement_matrix() } -> MatrixOf<Sensor::measurement_size, Sensor::seen_size>;
-    } ||
-    requires(const Sensor& sensor, const Model& model) {
-      { sensor.measurement_matrix(model) } -> MatrixOf<Sensor::measurement_size, Model::state_size>;
-    } ||
-    requires(const Sensor& sensor, const Vector<Sensor::seen_size>& seen) {
-      { sensor.measure(seen) } -> MatrixOf<Sensor::measurement_size>;
-      requires detail::DifferenceFits<Sensor> &&
-          detail::JacobianFits<Sensor, Sensor::seen_size, Vector<Sensor::seen_size>>;
-    } ||
-    requires(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
-      { sensor.measure(model, x) } -> MatrixOf<Sensor::measurement_size>;
-      requires detail::DifferenceFits<Sensor> && detail::JacobianFits<Sensor, Model::state_size, Model, StateOf<Model>>;
-    });
+    requires { requires detail::Tells<Sensor, Vector<Sensor::seen_size>>; } ||
+    requires { requires detail::Tells<Sensor, StateOf<Model>, Model>; });
 
 /// A sensor whose h is a matrix for this model.
 template <class Sensor, class Model>
@@ -163,30 +151,15 @@ concept LinearSensorOf = SensorOf<Sensor, Model> &&(
 
 namespace detail {
 
-/// ∂h/∂x over the leading components that a sensor sees, as it gives it, else by automatic differentiation.
-template <class Sensor, int Seen>
-auto leading_jacobian(const Sensor& sensor, const Vector<Seen>& seen) {
-  constexpr int M = Sensor::measurement_size;
-  constexpr int max_M = max_measurement_size_of<Sensor>;
-  if constexpr (requires { sensor.measurement_jacobian(seen); })
-    return RectangularMatrix<M, Seen, max_M, Seen>(sensor.measurement_jacobian(seen));
+/// ∂h/∂x over what a sensor sees, as it gives it, else by automatic differentiation.
+template <class Sensor, int N, int MaxN, class... Model>
+RectangularMatrix<Sensor::measurement_size, N, max_measurement_size_of<Sensor>, MaxN> slope_of_sensor(
+    const Sensor& sensor, const Vector<N, MaxN>& x, const Model&... asked) {
+  if constexpr (requires { sensor.measurement_jacobian(asked..., x); })
+    return sensor.measurement_jacobian(asked..., x);
   else
-    return jacobian<M, max_M, Seen, Seen>(
-        [&](const DifferentiableVector<Seen>& components) { return sensor.measure(components); }, seen);
-}
-
-/// The same over the whole state, of a sensor that asks the model.
-template <class Sensor, class Model>
-MeasurementMatrixOf<Sensor, Model> whole_jacobian(const Sensor& sensor, const Model& model, const StateOf<Model>& x) {
-  if constexpr (requires { sensor.measurement_jacobian(model, x); })
-    return sensor.measurement_jacobian(model, x);
-  else
-    return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>, Model::state_size,
-                    Model::max_state_size>(
-        [&](const DifferentiableVector<Model::state_size, Model::max_state_size>& state) {
-          return sensor.measure(model, state);
-        },
-        x);
+    return jacobian<Sensor::measurement_size, max_measurement_size_of<Sensor>>(
+        [&](const DifferentiableVector<N, MaxN>& variables) { return sensor.measure(asked..., variables); }, x);
 }
 
 }  // namespace detail

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include <sigmax/estimation/model_ref.hpp>
 #include <sigmax/estimation/sensing.hpp>
 
@@ -25,7 +28,22 @@ struct SensorFunctions {
   template <class Values>
   static void write_rows(const Values& values, int m, double* numbers) {
     require_measured(static_cast<int>(values.rows()), m);
-    write<typename Values::PlainObject>(values, numbers);
+    write<Values>(values, numbers);
+  }
+
+  /// What a sensor says of what it sees, and of the model if that is its whole state.
+  template <class Seen, class... Asked>
+  static void ask(const Sensor& own, const double* x, int n, int m, double* z, double* H, const Asked&... asked) {
+    if constexpr (requires { own.measurement_matrix(asked...); }) {
+      using Matrix = RectangularMatrix<Sensor::measurement_size, Seen::RowsAtCompileTime,
+                                       max_measurement_size_of<Sensor>, Seen::MaxRowsAtCompileTime>;
+      write_rows(Matrix(own.measurement_matrix(asked...)), m, H);
+    } else {
+      const auto seen = read<Seen>(x, n);
+      if (z) write_rows(Measured(own.measure(asked..., seen)), m, z);
+      if constexpr (Differentiates)
+        if (H) write_rows(slope_of_sensor(own, seen, asked...), m, H);
+    }
   }
 
   static void measure(const void* pointer, const void* model, const double* x, int n, int m, double* z, double* H) {
@@ -33,23 +51,10 @@ struct SensorFunctions {
     if constexpr (Sensor::measurement_size != Eigen::Dynamic) require_measured(Sensor::measurement_size, m);
     if constexpr (ComputesItself<Sensor>) {
       own.compute(x, m, z, H);
-    } else if constexpr (requires { own.measurement_matrix(); }) {
-      write_rows(own.measurement_matrix(), m, H);
     } else if constexpr (SeesLeading<Sensor>) {
-      const auto seen = read<Vector<Sensor::seen_size>>(x, Sensor::seen_size);
-      if (z) write_rows(Measured(own.measure(seen)), m, z);
-      if constexpr (Differentiates)
-        if (H) write_rows(leading_jacobian(own, seen), m, H);
+      ask<Vector<Sensor::seen_size>>(own, x, Sensor::seen_size, m, z, H);
     } else {
-      const Model& asked = *static_cast<const Model*>(model);
-      if constexpr (requires { own.measurement_matrix(asked); }) {
-        write_rows(MeasurementMatrixOf<Sensor, Model>(own.measurement_matrix(asked)), m, H);
-      } else {
-        const auto state = read<StateOf<Model>>(x, n);
-        if (z) write_rows(Measured(own.measure(asked, state)), m, z);
-        if constexpr (Differentiates)
-          if (H) write_rows(whole_jacobian(own, asked, state), m, H);
-      }
+      ask<StateOf<Model>>(own, x, n, m, z, H, *static_cast<const Model*>(model));
     }
   }
 
@@ -81,34 +86,28 @@ inline constexpr SensorTable sensor_table = [] {
   return table;
 }();
 
-/// Whether filters of a model differentiate h: those that do not use sigma points.
+/// What a sensor is asked with: the motion of a member, else the model.
 template <class Model>
-inline constexpr bool differentiates = !requires(const Model& model) {
-  model.weights();
-};
+const auto& asked(const Model& model) {
+  if constexpr (requires { typename Model::MotionType; })
+    return model.motion();
+  else
+    return model;
+}
+template <class Model>
+using AskedAs = std::remove_cvref_t<decltype(asked(std::declval<const Model&>()))>;
 
-/// The type of a model that a sensor is asked with: the motion of a member.
-template <class Model>
-struct AskedAs {
-  using type = Model;
-  static const Model& of(const Model& model) { return model; }
-};
-template <class Model>
-  requires requires { typename Model::MotionType; }
-struct AskedAs<Model> {
-  using type = typename Model::MotionType;
-  static const type& of(const Model& model) { return model.motion(); }
-};
+/// The functions that filters of a model ask for: those with sigma points do not differentiate h.
+template <class Sensor, class Model>
+inline constexpr const SensorTable* table_for = &sensor_table<Sensor, AskedAs<Model>, !UsesPoints<Model>>;
 
 /// A sensor as compiled code sees it, of this model.
 template <class Sensor, class Model>
 SensorRef sensor_ref(const Sensor& sensor, const Model& model) {
-  if constexpr (requires { sensor.ref_for(model); }) {
+  if constexpr (requires { sensor.ref_for(model); })
     return sensor.ref_for(model);
-  } else {
-    using Asked = AskedAs<Model>;
-    return {&sensor, &sensor_table<Sensor, typename Asked::type, differentiates<Model>>, &Asked::of(model)};
-  }
+  else
+    return {&sensor, table_for<Sensor, Model>, &asked(model)};
 }
 
 }  // namespace sigmax::detail

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include <sigmax/estimation/converted_measurement.hpp>
+#include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensing.hpp>
 
 namespace sigmax {
@@ -94,32 +94,46 @@ class ComponentSensor {
   int position_size_ = 0;
 };
 
-/// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
-/// x–y plane, in rad, of a target as seen from `origin`. Differences of azimuths are wrapped. The Jacobian does not
-/// exist at the origin and, of the azimuth, above it.
-template <int Axes>
-class PolarSensor : public detail::ComputedSensor<PolarSensor<Axes>, Axes, Axes> {
+namespace detail {
+
+/// What radars at one place have in common, of which the second quantity is the azimuth.
+template <class Sensor, int Axes, int M, int Seen>
+class RadarSensor : public ComputedSensor<Sensor, M, Seen> {
   static_assert(Axes == 2 || Axes == 3, "range and azimuth, or also elevation");
 
  public:
   static constexpr int axes = Axes;
 
-  explicit PolarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(detail::numbers_of(origin)) {}
+  explicit RadarSensor(const Vector<Axes>& origin = Vector<Axes>::Zero()) : origin_(numbers_of(origin)) {}
   Vector<Axes> origin() const { return Vector<Axes>(origin_.data()); }
 
-  Vector<Axes> measurement_difference(const Vector<Axes>& z, const Vector<Axes>& predicted) const {
-    Vector<Axes> difference;
-    detail::polar_difference(z.data(), predicted.data(), Axes, difference.data());
+  Vector<M> measurement_difference(const Vector<M>& z, const Vector<M>& predicted) const {
+    Vector<M> difference;
+    polar_difference(z.data(), predicted.data(), M, difference.data());
     return difference;
   }
 
   /// What a measurement tells of the position: its unbiased conversion, which neglects correlations of its errors.
-  Gaussian<Axes> position(const Gaussian<Axes>& z) const {
+  Gaussian<Axes> position(const Gaussian<M>& z) const {
     Gaussian<Axes> result;
-    detail::position_of_polar(Axes, origin_.data(), z.mean.data(), z.covariance.data(), Axes, result.mean.data(),
-                              result.covariance.data());
+    position_of_polar(Axes, origin_.data(), z.mean.data(), z.covariance.data(), M, result.mean.data(),
+                      result.covariance.data());
     return result;
   }
+
+ protected:
+  std::array<double, std::size_t{Axes}> origin_;
+};
+
+}  // namespace detail
+
+/// A radar in its own space: range in m, azimuth counter-clockwise from x, and with three axes the elevation from the
+/// x–y plane, in rad, of a target as seen from `origin`. Differences of azimuths are wrapped. The Jacobian does not
+/// exist at the origin and, of the azimuth, above it.
+template <int Axes>
+class PolarSensor : public detail::RadarSensor<PolarSensor<Axes>, Axes, Axes, Axes> {
+ public:
+  using detail::RadarSensor<PolarSensor, Axes, Axes, Axes>::RadarSensor;
 
   /// What a radar with these standard deviations measured; with two axes the elevation is ignored.
   static Gaussian<Axes> measurement(const Polar& measured, const Polar& sigma) {
@@ -131,11 +145,8 @@ class PolarSensor : public detail::ComputedSensor<PolarSensor<Axes>, Axes, Axes>
   }
 
   void compute(const double* position, int, double* z, double* H) const {
-    detail::polar(Axes, origin_.data(), position, z, H);
+    detail::polar(Axes, this->origin_.data(), position, z, H);
   }
-
- private:
-  std::array<double, std::size_t{Axes}> origin_;
 };
 
 /// Measures only the azimuth of a target, counter-clockwise from x in rad, as seen from `origin`. Differences are

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 #include <sigmax/estimation/view.hpp>
 
 namespace sigmax {
@@ -28,25 +25,12 @@ TimedView timed(const TimedMeasurement<M>& point) {
 
 /// @{
 /// The starts below in numbers, of points along as many axes as they have; a result has two or three derivatives.
-void start_from_points(const double* weights, int orders, const ConstView* points, int count, View start);
 void two_point_start(const TimedView& first, const TimedView& second, View start);
 void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, View start);
 void released_start(const TimedView& first, const TimedView& second, const TimedView& third, View start);
 /// @}
 
 }  // namespace detail
-
-/// The state whose derivative d (0 position, 1 velocity, …) is Σᵢ weights(d, i) zᵢ, with the covariance that follows
-/// from independent measurements. States are ordered by derivative, as in IndependentAxes.
-template <int M, int Orders, std::size_t Points>
-Gaussian<M * Orders> start_from_points(const Eigen::Matrix<double, Orders, static_cast<int>(Points)>& weights,
-                                       const std::array<Gaussian<M>, Points>& points) {
-  Gaussian<M * Orders> start;
-  detail::ConstView views[Points];
-  for (std::size_t i = 0; i < Points; ++i) views[i] = detail::view(points[i]);
-  detail::start_from_points(weights.data(), Orders, views, static_cast<int>(Points), detail::view(start));
-  return start;
-}
 
 /// Position and velocity at the second point: x = z₂, v = (z₂ − z₁)/T.
 /// Throws std::invalid_argument unless the times increase.

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include <sigmax/estimation/kalman.hpp>
@@ -21,35 +19,30 @@ struct UnscentedScaling {
   double kappa = 0.0;
 };
 
+namespace detail {
+/// Throws std::invalid_argument, naming the model, of n states, unless α² (n + κ) is positive and all three are finite.
+SigmaPointWeights unscented_weights(const UnscentedScaling& scaling, std::string_view model, int n);
+}  // namespace detail
+
 /// The unscented Kalman filter over a motion: no Jacobians, 2n + 1 evaluations of f and of h.
 ///
 /// Of a quadratic z = c + gᵀy + ½ yᵀBy of y = L⁻¹(x − x̄) it gives the exact mean c + ½ tr B and covariance with x,
 /// and the variance gᵀg + ¼ c Σ B_ii² + ¼ (β − α²)(tr B)²; the exact one is gᵀg + ½ Σ B_ij².
-template <StateModel Moves>
+template <Motion Moves>
 class Unscented : public Member<Moves> {
  public:
   /// Throws std::invalid_argument unless α² (n + κ) is positive and all three numbers are finite.
   explicit Unscented(Moves motion, const UnscentedScaling& scaling = {})
-      : Member<Moves>(std::move(motion)), scaling_(scaling) {
-    if (!(spread() > 0.0 && std::isfinite(spread()) && std::isfinite(scaling.beta)))
-      throw std::invalid_argument("the unscented filter of model '" + std::string(this->name()) + "' with alpha = " +
-                                  std::to_string(scaling.alpha) + ", beta = " + std::to_string(scaling.beta) +
-                                  ", kappa = " + std::to_string(scaling.kappa) + " and " +
-                                  std::to_string(this->size()) + " states; expected alpha² (n + kappa) > 0");
-  }
+      : Member<Moves>(std::move(motion)),
+        scaling_(scaling),
+        weights_(detail::unscented_weights(scaling, this->name(), static_cast<int>(this->size()))) {}
 
   const UnscentedScaling& scaling() const { return scaling_; }
-  SigmaPointWeights weights() const {
-    const double centre = 1.0 - static_cast<double>(this->size()) / spread();
-    return {spread(), centre, centre + 1.0 - scaling_.alpha * scaling_.alpha + scaling_.beta};
-  }
+  const SigmaPointWeights& weights() const { return weights_; }
 
  private:
-  double spread() const {
-    return scaling_.alpha * scaling_.alpha * (static_cast<double>(this->size()) + scaling_.kappa);
-  }
-
   UnscentedScaling scaling_;
+  SigmaPointWeights weights_;
 };
 
 }  // namespace sigmax

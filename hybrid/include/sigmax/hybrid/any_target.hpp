@@ -124,6 +124,10 @@ class AnyTarget {
   bool transform(std::span<const double> A, std::span<const double> b);  ///< A row by row
   /// @}
 
+  /// Takes plots one after another, and calls visit(point) after each step and start with what is known then, with the
+  /// tag of its plot.
+  void follow(std::span<const AnyPlot> plots, const std::function<void(const TargetPoint&)>& visit);
+
   /// The names of what is estimated: the position and its derivatives, x, y, vx, …, and then others.
   const std::vector<std::string>& components() const;
 

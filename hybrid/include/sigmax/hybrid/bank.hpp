@@ -91,14 +91,12 @@ struct TablesOf;
 template <class Sensor, class... Model>
 struct TablesOf<Sensor, std::tuple<Model...>> {
   static constexpr bool one = false, asks_any = false;
-  static constexpr const SensorTable* tables[] = {
-      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>...};
+  static constexpr const SensorTable* tables[] = {table_for<Sensor, Model>...};
 };
 template <class Sensor, class Model>
 struct TablesOf<Sensor, std::vector<Model>> {
   static constexpr bool one = true, asks_any = std::is_same_v<Model, AnyModel>;
-  static constexpr const SensorTable* tables[] = {
-      &sensor_table<Sensor, typename AskedAs<Model>::type, differentiates<Model>>};
+  static constexpr const SensorTable* tables[] = {table_for<Sensor, Model>};
 };
 
 template <class Models, class Sensor>

@@ -29,21 +29,13 @@ class Evidence {
   };
 
   Evidence() = default;
-  Evidence(std::initializer_list<std::pair<std::string, std::string>> outcomes) {
-    for (const auto& [variable, label] : outcomes) observe(variable, label);
-  }
+  Evidence(std::initializer_list<std::pair<std::string, std::string>> outcomes);
 
-  Evidence& observe(std::string variable, std::string label) {
-    outcomes_.push_back({std::move(variable), std::move(label)});
-    return *this;
-  }
+  Evidence& observe(std::string variable, std::string label);
 
   template <NetworkKind Kind>
   Evidence& observe(const Likelihood<Kind>& likelihood) {
-    Weights weights{likelihood.variable(), {}};
-    for (std::size_t i = 0; i < likelihood.size(); ++i) weights.numbers.push_back(likelihood.number(i));
-    likelihoods_.push_back(std::move(weights));
-    return *this;
+    return observe(likelihood.variable(), likelihood.evidence());
   }
 
   /// What was seen is only known to be one of the outcomes of an event.
@@ -60,6 +52,8 @@ class Evidence {
   std::vector<Weights> likelihoods() const&& { return likelihoods_; }
 
  private:
+  Evidence& observe(const NetworkVariable& variable, const kernels::Evidence& likelihood);
+
   std::vector<Outcome> outcomes_;
   std::vector<Weights> likelihoods_;
 };

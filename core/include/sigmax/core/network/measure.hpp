@@ -21,14 +21,8 @@ double necessity(const NetworkAnswer& answer, const JointEvent& event);
 /// The same of an event of one variable of the network.
 ///
 ///     necessity(network, Event{age, {"middle", "old"}}, Evidence{{"speed", "fast"}})
-inline double probability(const RelationNetwork& network, const Event<Random>& event, const Evidence& evidence = {}) {
-  return probability(query(network, {event.variable().name()}, evidence).normalized<Random>(), event);
-}
-inline double possibility(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence = {}) {
-  return possibility(query(network, {event.variable().name()}, evidence).normalized<Fuzzy>(), event);
-}
-inline double necessity(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence = {}) {
-  return necessity(query(network, {event.variable().name()}, evidence).normalized<Fuzzy>(), event);
-}
+double probability(const RelationNetwork& network, const Event<Random>& event, const Evidence& evidence = {});
+double possibility(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence = {});
+double necessity(const RelationNetwork& network, const Event<Fuzzy>& event, const Evidence& evidence = {});
 
 }  // namespace sigmax

@@ -62,9 +62,7 @@ class NetworkAnswer {
   /// The likelihood reading of the one variable asked for.
   template <NetworkKind Kind>
   Likelihood<Kind> likelihood() const {
-    typename Likelihood<Kind>::Row row(values_.size(), 0.0);
-    for (std::size_t i = 0; i < values_.size(); ++i) row[i] = values_[i];
-    return {only<Kind>(), std::move(row), detail::ByLaw{}};
+    return {only<Kind>(), kernels::UnboundedRow(values_), detail::ByLaw{}};
   }
 
   const Elimination& elimination() const& { return elimination_; }

@@ -2,12 +2,12 @@
 
 #include <concepts>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
+#include <sigmax/core/check.hpp>
 #include <sigmax/core/variable.hpp>
 
 namespace sigmax {
@@ -19,6 +19,12 @@ struct KindList {
   using AnyVariable = std::variant<Variable<Kinds>...>;
   template <class Kind>
   static constexpr bool has = (std::same_as<Kind, Kinds> || ...);
+  static constexpr std::string_view names[] = {Kinds::name...};
+  static const Outcomes& outcomes_of(const AnyVariable& variable) {
+    const Outcomes* outcomes = nullptr;
+    ((outcomes = outcomes ? outcomes : std::get_if<Variable<Kinds>>(&variable)), ...);
+    return *outcomes;
+  }
 };
 
 }  // namespace detail
@@ -53,8 +59,7 @@ class NetworkVariable {
   template <NetworkKind Kind>
   const Variable<Kind>& as() const& {
     if (const auto* const variable = std::get_if<Variable<Kind>>(&variable_)) return *variable;
-    throw std::invalid_argument("variable '" + name() + "' is " + std::string(kind_name()) + ", not " +
-                                std::string(Kind::name));
+    check::other_kind(name(), kind_name(), Kind::name);
   }
 
   template <NetworkKind Kind>
@@ -64,15 +69,9 @@ class NetworkVariable {
   }
 
   /// "random" or "fuzzy".
-  std::string_view kind_name() const {
-    return visit([]<class Kind>(const Variable<Kind>&) { return Kind::name; });
-  }
-  const Outcomes& outcomes() const& {
-    return visit([](const Outcomes& outcomes) -> const Outcomes& { return outcomes; });
-  }
-  Outcomes outcomes() const&& {
-    return visit([](const Outcomes& outcomes) { return outcomes; });
-  }
+  std::string_view kind_name() const { return NetworkKinds::names[kind()]; }
+  const Outcomes& outcomes() const& { return NetworkKinds::outcomes_of(variable_); }
+  Outcomes outcomes() const&& { return NetworkKinds::outcomes_of(variable_); }
   const std::string& name() const& { return outcomes().name(); }
   std::string name() const&& { return outcomes().name(); }
   std::size_t size() const { return outcomes().size(); }

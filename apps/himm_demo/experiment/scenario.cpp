@@ -1,0 +1,81 @@
+#include "himm_demo/experiment/scenario.hpp"
+
+#include <cassert>
+
+#include "recording/plots.hpp"
+#include "support/angle.hpp"
+
+namespace sigmax::apps {
+
+namespace {
+constexpr double data_sigma_w = 3.0;
+}  // namespace
+
+Scenario scenario(int number, Preset preset) {
+  assert(number == 1 || number == 2);
+  const bool released = preset == Preset::released;
+  Scenario result;
+  result.velocity = Vector<3>(-100.0, -100.0, 0.0);
+  result.acceleration = Vector<3>(-30.0, -50.0, 0.0);
+  result.noise_on_velocity = !released;
+  if (number == 1) {
+    result.step_s = 0.2;
+    result.samples = 200;
+    result.position = Vector<3>(12e3, 8e3, 1e3);
+    result.first_accelerated = 81;
+    result.last_accelerated = released ? 131 : 130;
+    result.phases = {{{"before", 10, 80}, {"during", 81, 130}, {"after", 131, 200}}};
+  } else {
+    result.step_s = 2.0;
+    result.samples = 80;
+    result.position = Vector<3>(120e3, 80e3, 20e3);
+    result.first_accelerated = 31;
+    result.last_accelerated = 40;
+    result.phases = {{{"before", 10, 30}, {"during", 31, 40}, {"after", 41, 80}}};
+  }
+  return result;
+}
+
+Group group(int number, int scenario_number) {
+  assert(number >= 1 && number <= 4);
+  const double scale = scenario_number == 1 ? 1.0 : 9.0;
+  const Polar accurate{scenario_number == 1 ? 10.0 : 100.0, 0.1 * degree * scale, 0.1 * degree * scale};
+  const auto times = [&](double factor) {
+    return Polar{factor * accurate.range, factor * accurate.azimuth, factor * accurate.elevation};
+  };
+  switch (number) {
+    case 2:
+      return {accurate, times(1.5), 3.0};
+    case 3:
+      return {accurate, times(2.0), 3.0};
+    case 4:
+      return {times(2.0), accurate, 1.0};
+    default:
+      return {accurate, accurate, 3.0};
+  }
+}
+
+Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random) {
+  const double T = scenario.step_s;
+  Recording recording;
+  Vector<6> state;
+  state << scenario.position, scenario.velocity;
+  for (int k = 1; k <= scenario.samples; ++k) {
+    recording.truth.push_back(state);
+    const Polar exact = to_polar(state.head<3>());
+    const auto [range, azimuth, elevation] =
+        measured({exact.range, exact.azimuth, exact.elevation}, {sigma.range, sigma.azimuth, sigma.elevation}, random);
+    recording.measured.push_back({range, azimuth, elevation});
+    Vector<3> acceleration = Vector<3>::Zero();
+    if (k >= scenario.first_accelerated && k <= scenario.last_accelerated) acceleration = scenario.acceleration;
+    Vector<3> noise;
+    for (double& w : noise) w = data_sigma_w * random.normal();
+    const Vector<3> velocity = state.tail<3>();
+    state.head<3>() += T * velocity + 0.5 * T * T * (acceleration + noise);
+    state.tail<3>() += T * acceleration;
+    if (scenario.noise_on_velocity) state.tail<3>() += T * noise;
+  }
+  return recording;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/estimation/radar.hpp>
+
+#include "support/random.hpp"
+
+namespace sigmax::apps {
+
+inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+
+/// Which of two accounts of the experiment is followed, where print and program differ.
+enum class Preset { paper_text, released };
+inline constexpr std::array both_presets = {Preset::paper_text, Preset::released};
+inline const char* name_of(Preset preset) { return preset == Preset::released ? "released" : "paper_text"; }
+
+/// Samples first … last, counted from one.
+struct Phase {
+  std::string_view name;
+  int first;
+  int last;
+};
+
+/// A manoeuvring target and how often it is seen, section VI.A.
+struct Scenario {
+  double step_s;
+  int samples;
+  Vector<3> position;
+  Vector<3> velocity;
+  Vector<3> acceleration;       ///< while it manoeuvres
+  int first_accelerated;        ///< the transition k → k + 1 uses the acceleration for k from here …
+  int last_accelerated;         ///< … to here
+  std::array<Phase, 3> phases;  ///< before, during and after the manoeuvre
+  bool noise_on_velocity;       ///< process noise acts on position and velocity, or on position only
+};
+
+/// Accuracies of the radar: as the data are made, and as the filters believe them (Table I, section VI.C).
+struct Group {
+  Polar data;
+  Polar model;
+  double sigma_w;  ///< of the filters; the data always have 3 m/s²
+};
+
+/// Scenario 1 or 2 of the paper.
+Scenario scenario(int number, Preset preset);
+
+/// Group 1 to 4 of the paper, for the radar of the scenario.
+Group group(int number, int scenario_number);
+
+/// One target and what the radar saw of it.
+struct Recording {
+  std::vector<Vector<6>> truth;  ///< position and velocity at every sample
+  std::vector<Polar> measured;
+};
+
+/// Draws a target with process noise of 3 m/s² and its measurements.
+Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random);
+
+}  // namespace sigmax::apps

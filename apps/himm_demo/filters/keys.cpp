@@ -1,0 +1,551 @@
+#include "himm_demo/filters/keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "himm_demo/experiment/scenario.hpp"
+#include "support/angle.hpp"
+#include "support/options.hpp"
+#include "support/output.hpp"
+#include "support/text.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+using FilterKey = Key<FilterSettings>;
+
+template <class Value>
+using Names = std::initializer_list<std::pair<std::string_view, Value>>;
+
+const Names<Scheme> schemes = {{"interacting", Scheme::interacting},
+                               {"common_start", Scheme::common_start},
+                               {"second_order", Scheme::second_order},
+                               {"independent", Scheme::independent},
+                               {"histories", Scheme::histories}};
+const Names<MemberType> members = {
+    {"kf", MemberType::kf}, {"ekf", MemberType::ekf}, {"ukf", MemberType::ukf}, {"ckf", MemberType::ckf}};
+const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
+                                                  {"own", MixedCovariance::own},
+                                                  {"own_recentred", MixedCovariance::own_recentred},
+                                                  {"released", MixedCovariance::released},
+                                                  {"envelope", MixedCovariance::envelope}};
+const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
+                                             {"released", MixingWeights::released}};
+const Names<Lift> lifts = {{"zero", Lift::zero},
+                           {"borrowed_variance", Lift::borrowed_variance},
+                           {"unbiased", Lift::unbiased},
+                           {"prior", Lift::prior}};
+const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
+const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
+                                           {"possibility", LikelihoodForm::possibility}};
+const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
+const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
+const Names<StartRule> starts = {
+    {"points", StartRule::points}, {"released", StartRule::released}, {"given", StartRule::given}};
+const Names<RadarForm> radar_forms = {{"standard", RadarForm::standard},
+                                      {"unbiased", RadarForm::unbiased},
+                                      {"debiased", RadarForm::debiased},
+                                      {"polar", RadarForm::polar}};
+
+/// The numbers in TOML.
+std::string toml_list(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) {
+    texts.push_back(shortest(number));
+    if (texts.back().find_first_of(".eni") == std::string::npos) texts.back() += ".0";  // TOML tells integers apart
+  }
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+/// What a number must be.
+struct Range {
+  std::string_view expected;
+  bool (*holds)(double);
+  std::string_view remedy = {};
+
+  void require(const Settings& settings, std::string_view key, double value) const {
+    if (!(std::isfinite(value) && holds(value))) throw settings.error(key, expected, remedy);
+  }
+};
+
+bool positive(double value) { return value > 0.0; }
+bool not_negative(double value) { return value >= 0.0; }
+bool any(double) { return true; }
+const Range flag{"true, false", any};
+
+constexpr std::string_view small_sigma = "a covariance is positive definite: give a small one rather than 0";
+
+/// One out of several names.
+template <class Owner, class Value>
+FilterKey choice(std::string name, std::string meaning, Value Owner::*member, Names<Value> names) {
+  std::vector<std::string_view> values;
+  for (const auto& [word, value] : names) values.push_back(word);
+  return {name, std::move(meaning), fmt::format("{}", fmt::join(values, ", ")),
+          [=](const Settings& settings, FilterSettings& filter) {
+            filter.*member = settings.choice(name, names, filter.*member);
+          },
+          [=](const FilterSettings& filter) {
+            const auto found = std::find_if(names.begin(), names.end(),
+                                            [&](const auto& entry) { return entry.second == filter.*member; });
+            return fmt::format("\"{}\"", found->first);
+          }};
+}
+
+/// @{
+/// A value that a key has: a number, perhaps in another unit, a whole one, one that may be absent, a list, a flag.
+void read(const Settings& settings, const std::string& key, const Range& range, double unit, double& value) {
+  const double given = settings.get(key, value / unit);
+  range.require(settings, key, given);
+  value = given * unit;
+}
+void read(const Settings& settings, const std::string& key, const Range& range, double, std::size_t& value) {
+  auto number = static_cast<double>(value);
+  read(settings, key, range, 1.0, number);
+  value = static_cast<std::size_t>(number);
+}
+void read(const Settings& settings, const std::string& key, const Range& range, double, std::optional<double>& value) {
+  if (const auto given = settings.get<double>(key)) value = given;
+  if (value) range.require(settings, key, *value);
+}
+void read(const Settings& settings, const std::string& key, const Range& range, double, std::vector<double>& values) {
+  values = settings.get(key, values);
+  for (const double value : values) range.require(settings, key, value);
+}
+void read(const Settings& settings, const std::string& key, const Range&, double, bool& value) {
+  value = settings.get(key, value);
+}
+
+std::string written(double value, double unit) { return toml_number(value / unit); }
+std::string written(std::size_t value, double) { return std::to_string(value); }
+std::string written(std::optional<double> value, double) { return value ? toml_number(*value) : ""; }
+std::string written(const std::vector<double>& values, double) { return values.empty() ? "" : toml_list(values); }
+std::string written(bool value, double) { return value ? "true" : "false"; }
+
+bool is_told(double) { return true; }
+bool is_told(std::size_t) { return true; }
+bool is_told(std::optional<double> value) { return value.has_value(); }
+bool is_told(const std::vector<double>& values) { return !values.empty(); }
+bool is_told(bool value) { return value; }
+/// @}
+
+/// One of them, which `of` finds in its owner.
+template <class Owner, class Of>
+Key<Owner> value(std::string name, std::string meaning, Of of, Range range, double unit = 1.0) {
+  return {name,
+          std::move(meaning),
+          std::string(range.expected),
+          [=](const Settings& settings, Owner& owner) { read(settings, name, range, unit, std::invoke(of, owner)); },
+          [=](Owner owner) { return written(std::invoke(of, owner), unit); },
+          [=](Owner owner) { return is_told(std::invoke(of, owner)); }};
+}
+
+/// A number for each model: one for all, or one each.
+FilterKey per_model(MotionParameter parameter) {
+  const KnownParameter& known = motion_parameters()[static_cast<std::size_t>(parameter)];
+  const std::string name{known.key};
+  const Range range{known.expected, known.valid};
+  const auto values = [=](const FilterSettings& filter) {
+    std::vector<double> result;
+    for (const auto& motion : filter.motions) result.push_back(motion[parameter]);
+    return result;
+  };
+  return {name,
+          std::string(known.meaning),
+          std::string(range.expected) + "; one, or one a model",
+          [=](const Settings& settings, FilterSettings& filter) {
+            auto given = settings.get(name, values(filter));
+            if (given.size() == 1) given.resize(filter.motions.size(), given.front());
+            if (given.size() != filter.motions.size()) throw settings.error(name, "one number, or one for each model");
+            for (std::size_t i = 0; i < given.size(); ++i) {
+              range.require(settings, name, given[i]);
+              filter.motions[i][parameter] = given[i];
+            }
+          },
+          [=](const FilterSettings& filter) { return toml_list(values(filter)); },
+          [=](const FilterSettings& filter) {
+            return std::any_of(filter.motions.begin(), filter.motions.end(),
+                               [=](const MotionChoice& motion) { return motion.known().has_parameter(parameter); });
+          }};
+}
+
+/// The names of all motions.
+std::string motion_names() {
+  std::vector<std::string_view> names;
+  for (const auto& motion : known_motions()) names.push_back(motion.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The models themselves; each new one is as that of its name, or else as the first of those that were there.
+FilterKey models() {
+  return {"models", "The motions that the target may follow.", motion_names(),
+          [](const Settings& settings, FilterSettings& filter) {
+            std::vector<std::string> names;
+            for (const auto& motion : filter.motions) names.push_back(motion.name);
+            const std::vector<MotionChoice> before = std::exchange(filter.motions, {});
+            for (const auto& name : settings.get("models", names)) {
+              if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
+              const auto same =
+                  std::find_if(before.begin(), before.end(), [&](const MotionChoice& m) { return m.name == name; });
+              filter.motions.push_back(same == before.end() ? before.front() : *same);
+              filter.motions.back().name = name;
+            }
+            if (filter.motions.empty()) throw settings.error("models", "at least one of " + motion_names());
+            filter.models = names_of(filter.motions);
+          },
+          [](const FilterSettings& filter) {
+            std::vector<std::string> names;
+            for (const auto& motion : filter.motions) names.push_back(fmt::format("\"{}\"", motion.name));
+            return fmt::format("[{}]", fmt::join(names, ", "));
+          }};
+}
+
+/// The transition of one kind of mode. That of the other kind is read too, so that it is no unknown key.
+FilterKey transition(const std::string& name, std::string meaning, std::string values, std::string by_default,
+                     bool fuzzy) {
+  return {name,
+          std::move(meaning),
+          std::move(values),
+          [=](const Settings& settings, FilterSettings& filter) {
+            const std::size_t modes = filter.models.size();
+            const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
+            std::vector<std::vector<double>> rows(modes, std::vector<double>(modes));
+            for (std::size_t i = 0; i < modes; ++i) {
+              double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
+              if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
+              std::fill(rows[i].begin(), rows[i].end(), fuzzy ? leaves : leaves / others);
+              rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
+            }
+            rows = settings.get(name, rows);
+            if (filter.fuzzy == fuzzy) filter.transition = rows;
+          },
+          [](const FilterSettings& filter) {
+            std::vector<std::string> rows;
+            for (const auto& row : filter.transition) rows.push_back(toml_list(row));
+            return fmt::format("[{}]", fmt::join(rows, ", "));
+          },
+          [=](const FilterSettings& filter) {
+            return filter.fuzzy == fuzzy && filter.scheme != Scheme::independent && filter.sojourn_s.empty();
+          },
+          std::move(by_default)};
+}
+
+/// The key where `applies`.
+FilterKey only(bool (*applies)(const FilterSettings&), FilterKey key) {
+  const auto before = key.applies;
+  key.applies = [=](const FilterSettings& filter) { return applies(filter) && before(filter); };
+  return key;
+}
+
+bool turns(const FilterSettings& filter) {
+  return std::any_of(filter.motions.begin(), filter.motions.end(),
+                     [](const MotionChoice& motion) { return !motion.linear(); });
+}
+bool mixes(const FilterSettings& filter) {
+  return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
+}
+bool has_prior(const FilterSettings& filter) { return filter.lift == Lift::prior; }
+bool keeps_histories(const FilterSettings& filter) { return filter.scheme == Scheme::histories; }
+bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
+
+/// Models, how the mode moves on, and how mixtures over it collapse.
+std::vector<FilterKey> mode_keys() {
+  using F = FilterSettings;
+  return {
+      choice("scheme", "When several modes become one Gaussian.", &F::scheme, schemes),
+      models(),
+      per_model(MotionParameter::sigma_w),
+      per_model(MotionParameter::tau),
+      per_model(MotionParameter::turn_rate),
+      per_model(MotionParameter::turn_drift),
+      only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
+           choice("member",
+                  "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
+                  "have the Kalman filter, and kf refuses others.",
+                  &F::member, members)),
+      only([](const F& f) { return f.scheme != Scheme::independent; },
+           value<F>("sojourn_s",
+                    "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
+                    "time between two rows, and Π that P on the ratio scale.",
+                    &F::sojourn_s,
+                    {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
+      transition("transition_probability", "P, from one row to the next. For a random mode.",
+                 "rows of numbers that sum to 1", ".95 on the diagonal; of histories .996, of a manoeuvre .97", false),
+      transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
+                 "rows of numbers whose maximum is 1",
+                 "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
+      only([](const F& f) { return f.fuzzy && mixes(f); },
+           choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
+                  mixed_covariances)),
+      only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
+           choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
+                  ties)),
+      only([](const F& f) { return !f.fuzzy && mixes(f); },
+           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, mixing_weights)),
+      only([](const F& f) { return !f.fuzzy; },
+           choice("output_spread",
+                  "Whether the output's covariance (68) has the spread of the means, or omits it as printed. For a "
+                  "random mode.",
+                  &F::output_spread, spreads))};
+}
+
+/// Likelihoods, what a model lacks, histories, and the output.
+std::vector<FilterKey> estimate_keys() {
+  using F = FilterSettings;
+  return {
+      choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
+             &F::likelihood, likelihoods),
+      choice("lift", "What stands for a component that a model lacks.", &F::lift, lifts),
+      only(has_prior,
+           value<F>("entry_scales",
+                    "Standard deviations of a component that begins, if lift is prior: of accelerations in m/s². "
+                    "Histories try each of them.",
+                    [](F& f) -> std::vector<double>& { return f.entry.scales; },
+                    {"positive standard deviations", positive})),
+      only(has_prior, value<F>("entry_vertical", "So much of them along z.",
+                               [](F& f) -> double& { return f.entry.vertical; }, {"a positive share", positive})),
+      only([](const F& f) { return has_prior(f) && turns(f); },
+           value<F>(
+               "entry_turn_deg_s", "Standard deviation of the rate with which ct begins.",
+               [](F& f) -> double& { return f.entry.turn_rate; }, {"a positive one, in °/s", positive}, degree)),
+      only(keeps_histories,
+           value<F>("histories", "So many histories of the mode are kept at most, and one that ends in each mode.",
+                    &F::histories,
+                    {"a whole number from 1 to 10000",
+                     [](double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }})),
+      only(keeps_histories,
+           value<F>("cut",
+                    "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 "
+                    "all.",
+                    &F::cut, {"a number from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; }})),
+      only(keeps_histories,
+           value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
+                    &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
+      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output, outputs),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties)};
+}
+
+/// Start, gate, restart; smoothing, and how radar measurements are taken.
+std::vector<FilterKey> life_keys() {
+  using F = FilterSettings;
+  return {
+      choice("start",
+             "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
+             "given.",
+             &F::start, starts),
+      only(turns,
+           value<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
+                    &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
+      only(given, value<F>("start_mean", "The mean of a given start.", &F::start_mean,
+                           {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
+      only(given,
+           value<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
+                    {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
+      only(given,
+           value<F>("start_time_s", "When a given start holds; without it, one step before the first measurement.",
+                    &F::start_time_s, {"a time, in s", any})),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           value<F>("gate_probability",
+                    "The probability that a right measurement passes the gate. What does not pass counts as missed. 1 "
+                    "is no gate.",
+                    &F::gate_probability,
+                    {"a probability above 0; 1 is no gate", [](double p) { return p > 0.0 && p <= 1.0; }})),
+      value<F>("restart_after_s",
+               "After so long without a measurement that passes, the filter starts again from the next three.",
+               &F::restart_after_s, {"a positive time, in s", positive}),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           value<F>(
+               "restart_after_rejections",
+               "After so many measurements in a row that the gate turned away, the filter starts again from them. 0 "
+               "is never.",
+               &F::restart_after_rejections,
+               {"a whole number from 0 to 1000",
+                [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
+      value<F>("smooth", "Whether the output is of the whole recording rather than of what came before.", &F::smooth,
+               flag),
+      only(keeps_histories,
+           value<F>("explain",
+                    "Whether track tells when the mode changed: the most possible history of each track, with its "
+                    "dates.",
+                    &F::explain, flag)),
+      choice("radar_measurement",
+             "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
+             "own space.",
+             &F::radar_measurement, radar_forms)};
+}
+
+std::vector<FilterKey> made_filter_keys() {
+  std::vector<FilterKey> result = mode_keys();
+  for (const auto& part : {estimate_keys(), life_keys()}) result.insert(result.end(), part.begin(), part.end());
+  return result;
+}
+
+std::vector<Key<Accuracy>> made_accuracy_keys() {
+  using A = Accuracy;
+  constexpr Range sigma{"a positive standard deviation", positive, small_sigma};
+  auto position = value<A>("sigma_position_m", "Accuracy of measurements that are no radar's; one, or one an axis.",
+                           &A::position_m, {"positive standard deviations", positive, small_sigma});
+  position.read = [read = position.read](const Settings& settings, A& accuracy) {
+    read(settings, accuracy);
+    if (accuracy.position_m.size() != 1 && accuracy.position_m.size() != 3)
+      throw settings.error("sigma_position_m", "one standard deviation, or one for each of x, y, z");
+  };
+  std::vector<Key<A>> keys;
+  for (const auto& [name, what] : {std::pair{"sigma_range_m", "range"}, std::pair{"sigma_azimuth_deg", "azimuth"},
+                                   std::pair{"sigma_elevation_deg", "elevation"}}) {
+    const auto in = [i = keys.size()](A& accuracy) -> double& { return accuracy.radar[i]; };
+    keys.push_back(value<A>(name, fmt::format("Accuracy of a radar's {}, as the filters believe it.", what), in, sigma,
+                            keys.empty() ? 1.0 : degree));
+    keys.back().by_default = "that of --radar, or of the group";
+  }
+  keys.push_back(std::move(position));
+  keys.push_back(value<A>("sigma_velocity_mps",
+                          "Accuracy of each component of a measured velocity, or of a speed and course; without it "
+                          "they are not taken for measurements.",
+                          &A::velocity_mps, sigma));
+  keys.push_back(value<A>("sigma_range_rate_mps",
+                          "Accuracy of a radar's range rate; without it that is not taken for a measurement.",
+                          &A::range_rate_mps, sigma));
+  return keys;
+}
+
+template <class Owner>
+std::string as_toml(const std::vector<Key<Owner>>& keys, const Owner& owner) {
+  std::string text;
+  for (const auto& key : keys)
+    if (key.applies(owner)) text += fmt::format("{} = {}\n", key.name, key.write(owner));
+  return text;
+}
+
+/// A string of TOML. Control characters are escaped, so that a terminal shows them, too.
+std::string toml_string(std::string_view text) {
+  std::string quoted = "\"";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F
+      quoted += fmt::format("\\u{:04X}", next);
+      ++i;
+    } else if (code < 0x20U || code == 0x7FU) {
+      quoted += fmt::format("\\u{:04X}", code);
+    } else {
+      if (text[i] == '"' || text[i] == '\\') quoted += '\\';
+      quoted += text[i];
+    }
+  }
+  return quoted + "\"";
+}
+
+/// A key of TOML, in quotes where it needs them.
+std::string toml_key(const std::string& name) {
+  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
+           letter == '_' || letter == '-';
+  });
+  return bare ? name : toml_string(name);
+}
+
+/// The text below a name.
+std::string indented(std::string_view text) {
+  std::string result;
+  for (const auto& line : lines_of(text, terminal_width - 4)) result += "    " + line + "\n";
+  return result;
+}
+
+std::string entry(std::string_view name, std::string_view meaning, std::string_view values,
+                  const std::string& by_default) {
+  return fmt::format("{}\n{}{}{}", name, indented(meaning), indented(fmt::format("Values: {}", values)),
+                     indented("Default: " + by_default));
+}
+
+template <class Owner>
+std::string entry(const Key<Owner>& key, const Owner& track, const Owner& paper, const Owner& released) {
+  const auto value = [&](const Owner& owner) {
+    const std::string text = key.write(owner);
+    return text.empty() ? "none" : text;
+  };
+  std::string by_default = key.by_default.empty() ? value(track) : key.by_default;
+  if (key.by_default.empty() && value(paper) != value(track)) by_default += "; preset paper_text: " + value(paper);
+  if (key.by_default.empty() && value(released) != value(track)) by_default += "; preset released: " + value(released);
+  return entry(key.name, key.meaning, key.values, by_default);
+}
+
+/// The table of all keys, for people.
+std::string key_table() {
+  const FilterSettings track = FilterDefaults{}.filter;
+  const FilterSettings paper = FilterDefaults::of(Preset::paper_text).filter;
+  const FilterSettings released = FilterDefaults::of(Preset::released).filter;
+  std::string text = entry("filters", "The filters to run.",
+                           "names with a meaning of their own, others that begin with imm or himm, others that have a "
+                           "table [filter.NAME] with a kind; \"all\" for those without histories",
+                           R"(["imm", "himm"]; preset released: also "imm_correct")");
+  text += entry("filter.NAME.kind", "The kind of the filter's mode.", "random, fuzzy", "from the name");
+  for (const auto& key : filter_keys()) text += entry(key, track, paper, released);
+  for (const auto& key : accuracy_keys()) text += entry(key, track.accuracy, paper.accuracy, released.accuracy);
+  text += entry("sensor.NAME.KEY", "One of the last six keys, for the rows whose column sensor says NAME.", "as there",
+                "that of all sensors");
+  text += entry("filter.NAME.KEY", "Any key, for one filter.", "as there", "that of all filters");
+  return text;
+}
+
+}  // namespace
+
+const std::vector<FilterKey>& filter_keys() {
+  static const std::vector<FilterKey> keys = made_filter_keys();
+  return keys;
+}
+
+const std::vector<Key<Accuracy>>& accuracy_keys() {
+  static const std::vector<Key<Accuracy>> keys = made_accuracy_keys();
+  return keys;
+}
+
+std::string as_toml(const std::vector<FilterSettings>& filters) {
+  std::vector<std::string> names;
+  for (const auto& filter : filters) names.push_back(toml_string(filter.name));
+  std::string text = fmt::format("filters = [{}]\n", fmt::join(names, ", "));
+  for (const auto& filter : filters) {
+    text += fmt::format("\n[filter.{}]\nkind = \"{}\"\n", toml_key(filter.name), filter.fuzzy ? "fuzzy" : "random");
+    text += as_toml(filter_keys(), filter) + as_toml(accuracy_keys(), filter.accuracy);
+    for (const auto& [sensor, accuracy] : filter.sensors)
+      text += fmt::format("\n[filter.{}.sensor.{}]\n{}", toml_key(filter.name), toml_string(sensor),
+                          as_toml(accuracy_keys(), accuracy));
+  }
+  return text;
+}
+
+std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::string& config,
+                                        const std::vector<std::string>& sets,
+                                        const std::optional<std::array<double, 3>>& radar) {
+  FilterDefaults defaults;
+  const auto [range, azimuth, elevation] = radar.value_or(std::array{10.0, 0.1, 0.1});
+  defaults.filter.accuracy.radar = {range, azimuth * degree, elevation * degree};
+  const Settings settings = Settings::read(config, sets);
+  auto filters = read_filters(settings, defaults);
+  settings.refuse_unknown();
+  for (const auto& filter : filters) {
+    recording.velocity |= filter.knows(&Accuracy::velocity_mps);
+    recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+  }
+  return filters;
+}
+
+void add_filter_options(CLI::App& program, std::string& config, std::vector<std::string>& sets, bool& print_config) {
+  Subcommand app(program);
+  app.option("--config", config, "Settings in TOML").type("FILE.toml");
+  app.option("--set", sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
+  app.flag("--print-config", print_config, "Print the settings in force and stop");
+}
+
+void add_keys(CLI::App& program, const std::string&) {
+  Subcommand app(program, "keys", "Lists the keys of --config and --set.");
+  app.footer("Examples:\n  himm_demo keys\n  himm_demo keys | grep -A 3 gate");
+  app.run([] { fmt::print("{}", key_table()); });
+}
+
+}  // namespace sigmax::apps

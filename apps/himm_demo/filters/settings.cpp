@@ -1,0 +1,309 @@
+#include "himm_demo/filters/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sigmax/estimation/radar.hpp>
+
+#include "himm_demo/experiment/scenario.hpp"
+#include "himm_demo/filters/keys.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// A filter with a name of its own: the kind of its mode, and what it has by default.
+struct KnownFilter {
+  std::string_view name;
+  bool fuzzy;
+  void (*adapt)(FilterSettings&);
+  bool tuned = false;  ///< has settings of its own for the whole filter, so that it is no row beside the others
+};
+
+/// The filter over histories: a rare manoeuvre that begins with any acceleration and then hardly changes it.
+void keep_histories(FilterSettings& own) {
+  own.scheme = Scheme::histories;
+  own.lift = Lift::prior;
+  own.leaving_possibility = own.leaving_probability = 0.004;
+  own.leaving_a_manoeuvre = 0.03;
+  for (MotionChoice& motion : own.motions)
+    if (motion.manoeuvres()) motion[MotionParameter::sigma_w] *= 0.1;
+}
+
+const std::initializer_list<KnownFilter> known_filters = {
+    {"imm", false, [](FilterSettings&) {}},
+    {"imm_correct", false, [](FilterSettings& own) { own.imm_mixing = MixingWeights::correct; }},
+    {"imm_released", false, [](FilterSettings& own) { own.imm_mixing = MixingWeights::released; }},
+    {"imm_most_likely", false, [](FilterSettings& own) { own.most_likely_output = true; }},
+    {"imm_as_printed", false, [](FilterSettings& own) { own.output_spread = OutputSpread::omitted; }},
+    {"gpb1", false, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
+    {"gpb2", false, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
+    {"static_random", false, [](FilterSettings& own) { own.scheme = Scheme::independent; }},
+    {"imm_histories", false,
+     [](FilterSettings& own) {
+       keep_histories(own);
+       own.cut = 0.0;
+     },
+     true},
+    {"himm", true, [](FilterSettings&) {}},
+    {"himm_selected", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::selected; }},
+    {"himm_own", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own; }},
+    {"himm_own_recentred", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own_recentred; }},
+    {"himm_released", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::released; }},
+    {"himm_envelope", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::envelope; }},
+    {"himm_global", true, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
+    {"himm_possibility", true, [](FilterSettings& own) { own.likelihood = LikelihoodForm::possibility; }},
+    {"himm_histories", true, keep_histories, true},
+    {"himm_histories_fast", true,
+     [](FilterSettings& own) {
+       keep_histories(own);
+       own.histories = 8;
+     },
+     true},
+    {"viterbi", true, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
+    {"static_fuzzy", true, [](FilterSettings& own) { own.scheme = Scheme::independent; }}};
+
+const KnownFilter* known_filter(std::string_view name) {
+  const auto found = std::find_if(known_filters.begin(), known_filters.end(),
+                                  [&](const KnownFilter& filter) { return filter.name == name; });
+  return found == known_filters.end() ? nullptr : &*found;
+}
+
+bool default_kind(const Settings& settings, const std::string& name) {
+  if (const KnownFilter* known = known_filter(name)) return known->fuzzy;
+  if (name.starts_with("himm")) return true;
+  if (name.starts_with("imm")) return false;
+  std::vector<std::string_view> names;
+  for (const auto& known : known_filters) names.push_back(known.name);
+  throw settings.error("filters",
+                       fmt::format("\"all\", names out of {}, other names that begin with imm or himm, or a table "
+                                   "[filter.{}] with a kind",
+                                   fmt::join(names, ", "), name),
+                       "add filter." + name + ".kind = \"random\" or \"fuzzy\"");
+}
+
+void refuse_bad_transition(const Settings& settings, const char* key, const FilterSettings& filter) {
+  const auto& rows = filter.transition;
+  const std::size_t modes = filter.models.size();
+  if (rows.size() != modes || rows.front().size() != modes)
+    throw settings.error(key, fmt::format("{0} rows of {0} numbers, one for each model", modes),
+                         "give a row for each of the models");
+  for (std::size_t i = 0; i < modes; ++i) {
+    double total = 0.0;
+    for (const double value : rows[i]) {
+      if (!(value >= 0.0 && value <= 1.0))
+        throw settings.error(key, "numbers between 0 and 1", "correct row " + std::to_string(i + 1));
+      total = filter.fuzzy ? std::max(total, value) : total + value;
+    }
+    if (!(std::abs(total - 1.0) <= 1e-9))
+      throw settings.error(
+          key,
+          fmt::format("a {} of 1 in every row; that of row {} (from {}) is {}", filter.fuzzy ? "maximum" : "sum", i + 1,
+                      filter.models[i], shortest(total)),
+          total > 0.0 ? fmt::format("divide that row by {}", shortest(total)) : "give a number above 0 in that row");
+  }
+}
+
+/// What no key can tell by itself.
+void refuse_bad_combinations(const Settings& settings, const FilterSettings& filter) {
+  if (filter.member == MemberType::kf) {
+    const auto refuse = [&](const std::string& what) {
+      return settings.error("member", fmt::format("ekf, ukf or ckf, since {} not linear", what),
+                            "linear models have the Kalman filter whatever the member is");
+    };
+    for (std::size_t i = 0; i < filter.motions.size(); ++i)
+      if (!filter.motions[i].linear()) throw refuse(fmt::format("the model {} is", filter.models[i]));
+    if (filter.radar_measurement == RadarForm::polar) throw refuse("radar_measurement = \"polar\" is");
+  }
+  refuse_bad_transition(settings, filter.fuzzy ? "transition_possibility" : "transition_probability", filter);
+  const std::size_t modes = filter.models.size();
+  if (filter.scheme == Scheme::histories && filter.histories < modes)
+    throw settings.error("histories", fmt::format("{} or more, one for each model", modes));
+  if (filter.lift == Lift::prior && filter.entry.scales.empty())
+    throw settings.error("entry_scales", "one or more, since lift = \"prior\"");
+  if (!filter.sojourn_s.empty() && (modes < 2 || filter.sojourn_s.size() != modes))
+    throw settings.error("sojourn_s", "a mean sojourn time, in s, for each of two models or more");
+  if (filter.start != StartRule::given) return;
+  if (filter.start_mean.size() != 9)
+    throw settings.error("start_mean", "nine numbers x, y, z, vx, vy, vz, ax, ay, az, since start = \"given\"");
+  if (filter.start_covariance_diagonal.size() != 9)
+    throw settings.error("start_covariance_diagonal", "nine variances, since start = \"given\"");
+}
+
+/// The filter that the settings make of its defaults.
+FilterSettings read_filter(const Settings& settings, FilterSettings filter) {
+  for (const auto& key : filter_keys()) key.read(settings, filter);
+  for (const auto& key : accuracy_keys()) key.read(settings, filter.accuracy);
+  refuse_bad_combinations(settings, filter);
+  const Settings sensors = settings.sub("sensor");
+  for (const auto& name : sensors.names()) {
+    Accuracy& own = filter.sensors.emplace(name, filter.accuracy).first->second;
+    for (const auto& key : accuracy_keys()) key.read(sensors.sub(name), own);
+  }
+  return filter;
+}
+
+/// What is believed of a number of a plot, if it is taken for a measurement.
+std::optional<double> sigma_of(const Accuracy& accuracy, const AnyPlot& plot, std::size_t i, int axes) {
+  if (plot.sensor == AnyPlot::Sensor::bearing) return accuracy.radar[1];
+  if (plot.sensor == AnyPlot::Sensor::components) {
+    if (plot.places[i] >= axes) return accuracy.velocity_mps;
+    return accuracy.position_m[accuracy.position_m.size() == 1 ? 0 : static_cast<std::size_t>(plot.places[i])];
+  }
+  return i < static_cast<std::size_t>(axes) ? std::optional(accuracy.radar[i]) : accuracy.range_rate_mps;
+}
+
+/// What a radar measured, as a position.
+AnyPlot converted(double time, std::span<const double> z, std::span<const double> variances, RadarForm form,
+                  const std::array<double, 3>& radar_at) {
+  Polar measured{z[0], z[1], 0.0}, sigma{std::sqrt(variances[0]), std::sqrt(variances[1]), 0.0};
+  if (z.size() == 3) measured.elevation = z[2], sigma.elevation = std::sqrt(variances[2]);
+  const Conversion conversion = form == RadarForm::unbiased   ? Conversion::unbiased
+                                : form == RadarForm::debiased ? Conversion::debiased
+                                                              : Conversion::standard;
+  const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
+  std::vector<double> mean, covariance;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(z.size()); ++i) {
+    mean.push_back(position.mean(i) + radar_at[static_cast<std::size_t>(i)]);
+    for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(z.size()); ++j)
+      covariance.push_back(position.covariance(i, j));
+  }
+  return AnyPlot::position(time, mean, covariance);
+}
+
+}  // namespace
+
+TargetChoice choice_of(const FilterSettings& settings, int axes) {
+  for (const auto& motion : settings.motions)
+    if (axes < motion.known().least_axes)
+      throw UsageError(message({.what = "filter '" + settings.name + "': the recording has one axis, and " +
+                                        motion.name + " turns in a plane",
+                                .remedy = "choose motions that do not turn"}));
+  TargetChoice choice = settings;
+  choice.axes = axes;
+  choice.rules = {.gate_probability = settings.gate_probability,
+                  .rejections = static_cast<std::size_t>(settings.restart_after_rejections),
+                  .longest_gap = settings.restart_after_s.value_or(std::numeric_limits<double>::infinity()),
+                  .record = settings.smooth || (settings.explain && settings.scheme == Scheme::histories)};
+  return choice;
+}
+
+AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes,
+                 const std::array<double, 3>& radar_at) {
+  const Accuracy& accuracy = settings.accuracy_of(sensor);
+  std::array<double, 6> z{}, variances{};
+  std::array<int, 6> places{};
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    const auto sigma = sigma_of(accuracy, plot, i, axes);
+    if (!sigma) continue;
+    const double own = plot.variance(static_cast<int>(i));
+    z[n] = plot.z[i];
+    variances[n] = std::isnan(own) ? *sigma * *sigma : own;
+    places[n++] = plot.places[i];
+  }
+  const std::span numbers(z.data(), n), R(variances.data(), n);
+  const auto taken = [&] {
+    switch (n == 0 ? AnyPlot::Sensor::none : plot.sensor) {
+      case AnyPlot::Sensor::bearing:
+        return AnyPlot::bearing(plot.time, z[0], variances[0], radar_at);
+      case AnyPlot::Sensor::polar:
+      case AnyPlot::Sensor::doppler:
+        if (n > static_cast<std::size_t>(axes)) return AnyPlot::doppler(plot.time, numbers, R, radar_at);
+        if (settings.radar_measurement == RadarForm::polar) return AnyPlot::polar(plot.time, numbers, R, radar_at);
+        return converted(plot.time, numbers, R, settings.radar_measurement, radar_at);
+      case AnyPlot::Sensor::components:
+        if (n == static_cast<std::size_t>(axes) && places[n - 1] == axes - 1)
+          return AnyPlot::position(plot.time, numbers, R);
+        return AnyPlot::components(plot.time, {places.data(), n}, numbers, R);
+      default:
+        return AnyPlot::missed(plot.time);
+    }
+  };
+  AnyPlot result = taken();
+  result.tag = plot.tag;
+  return result;
+}
+
+FilterDefaults FilterDefaults::of(Preset preset) {
+  FilterDefaults defaults;
+  FilterSettings& filter = defaults.filter;
+  if (preset == Preset::paper_text) {
+    filter.mixed_covariance = MixedCovariance::own;
+    filter.lift = Lift::zero;
+  } else {
+    filter.leaving_possibility = 0.2;
+    filter.mixed_covariance = MixedCovariance::released;
+    filter.imm_mixing = MixingWeights::released;
+    filter.mixing_tie = Tie::last;
+    filter.output_tie = Tie::first;
+    filter.start = StartRule::released;
+    defaults.names = {"imm", "himm", "imm_correct"};
+  }
+  return defaults;
+}
+
+FilterDefaults FilterDefaults::of(Preset preset, const Group& parameters) {
+  FilterDefaults defaults = of(preset);
+  for (auto& motion : defaults.filter.motions) motion[MotionParameter::sigma_w] = parameters.sigma_w;
+  defaults.filter.accuracy.radar = {parameters.model.range, parameters.model.azimuth, parameters.model.elevation};
+  return defaults;
+}
+
+bool asks_for_all(const Settings& settings) {
+  return settings.get("filters", std::vector<std::string>{}) == std::vector<std::string>{"all"};
+}
+
+std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults) {
+  auto names = settings.get("filters", defaults.names);
+  if (names.empty()) throw settings.error("filters", "the name of at least one filter");
+  if (asks_for_all(settings)) {
+    names.clear();
+    for (const auto& known : known_filters)
+      if (!known.tuned) names.emplace_back(known.name);
+  }
+  const Settings tables = settings.sub("filter");
+  const auto read = [&](const std::string& name) {
+    const Settings table = tables.sub(name);
+    FilterSettings own = defaults.filter;
+    own.name = name;
+    own.fuzzy = table.has("kind") ? table.choice("kind", {{"random", false}, {"fuzzy", true}}, false)
+                                  : default_kind(settings, name);
+    if (const KnownFilter* known = known_filter(name)) known->adapt(own);
+    return read_filter(settings.overlaid_by(table), std::move(own));
+  };
+  for (const auto& name : tables.names()) read(name);  // also what is not run must be right
+  std::vector<FilterSettings> filters;
+  for (const auto& name : names) {
+    if (std::count(names.begin(), names.end(), name) > 1) throw settings.error("filters", "each name once");
+    if (name == "measurement") throw settings.error("filters", "names other than measurement, which is the raw one's");
+    filters.push_back(read(name));
+  }
+  return filters;
+}
+
+std::vector<std::string> names_of(const std::vector<MotionChoice>& motions) {
+  std::vector<std::string> names;
+  for (auto motion = motions.begin(); motion != motions.end(); ++motion) {
+    const auto before =
+        std::count_if(motions.begin(), motion, [&](const auto& other) { return other.name == motion->name; });
+    names.push_back(before == 0 ? motion->name : fmt::format("{}_{}", motion->name, before + 1));
+  }
+  return names;
+}
+
+std::vector<std::string> model_names(const std::vector<FilterSettings>& filters) {
+  std::vector<std::string> names;
+  for (const auto& filter : filters)
+    for (const auto& model : filter.models)
+      if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
+  return names;
+}
+
+}  // namespace sigmax::apps

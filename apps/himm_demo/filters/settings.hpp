@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sigmax/hybrid/any_target.hpp>
+
+#include "support/settings.hpp"
+
+namespace sigmax::apps {
+
+enum class Preset;
+struct Group;
+
+/// How a filter takes a radar's measurements: converted to positions, or in the radar's own space; there only the start
+/// is from positions, by the unbiased conversion.
+enum class RadarForm { standard, unbiased, debiased, polar };
+
+/// A sensor's standard deviations, as a filter believes them.
+struct Accuracy {
+  std::array<double, 3> radar{};         ///< of range, azimuth and elevation, in m and rad
+  std::vector<double> position_m{10.0};  ///< of measurements that are no radar's: one, or one an axis
+  std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
+  std::optional<double> range_rate_mps;  ///< of a radar's; likewise
+};
+
+/// Everything that one filter is made of: that of the library's target, and how measurements come to it.
+struct FilterSettings : TargetChoice {
+  FilterSettings() { motions = {{"dwna"}, {"dwpa"}}; }
+
+  std::string name;
+  double leaving_possibility = 0.5;           ///< of a mode for each other one, unless `transition` is given
+  double leaving_probability = 0.05;          ///< the same, for all others together
+  std::optional<double> leaving_a_manoeuvre;  ///< either of both, if that is another one
+  double gate_probability = 1.0;              ///< that a right measurement passes the gate; 1 is no gate
+  std::optional<double> restart_after_s;      ///< without a measurement that passes
+  double restart_after_rejections = 5.0;      ///< in a row; 0 is never
+  bool explain = false;                       ///< whether the best history of the mode is told with its dates
+  bool smooth = false;                        ///< whether the output is of the whole recording rather than the past
+  RadarForm radar_measurement = RadarForm::standard;
+  Accuracy accuracy;
+  std::map<std::string, Accuracy, std::less<>> sensors;  ///< those with an accuracy of their own
+
+  const Accuracy& accuracy_of(std::string_view sensor) const {
+    const auto own = sensors.find(sensor);
+    return own == sensors.end() ? accuracy : own->second;
+  }
+  /// Whether an accuracy, of whatever sensor, has this.
+  bool knows(std::optional<double> Accuracy::*sigma) const {
+    return (accuracy.*sigma).has_value() || std::any_of(sensors.begin(), sensors.end(), [=](const auto& own) {
+             return (own.second.*sigma).has_value();
+           });
+  }
+};
+
+/// The library's choice that the settings stand for. Throws UsageError for motions that turn along one axis.
+TargetChoice choice_of(const FilterSettings& settings, int axes);
+
+/// What a sensor saw, as a filter takes it: a variance that is NaN is that which the filter believes; what it does not
+/// take for a measurement is left out, and a radar at this place is converted if the settings say so.
+AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes,
+                 const std::array<double, 3>& radar_at = {});
+
+/// What the keys have as defaults, and the filters that run by default: the library's, or those of a preset.
+struct FilterDefaults {
+  FilterSettings filter;
+  std::vector<std::string> names = {"imm", "himm"};
+
+  static FilterDefaults of(Preset preset);
+
+  /// With the accuracies and σ_w that the filters of a group believe.
+  static FilterDefaults of(Preset preset, const Group& parameters);
+};
+
+/// Whether the settings ask for every filter that has a name of its own and no settings that were tuned for it,
+/// `filters = "all"`.
+bool asks_for_all(const Settings& settings);
+
+/// The filters that the settings name, in order; "all" stands for those. Throws
+/// InputError, with the key, for what cannot be.
+std::vector<FilterSettings> read_filters(const Settings& settings, const FilterDefaults& defaults);
+
+/// Distinct names of models: a second dwna is dwna_2.
+std::vector<std::string> names_of(const std::vector<MotionChoice>& motions);
+
+/// The models of all filters, each once, in order.
+std::vector<std::string> model_names(const std::vector<FilterSettings>& filters);
+
+/// The settings of all filters in TOML: what is in force. It reads back as the same.
+std::string as_toml(const std::vector<FilterSettings>& filters);
+
+}  // namespace sigmax::apps

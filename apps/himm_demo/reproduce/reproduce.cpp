@@ -1,0 +1,436 @@
+#include "himm_demo/subcommands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "himm_demo/reproduce/judged.hpp"
+#include "result/result.hpp"
+#include "support/command_line.hpp"
+#include "support/missing.hpp"
+#include "support/options.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+struct ReproduceOptions {
+  ReproduceChoice choice;
+  Sharing sharing;
+  OutputOptions output;
+};
+
+constexpr std::array phase_names = {"before", "during", "after"};
+
+const char* words_of(Preset preset) { return preset == Preset::released ? "As released" : "As printed"; }
+
+std::string_view words_of(Verdict verdict) {
+  constexpr std::array words = {"holds", "only released", "does not hold", "undecided"};
+  return words[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view letter_of(Verdict verdict) {
+  constexpr std::array letters = {"yes", "(yes)", "no", "?"};
+  return letters[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view name_of(FigureOf figure) {
+  constexpr std::array names = {"RMSE",          "RMSE of z after 81", "cross-time",       "crossing of curves",
+                                "share of DWPA", "switches",           "switches of a run"};
+  return names[static_cast<std::size_t>(figure)];
+}
+
+std::string_view word_of(Actor actor) {
+  constexpr std::array words = {"himm", "himm_5", "imm", "most likely", "measurement", ""};
+  return words[static_cast<std::size_t>(actor)];
+}
+
+/// "1/2": scenario and group.
+std::string name_of(const Condition& condition) { return fmt::format("{}/{}", condition.scenario, condition.group); }
+
+/// Whether a figure is shown in per cent: a share or a relative difference.
+bool relative(const Measured& measured) {
+  const FigureOf figure = measured.statement->figure;
+  return figure == FigureOf::rmse || figure == FigureOf::onset_rmse || figure == FigureOf::lead;
+}
+
+double scale_of(const Measured& measured) { return relative(measured) ? 100.0 : 1.0; }
+
+Interval shown(const Measured& measured) {
+  return {scale_of(measured) * measured.interval.mean, scale_of(measured) * measured.interval.half_width};
+}
+
+std::string text_of(const Measured& measured) {
+  const Interval interval = shown(measured);
+  return fmt::format("{} ± {}{}", number_text(interval.mean, 1, measured.statement->against != Actor::nobody),
+                     number_text(interval.half_width, 1), relative(measured) ? " %" : "");
+}
+
+/// Of whom a figure is, and when: "himm : imm, during z".
+std::string subject_of(const Measured& measured) {
+  const Statement& statement = *measured.statement;
+  std::string text(word_of(statement.of));
+  if (statement.against != Actor::nobody) text.append(" : ").append(word_of(statement.against));
+  if (statement.figure != FigureOf::rmse) text.append(", ").append(name_of(statement.figure));
+  if (measured.phase) text.append(", ").append(phase_names[*measured.phase]);
+  if (measured.axis) text.append(" ").append(axis_names[*measured.axis]);
+  return text;
+}
+
+/// The same after scenario and group: "1/2 himm : imm, during z".
+std::string place_and_subject_of(const Measured& measured) {
+  return fmt::format("{}/{} {}", measured.statement->scenario, measured.statement->group, subject_of(measured));
+}
+
+/// The place of the figure that speaks most against the sentence, in half widths of its interval.
+std::size_t least_favourable(const std::vector<Measured>& all) {
+  const auto margin = [](const Measured& measured) {
+    const Region& region = measured.statement->region;
+    const double inside = std::min(measured.interval.mean - region.above, region.below - measured.interval.mean);
+    return std::isnan(inside) ? 0.0 : inside / std::max(measured.interval.half_width, 1e-12);
+  };
+  const auto worst = std::min_element(all.begin(), all.end(),
+                                      [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
+  return static_cast<std::size_t>(worst - all.begin());
+}
+
+/// Parts of the table of sentences: with a verdict for each preset, HIMM being what the preset takes for it; and with
+/// one for each reading of (57).
+struct SentencePart {
+  enum : unsigned { claims = 1, readings = 2 };
+};
+
+ResultTable sentences_table(const Judgements& all) {
+  ResultTable table;
+  for (std::size_t s = 0; s < sentences().size(); ++s) {
+    std::vector<Field> fields = {
+        {{.key = "sentence", .header = "no."}, std::to_string(s + 1)},
+        {{.key = "place", .header = "where", .align = Align::left, .parts = SentencePart::claims},
+         sentences()[s].place},
+        {{.key = "words", .header = "the paper says", .align = Align::left, .parts = SentencePart::claims},
+         sentences()[s].words}};
+    for (const Preset preset : both_presets)
+      fields.push_back({{.key = name_of(preset),
+                         .header = preset == Preset::released ? "as released" : "as printed",
+                         .align = Align::left,
+                         .parts = SentencePart::claims},
+                        words_of(all.at(preset).at(reading_of(preset))[s].verdict())});
+    for (const Preset preset : both_presets)
+      for (const std::string reading : himm_readings) {  // of whose name three letters fit into 80 columns
+        const std::string word = reading.substr(reading.rfind('_') + 1);
+        fields.push_back({{.key = fmt::format("{}_{}", name_of(preset), reading),
+                           .header = word.size() <= 3 ? word : word.substr(0, 3) + ".",
+                           .align = Align::left,
+                           .parts = SentencePart::readings},
+                          letter_of(all.at(preset).at(reading)[s].verdict())});
+      }
+    table.row_of(fields);
+  }
+  return table;
+}
+
+/// How many figures of each sentence are where it wants them, and the one that speaks most against it.
+ResultTable deciding_figures(const std::vector<Judged>& all) {
+  ResultTable table({{.header = "no."},
+                     {.header = "sure"},
+                     {.header = "least favourable", .align = Align::left},
+                     {.header = "correct IMM"},
+                     {.header = "released IMM"}});
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const auto& figures = all[s].against_correct;
+    const auto inside = std::count_if(figures.begin(), figures.end(),
+                                      [](const Measured& measured) { return measured.finding == Finding::inside; });
+    const std::size_t worst = least_favourable(figures);
+    table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), place_and_subject_of(figures[worst]),
+               text_of(figures[worst]), text_of(all[s].against_released[worst])});
+  }
+  return table;
+}
+
+/// Every figure of every sentence.
+ResultTable figures_table(const Judgements& all) {
+  constexpr std::array finding_names = {"inside", "outside", "open"};
+  ResultTable table;
+  for (const auto& [preset, by_reading] : all)
+    for (const auto& [reading, judged] : by_reading)
+      for (std::size_t s = 0; s < judged.size(); ++s)
+        for (const bool released : {false, true})
+          for (const Measured& measured : released ? judged[s].against_released : judged[s].against_correct) {
+            const Statement& statement = *measured.statement;
+            const Cast cast{reading, released};
+            table.row_of({{{.key = "sentence"}, s + 1},
+                          {{.key = "preset"}, name_of(preset)},
+                          {{.key = "reading"}, reading},
+                          {{.key = "imm"}, released ? "released" : "correct"},
+                          {{.key = "scenario"}, statement.scenario},
+                          {{.key = "group"}, statement.group},
+                          {{.key = "phase"}, measured.phase ? Cell(phase_names[*measured.phase]) : Cell()},
+                          {{.key = "axis"}, measured.axis ? Cell(axis_names[*measured.axis]) : Cell()},
+                          {{.key = "figure"}, name_of(statement.figure)},
+                          {{.key = "of"}, cast.filter(statement.of)},
+                          {{.key = "against"}, cast.filter(statement.against)},
+                          {{.key = "value", .interval = true}, measured.interval},
+                          {{.key = "wanted_above"}, statement.region.above},
+                          {{.key = "wanted_below"}, statement.region.below},
+                          {{.key = "finding"}, finding_names[static_cast<std::size_t>(measured.finding)]}});
+          }
+  return table;
+}
+
+/// All filters; some come first.
+std::vector<std::string> names_of(std::span<const Condition> conditions, std::vector<std::string> names = {}) {
+  for (const auto& condition : conditions)
+    for (const auto& filter : condition.experiment.filters)
+      if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
+  return names;
+}
+
+/// RMSE of the measurement and every filter, by phase and axis, in all conditions; a part has what is of one of them.
+ResultTable rmse_table(const std::vector<Condition>& conditions) {
+  ResultTable table;
+  for (const Condition& condition : conditions)
+    for (const auto& name : names_of({&condition, 1}, {measurement_name})) {
+      std::vector<Field> fields = {{{.key = "preset", .parts = 0}, name_of(condition.preset)},
+                                   {{.key = "scenario", .parts = 0}, condition.scenario},
+                                   {{.key = "group", .parts = 0}, condition.group},
+                                   {{.key = "filter"}, name}};
+      for (std::size_t i = 0; i < squares; ++i)
+        fields.push_back({{.key = fmt::format("rmse_{}_{}_m", phase_names[i / 3], axis_names[i % 3]), .interval = true},
+                          condition.rmse(name, i / 3, i % 3).interval()});
+      table.row_of(fields);
+    }
+  return table;
+}
+
+/// The mean over axes and phases of RMSE over that of the measurement; NaN where there is no such filter.
+double over_measurement(const Condition& condition, std::string_view filter) {
+  if (!condition.has(filter)) return nan;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < squares; ++i)
+    sum += condition.rmse(filter, i / 3, i % 3).value() / condition.rmse(measurement_name, i / 3, i % 3).value();
+  return sum / static_cast<double>(squares);
+}
+
+/// That of every filter in every scenario and group.
+ResultTable overview_table(const std::vector<Condition>& conditions, Preset preset) {
+  ResultTable table;
+  for (const auto& name : names_of(conditions)) {
+    std::vector<Field> fields = {{{.key = "filter", .header = "filter", .align = Align::left}, name}};
+    for (const auto& condition : conditions)
+      if (condition.preset == preset)
+        fields.push_back({{.key = name_of(condition), .header = name_of(condition), .digits = 3},
+                          condition.has(name) ? Cell(over_measurement(condition, name)) : Cell()});
+    table.row_of(fields);
+  }
+  return table;
+}
+
+HeatMap overview_map(const std::vector<Condition>& conditions, const std::vector<std::string>& names, Preset preset) {
+  HeatMap map{.title = fmt::format("{}: RMSE over that of the measurement", words_of(preset)),
+              .row_label = "filter",
+              .column_label = "scenario/group",
+              .rows = names,
+              .columns = {},
+              .values = {},
+              .value_label = "ratio, mean over axes and phases",
+              .digits = 3};
+  std::vector<const Condition*> own;
+  for (const Condition& condition : conditions) {
+    if (condition.preset != preset) continue;
+    own.push_back(&condition);
+    map.columns.push_back(name_of(condition));
+  }
+  map.fill([&](std::size_t r, std::size_t c) { return HeatMap::Cell{over_measurement(*own[c], names[r])}; });
+  return map;
+}
+
+/// What a figure is shown together with: the RMSE of the same two filters, or other figures of its unit.
+std::string chart_of(const Measured& measured) {
+  const Statement& statement = *measured.statement;
+  if (statement.figure == FigureOf::rmse)
+    return fmt::format("RMSE of {} against {}", word_of(statement.of), word_of(statement.against));
+  if (relative(measured)) return "The z axis after the onset, and who leads";
+  return statement.against == Actor::nobody ? "Cross-times and switches" : "Differences of cross-times and switches";
+}
+
+/// The figures of all sentences that are of this scenario and group, and where the sentences want them.
+std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condition& condition) {
+  std::vector<IntervalChart> charts;
+  for (std::size_t s = 0; s < sentences.size(); ++s)
+    for (std::size_t i = 0; i < sentences[s].against_correct.size(); ++i) {
+      const Measured& measured = sentences[s].against_correct[i];
+      const Statement& statement = *measured.statement;
+      if (statement.scenario != condition.scenario || statement.group != condition.group) continue;
+      const std::string title = chart_of(measured);
+      auto chart =
+          std::find_if(charts.begin(), charts.end(), [&](const IntervalChart& one) { return one.title == title; });
+      if (chart == charts.end()) {
+        charts.push_back(
+            {.title = title,
+             .x_label = relative(measured) ? "relative difference or share, %" : "samples, or switches a run",
+             .rows = {},
+             .series = {{.name = "with the correct IMM", .values = {}},
+                        {.name = "with the released IMM", .values = {}}},
+             .reference = statement.against == Actor::nobody ? std::nullopt : std::optional(0.0),
+             .wanted_label = "where the sentence wants it",
+             .digits = relative(measured) ? 1 : 2,
+             .note = "The number is the sentence's; the intervals hold together for all its figures."});
+        chart = charts.end() - 1;
+      }
+      const bool rmse = statement.figure == FigureOf::rmse;
+      chart->rows.push_back(
+          fmt::format("{}. {}", s + 1,
+                      rmse ? fmt::format("{} {}", phase_names[*measured.phase], axis_names[*measured.axis])
+                           : subject_of(measured)));
+      chart->series[0].values.push_back(shown(measured));
+      chart->series[1].values.push_back(shown(sentences[s].against_released[i]));
+      for (IntervalSeries& series : chart->series)
+        series.wanted.push_back(
+            {scale_of(measured) * statement.region.above, scale_of(measured) * statement.region.below});
+    }
+  return {charts.begin(), charts.end()};
+}
+
+/// What decides in a condition, and the RMSE of the measurement and the filters.
+View view_of(const Judgements& all, const Condition& condition, const std::vector<std::string>& names) {
+  View view{fmt::format("{}: scenario {}, group {}", words_of(condition.preset), condition.scenario, condition.group),
+            figures_of(all.at(condition.preset).at(reading_of(condition.preset)), condition)};
+  for (std::size_t axis = 0; axis < axis_names.size(); ++axis) {
+    IntervalChart chart{.title = fmt::format("RMSE in {}", axis_names[axis]),
+                        .x_label = "RMSE, m",
+                        .rows = {phase_names.begin(), phase_names.end()},
+                        .series = {}};
+    for (const auto& name : names) {
+      if (!condition.has(name)) continue;
+      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+      for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
+        series.values.push_back(condition.rmse(name, phase, axis).interval());
+    }
+    view.panels.emplace_back(std::move(chart));
+  }
+  return view;
+}
+
+/// "As printed: 3 of 20 hold, …".
+std::string counts_of(const std::vector<Judged>& sentences, Preset preset) {
+  std::array<int, 4> count{};
+  for (const auto& judged : sentences) ++count[static_cast<std::size_t>(judged.verdict())];
+  return fmt::format("{}: {} of {} hold, {} only against the released IMM, {} do not, {} are undecided.",
+                     words_of(preset), count[0], sentences.size(), count[1], count[2], count[3]);
+}
+
+void report(const ReproduceOptions& options, const std::vector<Condition>& conditions) {
+  ResultFiles files(options.output);
+  Result result(options.output);
+  const Judgements all = judge(conditions);
+  const auto of = [&](Preset preset) -> const std::vector<Judged>& { return all.at(preset).at(reading_of(preset)); };
+  const ResultTable sentences = sentences_table(all), claims = sentences.part(SentencePart::claims, "no."),
+                    readings = sentences.part(SentencePart::readings, "no.");
+  const std::string each_reading = "Each reading of (57), as printed and then as released";
+  result.fact({"runs"}, options.choice.runs);
+  result.fact({"seed"}, options.choice.seed);
+  result.text = fmt::format("Section VI, sentence by sentence: {} runs of each scenario, group and preset, seed {}\n",
+                            options.choice.runs, options.choice.seed);
+  result.add(claims, {.csv = "claims.csv", .summary = {"sentences"}});
+  result.say(
+      "(1/2 is scenario 1, group 2. \"only released\": holds only against the released IMM. HIMM has the reading of "
+      "(57) that is printed, or released.)");
+  for (const Preset preset : both_presets) result.say(counts_of(of(preset), preset));
+  result.add(readings, {.heading = each_reading, .csv = "readings.csv", .summary = {"readings"}});
+  result.say(
+      "((yes): only against the released IMM. ?: undecided. sel., rec., rel., env.: selected, own_recentred, released, "
+      "and envelope, which is (A-1) without (A-4).)");
+  result.add(figures_table(all), {.printed = false, .csv = "figures.csv"});
+  const ResultTable rmse = rmse_table(conditions);
+  result.add(rmse, {.printed = false, .csv = "filters.csv"});
+
+  Report& page = result.page;
+  page.title = "Section VI of the paper, sentence by sentence";
+  for (const Preset preset : both_presets) page.verdict.push_back(counts_of(of(preset), preset));
+  page.verdict.push_back(
+      fmt::format("{} runs of each scenario, group and preset, seed {}.", options.choice.runs, options.choice.seed));
+  page.panels.emplace_back(ReportTable{
+      .title = "The sentences",
+      .table = claims,
+      .note = "\"Only released\": it holds only against the released IMM. HIMM has the reading of (57) that "
+              "is printed, or released.",
+      .filtered_by = {name_of(Preset::paper_text), name_of(Preset::released)}});
+  // Those first that the sentences are about: their colours differ.
+  auto names = names_of(conditions, {"imm", "himm_own", "himm_released", "himm_selected", "himm_own_recentred"});
+  for (const Preset preset : both_presets) page.last.emplace_back(overview_map(conditions, names, preset));
+  page.groups.push_back({measurement_name, true});
+  for (const auto& name : names)
+    page.groups.push_back({.name = name, .shown = name == "imm" || name == "himm_own" || name == "himm_released"});
+  page.chooser = "Show";
+  names.insert(names.begin(), measurement_name);
+  for (const auto& condition : conditions) page.views.push_back(view_of(all, condition, names));
+
+  for (const Preset preset : both_presets) {
+    const std::string heading = fmt::format("{}: the figures that decide", words_of(preset));
+    result.add(deciding_figures(of(preset)),
+               {.heading = heading,
+                .title = heading,
+                .note = "The least favourable one, against both IMMs; \"sure\": how many are where the sentence wants "
+                        "them."});
+  }
+  result.say(
+      "(Scenario/group, filter : its reference, phase and axis. The relative difference of RMSE unless something else "
+      "is named, ± 95 % by paired runs, together for all figures of a sentence; \"sure\" is how many of them are where "
+      "the sentence wants them, and the figure is the least favourable, against the correct IMM.)");
+  for (const Preset preset : both_presets)
+    result.add(
+        overview_table(conditions, preset),
+        {.heading = fmt::format("{}: RMSE over that of the measurement, mean over axes and phases", words_of(preset)),
+         .summary = {"over_measurement", name_of(preset)}});
+  result.say("(Filters whose names end with 5 have sigma_w = 5.)");
+  result.add(readings, {.printed = false, .title = each_reading, .note = "(yes): only against the released IMM."});
+  std::size_t row = 0;
+  for (const auto& condition : conditions) {
+    const std::size_t rows = condition.experiment.filters.size() + 1;
+    result.add(rmse.part(1, "", row, rows),
+               {.printed = false, .summary = {"rmse", name_of(condition.preset), name_of(condition)}});
+    row += rows;
+  }
+  for (const Preset preset : both_presets)
+    for (std::size_t s = 0; s < of(preset).size(); ++s)
+      for (std::size_t i = 0; i < of(preset)[s].against_correct.size(); ++i) {
+        const Measured& measured = of(preset)[s].against_correct[i];
+        Path path = {"figures", name_of(preset), std::to_string(s + 1), place_and_subject_of(measured), "per_cent"};
+        result.fact(path, relative(measured));
+        path.back() = "against_correct_imm";
+        result.fact(path, shown(measured));
+        path.back() = "against_released_imm";
+        result.fact(path, shown(of(preset)[s].against_released[i]));
+      }
+  result.publish(files);
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& program, const std::string& command) {
+  Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
+  const auto options = std::make_shared<ReproduceOptions>();
+  options->output.command = command;
+  app.option("--runs", options->choice.runs, "Monte Carlo runs of each scenario, group and preset")
+      .in(2, 100000000)
+      .shows_default();
+  add_threads(app, options->sharing.threads);
+  add_seed(app, options->choice.seed);
+  add_shard(app, options->sharing);
+  app.footer(
+      "With --out every finished batch of runs is on the disk at once: a command that was killed goes on from there "
+      "when it is given again.\n\n"
+      "Examples:\n"
+      "  himm_demo reproduce\n"
+      "  himm_demo reproduce --runs 100 --out results\n"
+      "  himm_demo reproduce --runs 10000 --shard 1/4 --out part1");
+  add_output(app, options->output);
+  add_report(app, options->output);
+  app.run([options] {
+    auto all = conditions(options->choice);
+    if (run(options->choice, options->sharing, options->output, all)) report(*options, all);
+  });
+}
+
+}  // namespace sigmax::apps

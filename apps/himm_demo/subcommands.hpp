@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace sigmax::apps {
+
+/// Section VI: simulated targets through every filter, and what came of it.
+void add_simulate(CLI::App& program, const std::string& command);
+
+/// What sections VI.D and VI.E of the paper say, sentence by sentence, against what the runs show.
+void add_reproduce(CLI::App& program, const std::string& command);
+
+/// Every filter at its best settings, in many conditions.
+void add_sweep(CLI::App& program, const std::string& command);
+
+/// The results of a study out of the journals of its shards.
+void add_merge(CLI::App& program, const std::string& command);
+
+/// Each target of a recording through every filter.
+void add_track(CLI::App& program, const std::string& command);
+
+/// The settings that suit recordings.
+void add_tune(CLI::App& program, const std::string& command);
+
+/// The keys of --config and --set.
+void add_keys(CLI::App& program, const std::string& command);
+
+}  // namespace sigmax::apps

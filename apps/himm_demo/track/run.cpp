@@ -1,0 +1,562 @@
+#include "himm_demo/track/run.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/Core>
+
+#include "himm_demo/track/page.hpp"
+#include "himm_demo/track/shares.hpp"
+#include "recording/plots.hpp"
+#include "result/table.hpp"
+#include "support/angle.hpp"
+#include "support/output.hpp"
+#include "support/progress.hpp"
+#include "support/random.hpp"
+#include "support/timestamp.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// The frame in which a filter follows a target from a start on.
+struct Segment {
+  std::size_t first_tag;
+  std::size_t starts;
+  LocalFrame frame;
+};
+
+/// One target of a recording, followed by every filter: here, or in another rank.
+struct Target {
+  int rank;  // that follows it
+  RandomStream random;
+  std::vector<AnyTarget> filters;  // none if that is another rank
+  std::vector<Tally> tallies;
+  std::optional<LocalFrame> anchor{};                        // where positions are counted from in the output
+  std::vector<std::vector<Segment>> segments{};              // of each filter, of a geodetic target
+  double before = std::numeric_limits<double>::quiet_NaN();  // the time of the row before
+  std::deque<Row> rows{};                                    // whose tags are their numbers
+  std::size_t taken = 0;
+  std::size_t measurements = 0;  // of them
+
+  const Row& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
+
+  /// The frame of a row's estimate.
+  const LocalFrame& frame(std::size_t filter, std::size_t tag) const {
+    const auto& all = segments[filter];
+    const auto after =
+        std::find_if(all.begin() + 1, all.end(), [&](const auto& segment) { return segment.first_tag > tag; });
+    return std::prev(after)->frame;
+  }
+};
+
+Eigen::Matrix3d matrix(const std::array<Position, 3>& rows) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows[0].data());
+}
+
+template <class Add>
+void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (parts[p].holds(roll)) add(sums[p]);
+}
+
+/// estimates.csv: a row for each filter and step.
+class Estimates {
+ public:
+  Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording)
+      : iso_times_(options.iso_times), recording_(recording), models_(model_names(filters)), table_(columns(filters)) {}
+
+  std::string header() const { return table_.csv_header(); }
+
+  std::string line(const std::string& track, const FilterSettings& settings, const TargetPoint& point,
+                   const std::optional<Geodetic>& place) const {
+    const auto axes = static_cast<std::size_t>(recording_.axes());
+    const std::size_t n = point.mean.size(), whole = n / axes * axes;  // a rate of turn comes after the derivatives
+    std::vector<Cell> cells = {point.time};
+    if (iso_times_) cells.emplace_back(iso_time(point.time));
+    if (recording_.has_tracks()) cells.emplace_back(track);
+    cells.emplace_back(settings.name);
+    const auto add = [&](std::size_t orders, const auto& number) {
+      for (std::size_t order = 0; order < orders; ++order)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::size_t i = order * axes + axis;
+          cells.push_back(axis < axes && i < whole ? Cell(number(i)) : Cell());
+        }
+    };
+    add(3, [&](std::size_t i) { return point.mean[i]; });
+    add(2, [&](std::size_t i) { return std::sqrt(point.covariance[i * (n + 1)]); });
+    cells.push_back(point.nis ? Cell(*point.nis) : Cell());
+    if (turns_) cells.push_back(n > whole ? Cell(point.mean[whole] / degree) : Cell());
+    for (const auto& model : models_) {
+      const auto own = std::find(settings.models.begin(), settings.models.end(), model) - settings.models.begin();
+      const auto j = static_cast<std::size_t>(own);
+      cells.push_back(j < settings.models.size() ? Cell(point.weights[j]) : Cell());
+    }
+    cells.emplace_back(settings.models[point.most_likely_mode]);
+    if (place) {
+      cells.emplace_back(place->latitude_deg);
+      cells.emplace_back(place->longitude_deg);
+      cells.push_back(axes == 3 ? Cell(place->altitude_m) : Cell());
+    }
+    return table_.csv_line(cells);
+  }
+
+ private:
+  std::vector<ResultColumn> columns(const std::vector<FilterSettings>& filters) {
+    std::vector<std::string> keys = {"time_s"};
+    if (iso_times_) keys.emplace_back("time_utc");
+    if (recording_.has_tracks()) keys.emplace_back("track");
+    for (const char* key :
+         {"filter", "x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps", "ax_mps2", "ay_mps2", "az_mps2", "sigma_x_m",
+          "sigma_y_m", "sigma_z_m", "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps", "nis"})
+      keys.emplace_back(key);
+    for (const auto& filter : filters)
+      for (const auto& motion : filter.motions) turns_ |= !motion.linear();
+    if (turns_) keys.emplace_back("turn_rate_deg_s");
+    for (const auto& model : models_) keys.push_back("weight_" + model);
+    keys.emplace_back("most_likely");
+    if (recording_.geodetic())
+      for (const char* key : {"latitude_deg", "longitude_deg", "altitude_m"}) keys.emplace_back(key);
+    std::vector<ResultColumn> columns;
+    for (auto& key : keys) columns.push_back({.key = std::move(key)});
+    return columns;
+  }
+
+  bool iso_times_;
+  const RecordingReader& recording_;
+  std::vector<std::string> models_;
+  bool turns_ = false;
+  ResultTable table_;
+};
+
+/// All filters on all targets of one recording.
+class TrackRun {
+ public:
+  TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
+           TrackSinks sinks, TrackShares& shares)
+      : options_(options),
+        recording_(recording),
+        axes_(recording.axes()),
+        filters_(filters),
+        sinks_(sinks),
+        shares_(shares),
+        estimates_(options, filters, recording) {
+    outcome_.filters.resize(filters.size());
+    for (std::size_t f = 0; f < filters.size(); ++f) {
+      prototypes_.emplace_back(choice_of(filters[f], axes_));
+      for (auto& part : outcome_.filters[f].sums) part.weights.assign(filters[f].models.size(), 0.0);
+      keeps_all_ |= filters[f].smooth;
+    }
+  }
+
+  TrackOutcome run() {
+    if (sinks_.estimates) sinks_.estimates->write(estimates_.header());
+    const auto total = recording_.csv().bytes_total();
+    Progress progress(file(), total.value_or(1), options_.output.quiet || !total || !shares_.first());
+    std::uint64_t done = 0;
+    for (Row row; recording_.next(row);) {
+      take(row);
+      progress.advance(recording_.csv().bytes_read() - done);
+      done = recording_.csv().bytes_read();
+    }
+    progress.finish();
+    if (options_.predict_to) predict();
+    for (auto& [name, target] : targets_) end(name, target);
+    shares_.finish();
+    if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
+    outcome_.tracks = targets_.size();
+    if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;
+    return std::move(outcome_);
+  }
+
+ private:
+  const std::string& file() const { return recording_.file(); }
+
+  /// A last step of each target that ended before the time asked for, without a measurement. A time of day is on the
+  /// day of the target's last row, or the next.
+  void predict() {
+    for (auto& [name, target] : targets_) {
+      if (!shares_.concerns(target.rank)) continue;
+      const bool of_day = options_.predict_to_time_of_day && recording_.times_of_day();
+      Row row{.line = target.rows.back().line, .track = name, .predicted = true};
+      row.plot.time = of_day ? time_of_day_after(target.before, *options_.predict_to) : *options_.predict_to;
+      if (row.plot.time <= target.before) continue;
+      step(target, std::move(row));
+      ++outcome_.predicted;
+    }
+  }
+
+  void take(Row& row) {
+    if (options_.iso_times && recording_.times_of_day()) refuse_dates(row);
+    count(row);
+    auto found = targets_.find(row.track);
+    if (found == targets_.end()) {
+      const int rank = shares_.rank_of(targets_.size());
+      found = targets_
+                  .emplace(row.track, Target{rank, stream_of(options_.seed, row.track),
+                                             shares_.follows(rank) ? prototypes_ : std::vector<AnyTarget>{},
+                                             std::vector<Tally>(filters_.size())})
+                  .first;
+    }
+    Target& target = found->second;
+    if (recording_.geodetic() && axes_seen(row.plot, axes_) > 0 && !target.anchor) begin_frames(target, row);
+    if (!shares_.concerns(target.rank)) return;
+    if (options_.radar.sigma) {
+      if (axes_seen(row.plot, axes_) == axes_)
+        see_by_radar(row, *where(row, target), *options_.radar.sigma, radar_at_, target.random, file());
+      else
+        row.plot = AnyPlot::missed(row.plot.time);
+    }
+    measured(row, target);
+    step(target, std::move(row));
+  }
+
+  /// What the recording holds.
+  void count(const Row& row) {
+    const int axes = axes_seen(row.plot, axes_);
+    ++outcome_.rows;
+    if (row.measured()) ++outcome_.measurements;
+    if (axes > 0 && axes < axes_) ++outcome_.partial;
+    if (row.plot.sensor == AnyPlot::Sensor::bearing) ++outcome_.bearings;
+    if (!recording_.has_sensors()) return;
+    ++outcome_.sensors[row.sensor];
+    const auto known = [&](std::optional<double> Accuracy::*sigma) {
+      return std::any_of(filters_.begin(), filters_.end(), [&](const FilterSettings& filter) {
+        return (filter.accuracy_of(row.sensor).*sigma).has_value();
+      });
+    };
+    if (is_moving(row.plot, axes_) && !known(&Accuracy::velocity_mps)) ++outcome_.velocity_unknown[row.sensor];
+    if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))
+      ++outcome_.range_rate_unknown[row.sensor];
+  }
+
+  /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of
+  /// all for good.
+  void begin_frames(Target& target, const Row& row) {
+    const Geodetic here = place_of(row.plot, axes_, 0.0);
+    if (!file_anchor_) file_anchor_ = recording_.origin().value_or(here);
+    target.anchor.emplace(fixed_ ? *file_anchor_ : recording_.origin().value_or(here), axes_);
+    const bool near = !far_away(target.anchor->to_local(here));
+    for (const auto& filter : filters_) {
+      const bool stays = fixed_ || near || filter.start == StartRule::given;
+      target.segments.push_back({{0, 0, stays ? *target.anchor : LocalFrame(here, axes_)}});
+    }
+  }
+
+  /// So far from the origin of a frame its axes are no longer east and north.
+  bool far_away(const Position& position) const {
+    return (axes_ == 1 ? std::abs(position[0]) : std::sqrt(position[0] * position[0] + position[1] * position[1])) >
+           50e3;
+  }
+
+  /// Where a row's measurement was, about where positions are counted from.
+  std::optional<Position> where(const Row& row, const Target& target) const {
+    if (!recording_.geodetic() || row.plot.sensor != AnyPlot::Sensor::components)
+      return position_of(row.plot, axes_, radar_at_);
+    if (axes_seen(row.plot, axes_) == 0) return std::nullopt;
+    return target.anchor->to_local(place_of(row.plot, axes_, 0.0));
+  }
+
+  /// What a row measured, perhaps after a simulated radar has seen it.
+  void measured(const Row& row, const Target& target) {
+    const bool is_seen = axes_seen(row.plot, axes_) == axes_;
+    if (is_seen && row.plot.sensor != AnyPlot::Sensor::components) validate(row);
+    const bool judged = row.truth && is_seen;
+    if (!judged && !sinks_.page) return;
+    const auto position = where(row, target);
+    if (judged)
+      add_by_part(outcome_.raw, row.roll_deg, [&](Sums& sums) {
+        for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add((*position)[axis] - (*row.truth)[axis]);
+      });
+    if (sinks_.page)
+      sinks_.page->measured(row, position, target.anchor ? std::optional(target.anchor->origin()) : std::nullopt);
+  }
+
+  /// Where a radar's measurement is converted by the standard conversion.
+  void validate(const Row& row) {
+    Validity& validity = outcome_.validity;
+    ++validity.measurements;
+    const double range = row.plot.z[0];
+    double worst = 0.0;
+    for (const auto& filter : filters_) {
+      if (filter.radar_measurement != RadarForm::standard) continue;
+      const auto& sigma = filter.accuracy_of(row.sensor).radar;
+      const double value = range * sigma[1] * sigma[1] / sigma[0];
+      worst = std::max(worst, value);
+      if (value >= Validity::limit)
+        validity.sigma_range_needed = std::max(validity.sigma_range_needed, value * sigma[0] / Validity::limit);
+    }
+    if (worst < Validity::limit || validity.outside++ > 0) return;
+    validity.first_line = row.line;
+    validity.first_value = worst;
+    validity.first_range = range;
+  }
+
+  void step(Target& target, Row row) {
+    const double time = row.plot.time;
+    const bool again = time == target.before;  // of another sensor: nothing starts from two rows of one time
+    target.before = time;
+    row.plot.tag = target.taken++;
+    if (row.measured()) ++target.measurements;
+    target.rows.push_back(std::move(row));
+    if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
+    auto news = shares_.by(target.rank, [&] { return followed(target, again); });
+    if (!news) return;
+    std::optional<double> least;  // of the filters' NIS
+    for (Said& said : news->said) {
+      const auto nis = said.point.tag + 1 == target.taken ? said.point.nis : std::nullopt;
+      if (nis && (!least || *nis < *least)) least = nis;
+      tell(target, said);
+    }
+    stepped(target.rows.back(), target.tallies, news->tallies);
+    if (least && *least > Outliers::limit) {
+      Outliers& outliers = outcome_.outliers;
+      ++outliers.count;
+      if (*least > outliers.worst_nis) {
+        outliers.worst_nis = *least;
+        outliers.worst_line = target.rows.back().line;
+      }
+    }
+    target.tallies = std::move(news->tallies);
+  }
+
+  /// What the filters make of the last row.
+  News followed(Target& target, bool again) {
+    News news;
+    const Row& row = target.rows.back();
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      AnyTarget& filter = target.filters[f];
+      try {
+        if (!again || filter.running()) {
+          const AnyPlot plot = plot_for(target, f, row);
+          TargetPoint last;
+          filter.follow({&plot, 1}, [&](const TargetPoint& point) {
+            if (!filters_[f].smooth && !point.is_start) news.said.push_back(said(target, f, point));
+            last = point;
+          });
+          if (target.anchor && !fixed_ && filter.running()) move_frame(target, f, last);
+        }
+      } catch (const std::exception& error) {
+        refuse_failure(f, row, error);
+      }
+      news.tallies.push_back({filter.rejected(), filter.starts()});
+    }
+    return news;
+  }
+
+  /// What a row measures, in the frame of the filter and with the covariances that it believes.
+  AnyPlot plot_for(const Target& target, std::size_t f, const Row& row) const {
+    const AnyTarget& filter = target.filters[f];
+    AnyPlot plot = row.plot;
+    const bool starts_from_it = filters_[f].start != StartRule::given || target.anchor;
+    if (!filter.running() && starts_from_it && axes_seen(plot, axes_) < axes_) {
+      plot = AnyPlot::missed(plot.time);
+      plot.tag = row.plot.tag;
+    } else if (target.anchor && plot.sensor == AnyPlot::Sensor::components) {
+      const LocalFrame& frame = target.segments[f].back().frame;
+      const int seen = axes_seen(plot, axes_);
+      Position at{};
+      double altitude = 0.0;
+      if (seen < axes_) {  // what the row does not tell is at the target's
+        std::copy_n(filter.output().mean.begin(), axes_, at.begin());
+        altitude = frame.to_geodetic(at).altitude_m;
+      }
+      if (seen > 0) at = frame.to_local(place_of(plot, axes_, altitude));
+      plot = in_frame(plot, frame, at, axes_);
+    }
+    return believed(filters_[f], row.sensor, plot, axes_, radar_at_);
+  }
+
+  /// Moves the frame of a filter along with a target that has gone far.
+  void move_frame(Target& target, std::size_t f, const TargetPoint& last) {
+    AnyTarget& filter = target.filters[f];
+    auto& segments = target.segments[f];
+    if (segments.back().starts == 0) segments.back().starts = filter.starts();
+    if (filter.starts() > segments.back().starts) {
+      segments.push_back({target.taken - 1, filter.starts(), segments.back().frame});
+      if (!filters_[f].smooth) segments.erase(segments.begin());
+    }
+    Position position{};
+    std::copy_n(last.mean.begin(), axes_, position.begin());
+    if (!far_away(position)) return;
+    LocalFrame& frame = segments.back().frame;
+    const Eigen::Matrix3d turn = matrix(frame.local_axes(position));
+    const Eigen::Vector3d shift = -turn * Eigen::Map<const Eigen::Vector3d>(position.data());
+    std::vector<double> A, b;
+    for (Eigen::Index i = 0; i < axes_; ++i) {
+      for (Eigen::Index j = 0; j < axes_; ++j) A.push_back(turn(i, j));
+      b.push_back(shift(i));
+    }
+    if (filter.transform(A, b)) frame = LocalFrame(frame.to_geodetic(position), axes_);
+  }
+
+  static Said said(const Target& target, std::size_t f, const TargetPoint& point) {
+    Said said{f, point, std::nullopt};
+    if (target.anchor) said.frame = target.frame(f, point.tag).origin();
+    return said;
+  }
+
+  /// Takes down what a filter says of a row.
+  void tell(const Target& target, Said& said) {
+    TargetPoint& point = said.point;
+    const Row& row = target.row(point.tag);
+    const FilterSettings& filter = filters_[said.filter];
+    const std::size_t n = point.mean.size();
+    if (!row.predicted) {
+      const auto quantities = static_cast<std::size_t>(believed(filter, row.sensor, row.plot, axes_).size);
+      add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
+        ++sums.count;
+        for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
+          sums.sigma[axis].add_square(point.covariance[axis * (n + 1)]);
+          if (row.truth) sums.error[axis].add(point.mean[axis] - (*row.truth)[axis]);
+        }
+        for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
+        if (point.nis) sums.innovations.add_nis(*point.nis, quantities);
+      });
+    }
+    if (!sinks_.estimates && !sinks_.page) return;
+    std::optional<Geodetic> place;
+    if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
+    if (sinks_.estimates) sinks_.estimates->write(estimates_.line(row.track, filter, point, place));
+    if (sinks_.page) sinks_.page->estimated(row, said.filter, point);
+  }
+
+  /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
+  /// point. Of the covariance, the variances are told. Returns where it is.
+  Geodetic tell_from(const LocalFrame& anchor, const LocalFrame& frame, TargetPoint& point) const {
+    const auto axes = static_cast<std::size_t>(axes_);
+    const std::size_t n = point.mean.size();
+    Position position{};
+    std::copy_n(point.mean.begin(), axes, position.begin());
+    const Eigen::Matrix3d turn = matrix(frame.local_axes(position));
+    for (std::size_t at = 0; at + axes <= n; at += axes) {
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+      for (std::size_t i = 0; i < axes; ++i) {
+        mean(static_cast<Eigen::Index>(i)) = point.mean[at + i];
+        for (std::size_t j = 0; j < axes; ++j)
+          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+              point.covariance[(at + i) * n + at + j];
+      }
+      mean = turn * mean;
+      covariance = turn * covariance * turn.transpose();
+      for (std::size_t i = 0; i < axes; ++i) {
+        point.mean[at + i] = mean(static_cast<Eigen::Index>(i));
+        point.covariance[(at + i) * (n + 1)] = covariance.diagonal()(static_cast<Eigen::Index>(i));
+      }
+    }
+    const Geodetic place = frame.to_geodetic(position);
+    const Position told = anchor.to_local(place);
+    std::copy_n(told.begin(), axes, point.mean.begin());
+    return place;
+  }
+
+  /// What the step with a row changed.
+  void stepped(const Row& row, const std::vector<Tally>& before, const std::vector<Tally>& after) {
+    std::size_t refusing = 0;  // filters whose gate turns the measurement away
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      const bool rejected = after[f].rejected > before[f].rejected;
+      if (rejected) ++refusing;
+      if (sinks_.page && rejected) sinks_.page->rejected(row, f);
+      if (sinks_.page && before[f].starts > 0 && after[f].starts > before[f].starts) sinks_.page->restarted(row, f);
+    }
+    if (refusing == filters_.size() && outcome_.refused_by_all++ == 0) outcome_.first_refused_line = row.line;
+  }
+
+  /// The end of a target whose rows have all been read: the steps as smoothing sees them, and when the modes changed.
+  void end(const std::string& name, Target& target) {
+    auto news = shares_.by(target.rank, [&] {
+      News last;
+      for (std::size_t f = 0; f < filters_.size(); ++f) {
+        try {
+          if (filters_[f].smooth)
+            target.filters[f].smoothed([&](const TargetPoint& point) {
+              if (!point.is_start) last.said.push_back(said(target, f, point));
+            });
+        } catch (const std::exception& error) {
+          refuse_failure(f, target.rows.back(), error);
+        }
+        last.histories.push_back(filters_[f].explain ? target.filters[f].explained() : std::vector<ModeStay>{});
+      }
+      return last;
+    });
+    if (!news) return;
+    for (Said& said : news->said) tell(target, said);
+    bool started = true;
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      FilterOutcome& own = outcome_.filters[f];
+      const auto& [rejected, starts] = target.tallies[f];
+      own.rejected += rejected;
+      own.restarts += starts > 0 ? starts - 1 : 0;
+      if (filters_[f].explain) own.histories[name] = std::move(news->histories[f]);
+      started &= starts > 0;
+      constexpr std::size_t fewest = 5;
+      if (rejected < fewest || 5 * rejected <= target.measurements) continue;
+      Refusals& worst = outcome_.refusals;
+      ++worst.many;
+      if (rejected * worst.measurements > worst.rejected * target.measurements)
+        worst = {worst.many, name, &filters_[f], rejected, target.measurements};
+    }
+    if (!started) outcome_.never_started.push_back(name);
+    target.rows.clear();
+  }
+
+  [[noreturn]] void refuse_failure(std::size_t f, const Row& row, const std::exception& error) const {
+    throw InputError(message(
+        {.where = fmt::format("{}:{}", file(), row.line),
+         .what = fmt::format("filter '{}' at time {} s: {}", filters_[f].name, shortest(row.plot.time), error.what()),
+         .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
+  }
+
+  [[noreturn]] void refuse_dates(const Row& row) const {
+    throw InputError(message({.where = fmt::format("{}:{}", file(), row.line),
+                              .what = "--iso-times writes dates, and a time of day has none",
+                              .remedy = "leave out --iso-times, or write the date before the times of the recording"}));
+  }
+
+  [[noreturn]] void refuse_nothing() const {
+    if (outcome_.rows == 0 && !options_.recording.select.empty())
+      throw InputError(message({.where = file(),
+                                .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
+                                .remedy = "see how the file writes the value"}));
+    throw InputError(message(
+        {.where = file(),
+         .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
+                                     : "there is too little for every filter to start",
+         .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
+         .expected = "at least three measurements (two rows if the start is given)",
+         .remedy = outcome_.bearings == outcome_.measurements && outcome_.bearings > 0
+                       ? "bearings do not tell where a target starts; give start = \"given\" with start_mean, "
+                         "start_covariance_diagonal and start_time_s"
+                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
+                                          : "give more rows, or start = \"given\" with start_time_s"}));
+  }
+
+  const TrackOptions& options_;
+  RecordingReader& recording_;
+  int axes_;
+  const std::vector<FilterSettings>& filters_;
+  TrackSinks sinks_;
+  TrackShares& shares_;
+  Estimates estimates_;
+  TrackOutcome outcome_;
+  std::vector<AnyTarget> prototypes_;  // each filter before its first row
+  bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two
+  std::map<std::string, Target, std::less<>> targets_;
+  std::optional<Geodetic> file_anchor_;
+  bool fixed_ = options_.radar.sigma || recording_.has_truth();  // whether all is about one point
+  Position radar_at_ = options_.radar.place();
+};
+
+}  // namespace
+
+TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares) {
+  return TrackRun(options, recording, filters, sinks, shares).run();
+}
+
+}  // namespace sigmax::apps

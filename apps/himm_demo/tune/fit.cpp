@@ -1,0 +1,503 @@
+#include "himm_demo/tune/fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#ifdef SIGMAX_NLOPT
+#include <nlopt.hpp>
+#endif
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sigmax/hybrid/fit.hpp>
+#include <sigmax/hybrid/fit_target.hpp>
+
+#include "support/angle.hpp"
+#include "support/parallel.hpp"
+#include "support/spelling.hpp"
+
+namespace sigmax::apps {
+
+bool can_search() {
+#ifdef SIGMAX_NLOPT
+  return true;
+#else
+  return false;
+#endif
+}
+
+namespace {
+
+constexpr std::size_t rounds = 2;           // of a search and the transition's EM
+constexpr std::size_t most_em_steps = 3;    // in each
+constexpr double least_improvement = 1e-4;  // nats a row
+
+constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
+constexpr std::size_t most_sweeps = 4;
+
+/// How often a search of n numbers may ask.
+std::size_t budget(std::size_t numbers) { return numbers == 0 ? 1 : 25 * (numbers + 1); }
+
+/// A number of a filter's settings that is fitted, and where it stands.
+struct FreeNumber {
+  FitParameter parameter;
+  std::function<void(FilterSettings&, double)> set;
+  bool sensor = false;    ///< whether it is a sensor's
+  bool relative = false;  ///< whether `set` changes what is there by it
+};
+
+double rounded(double value) {
+  return value == 0.0 ? value : std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr);
+}
+
+void add_motions(const FilterSettings& settings, std::vector<FreeNumber>& numbers) {
+  for (std::size_t j = 0; j < settings.motions.size(); ++j)
+    for (const auto which :
+         {MotionParameter::sigma_w, MotionParameter::tau, MotionParameter::turn_rate, MotionParameter::turn_drift}) {
+      const MotionChoice& motion = settings.motions[j];
+      const bool linear = which == MotionParameter::turn_rate;
+      if (!motion.known().has_parameter(which) || !(linear || motion[which] > 0.0)) continue;
+      const auto& known = motion_parameters()[static_cast<std::size_t>(which)];
+      FreeNumber& number = numbers.emplace_back();
+      number.parameter.name = fmt::format("{} of {}", known.key, settings.models[j]);
+      number.parameter.start = motion[which];
+      number.parameter.scale = linear ? Scale::linear : Scale::logarithmic;
+      number.set = [=](FilterSettings& changed, double value) { changed.motions[j][which] = value; };
+    }
+}
+
+/// The accuracy of a sensor: that of all where rows name none.
+Accuracy& accuracy_in(FilterSettings& settings, const std::string& sensor) {
+  return sensor.empty() ? settings.accuracy : settings.sensors.try_emplace(sensor, settings.accuracy).first->second;
+}
+
+void add_sensor(const FilterSettings& settings, const std::string& name, const TuneSensor& sensor, int axes,
+                std::vector<FreeNumber>& numbers) {
+  const Accuracy& now = settings.accuracy_of(name);
+  const auto add = [&](std::string_view what, double start, const std::function<void(Accuracy&, double)>& set) {
+    FreeNumber& number = numbers.emplace_back();
+    number.parameter.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name);
+    number.sensor = true;
+    number.parameter.start = start;
+    number.set = [=](FilterSettings& changed, double value) { set(accuracy_in(changed, name), value); };
+  };
+  if (sensor.position) {
+    const auto& sigma = now.position_m;
+    const double ratio = sigma.size() == 1 ? 1.0 : sigma[1] / sigma[0];
+    const double height = sigma.back();
+    const bool one = axes < 3 && sigma.size() == 1;
+    add("sigma_position_m", sigma[0], [=](Accuracy& accuracy, double value) {
+      if (one)
+        accuracy.position_m = {value};
+      else
+        accuracy.position_m = {value, ratio * value, accuracy.position_m.back()};
+    });
+    if (axes == 3)
+      add("height's sigma_position_m", height,
+          [](Accuracy& accuracy, double value) { accuracy.position_m.back() = value; });
+  }
+  if (sensor.velocity && now.velocity_mps)
+    add("sigma_velocity_mps", *now.velocity_mps,
+        [](Accuracy& accuracy, double value) { accuracy.velocity_mps = value; });
+  if (sensor.range_rate && now.range_rate_mps)
+    add("sigma_range_rate_mps", *now.range_rate_mps,
+        [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
+  if (sensor.radar || sensor.bearing)
+    add("sigma_azimuth_deg", now.radar[1] / degree,
+        [](Accuracy& accuracy, double value) { accuracy.radar[1] = value * degree; });
+  if (!sensor.radar) return;
+  add("sigma_range_m", now.radar[0], [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
+  if (axes == 3)
+    add("sigma_elevation_deg", now.radar[2] / degree,
+        [](Accuracy& accuracy, double value) { accuracy.radar[2] = value * degree; });
+}
+
+/// Leaving for another mode becomes more likely, or more possible, by a factor.
+void leave(FilterSettings& settings, double factor) {
+  for (double& sojourn : settings.sojourn_s) sojourn /= factor;
+  for (std::size_t i = 0; i < settings.transition.size(); ++i) {
+    auto& row = settings.transition[i];
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (j != i) row[j] *= factor;
+    const double total =
+        settings.fuzzy ? *std::max_element(row.begin(), row.end()) : std::accumulate(row.begin(), row.end(), 0.0);
+    for (double& value : row) value /= total;
+  }
+}
+
+/// Whether there is a transition to fit.
+bool has_transition(const FilterSettings& settings, const TuneOptions& options) {
+  return settings.models.size() > 1 && settings.scheme != Scheme::independent && options.fits("transition");
+}
+
+/// All that a search may change: the parameters of the models, the sensors' standard deviations, and one factor on
+/// leaving any mode. By the RMSE, which a common factor of all noises leaves as it is, the sensors stay as they are.
+std::vector<FreeNumber> free_numbers(const FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
+  std::vector<FreeNumber> numbers;
+  if (options.fits("models")) add_motions(settings, numbers);
+  if (options.fits("sensors") && options.objective != Objective::rmse)
+    for (const auto& [name, sensor] : data.sensors) add_sensor(settings, name, sensor, data.axes, numbers);
+  if (has_transition(settings, options))
+    numbers.push_back({{.name = "leaving a mode, times", .start = 1.0, .reach = 4.0}, leave, false, true});
+  return numbers;
+}
+
+/// The settings with these numbers.
+FilterSettings with(FilterSettings settings, const std::vector<FreeNumber>& numbers,
+                    const std::vector<double>& values) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].set(settings, values[i]);
+  return settings;
+}
+
+/// So many numbers are fitted, those of the transition included.
+std::size_t count_of(const std::vector<FreeNumber>& numbers, const FilterSettings& settings,
+                     const TuneOptions& options) {
+  if (!has_transition(settings, options)) return numbers.size();
+  const std::size_t modes = settings.models.size();  // the factor on leaving is one of those of the transition
+  return numbers.size() - 1 + (settings.sojourn_s.empty() ? modes * (modes - 1) : modes);
+}
+
+/// Every fitted number to four digits, as people write them; transitions stay normalised.
+void round_off(FilterSettings& settings) {
+  for (auto& motion : settings.motions)
+    for (double& value : motion.parameters) value = rounded(value);
+  const auto round_accuracy = [](Accuracy& accuracy) {
+    for (double& sigma : accuracy.position_m) sigma = rounded(sigma);
+    if (accuracy.velocity_mps) accuracy.velocity_mps = rounded(*accuracy.velocity_mps);
+    if (accuracy.range_rate_mps) accuracy.range_rate_mps = rounded(*accuracy.range_rate_mps);
+    accuracy.radar = {rounded(accuracy.radar[0]), rounded(accuracy.radar[1] / degree) * degree,
+                      rounded(accuracy.radar[2] / degree) * degree};
+  };
+  round_accuracy(settings.accuracy);
+  for (auto& [name, accuracy] : settings.sensors) round_accuracy(accuracy);
+  for (double& sojourn : settings.sojourn_s) sojourn = rounded(sojourn);
+  for (std::size_t i = 0; i < settings.transition.size(); ++i) {
+    auto& row = settings.transition[i];
+    double others = 0.0;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (settings.fuzzy || j != i) row[j] = rounded(row[j]);
+      if (j != i) others += row[j];
+    }
+    if (!settings.fuzzy) row[i] = std::strtod(fmt::format("{:.12f}", 1.0 - others).c_str(), nullptr);
+  }
+}
+
+/// Other motions in place of the filter's: models that it had keep their parameters.
+FilterSettings with_models(const FilterSettings& settings, const std::string& joined) {
+  FilterSettings result = settings;
+  result.motions.clear();
+  std::vector<std::string_view> known;
+  for (const auto& motion : known_motions()) known.push_back(motion.name);
+  std::vector<bool> used(settings.motions.size(), false);
+  for (std::size_t from = 0; from <= joined.size();) {
+    const std::size_t to = std::min(joined.find('+', from), joined.size());
+    const std::string name = joined.substr(from, to - from);
+    from = to + 1;
+    if (!known_motion(name))
+      throw UsageError(message({.what = "--models",
+                                .found = in_quotes(name),
+                                .expected = fmt::format("one of {}, joined by + as dwna+dwpa", fmt::join(known, ", ")),
+                                .remedy = nearest_word(name, known)}));
+    std::size_t same = 0;
+    while (same < used.size() && (used[same] || settings.motions[same].name != name)) ++same;
+    if (same < used.size()) used[same] = true;
+    result.motions.push_back(same < used.size() ? settings.motions[same] : settings.motions.front());
+    result.motions.back().name = name;
+  }
+  result.models = names_of(result.motions);
+  const std::size_t modes = result.models.size();
+  if (modes == settings.models.size()) return result;
+  const double others = static_cast<double>(std::max<std::size_t>(modes, 2) - 1);
+  result.transition.assign(modes,
+                           std::vector<double>(modes, result.fuzzy ? result.leaving_possibility : 0.05 / others));
+  for (std::size_t i = 0; i < modes; ++i) result.transition[i][i] = result.fuzzy || modes == 1 ? 1.0 : 0.95;
+  if (!result.sojourn_s.empty()) {
+    const double usual = result.sojourn_s.front();
+    result.sojourn_s.assign(modes > 1 ? modes : 0, usual);
+  }
+  return result;
+}
+
+/// The settings by which predictions are compared. What a radar measured is predicted in its own space whatever the
+/// settings: the covariance of a conversion depends on what was measured, and so is not that of a density. A target at
+/// the radar itself, seen in directions without error, would explain everything.
+FilterSettings judged_settings(FilterSettings settings, Objective objective) {
+  if (objective == Objective::prequential) settings.radar_measurement = RadarForm::polar;
+  return settings;
+}
+
+/// Looks for the least value of a function from the search's start, by NLopt's BOBYQA (Powell 2009), or Sbplx for one
+/// number alone; to 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
+#ifdef SIGMAX_NLOPT
+void search(const std::function<double(const std::vector<double>&)>& function, const FitSearch& from,
+            std::size_t most) {
+  const auto n = static_cast<unsigned>(from.start.size());
+  nlopt::opt optimiser(n == 1 ? nlopt::LN_SBPLX : nlopt::LN_BOBYQA, n);
+  optimiser.set_lower_bounds(from.lower);
+  optimiser.set_upper_bounds(from.upper);
+  optimiser.set_initial_step(from.step);
+  optimiser.set_xtol_abs(0.02);
+  optimiser.set_ftol_abs(1e-5);
+  optimiser.set_maxeval(static_cast<int>(most));
+  using Function = std::function<double(const std::vector<double>&)>;
+  const auto ask = [](const std::vector<double>& at, std::vector<double>&, void* asked) {
+    return (*static_cast<const Function*>(asked))(at);
+  };
+  Function asked = function;
+  optimiser.set_min_objective(ask, &asked);
+  std::vector<double> at = from.start;
+  double least = 0.0;
+  try {
+    optimiser.optimize(at, least);
+  } catch (const std::runtime_error&) {  // rounding, or its model broke down: what was found before counts
+  }
+}
+
+#else
+void search(const std::function<double(const std::vector<double>&)>&, const FitSearch&, std::size_t) {
+  throw std::logic_error("this build has no NLopt");
+}
+#endif
+
+/// One fit: of settings, to the rows that count. It draws no random numbers but those of the start.
+class Fitter {
+ public:
+  /// Calls advance(work) as it goes.
+  Fitter(const TuneData& data, const TuneOptions& options, RowCounts counts,
+         const std::function<void(std::size_t)>& advance)
+      : data_(data), options_(options), counts_(std::move(counts)), advance_(advance) {}
+
+  struct Found {
+    FilterSettings settings{};
+    double value = std::numeric_limits<double>::infinity();  ///< of the objective
+  };
+
+  /// From far away: great steps, then a search from start number `start` about where they led.
+  Found fit(const FilterSettings& settings, std::size_t start) const {
+    Found best{settings, value(settings)};
+    scan(best);
+    for (std::size_t round = 0; round < rounds; ++round)
+      if (!improve(best, round == 0 ? start : 0, 1.0)) {
+        advance_((rounds - 1 - round) * budget(free_numbers(settings, data_, options_).size()));
+        break;
+      }
+    return best;
+  }
+
+  /// From near by.
+  Found refine(const FilterSettings& settings) const {
+    Found best{settings, value(settings)};
+    improve(best, 0, 0.3);
+    return best;
+  }
+
+ private:
+  /// The objective; infinite where the filter fails.
+  double value(const FilterSettings& settings) const {
+    try {
+      const double found =
+          objective_of(losses(data_, judged_settings(settings, options_.objective), options_.objective),
+                       options_.objective, counts_);
+      return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+    } catch (const std::exception&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
+  bool take_if_better(Found& best, const FilterSettings& settings) const {
+    const double found = value(settings);
+    if (!(found < best.value)) return false;
+    best = {settings, found};
+    return true;
+  }
+
+  /// Whether there may be more to gain.
+  bool improve(Found& best, std::size_t start, double step) const {
+    const double before = best.value;
+    search_numbers(best, start, step);
+    if (has_transition(best.settings, options_)) learn_transition(best);
+    if (options_.fits("lift")) try_lifts(best);
+    return before - best.value > least_improvement;
+  }
+
+  /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
+  /// are thought exact are explained by a wild target, or all by great errors.
+  void scan(Found& best) const {
+    auto numbers = free_numbers(best.settings, data_, options_);
+    std::erase_if(numbers, [](const FreeNumber& number) { return number.parameter.scale != Scale::logarithmic; });
+    std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
+    for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
+      const double before = best.value;
+      for (FreeNumber& number : numbers) {
+        const FilterSettings base = best.settings;
+        double taken = number.parameter.start;
+        for (const double factor : factors) {
+          FilterSettings tried = base;
+          number.set(tried, factor * number.parameter.start);
+          if (take_if_better(best, tried)) taken = factor * number.parameter.start;
+        }
+        if (!number.relative) number.parameter.start = taken;
+        advance_(factors.size());
+      }
+      if (before - best.value > least_improvement) continue;
+      advance_((most_sweeps - 1 - sweep) * factors.size() * numbers.size());
+      return;
+    }
+  }
+
+  void search_numbers(Found& best, std::size_t start, double step) const {
+    const auto numbers = free_numbers(best.settings, data_, options_);
+    std::vector<FitParameter> parameters;
+    for (const auto& number : numbers) {
+      parameters.push_back(number.parameter);
+      parameters.back().step = step * (number.parameter.scale == Scale::linear ? 1.0 : 0.7);
+    }
+    const std::size_t most = budget(numbers.size());
+    std::size_t asked = 0;
+    const auto loss = [&](const std::vector<double>& values) {
+      if (asked++ < most) advance_(1);
+      return value(with(best.settings, numbers, values));
+    };
+    const auto by_nlopt = [&](const auto& function, const FitSearch& from) { search(function, from, most - 1); };
+    const Fit found = fit_from(parameters, loss, by_nlopt, fit_search(parameters, options_.seed, start));
+    advance_(most - std::min(asked, most));
+    if (found.loss < best.value) best = {with(best.settings, numbers, found.values), found.loss};
+  }
+
+  /// EM for the transition, as long as it helps: the filters' weights are not exact, so that it need not.
+  void learn_transition(Found& best) const {
+    for (std::size_t k = 0; k < most_em_steps; ++k) {
+      const double before = best.value;
+      FilterSettings next = best.settings;
+      TransitionCounts counts(next.models.size(), next.fuzzy);
+      const FilterSettings judged = judged_settings(next, options_.objective);
+      try {
+        for (std::size_t t = 0; t < data_.tracks.size(); ++t)
+          count_transitions(
+              judged_choice(data_, judged), data_.plots(data_.tracks[t], judged),
+              [&](std::size_t row) { return counts_(t, row); }, counts);
+      } catch (const std::exception&) {
+        return;  // what cannot be smoothed is not learned from
+      }
+      if (next.sojourn_s.empty())
+        next.transition = counts.transition(next.transition);
+      else
+        next.sojourn_s = counts.sojourns(next.sojourn_s);
+      take_if_better(best, next);
+      if (!(before - best.value > least_improvement)) return;
+    }
+  }
+
+  /// The lift matters where one model lacks what another has.
+  void try_lifts(Found& best) const {
+    const auto& motions = best.settings.motions;
+    const auto other = [&](const MotionChoice& motion) {
+      return motion.known().derivatives != motions[0].known().derivatives || motion.linear() != motions[0].linear();
+    };
+    if (std::none_of(motions.begin(), motions.end(), other)) return;
+    for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
+      FilterSettings next = best.settings;
+      next.lift = lift;
+      if (lift != best.settings.lift) take_if_better(best, next);
+    }
+  }
+
+  const TuneData& data_;
+  const TuneOptions& options_;
+  RowCounts counts_;
+  const std::function<void(std::size_t)>& advance_;
+};
+
+/// The losses, or for each row that has a measurement a very great one where the filter fails.
+RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective objective) {
+  try {
+    return losses(data, judged_settings(settings, objective), objective);
+  } catch (const std::exception&) {
+    constexpr double of_failure = 1e6;
+    RowLosses result;
+    for (const TuneTrack& track : data.tracks)
+      for (auto& of_track = result.emplace_back(); const Row& row : track.rows)
+        of_track.push_back(row.measured() ? of_failure : std::numeric_limits<double>::quiet_NaN());
+    return result;
+  }
+}
+
+}  // namespace
+
+std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options) {
+  std::vector<std::string> names = options.models;
+  if (names.empty()) {
+    std::vector<std::string> motions;
+    for (const auto& motion : settings.motions) motions.push_back(motion.name);
+    names = {fmt::format("{}", fmt::join(motions, "+"))};
+    for (const auto& motion : motions)
+      if (std::find(names.begin(), names.end(), motion) == names.end()) names.push_back(motion);
+  }
+  std::vector<ModelSet> sets;
+  for (const auto& name : names) sets.push_back({name, with_models(settings, name)});
+  return sets;
+}
+
+std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
+  std::size_t work = 0;
+  for (const auto& [name, base] : model_sets(settings, options)) {
+    const auto numbers = free_numbers(base, data, options);
+    const auto scanned = static_cast<std::size_t>(std::count_if(
+        numbers.begin(), numbers.end(), [](const auto& each) { return each.parameter.scale == Scale::logarithmic; }));
+    const std::size_t search = budget(numbers.size());
+    work += options.starts * (most_sweeps * factors.size() * scanned + rounds * search) + options.folds * search;
+  }
+  return work;
+}
+
+TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
+                 const std::function<void(std::size_t work)>& advance) {
+  const auto all = [](std::size_t, std::size_t) { return true; };
+  const RowFolds folds = data.folds(options.folds);
+  const auto bases = model_sets(settings, options);
+  const std::size_t sets = bases.size();
+  std::vector<Fitter::Found> fitted(sets);
+  for_each_run(
+      sets * options.starts, options.threads,
+      [&](std::size_t i) { return Fitter(data, options, all, advance).fit(bases[i % sets].settings, i / sets); },
+      [&](std::size_t i, Fitter::Found&& found) {
+        if (i < sets || found.value < fitted[i % sets].value) fitted[i % sets] = std::move(found);
+      });
+  std::vector<std::vector<RowLosses>> without(sets, std::vector<RowLosses>(options.folds));
+  for_each_run(
+      sets * options.folds, options.threads,
+      [&](std::size_t i) {
+        const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != i / sets; };
+        FilterSettings found = Fitter(data, options, counts, advance).refine(fitted[i % sets].settings).settings;
+        round_off(found);
+        return judged(data, found, options.objective);
+      },
+      [&](std::size_t i, RowLosses&& found) { without[i % sets][i / sets] = std::move(found); });
+
+  TunedFilter tuned;
+  for (std::size_t c = 0; c <= sets; ++c) {
+    Candidate& candidate = tuned.candidates.emplace_back(Candidate{"as before", settings});
+    if (c > 0) {
+      candidate = {bases[c - 1].name, fitted[c - 1].settings};
+      round_off(candidate.settings);
+    }
+    RowLosses own = judged(data, candidate.settings, options.objective);
+    candidate.fitted = objective_of(own, options.objective);
+    tuned.held_out.push_back(c > 0 ? held_out(folds, without[c - 1]) : std::move(own));
+    candidate.held_out = objective_of(tuned.held_out[c], options.objective);
+    candidate.gain = mean_difference(tuned.held_out.front(), tuned.held_out[c]);
+    tuned.numbers.push_back(
+        c > 0 ? count_of(free_numbers(bases[c - 1].settings, data, options), bases[c - 1].settings, options) : 0);
+  }
+  tuned.selected = select_settings(tuned.held_out, tuned.numbers);
+  return tuned;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,89 @@
+#include "recording/plots.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "support/angle.hpp"
+#include "support/error.hpp"
+#include "support/missing.hpp"
+#include "support/output.hpp"
+#include "support/random.hpp"
+
+namespace sigmax::apps {
+
+std::optional<double> component_of(const AnyPlot& plot, int component) {
+  for (std::size_t i = 0; plot.sensor == AnyPlot::Sensor::components && i < static_cast<std::size_t>(plot.size); ++i)
+    if (plot.places[i] == component) return plot.z[i];
+  return std::nullopt;
+}
+
+int axes_seen(const AnyPlot& plot, int axes) {
+  if (plot.sensor == AnyPlot::Sensor::polar || plot.sensor == AnyPlot::Sensor::doppler) return axes;
+  int seen = 0;
+  for (int axis = 0; axis < axes; ++axis) seen += component_of(plot, axis) ? 1 : 0;
+  return seen;
+}
+
+bool is_moving(const AnyPlot& plot, int axes) {
+  return plot.sensor == AnyPlot::Sensor::components && axes_seen(plot, axes) < plot.size;
+}
+
+Geodetic place_of(const AnyPlot& plot, int axes, double altitude_m) {
+  return {*component_of(plot, 0), *component_of(plot, 1), axes == 3 ? component_of(plot, 2).value_or(altitude_m) : 0.0};
+}
+
+AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes) {
+  Position v{};
+  for (int i = 0; i < axes; ++i) v[static_cast<std::size_t>(i)] = component_of(plot, axes + i).value_or(0.0);
+  const auto turn = is_moving(plot, axes) ? frame.local_axes(at) : std::array<Position, 3>{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    const int axis = plot.places[i] - axes;
+    const auto column = [&](std::size_t row) { return turn[row][static_cast<std::size_t>(axis)]; };
+    plot.z[i] = axis < 0 ? at[static_cast<std::size_t>(plot.places[i])]
+                         : column(0) * v[0] + column(1) * v[1] + column(2) * v[2];
+  }
+  return plot;
+}
+
+std::optional<Position> position_of(const AnyPlot& plot, int axes, const Position& radar_at) {
+  if (axes_seen(plot, axes) == 0) return std::nullopt;
+  if (plot.sensor == AnyPlot::Sensor::components)
+    return Position{component_of(plot, 0).value_or(0.0), axes > 1 ? component_of(plot, 1).value_or(0.0) : 0.0,
+                    axes > 2 ? component_of(plot, 2).value_or(0.0) : 0.0};
+  const double range = plot.z[0], azimuth = plot.z[1], elevation = axes == 3 ? plot.z[2] : 0.0;
+  const double ground = range * std::cos(elevation);
+  return Position{radar_at[0] + ground * std::cos(azimuth), radar_at[1] + ground * std::sin(azimuth),
+                  radar_at[2] + range * std::sin(elevation)};
+}
+
+Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random) {
+  for (const std::size_t i : {1U, 2U, 0U}) exact[i] += sigma[i] * random.normal();
+  return exact;
+}
+
+/// The 64-bit FNV-1a of its name.
+RandomStream stream_of(std::uint64_t seed, std::string_view track) {
+  if (track.empty()) return {seed, 0};
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  for (const char byte : track) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+  return {seed, hash};
+}
+
+void see_by_radar(Row& row, const Position& position, const std::array<double, 3>& sigma, const Position& radar_at,
+                  RandomStream& random, const std::string& file) {
+  const double x = position[0] - radar_at[0], y = position[1] - radar_at[1], z = position[2] - radar_at[2];
+  const double ground = std::hypot(x, y);
+  const Sighting seen = measured({std::hypot(ground, z), std::atan2(y, x), std::atan2(z, ground)},
+                                 {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
+  if (!(seen[0] > 0.0))
+    throw InputError(message({.where = fmt::format("{}:{}", file, row.line),
+                              .what = "the simulated radar",
+                              .found = fmt::format("a range of {} m", shortest(seen[0])),
+                              .expected = "a positive one",
+                              .remedy = "put the radar farther from the track with --radar-at=E,N,U"}));
+  row.truth = position;
+  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan});
+}
+
+}  // namespace sigmax::apps

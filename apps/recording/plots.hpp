@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "recording/recording.hpp"
+
+namespace sigmax::apps {
+
+class RandomStream;
+
+/// The number of a plot that is this component of the state: those of the position come first, then of the velocity.
+std::optional<double> component_of(const AnyPlot& plot, int component);
+
+/// Along so many axes a plot has the position; a radar's along all.
+int axes_seen(const AnyPlot& plot, int axes);
+
+/// Whether it has a velocity.
+bool is_moving(const AnyPlot& plot, int axes);
+
+/// The place of a geodetic row; in space, at this altitude if it does not tell its own.
+Geodetic place_of(const AnyPlot& plot, int axes, double altitude_m);
+
+/// A geodetic row's plot in a frame, where its position is `at`. The velocity, which is along the east, north and up of
+/// that place, comes along the axes of the frame.
+AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int axes);
+
+/// Range in m, azimuth and elevation in rad.
+using Sighting = std::array<double, 3>;
+
+/// The position that a plot tells, a radar's or of components; 0 along what those do not have, nothing if there is
+/// none.
+std::optional<Position> position_of(const AnyPlot& plot, int axes, const Position& radar_at);
+
+/// What a radar with these standard deviations measures.
+Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random);
+
+/// A stream of random numbers for each track, whichever others a file holds.
+RandomStream stream_of(std::uint64_t seed, std::string_view track);
+
+/// Takes a position for the truth and sees it by a simulated radar with these standard deviations, in m and degrees.
+/// Throws InputError with file and line where it comes out behind the radar.
+void see_by_radar(Row& row, const Position& position, const std::array<double, 3>& sigma, const Position& radar_at,
+                  RandomStream& random, const std::string& file);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/angle.hpp"
+
+namespace sigmax::apps {
+
+/// How a header says the unit of its numbers: `range_nmi`.
+struct Unit {
+  std::string_view suffix;
+  double value;  ///< in m, m/s or degrees; numbers are multiplied with it
+  std::string_view words;
+  bool from_north = false;  ///< of an azimuth: clockwise from north
+};
+
+namespace units {
+
+inline constexpr double foot = 0.3048;
+inline constexpr double nautical_mile = 1852.0;
+inline constexpr double mile = 1609.344;
+inline constexpr double hour = 3600.0;
+
+inline constexpr Unit lengths[] = {{"m", 1.0, "m"},
+                                   {"km", 1e3, "km"},
+                                   {"ft", foot, "ft"},
+                                   {"nmi", nautical_mile, "nautical miles"},
+                                   {"mi", mile, "miles"}};
+inline constexpr Unit speeds[] = {
+    {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
+    {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
+inline constexpr Unit degrees[] = {{"deg", 1.0, "°"}};
+inline constexpr Unit angles[] = {{"deg", 1.0, "°"}, {"rad", 1.0 / degree, "rad"}};
+inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
+                                    {"rad", 1.0 / degree, "rad"},
+                                    {"deg_north", 1.0, "°", true},
+                                    {"rad_north", 1.0 / degree, "rad", true}};
+
+}  // namespace units
+
+/// Where a number of a row goes: those of a role make one position, one measurement, one truth.
+enum class Role { position, place, polar, velocity, course, range_rate, truth, sigma_position, sigma_polar };
+
+/// What a row may say: its headers are a stem and a unit. The unit that comes first wins, then the stem: altitude_m
+/// before altitude_gnss_ft, that before altitude_ft.
+struct Quantity {
+  Role role;
+  std::array<std::string_view, 2> stems;  ///< the second may be empty
+  std::span<const Unit> units;
+  std::string_view note = {};  ///< what the unit alone does not say
+};
+
+/// All of them: those of a role in the order of the axes, or of range, azimuth and elevation.
+inline constexpr std::array<Quantity, 24> quantities = {
+    {{Role::position, {"x"}, units::lengths},
+     {Role::position, {"y"}, units::lengths},
+     {Role::position, {"z"}, units::lengths},
+     {Role::place, {"latitude"}, units::degrees, " north"},
+     {Role::place, {"longitude"}, units::degrees, " east"},
+     {Role::place, {"altitude_gnss", "altitude"}, units::lengths, " above the ellipsoid"},
+     {Role::polar, {"range"}, units::lengths},
+     {Role::polar, {"azimuth"}, units::azimuths},
+     {Role::polar, {"elevation"}, units::angles, " above the horizon"},
+     {Role::velocity, {"vx"}, units::speeds},
+     {Role::velocity, {"vy"}, units::speeds},
+     {Role::velocity, {"vz", "vertical_rate"}, units::speeds, " upwards"},
+     {Role::course, {"groundspeed", "speed"}, units::speeds},
+     {Role::course, {"track", "course"}, units::degrees, " clockwise from north"},
+     {Role::range_rate, {"range_rate"}, units::speeds},
+     {Role::truth, {"true_x"}, units::lengths},
+     {Role::truth, {"true_y"}, units::lengths},
+     {Role::truth, {"true_z"}, units::lengths},
+     {Role::sigma_position, {"sigma_x"}, units::lengths},
+     {Role::sigma_position, {"sigma_y"}, units::lengths},
+     {Role::sigma_position, {"sigma_z"}, units::lengths},
+     {Role::sigma_polar, {"sigma_range"}, units::lengths},
+     {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
+     {Role::sigma_polar, {"sigma_elevation"}, units::angles}}};
+
+/// Where a role begins among them, and how many it has.
+constexpr std::size_t place_of(Role role) {
+  std::size_t place = 0;
+  while (quantities[place].role != role) ++place;
+  return place;
+}
+constexpr std::size_t size_of(Role role) {
+  std::size_t size = 0;
+  for (const Quantity& quantity : quantities) size += quantity.role == role ? 1 : 0;
+  return size;
+}
+
+/// Calls `use(header, unit)` for each header of a quantity, in order.
+template <class Use>
+void for_each_header(const Quantity& quantity, const Use& use) {
+  for (const Unit& unit : quantity.units)
+    for (const std::string_view stem : quantity.stems)
+      if (!stem.empty()) use(std::string(stem).append("_").append(unit.suffix), unit);
+}
+
+/// The quantity that a header seems to name without a unit that is read, as `range_furlong` or `x`; or null.
+const Quantity* without_known_unit(std::string_view header);
+
+/// "name its unit: _m, _km or _ft"
+std::string advice(const Quantity& quantity);
+
+/// What `--columns` maps: from the names above, and those that have no unit to choose, to the headers of a file. Throws
+/// UsageError for what it does not know.
+std::map<std::string, std::string, std::less<>> mapping_of(const std::vector<std::string>& columns);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,431 @@
+#include "recording/recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "support/input.hpp"
+#include "support/missing.hpp"
+#include "support/output.hpp"
+#include "support/timestamp.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// No measurement of this world, in m or degrees, but what a device writes where it has none.
+constexpr double beyond_sense = 1e30;
+
+/// Whether a header is that of names rather than numbers: track_id.
+bool is_a_name(std::string_view header) {
+  constexpr std::string_view endings[] = {"_id", "_name", "_no", "_number", "_type"};
+  return std::any_of(std::begin(endings), std::end(endings),
+                     [&](std::string_view ending) { return header.ends_with(ending); });
+}
+
+}  // namespace
+
+RecordingReader::RecordingReader(const RecordingOptions& options)
+    : csv_(open_csv(options.file)),
+      mapping_(mapping_of(options.columns)),
+      from_north_(options.azimuth_from_north.value_or(false)),
+      skip_bad_times_(options.skip_bad_times),
+      takes_velocity_(options.velocity && !options.simulated),
+      simulated_(options.simulated),
+      takes_range_rate_(options.range_rate) {
+  for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
+  find_columns(options);
+  if (options.azimuth_from_north && !has(Role::polar, 1))
+    throw UsageError("--azimuth-from is for radar input and bearings, but " + file() + " has no azimuth that counts");
+  if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
+  for (const auto& select : options.select) {
+    const auto equals = select.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError(fmt::format("--select: '{}' is not COLUMN=VALUE", select));
+    select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
+  }
+  if (!options.origin) return;
+  if (!geodetic()) throw UsageError("--origin is for geodetic input, but " + file() + " is none");
+  try {
+    origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--origin: {}", error.what()));
+  }
+}
+
+std::optional<std::size_t> RecordingReader::find(std::string_view name) const {
+  const auto mapped = mapping_.find(name);
+  return mapped == mapping_.end() ? csv_.find(name) : csv_.column(mapped->second);
+}
+
+std::optional<RecordingReader::Column> RecordingReader::find(const Quantity& quantity) const {
+  std::optional<Column> column, mapped;  // what --columns names goes before what the file does
+  for_each_header(quantity, [&](const std::string& header, const Unit& unit) {
+    const auto index = find(header);
+    if (index && !column) column = {*index, &unit};
+    if (index && !mapped && mapping_.contains(header)) mapped = {*index, &unit};
+  });
+  return mapped ? mapped : column;
+}
+
+/// The axes of which there are columns, up to the first of which there is none.
+int RecordingReader::axes_of(Role role) const {
+  int axes = 0;
+  while (axes < 3 && has(role, static_cast<std::size_t>(axes))) ++axes;
+  return axes;
+}
+
+/// Columns of a role that do not count.
+void RecordingReader::drop(Role role, std::size_t from) {
+  for (std::size_t i = from; i < size_of(role); ++i) column(role, i).reset();
+}
+
+void RecordingReader::find_columns(const RecordingOptions& options) {
+  std::transform(quantities.begin(), quantities.end(), columns_.begin(),
+                 [&](const Quantity& quantity) { return find(quantity); });
+  const auto time = find("time_s");
+  sensor_ = find("sensor");
+  roll_ = find("roll_deg");
+  const auto& azimuth = column(Role::polar, 1);
+  if (azimuth && azimuth->unit->from_north) {
+    if (options.azimuth_from_north == false)
+      throw UsageError(fmt::format("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix));
+    from_north_ = true;
+  }
+  const auto are_there = [&](Role role) { return has(role) && has(role, 1); };
+  if (!are_there(Role::place)) drop(Role::place);
+  if (!are_there(Role::polar)) {
+    drop(Role::polar, 2);
+    column(Role::polar).reset();
+  }
+  const bool along_one =
+      has(Role::position) && !has(Role::position, 1) && !has(Role::position, 2) && !geodetic() && !polar();
+  const bool cartesian = are_there(Role::position) || along_one;
+  if (along_one || ((geodetic() || simulated_) && !polar())) drop(Role::polar);
+  refuse_other_kinds(cartesian, time.has_value());
+  time_ = *time;
+
+  if (!cartesian) drop(Role::position);
+  axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
+  if (polar() && cartesian && axes_of(Role::position) != axes_)
+    throw InputError(message({.where = file() + ":1",
+                              .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
+                              .expected = "both z_m and elevation_deg, or none of them",
+                              .remedy = "give all sensors of a file as many axes"}));
+  const auto axes = static_cast<std::size_t>(axes_);
+  if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
+    drop(Role::course);
+  drop(Role::velocity, takes_velocity_ ? axes : 0);
+  if (!polar() || !takes_range_rate_) drop(Role::range_rate);
+  drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
+  if (!located()) drop(Role::sigma_position);
+  if (!polar()) {
+    drop(Role::sigma_polar, azimuth ? 2 : 0);
+    column(Role::sigma_polar).reset();
+  }
+}
+
+void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const {
+  const bool none = !cartesian && !geodetic() && !polar() && !(bearings() && !without_unit());
+  if (!time_known && csv_.names().size() == 1) csv_.column("time_s");  // says what may be wrong with the separators
+  const std::string map = "map other headers with --columns, as in --columns time_s=t,x_m=east";
+  const struct {
+    bool holds;
+    std::string_view what;
+    std::string remedy;
+  } refusals[] = {
+      {!time_known, "there is no column time_s", map},
+      {none, "its columns are of no kind", without_unit().value_or(map)},
+      {geodetic() && (cartesian || polar()), "there are columns of several kinds", "rename those that do not count"},
+      {cartesian && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
+       "add one that names each row's sensor, or map its header with --columns"}};
+  for (const auto& [holds, what, remedy] : refusals)
+    if (holds)
+      throw InputError(message({.where = file() + ":1",
+                                .what = what,
+                                .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
+                                .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] "
+                                            "(or altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg"
+                                            "[,elevation_deg]",
+                                .remedy = remedy}));
+}
+
+/// The first column that may be a coordinate, but for its unit.
+std::optional<std::string> RecordingReader::without_unit() const {
+  for (const std::string& name : csv_.names())
+    if (const Quantity* const like = without_known_unit(name))
+      if (like->role == Role::position || like->role == Role::place || like->role == Role::polar)
+        return fmt::format("column {}: {}", in_quotes(name), advice(*like));
+  return std::nullopt;
+}
+
+bool RecordingReader::next(Row& row) {
+  const auto is_selected = [&](const auto& wanted) { return trimmed(row_[wanted.first]) == wanted.second; };
+  do {
+    if (!csv_.next(row_)) return false;
+  } while (!std::all_of(select_.begin(), select_.end(), is_selected) || !take_time(row));
+  row.roll_deg = roll_ ? row_.optional_number(*roll_) : std::nullopt;
+  row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
+  if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
+  take_numbers();
+  row.truth.reset();
+  if (says(Role::truth)) {
+    require_whole(Role::truth, 3);
+    row.truth = {*said(Role::truth), said(Role::truth, 1).value_or(0.0), said(Role::truth, 2).value_or(0.0)};
+  }
+  const double time = row.plot.time;
+  const auto plot = measured();
+  if (!plot && senseless_.rows++ == 0) senseless_.first_line = row.line;
+  row.plot = plot.value_or(AnyPlot{});
+  row.plot.time = time;
+  return true;
+}
+
+/// Takes the row's line, track and time; false if the row is to be skipped for its time.
+bool RecordingReader::take_time(Row& row) {
+  row.line = row_.line();
+  row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
+  if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
+  const auto found = parse_timestamp(row_[time_]);
+  if (!found)
+    throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
+                     "correct the cell or drop the row");
+  const bool of_day = is_time_of_day(row_[time_]);
+  const double time = of_day ? on_its_day(row, *found) : *found;
+  row.plot.time = time;
+  if (!refused_time(row, time)) {
+    last_.find(row.track)->second.of_day = of_day;
+    if (of_day) latest_of_day_ = time;
+    return true;
+  }
+  if (!skip_bad_times_)
+    throw row_.error(
+        time_, fmt::format("a time after that of the row before, {}", shortest(last_.find(row.track)->second.time)),
+        sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
+                : "sort the rows by time and drop repeated ones, or give --on-bad-time skip");
+  ++skipped_;
+  return false;
+}
+
+/// The time of day with the days since the first. Where it falls by more than half a day within a track, that is the
+/// next day. Where it would rise by more than half a day, it is of the day before: a late row of a track, or the first
+/// row of one that begins.
+double RecordingReader::on_its_day(const Row& row, double time_of_day) {
+  const auto last = last_.find(row.track);
+  const bool first = last == last_.end();
+  if (first ? !latest_of_day_ : !last->second.of_day) return time_of_day;
+  const double before = first ? *latest_of_day_ : last->second.time;
+  const double midnight = midnight_before(before);
+  const double time = first ? midnight + time_of_day : time_of_day_after(before, time_of_day);
+  if (time >= day_s && time - before > day_s / 2.0) return time - day_s;
+  if (time - midnight >= day_s && midnights_.rows++ == 0) midnights_.first_line = row.line;
+  return time;
+}
+
+/// Whether the time is not after that of the track's row before; several sensors may measure at one time.
+bool RecordingReader::refused_time(const Row& row, double time) {
+  const std::string sensor{sensor_ ? trimmed(row_[*sensor_]) : std::string_view{}};
+  const auto [found, first] = last_.try_emplace(row.track, Last{time, {sensor}});
+  if (first) return false;
+  Last& last = found->second;
+  if (time > last.time) {
+    last = {time, {sensor}};
+    return false;
+  }
+  const bool spoke = std::find(last.sensors.begin(), last.sensors.end(), sensor) != last.sensors.end();
+  if (!(time == last.time) || spoke) return true;
+  last.sensors.push_back(sensor);
+  return false;
+}
+
+/// What the row says of each quantity.
+void RecordingReader::take_numbers() {
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    said_[q] = columns_[q] ? row_.optional_number(columns_[q]->index) : std::nullopt;
+    const Role role = quantities[q].role;
+    const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
+    if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
+    if (said_[q]) *said_[q] *= columns_[q]->unit->value;
+    const bool is_sigma = role == Role::sigma_position || role == Role::sigma_polar;
+    if (said_[q] && is_sigma && !(*said_[q] > 0.0))
+      throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
+  }
+}
+
+bool RecordingReader::says(Role role) const {
+  const auto first = said_.begin() + place_of(role);
+  return std::any_of(first, first + size_of(role), [](const auto& number) { return number.has_value(); });
+}
+
+/// Whether it has a number that stands for none.
+bool RecordingReader::is_senseless(Role role) const {
+  const auto first = said_.begin() + place_of(role);
+  return std::any_of(first, first + size_of(role),
+                     [](const auto& number) { return number && std::abs(*number) >= beyond_sense; });
+}
+
+InputError RecordingReader::error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const {
+  return row_.error(columns_[place_of(role) + i]->index, expected, remedy);
+}
+
+void RecordingReader::require_whole(Role role, std::size_t size) const {
+  for (std::size_t i = 0; i < size; ++i)
+    if (has(role, i) && !said(role, i))
+      throw error(role, i, "a number, since the row's other coordinates are there", "fill the cell or empty them all");
+}
+
+/// What the row measured; nothing if it has a number that stands for none.
+std::optional<AnyPlot> RecordingReader::measured() {
+  const Role where = geodetic() ? Role::place : Role::position;
+  const bool is_located = says(where), is_moving = says(Role::velocity) || says(Role::course);
+  const bool is_seen = says(Role::polar) && (polar() || !is_located);
+  if (is_senseless(where) || (is_seen && is_senseless(Role::polar))) return std::nullopt;
+  if (is_located && is_seen)
+    throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
+  if (is_located && says(Role::polar)) ++unused_azimuths_;
+  if (!is_seen) return components();
+  if (is_moving) ++unused_velocities_;
+  const AnyPlot plot = radar_plot();
+  if (plot.sensor == AnyPlot::Sensor::bearing) ++bearings_;
+  return plot;
+}
+
+AnyPlot RecordingReader::radar_plot() const {
+  const bool is_bearing = !said(Role::polar, 0) && !said(Role::polar, 2);
+  if (!is_bearing) require_whole(Role::polar, 3);
+  if (!is_bearing && !(*said(Role::polar) > 0.0))
+    throw error(Role::polar, 0, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
+  if (!(std::abs(said(Role::polar, 2).value_or(0.0)) <= 90.0))
+    throw error(Role::polar, 2, "degrees from −90 to 90", "correct the cell");
+  const double azimuth = *said(Role::polar, 1);
+  if (!(std::abs(azimuth) <= 360.0)) throw error(Role::polar, 1, "degrees from −360 to 360", "correct the cell");
+  const double from_east = (from_north_ ? 90.0 - azimuth : azimuth) * degree;
+  const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
+  if (is_bearing) return AnyPlot::bearing(0.0, from_east, sigma_azimuth * sigma_azimuth);
+  const double sigma_range = said(Role::sigma_polar).value_or(nan);
+  std::vector<double> z = {*said(Role::polar), from_east};
+  std::vector<double> variances = {sigma_range * sigma_range, sigma_azimuth * sigma_azimuth};
+  if (axes_ == 3) {
+    const double sigma_elevation = said(Role::sigma_polar, 2).value_or(nan) * degree;
+    z.push_back(*said(Role::polar, 2) * degree);
+    variances.push_back(sigma_elevation * sigma_elevation);
+  }
+  if (!said(Role::range_rate)) return AnyPlot::polar(0.0, z, variances);
+  z.push_back(*said(Role::range_rate));
+  variances.push_back(nan);
+  return AnyPlot::doppler(0.0, z, variances);
+}
+
+/// The position, as far as the row has it, and the velocity; or that nothing was measured.
+AnyPlot RecordingReader::components() const {
+  const Role where = geodetic() ? Role::place : Role::position;
+  if (geodetic() && says(where)) {
+    require_whole(where, 2);  // a place may lack its altitude, another position any coordinate
+    try {
+      Geodetic::checked(*said(where), *said(where, 1), said(where, 2).value_or(0.0));
+    } catch (const std::invalid_argument& refusal) {
+      throw error(where, std::abs(*said(where)) > 90.0 ? 0 : 1, refusal.what(), "correct the cell or drop the row");
+    }
+  }
+  std::vector<int> places;
+  std::vector<double> z, variances;
+  const auto add = [&](std::size_t place, double number, double sigma) {
+    places.push_back(static_cast<int>(place));
+    z.push_back(number);
+    variances.push_back(sigma * sigma);
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (said(where, i)) add(i, *said(where, i), said(Role::sigma_position, i).value_or(nan));
+  const auto axes = static_cast<std::size_t>(axes_);
+  if (const auto speed = said(Role::course), course = said(Role::course, 1); speed && course) {
+    if (!(std::abs(*course) <= 360.0)) throw error(Role::course, 1, "degrees from −360 to 360", "correct the cell");
+    add(axes, *speed * std::sin(*course * degree), nan);
+    add(axes + 1, *speed * std::cos(*course * degree), nan);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    if (said(Role::velocity, i)) add(axes + i, *said(Role::velocity, i), nan);
+  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, variances);
+}
+
+std::string RecordingReader::taken() const {
+  std::vector<std::string> parts = {fmt::format("{} in s", csv_.names()[time_])};
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (!columns_[q]) continue;
+    const Quantity& quantity = quantities[q];
+    std::string part =
+        fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
+    if (q == place_of(Role::polar) + 1)
+      part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
+                          located() && bearings() ? " in rows without a position" : "");
+    if (quantity.role == Role::sigma_position || quantity.role == Role::sigma_polar) part += " for the row's accuracy";
+    parts.push_back(std::move(part));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string RecordingReader::why_unused(std::size_t q) const {
+  if (columns_[q]) return csv_.names()[columns_[q]->index] + " says it";
+  const Role role = quantities[q].role;
+  const bool velocity = !takes_velocity_ && (role == Role::velocity || role == Role::course);
+  const std::pair<bool, std::string_view> reasons[] = {
+      {velocity && simulated_, "--radar measures no velocity"},
+      {velocity, "give --set sigma_velocity_mps=…"},
+      {simulated_ && role == Role::polar, "--radar measures positions"},
+      {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
+      {true, "does not go with the others"}};
+  return std::string(
+      std::find_if(std::begin(reasons), std::end(reasons), [](const auto& reason) { return reason.first; })->second);
+}
+
+/// Columns with the name of a quantity, or nearly, that do not count in any way, and why not.
+std::string RecordingReader::unused() const {
+  const auto counts = [&](std::size_t index) {
+    return index == time_ || index == sensor_ || index == track_ || index == roll_ ||
+           std::any_of(select_.begin(), select_.end(), [&](const auto& wanted) { return wanted.first == index; }) ||
+           std::any_of(columns_.begin(), columns_.end(),
+                       [&](const auto& column) { return column && column->index == index; });
+  };
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  const auto add = [&](std::size_t index, const std::string& reason) {
+    auto same = std::find_if(reasons.begin(), reasons.end(), [&](const auto& other) { return other.first == reason; });
+    if (same == reasons.end()) same = reasons.insert(same, {reason, {}});
+    same->second.push_back(csv_.names()[index]);
+  };
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    bool named = false;
+    for_each_header(quantities[q], [&](const std::string& header, const Unit&) {
+      const auto index = find(header);
+      named |= index.has_value();
+      if (index && !counts(*index)) add(*index, why_unused(q));
+    });
+    for (std::size_t index = 0; index < csv_.names().size() && !named; ++index)
+      if (!counts(index) && !is_a_name(csv_.names()[index]) &&
+          without_known_unit(csv_.names()[index]) == &quantities[q])
+        add(index, advice(quantities[q]));
+  }
+  std::vector<std::string> parts;
+  for (const auto& [reason, names] : reasons) parts.push_back(fmt::format("{} ({})", fmt::join(names, ", "), reason));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> RecordingReader::notes() const {
+  const std::string columns = unused();
+  const std::string times = midnights_.rows == 1 ? "once" : fmt::format("{} times", midnights_.rows);
+  const std::pair<bool, std::string> notes[] = {
+      {!columns.empty(), "Not used: " + columns},
+      {unused_velocities_ > 0,
+       fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
+      {bearings_ > 0 && unused_azimuths_ > 0,
+       fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
+      {midnights_.rows > 0,
+       fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more than 12 h, and days "
+                   "are counted from the first",
+                   times, midnights_.first_line)}};
+  std::vector<std::string> sentences;
+  for (const auto& [holds, sentence] : notes)
+    if (holds) sentences.push_back(sentence);
+  return sentences;
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <sigmax/hybrid/any_plot.hpp>
+
+#include "recording/quantities.hpp"
+#include "support/csv.hpp"
+#include "support/geodesy.hpp"
+
+namespace sigmax::apps {
+
+/// Where a recording is, what its columns mean, and which of its rows count.
+struct RecordingOptions {
+  std::string file;                             ///< "-" is the standard input
+  std::vector<std::string> columns;             ///< NAME=HEADER
+  std::optional<std::array<double, 3>> origin;  ///< latitude and longitude in degrees, altitude in m
+  std::optional<bool> azimuth_from_north;       ///< clockwise from north rather than counter-clockwise from east
+  std::vector<std::string> select;              ///< COLUMN=VALUE, all of which must hold
+  std::string track_id;                         ///< the column that tells tracks apart, or empty: all rows are one
+  bool skip_bad_times = false;                  ///< rather than refuse them
+  bool velocity = false;                        ///< whether velocities count, or a speed and a course
+  bool range_rate = false;                      ///< whether a radar's range rates count
+  bool simulated = false;                       ///< whether a simulated radar measures: so no velocity counts
+};
+
+/// One row of a recording.
+struct Row {
+  std::size_t line = 0;
+  std::string track;     ///< empty without a column that tells tracks apart
+  std::string sensor{};  ///< empty without a column `sensor`
+  /// What was measured, and when: a position and a velocity as components, a radar's measurement or a bearing. In a
+  /// geodetic recording the position is latitude and longitude in degrees and the altitude in m. A variance that the
+  /// row does not tell is NaN.
+  AnyPlot plot{};
+  std::optional<Position> truth{};
+  std::optional<double> roll_deg{};
+  bool predicted = false;  ///< no row, but the time of --predict-to
+
+  bool measured() const { return plot.sensor != AnyPlot::Sensor::none; }
+};
+
+/// Reads a headed CSV recording row by row: Cartesian, geodetic, a radar's or of bearings, or Cartesian rows mixed with
+/// a radar's or with bearings, as its columns say.
+class RecordingReader {
+ public:
+  /// Throws InputError for a file that is of no kind, UsageError for options that mean nothing for it.
+  explicit RecordingReader(const RecordingOptions& options);
+
+  /// The next row that counts; false at the end. The times of a track must increase. Throws InputError with file, line
+  /// and column.
+  bool next(Row& row);
+
+  bool geodetic() const { return has(Role::place); }
+  bool polar() const { return has(Role::polar); }
+  /// Whether azimuths stand without a range.
+  bool bearings() const { return has(Role::polar, 1) && !polar(); }
+  /// Whether there are positions.
+  bool located() const { return has(Role::position) || has(Role::place); }
+  int axes() const { return axes_; }
+  bool has_sensors() const { return sensor_.has_value(); }
+  bool has_tracks() const { return track_.has_value(); }
+  bool has_truth() const { return has(Role::truth); }
+  bool has_roll() const { return roll_.has_value(); }
+  const CsvReader& csv() const { return csv_; }
+  const std::string& file() const { return csv_.file(); }
+
+  /// Where the frame of every track begins, if not at its own first row.
+  const std::optional<Geodetic>& origin() const { return origin_; }
+
+  /// What the columns were taken to be.
+  std::string taken() const;
+
+  /// Sentences on what was read so far: which columns of names that are known, or seem to be, do not count, and why; in
+  /// how many rows a velocity does not, since they are a radar's or a bearing; where times of day passed midnight.
+  std::vector<std::string> notes() const;
+
+  /// So many rows, and the line of the first.
+  struct Counted {
+    std::size_t rows = 0;
+    std::size_t first_line = 0;
+  };
+  /// Rows whose measurement is beyond all numbers of this world, and so counts as missed.
+  const Counted& senseless() const { return senseless_; }
+
+  /// Whether there were times of day.
+  bool times_of_day() const { return latest_of_day_.has_value(); }
+
+  /// Rows dropped since their time was not after that of their track's row before.
+  std::size_t skipped() const { return skipped_; }
+
+ private:
+  /// Where a quantity stands, and in which unit.
+  struct Column {
+    std::size_t index;
+    const Unit* unit;
+  };
+  /// The time of a track's last row, and the sensors that spoke then.
+  struct Last {
+    double time;
+    std::vector<std::string> sensors;
+    bool of_day = false;  ///< whether it was a time of day
+  };
+
+  std::optional<Column>& column(Role role, std::size_t i = 0) { return columns_[place_of(role) + i]; }
+  bool has(Role role, std::size_t i = 0) const { return columns_[place_of(role) + i].has_value(); }
+  int axes_of(Role role) const;
+  void drop(Role role, std::size_t from = 0);
+  std::optional<std::size_t> find(std::string_view name) const;
+  std::optional<Column> find(const Quantity& quantity) const;
+  void find_columns(const RecordingOptions& options);
+  void refuse_other_kinds(bool cartesian, bool time_known) const;
+  std::optional<std::string> without_unit() const;
+  std::string why_unused(std::size_t quantity) const;
+  std::string unused() const;
+
+  bool take_time(Row& row);
+  double on_its_day(const Row& row, double time_of_day);
+  bool refused_time(const Row& row, double time);
+  void take_numbers();
+  const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
+  bool says(Role role) const;
+  bool is_senseless(Role role) const;
+  void require_whole(Role role, std::size_t size) const;
+  InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
+  std::optional<AnyPlot> measured();
+  AnyPlot radar_plot() const;
+  AnyPlot components() const;
+
+  CsvReader csv_;
+  CsvRow row_;
+  std::map<std::string, std::string, std::less<>> mapping_;  // of headers, as the options say
+  std::array<std::optional<Column>, quantities.size()> columns_;
+  std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
+  std::size_t time_ = 0;
+  std::optional<std::size_t> sensor_, track_, roll_;
+  std::vector<std::pair<std::size_t, std::string>> select_;
+  bool from_north_ = false;
+  bool skip_bad_times_ = false;
+  bool takes_velocity_ = false;
+  bool simulated_ = false;
+  bool takes_range_rate_ = false;
+  int axes_ = 3;
+  std::optional<Geodetic> origin_;
+  std::map<std::string, Last, std::less<>> last_;  // by track
+  std::size_t skipped_ = 0;
+  Counted senseless_;
+  Counted midnights_;  // that tracks passed
+  std::size_t unused_velocities_ = 0;
+  std::size_t bearings_ = 0;             // that count
+  std::size_t unused_azimuths_ = 0;      // beside a position
+  std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight
+};
+
+}  // namespace sigmax::apps

@@ -1,0 +1,304 @@
+#include "result/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "support/json.hpp"
+#include "version.hpp"
+
+namespace sigmax::apps {
+
+/// What every report holds beside its data, put into the program when it is built; empty where dygraphs or D3 was
+/// missing.
+namespace report_assets {
+extern const std::string_view style, dygraphs, synchronizer, d3, script;
+}
+
+namespace {
+
+/// Seven digits are more than a screen shows, and half as long as all.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
+}
+
+template <class Items, class Made>
+Json list(const Items& items, const Made& made) {
+  Json all = Json::array();
+  for (const auto& item : items) all.push_back(made(item));
+  return all;
+}
+
+Json numbers(const std::vector<double>& values) { return list(values, number); }
+
+Json marked(const std::vector<Marked>& all) {
+  return list(all, [](const Marked& one) {
+    return Json{{"from", number(one.from)}, {"to", number(one.to)}, {"label", one.label}};
+  });
+}
+
+Json curve(const Curve& curve) {
+  Json json = {{"name", curve.name}, {"group", curve.group}, {"values", numbers(curve.values)}};
+  if (!curve.lower.empty()) json["lower"] = numbers(curve.lower);
+  if (!curve.upper.empty()) json["upper"] = numbers(curve.upper);
+  if (curve.dash >= 0) json["dash"] = curve.dash;
+  if (curve.dots) json["dots"] = true;
+  return json;
+}
+
+Json stay(const Stay& stay) {
+  return {{"from", number(stay.from)}, {"to", number(stay.to)}, {"label", stay.label}, {"shade", stay.shade}};
+}
+
+Json panel(const LineChart& chart) {
+  Json json = {{"kind", "lines"},
+               {"title", chart.title},
+               {"x_label", chart.x_label},
+               {"y_label", chart.y_label},
+               {"x", numbers(chart.x)},
+               {"curves", list(chart.curves, curve)},
+               {"shaded", marked(chart.shaded)},
+               {"expected", marked(chart.expected)},
+               {"note", chart.note}};
+  if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
+  if (chart.joined) json["joined"] = true;
+  for (const HistoryBand& band : chart.histories)
+    json["histories"].push_back({{"name", band.name}, {"group", band.group}, {"stays", list(band.stays, stay)}});
+  if (chart.greatest_y) json["greatest_y"] = *chart.greatest_y;
+  return json;
+}
+
+Json trace(const PlanTrace& trace) {
+  constexpr const char* shapes[] = {"line", "dots", "crosses"};
+  Json json = {{"name", trace.name},
+               {"group", trace.group},
+               {"shape", shapes[static_cast<std::size_t>(trace.shape)]},
+               {"x", numbers(trace.x)},
+               {"y", numbers(trace.y)}};
+  if (!trace.z.empty()) json["z"] = numbers(trace.z);
+  return json;
+}
+
+Json panel(const Plan& plan) {
+  const auto ellipse = [](const ErrorEllipse& e) {
+    return Json{{"group", e.group},
+                {"x", number(e.x)},
+                {"y", number(e.y)},
+                {"semi_major", number(e.semi_major)},
+                {"semi_minor", number(e.semi_minor)},
+                {"angle_deg", number(e.angle_deg)}};
+  };
+  const auto line = [](const GraticuleLine& one) {
+    return Json{{"label", one.label}, {"x", numbers(one.x)}, {"y", numbers(one.y)}};
+  };
+  Json json = {{"kind", "plan"},
+               {"title", plan.title},
+               {"x_label", plan.x_label},
+               {"y_label", plan.y_label},
+               {"traces", list(plan.traces, trace)},
+               {"ellipses", list(plan.ellipses, ellipse)},
+               {"graticule", list(plan.graticule, line)},
+               {"note", plan.note}};
+  if (!plan.focus.empty()) json["focus"] = numbers(plan.focus);
+  return json;
+}
+
+Json panel(const IntervalChart& chart) {
+  const auto series = [&](const IntervalSeries& one) {
+    const auto shown = [&](const Interval& value) {
+      const std::string mean = sized_text(value.mean, chart.digits);
+      return value.half_width > 0.0 ? mean + " ± " + sized_text(value.half_width, chart.digits) : mean;
+    };
+    const auto bounds = [](const Interval& value) {
+      return Json{number(value.mean), number(value.lower()), number(value.upper())};
+    };
+    return Json{{"name", one.name},
+                {"group", one.group},
+                {"values", list(one.values, bounds)},
+                {"shown", list(one.values, shown)},
+                {"wanted", marked(one.wanted)}};
+  };
+  Json json = {{"kind", "intervals"},
+               {"title", chart.title},
+               {"x_label", chart.x_label},
+               {"rows", chart.rows},
+               {"series", list(chart.series, series)},
+               {"wanted_label", chart.wanted_label},
+               {"note", chart.note}};
+  if (chart.reference) json["reference"] = *chart.reference;
+  return json;
+}
+
+Json panel(const HeatMap& map) {
+  const auto exact = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  Json json = {{"kind", "heat"},
+               {"title", map.title},
+               {"row_label", map.row_label},
+               {"column_label", map.column_label},
+               {"rows", map.rows},
+               {"columns", map.columns},
+               {"values", list(map.values, [&](const auto& row) { return list(row, exact); })},
+               {"shown", Json::array()},
+               {"value_label", map.value_label},
+               {"diverging", map.diverging},
+               {"texts", map.texts},
+               {"note", map.note}};
+  if (map.most) json["most"] = *map.most;
+  for (std::size_t r = 0; r < map.values.size(); ++r) {
+    Json& shown = json["shown"].emplace_back(Json::array());
+    for (std::size_t c = 0; c < map.values[r].size(); ++c) shown.push_back(shown_in(map, r, c));
+  }
+  return json;
+}
+
+Json panel(const ReportTable& table) {
+  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}, {"filtered_by", table.filtered_by}};
+  json.update(table.table.page());
+  return json;
+}
+
+Json panel(const Words& words) {
+  return {{"kind", "words"}, {"title", words.title}, {"text", words.text}, {"folded", words.folded}};
+}
+
+Json panels(const std::vector<Panel>& all) {
+  return list(all, [](const Panel& one) { return std::visit([](const auto& any) { return panel(any); }, one); });
+}
+
+/// Text in which what HTML could take for its own stands as these say.
+std::string escaped(std::string_view text, std::string_view less, std::string_view greater,
+                    std::string_view ampersand) {
+  std::string result;
+  for (const char letter : text)
+    result += letter == '<' ? less : letter == '>' ? greater : letter == '&' ? ampersand : std::string_view(&letter, 1);
+  return result;
+}
+
+}  // namespace
+
+void HeatMap::fill(const std::function<Cell(std::size_t row, std::size_t column)>& cell) {
+  values.assign(rows.size(), {});
+  texts = {};
+  marked = {};
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      Cell one = cell(r, c);
+      values[r].push_back(one.value);
+      if (!one.text.empty()) texts.resize(rows.size(), std::vector<std::string>(columns.size()));
+      if (one.marked) marked.resize(rows.size(), std::vector<bool>(columns.size()));
+      if (!texts.empty()) texts[r][c] = std::move(one.text);
+      if (!marked.empty()) marked[r][c] = one.marked;
+    }
+}
+
+std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
+  const std::string number = sized_text(map.scale * map.values[row][column], map.digits, map.sign);
+  return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;
+}
+
+void limit_axis(LineChart& chart) {
+  std::vector<double> all;
+  for (const Curve& curve : chart.curves)
+    std::copy_if(curve.values.begin(), curve.values.end(), std::back_inserter(all),
+                 [](double value) { return std::isfinite(value); });
+  if (all.empty()) return;
+  std::sort(all.begin(), all.end());
+  double usual = 3.0 * all[all.size() / 2];
+  for (const Marked& expected : chart.expected) usual = std::max(usual, 2.0 * expected.to);
+  if (all.back() <= 2.0 * usual) return;
+  chart.greatest_y = usual;
+  chart.note = fmt::format("The axis is cut; the greatest value is {}.", sized_text(all.back(), 1));
+}
+
+std::string sound_text(std::string_view text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+Json ResultTable::json() const {
+  Json all = Json::object();
+  for (const auto& row : rows_) {
+    if (row.empty()) continue;
+    Json& one = all[std::get<std::string>(row.front().value())] = Json::object();
+    for (std::size_t i = 1; i < row.size(); ++i)
+      if (!columns_[i].key.empty() && row[i].value().index() != 0) one[columns_[i].key] = as_json(row[i]);
+  }
+  return all;
+}
+
+Json ResultTable::page() const {
+  Json columns = Json::array(), rows = Json::array();
+  for (const ResultColumn& column : columns_)
+    if (!column.header.empty())
+      columns.push_back({{"header", column.full_header()},
+                         {"group", column.group},
+                         {"left", column.align == Align::left},
+                         {"key", column.key}});
+  for (const auto& row : rows_) {
+    Json cells = Json::array();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (!columns_[i].header.empty())
+        cells.push_back({{"text", shown_in(columns_[i], row[i])}, {"value", as_json(row[i])}});
+    rows.push_back(std::move(cells));
+  }
+  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+Json as_json(const Cell& cell) {
+  const auto* const interval = std::get_if<Interval>(&cell.value());
+  if (interval == nullptr)
+    return std::visit(
+        [](const auto& value) {
+          if constexpr (std::is_constructible_v<Json, decltype(value)>) return Json(value);
+          return Json();
+        },
+        cell.value());
+  const bool open = without_bounds(*interval);
+  return {{"mean", interval->mean},
+          {"lower", open ? Json() : Json(interval->lower())},
+          {"upper", open ? Json() : Json(interval->upper())}};
+}
+
+bool has_reports() { return !report_assets::script.empty(); }
+
+Json data_of(const Report& report) {
+  const auto group = [](const ReportGroup& one) {
+    return Json{{"name", one.name}, {"neutral", one.neutral}, {"shown", one.shown}};
+  };
+  const auto view = [](const View& one) { return Json{{"name", one.name}, {"panels", panels(one.panels)}}; };
+  return {{"title", report.title},
+          {"verdict", report.verdict},
+          {"command", report.command},
+          {"version", version},
+          {"groups", list(report.groups, group)},
+          {"panels", panels(report.panels)},
+          {"chooser", report.chooser},
+          {"views", list(report.views, view)},
+          {"last", panels(report.last)}};
+}
+
+std::string html(const Report& report) {
+  if (!has_reports()) throw std::logic_error("a report without its drawing code");
+  // Within the strings of JSON, and nowhere else, stand < and what else HTML could take for its own.
+  const std::string data =
+      escaped(data_of(report).dump(-1, ' ', false, Json::error_handler_t::replace), "\\u003c", "\\u003e", "\\u0026");
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n"
+      "<main id=\"page\"><noscript>This report is drawn by JavaScript.</noscript></main>\n"
+      "<script type=\"application/json\" id=\"data\">{}</script>\n",
+      escaped(report.title, "&lt;", ">", "&amp;"), report_assets::style, data);
+  for (const std::string_view code :
+       {report_assets::dygraphs, report_assets::synchronizer, report_assets::d3, report_assets::script})
+    page += fmt::format("<script>\n{}\n</script>\n", code);
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace sigmax::apps

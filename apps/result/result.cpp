@@ -1,0 +1,152 @@
+#include "result/result.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "result/braille.hpp"
+#include "result/pictures.hpp"
+#include "support/error.hpp"
+#include "support/json.hpp"
+#include "version.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+void refuse_input(const std::string& option, const std::string& given, const std::filesystem::path& file,
+                  const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, input == "-" ? "/dev/stdin" : input, ignored))
+      throw UsageError(message({.what = fmt::format("{} {} would write over the input {}", option, given, input),
+                                .remedy = "choose another place"}));
+  }
+}
+
+}  // namespace
+
+void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {
+  refuse_input(option, file, file, inputs);
+}
+
+void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
+                         std::vector<std::string> names) {
+  names.insert(names.end(), {"summary.json", report_data_name, report_name});
+  if (!options.out.empty())
+    for (const std::string& name : names)
+      refuse_input("--out", options.out, std::filesystem::path(options.out) / name, inputs);
+  refuse_to_overwrite("--report", options.report, inputs);
+  std::error_code ignored;
+  for (const auto& chart : std::filesystem::directory_iterator(options.plots, ignored))
+    if (chart.path().extension() == ".svg" || chart.path().extension() == ".pdf")
+      refuse_input("--plots", options.plots, chart.path(), inputs);
+}
+
+ResultFiles::ResultFiles(const OutputOptions& options) {
+  if (!options.report.empty() && !has_reports())
+    throw UsageError(message({.what = "--report: this program was built without charts",
+                              .remedy = "install libjs-dygraphs and node-d3, and build again"}));
+  if (!options.plots.empty()) need_gnuplot();
+  if (!options.out.empty()) directory_ = output_directory(options.out);
+  if (!options.report.empty()) report_.emplace(options.report);
+  if (!options.plots.empty()) plots_ = output_directory(options.plots);
+}
+
+AtomicFile* ResultFiles::open(const std::string& name) {
+  if (!wanted()) return nullptr;
+  names_.push_back(name);
+  return &files_.emplace_back(directory_ / name);
+}
+
+void ResultFiles::write(const std::string& name, std::string_view text) {
+  if (AtomicFile* const file = open(name)) file->write(text);
+}
+
+void ResultFiles::write_json(const std::string& name, const Json& json) {
+  if (wanted()) write(name, json.dump(2) + "\n");
+}
+
+bool ResultFiles::report_wanted() const { return report_ || !plots_.empty() || (wanted() && has_reports()); }
+
+void ResultFiles::write_report(const Report& report) {
+  write(report_data_name, data_of(report).dump() + "\n");
+  if (report_)
+    report_->write(html(report));
+  else if (has_reports())
+    write(report_name, html(report));
+  if (plots_.empty()) return;
+  for (const Picture& picture : pictures_of(report)) {
+    pictures_.emplace_back(picture.name + ".svg", svg_of(picture));
+    pictures_.emplace_back(picture.name + ".pdf", pdf_of(picture));
+  }
+}
+
+void ResultFiles::commit() {
+  if (files_.empty() && !report_ && plots_.empty()) return;
+  for (AtomicFile& file : files_) file.store();
+  if (report_) report_->store();
+  for (AtomicFile& file : files_) file.commit();
+  if (report_) report_->commit();
+  for (const auto& [name, document] : pictures_) {
+    AtomicFile file(plots_ / name);
+    file.write(document);
+    file.commit();
+  }
+  std::vector<std::string> written;
+  if (!names_.empty())
+    written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),
+                                  names_.size() > 1 ? " and " : "", names_.back(), directory_.native()));
+  if (report_) written.push_back(report_->path().native());
+  if (!plots_.empty())
+    written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_.native()));
+  fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
+}
+
+Result::Result(const OutputOptions& options)
+    : words_width(options.width()),
+      options_(options),
+      summary_(std::make_unique<Json>(Json{{"version", version}, {"command", options.command}})) {
+  page.command = options.command;
+}
+
+Result::Result(Result&&) noexcept = default;
+Result::~Result() = default;
+
+void Result::say(std::string_view words) { text += wrapped(words, words_width); }
+
+void Result::say(const std::vector<std::pair<bool, std::string>>& notes) {
+  for (const auto& [holds, words] : notes)
+    if (holds) say(words);
+}
+
+void Result::add(const ResultTable& table, const Places& places) {
+  if (places.printed && !places.heading.empty()) text += "\n" + places.heading;
+  if (places.printed) text += "\n" + table.text(options_.width());
+  if (!places.csv.empty()) tables_.emplace_back(places.csv, table.csv());
+  if (!places.summary.empty()) at(places.summary) = table.json();
+  if (!places.title.empty()) page.last.emplace_back(ReportTable{places.title, table, places.note, places.filtered_by});
+}
+
+Json& Result::at(const Path& path) {
+  Json* value = summary_.get();
+  for (const auto& step : path) value = std::visit([&](const auto& key) { return &(*value)[key]; }, step);
+  return *value;
+}
+
+void Result::fact(const Path& path, const Cell& value) { at(path) = as_json(value); }
+
+void Result::fact(const Path& path, const std::vector<std::string>& words) { at(path) = words; }
+
+void Result::publish(ResultFiles& files) {
+  std::fputs(text.c_str(), stdout);
+  print_charts(options_, on_terminal);
+  for (const auto& [name, rows] : tables_) files.write(name, rows);
+  if (files.report_wanted()) fact({"report_data"}, report_data_name);
+  files.write_json("summary.json", *summary_);
+  if (files.report_wanted()) files.write_report(page);
+  files.commit();
+}
+
+}  // namespace sigmax::apps

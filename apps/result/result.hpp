@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "result/output_options.hpp"
+#include "result/report.hpp"
+#include "support/output.hpp"
+
+namespace sigmax::apps {
+
+/// The result files of a run. Without --out nothing is written but the report and its pictures, if --report and --plots
+/// ask for them. Directories and report are begun first, so that a bad place is known before the work; the files appear
+/// together at the end.
+///
+///     ResultFiles files(options);
+///     …
+///     files.write("curves.csv", curves.csv());
+///     files.write_json("summary.json", summary);
+///     if (files.report_wanted()) files.write_report({.title = "…"});
+///     files.commit();
+class ResultFiles {
+ public:
+  /// Throws UsageError if --report asks for what this program was built without, or --plots for gnuplot and it is not
+  /// there.
+  explicit ResultFiles(const OutputOptions& options);
+
+  /// Whether there is a directory to write to.
+  bool wanted() const { return !directory_.empty(); }
+
+  /// A file to be filled bit by bit, or null where nothing is wanted. It stays valid as long as this.
+  AtomicFile* open(const std::string& name);
+
+  void write(const std::string& name, std::string_view text);
+  void write_json(const std::string& name, const nlohmann::ordered_json& json);
+
+  /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
+  /// says, or as pictures.
+  bool report_wanted() const;
+
+  /// Writes the page, and beside the other files its data, `report_data_name`, which the summary should name; and the
+  /// pictures if they are wanted.
+  void write_report(const Report& report);
+
+  /// Puts all files into their place and prints "Wrote a.csv and summary.json to DIR".
+  void commit();
+
+ private:
+  std::filesystem::path directory_;  // empty: none
+  std::list<AtomicFile> files_;
+  std::vector<std::string> names_;
+  std::optional<AtomicFile> report_;                           // where it is not in the directory
+  std::filesystem::path plots_;                                // empty: none
+  std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
+};
+
+/// Where something stands in a summary: keys, and places in lists.
+using Path = std::vector<std::variant<std::string, std::size_t>>;
+
+/// The places of a table in a result.
+struct Places {
+  bool printed = true;                     ///< on the terminal, after an empty line
+  std::string heading{};                   ///< printed above it
+  std::string csv{};                       ///< a file of its rows
+  Path summary{};                          ///< what has it as an object
+  std::string title{};                     ///< above it in the last part of the page; without one it is not there
+  std::string note{};                      ///< below it in the page
+  std::vector<std::string> filtered_by{};  ///< see `ReportTable`
+};
+
+/// What a command found: it is built once, and then printed, written and drawn.
+///
+///     ResultFiles files(options);      // a bad place is known before the work
+///     Result result(options);
+///     result.fact({"runs"}, 100);
+///     result.say("100 runs");
+///     result.add(table, {.csv = "filters.csv", .summary = {"filters"}, .title = "The filters"});
+///     result.page.views = {…};
+///     result.publish(files);
+class Result {
+ public:
+  explicit Result(const OutputOptions& options);
+  Result(Result&&) noexcept;
+  ~Result();
+
+  /// Prints words, broken to `words_width`.
+  void say(std::string_view words);
+
+  /// Prints those words whose condition holds.
+  void say(const std::vector<std::pair<bool, std::string>>& notes);
+
+  /// Puts a table into all its places.
+  void add(const ResultTable& table, const Places& places);
+
+  /// Puts a value into the summary.
+  void fact(const Path& path, const Cell& value);
+  void fact(const Path& path, const std::vector<std::string>& words);
+
+  std::size_t words_width;             ///< that of the tables, unless another one is set
+  std::string text;                    ///< what was said and added so far, for the terminal
+  Report page;                         ///< with the command, and the tables that have a title
+  std::vector<LineChart> on_terminal;  ///< what ends the output on a terminal
+
+  /// Prints all, and writes tables, summary, page and pictures as far as they are wanted.
+  void publish(ResultFiles& files);
+
+ private:
+  nlohmann::ordered_json& at(const Path& path);
+
+  const OutputOptions& options_;
+  std::vector<std::pair<std::string, std::string>> tables_;  // names of files, and what they hold
+  std::unique_ptr<nlohmann::ordered_json> summary_;
+};
+
+/// Throws UsageError if the file that an option names is an input, by whatever name; "-" is the standard input.
+void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs);
+
+/// The same of all that ResultFiles writes: these files beside summary and report in the directory, the report, and the
+/// charts, whose names are known late, so that no SVG or PDF file among them may be an input.
+void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::string>& inputs,
+                         std::vector<std::string> names = {});
+
+}  // namespace sigmax::apps

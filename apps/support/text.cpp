@@ -1,0 +1,77 @@
+#include "support/text.hpp"
+
+#include <algorithm>
+#include <clocale>
+#include <cwchar>
+#include <utility>
+
+#include "support/error.hpp"
+
+namespace sigmax::apps {
+
+std::size_t display_width(std::string_view text) {
+  static const locale_t utf8 = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  const locale_t before = ::uselocale(utf8);
+  std::size_t width = 0;
+  for (std::mbstate_t state{}; !text.empty();) {
+    wchar_t character = 0;
+    std::size_t size = std::mbrtowc(&character, text.data(), text.size(), &state);
+    const bool known = size > 0 && size <= text.size() && ::wcwidth(character) >= 0;
+    if (!known) {  // a byte that is no text
+      state = {};
+      size = 1;
+    }
+    width += known ? static_cast<std::size_t>(::wcwidth(character)) : 1;
+    text.remove_prefix(size);
+  }
+  ::uselocale(before);
+  return width;
+}
+
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  bool joined = false;
+  while (!line.empty()) {
+    const auto blank = std::min(line.find(' '), line.size());
+    const std::string_view word = line.substr(0, blank);
+    line.remove_prefix(std::min(blank + 1, line.size()));
+    if (!words.empty() && (joined || word == "±" || word == "="))
+      words.back().append(" ").append(word);
+    else
+      words.emplace_back(word);
+    joined = word == "±" || word == "−" || word == "=";
+  }
+  return words;
+}
+
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines;
+  for (bool more = true; more;) {
+    const auto end = text.find('\n');
+    more = end != std::string_view::npos;
+    const std::string_view line = text.substr(0, end);
+    if (more) text.remove_prefix(end + 1);
+    if (width == any_width || display_width(line) <= width) {
+      lines.emplace_back(line);
+      continue;
+    }
+    const std::string indent(std::min(line.find_first_not_of(' '), line.size()), ' ');
+    std::string current;
+    for (const std::string& word : words_of(line.substr(indent.size()))) {
+      if (!current.empty() && display_width(current) + 1 + display_width(word) > width)
+        lines.push_back(std::exchange(current, {}));
+      current += (current.empty() ? indent : " ") + word;
+    }
+    lines.push_back(current);
+  }
+  return lines;
+}
+
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string result;
+  if (text.ends_with('\n')) text.remove_suffix(1);
+  for (const std::string& line : lines_of(printable(text, true), width)) result += line + "\n";
+  return result;
+}
+
+}  // namespace sigmax::apps

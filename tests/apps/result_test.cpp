@@ -1,0 +1,105 @@
+#include "result/result.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "apps/temporary_directory.hpp"
+#include "support/error.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+TEST(ResultFiles, AppearTogetherAtTheEnd) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path out = directory.path() / "a" / "b";
+  ResultFiles files({.out = out.string()});
+  ASSERT_TRUE(files.wanted());
+  AtomicFile* const runs = files.open("runs.csv");
+  files.write_json("summary.json", {{"runs", 2}});
+  runs->write("run\n");
+  runs->write("1\n");
+  EXPECT_FALSE(std::filesystem::exists(out / "summary.json"));
+  testing::internal::CaptureStdout();
+  files.commit();
+  std::fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "\nWrote runs.csv and summary.json to " + out.string() + "\n");
+  EXPECT_EQ(contents(out / "runs.csv"), "run\n1\n");
+  EXPECT_EQ(contents(out / "summary.json"), "{\n  \"runs\": 2\n}\n");
+}
+
+TEST(ResultFiles, AreNoneWithoutADirectory) {
+  ResultFiles files({});
+  EXPECT_FALSE(files.wanted());
+  EXPECT_EQ(files.open("runs.csv"), nullptr);
+  files.write("curves.csv", "x\n");
+  files.write_json("summary.json", {});
+  testing::internal::CaptureStdout();
+  files.commit();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(ResultFiles, LeaveNothingUnlessTheyAreCommitted) {
+  const TemporaryDirectory directory;
+  {
+    ResultFiles files({.out = directory.path().string()});
+    files.write("curves.csv", "x\n");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(ResultFiles, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
+  const TemporaryDirectory directory;
+  ResultFiles files({.out = directory.path().string()});
+  files.write("small", "1");
+  files.write("large", std::string(60'000, 'x'));  // stays in memory until it is stored
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit limit{20'000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const std::string refusal = message_of<InputError>([&] { files.commit(); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(refusal.find("large: cannot be written: File too large"), std::string::npos) << refusal;
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "small"));
+}
+
+TEST(Result, IsPrintedAndWrittenFromOneTable) {
+  const TemporaryDirectory directory;
+  const OutputOptions options{.out = directory.path().string(), .command = "example show"};
+  ResultTable table({{.key = "filter", .header = "filter", .align = Align::left}, {.key = "rmse_m", .header = "RMSE"}});
+  table.row({"imm", 1.5});
+  Result result(options);
+  result.fact({"runs"}, 2);
+  result.fact({"synthetic"}, true);
+  result.say("two runs");
+  result.say({{true, "said"}, {false, "not said"}});
+  result.add(
+      table,
+      {.heading = "The filters", .csv = "filters.csv", .summary = {"found", 0UL, "by filter"}, .title = "Filters"});
+  result.fact({"found", 0UL, "words"}, {"a", "b"});
+  ASSERT_EQ(result.page.last.size(), 1U);
+  EXPECT_EQ(std::get<ReportTable>(result.page.last[0]).title, "Filters");
+  ResultFiles files(options);
+  testing::internal::CaptureStdout();
+  result.publish(files);
+  std::fflush(stdout);
+  const std::string printed = testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(printed.starts_with(
+      "two runs\nsaid\n\nThe filters\nfilter  RMSE\n──────  ────\nimm     1.50\n\nWrote filters.csv"))
+      << printed;
+  EXPECT_EQ(contents(directory.path() / "filters.csv"), "filter,rmse_m\nimm,1.5\n");
+  const auto summary = nlohmann::json::parse(contents(directory.path() / "summary.json"));
+  EXPECT_EQ(summary.at("command"), "example show");
+  EXPECT_TRUE(summary.at("version").is_string());
+  EXPECT_EQ(summary.at("runs"), 2);
+  EXPECT_EQ(summary.at("synthetic"), true);
+  EXPECT_EQ(summary.at("found")[0].at("by filter").at("imm").at("rmse_m"), 1.5);
+  EXPECT_EQ(summary.at("found")[0].at("words"), (std::vector<std::string>{"a", "b"}));
+}
+
+}  // namespace
+}  // namespace sigmax::apps

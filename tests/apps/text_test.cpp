@@ -1,0 +1,29 @@
+#include "support/text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sigmax::apps {
+namespace {
+
+TEST(Wrapped, BreaksAtBlanksAndKeepsIndents) {
+  EXPECT_EQ(wrapped("one two three\n\n  four five", 9), "one two\nthree\n\n  four\n  five\n");
+  EXPECT_EQ(wrapped("one two three\n", any_width), "one two three\n");
+  EXPECT_EQ(wrapped("incomprehensible words", 5), "incomprehensible\nwords\n");
+  EXPECT_EQ(wrapped("differences ± 95 % − sigma's", 12), "differences ± 95\n% − sigma's\n");
+  EXPECT_EQ(wrapped("", 5), "\n");
+  EXPECT_EQ(wrapped("a\x1B[2Jb\nc", any_width), "a\\x1B[2Jb\nc\n");
+}
+
+TEST(DisplayWidth, CountsColumnsNotBytes) {
+  EXPECT_EQ(display_width(""), 0U);
+  EXPECT_EQ(display_width("abc"), 3U);
+  EXPECT_EQ(display_width("σ² ± 3.0 °, Λ → π"), 17U);
+  EXPECT_EQ(display_width("─ 95 %"), 6U);
+  EXPECT_EQ(display_width("x\u0302"), 1U);     // a combining circumflex
+  EXPECT_EQ(display_width("目標"), 4U);        // East Asian characters are two wide
+  EXPECT_EQ(display_width("\U0001F600"), 2U);  // a pictograph of four bytes
+  EXPECT_EQ(display_width("a\xFF\xC3"), 3U);   // bytes that are no UTF-8
+}
+
+}  // namespace
+}  // namespace sigmax::apps

@@ -1,0 +1,75 @@
+#include <sigmax/hybrid/cross_validation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "support/throws.hpp"
+
+namespace sigmax {
+namespace {
+
+using support::throws;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+TEST(CrossValidation, CutsAFewRecordingsInTimeAndSharesManyOut) {
+  EXPECT_EQ(folds_of(std::array<std::size_t, 2>{6, 3}, 3), (RowFolds{{0, 0, 1, 1, 2, 2}, {0, 1, 2}}));
+  EXPECT_EQ(folds_of(std::array<std::size_t, 5>{2, 1, 1, 0, 3}, 2), (RowFolds{{0, 0}, {1}, {0}, {}, {0, 0, 0}}));
+}
+
+TEST(CrossValidation, TakesEachRowFromTheSettingsThatHaveNotSeenIt) {
+  const RowFolds folds{{0, 1, 1}, {0}};
+  const std::vector<RowLosses> without{{{1.0, 2.0, 3.0}, {4.0}}, {{10.0, 20.0, 30.0}, {40.0}}};
+  EXPECT_EQ(held_out(folds, without), (RowLosses{{1.0, 20.0, 30.0}, {4.0}}));
+}
+
+TEST(CrossValidation, MeansAreOfTheRowsThatAreJudgedAndCount) {
+  const RowLosses losses{{1.0, unknown, 2.0}, {6.0}};
+  EXPECT_EQ(mean_loss(losses), 3.0);
+  EXPECT_EQ(mean_loss(losses, [](std::size_t recording, std::size_t) { return recording == 0; }), 1.5);
+  EXPECT_TRUE(std::isnan(mean_loss(losses, [](std::size_t, std::size_t row) { return row == 1; })));
+}
+
+TEST(CrossValidation, DifferencesKnowThatNeighboursAreNotIndependent) {
+  const MeanDifference none = mean_difference({{unknown}}, {{1.0}});
+  EXPECT_EQ(none.mean, 0.0);
+  EXPECT_EQ(none.error, 0.0);
+  const MeanDifference by_hand = mean_difference({{3.0, unknown, 5.0}}, {{1.0, 2.0, 1.0}});  // 2 and 4, a block each
+  EXPECT_EQ(by_hand.mean, 3.0);
+  EXPECT_DOUBLE_EQ(by_hand.error, std::sqrt(2.0 * 2.0 / 1.0) / 2.0);
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  RowLosses alone(1), alike(1);  // as many rows; of the second ten neighbours are the same
+  for (int block = 0; block < 200; ++block) {
+    const double common = normal(generator);
+    for (int k = 0; k < 10; ++k) {
+      alone[0].push_back(normal(generator));
+      alike[0].push_back(common);
+    }
+  }
+  const RowLosses zero{std::vector<double>(2000, 0.0)};
+  EXPECT_NEAR(mean_difference(alone, zero).error, 1.0 / std::sqrt(2000.0), 0.4 / std::sqrt(2000.0));
+  EXPECT_NEAR(mean_difference(alike, zero).error, 1.0 / std::sqrt(200.0), 0.4 / std::sqrt(200.0));
+}
+
+TEST(CrossValidation, SelectsTheBestAndTheSimplestThatIsAsGood) {
+  const auto losses = [](double mean, double spread) {
+    RowLosses result(1);
+    for (int k = 0; k < 100; ++k) result[0].push_back(mean + (k / 5 % 2 == 0 ? spread : -spread));
+    return result;
+  };
+  const std::vector<RowLosses> all{losses(5.0, 0.0), losses(1.01, 0.5), losses(1.0, 0.0), losses(1.0, 0.0)};
+  const Selected selected = select_settings(all, std::array<std::size_t, 4>{0, 2, 7, 7});
+  EXPECT_EQ(selected.best, 2U);
+  EXPECT_EQ(selected.simple, 1U);
+  EXPECT_EQ(select_settings(all, std::array<std::size_t, 4>{0, 8, 7, 7}).simple, 2U);
+  EXPECT_TRUE(throws<std::invalid_argument>([] { select_settings({}, {}); }, {"0 settings"}));
+  EXPECT_TRUE(throws<std::invalid_argument>([&] { select_settings(all, std::array<std::size_t, 1>{3}); }, {"1", "4"}));
+}
+
+}  // namespace
+}  // namespace sigmax
