@@ -131,8 +131,6 @@ bool factorise(double* S, int m, double* L) {
 
 }  // namespace
 
-/// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
-/// gives S⁻¹.
 void score(const ModelRef& model, ConstView z, InnovationView& innovation, double* S_inverse) {
   const int m = z.n;
   Scratch<36> L(m * m), L_inverse(m * m);

@@ -30,8 +30,7 @@ concept FilterModel = StateModel<Model> &&(
 /// semi-definite, naming the model.
 template <FilterModel Model>
 void predict(const Model& model, const EstimateOf<Model>& prior, double dt, EstimateOf<Model>& result) {
-  detail::predict(detail::model_ref(model), detail::view(prior), dt,
-                  detail::sized_view(result, static_cast<int>(prior.size())));
+  detail::predict(detail::model_ref(model), detail::view(prior), dt, detail::sized_view(result, prior.size()));
 }
 
 /// Cov(x_k−1, x_k | z_1:k−1) = P Fᵀ, n × n: what a smoother needs of a prediction beside its result.
@@ -64,8 +63,7 @@ InnovationOf<Sensor> update(const Model& model, const EstimateOf<Model>& prior,
   innovation.covariance.resize(m, m);
   detail::InnovationView told{innovation.residual.data(), innovation.covariance.data()};
   detail::update(detail::model_ref(model), detail::view(prior), detail::view(measurement),
-                 detail::sensor_ref(sensor, model), detail::sized_view(posterior, static_cast<int>(prior.size())),
-                 told);
+                 detail::sensor_ref(sensor, model), detail::sized_view(posterior, prior.size()), told);
   innovation.squared_distance = told.squared_distance;
   innovation.log_likelihood = told.log_likelihood;
   return innovation;

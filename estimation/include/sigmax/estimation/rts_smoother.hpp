@@ -25,7 +25,7 @@ template <FilterModel Model>
 void smooth_step(const Model& model, const EstimateOf<Model>& filtered, double dt, const EstimateOf<Model>& next,
                  EstimateOf<Model>& result) {
   detail::smooth_step(detail::model_ref(model), detail::view(filtered), dt, detail::view(next),
-                      detail::sized_view(result, static_cast<int>(filtered.size())));
+                      detail::sized_view(result, filtered.size()));
 }
 
 /// The smoothed estimates of a whole interval, one for each filtered one; the last is itself.

@@ -4,13 +4,6 @@
 
 namespace sigmax {
 
-/// A measurement and its time in s.
-template <int M>
-struct TimedMeasurement {
-  double time;
-  Gaussian<M> measurement;
-};
-
 namespace detail {
 
 /// A measurement's numbers, and its time.
@@ -18,10 +11,6 @@ struct TimedView {
   double time;
   ConstView measurement;
 };
-template <int M>
-TimedView timed(const TimedMeasurement<M>& point) {
-  return {point.time, view(point.measurement)};
-}
 
 /// @{
 /// The starts below in numbers, of points along as many axes as they have; a result has two or three derivatives.
@@ -32,12 +21,21 @@ void released_start(const TimedView& first, const TimedView& second, const Timed
 
 }  // namespace detail
 
+/// A measurement and its time in s.
+template <int M>
+struct TimedMeasurement {
+  double time;
+  Gaussian<M> measurement;
+
+  operator detail::TimedView() const { return {time, detail::view(measurement)}; }
+};
+
 /// Position and velocity at the second point: x = z₂, v = (z₂ − z₁)/T.
 /// Throws std::invalid_argument unless the times increase.
 template <int M>
 Gaussian<2 * M> two_point_start(const TimedMeasurement<M>& first, const TimedMeasurement<M>& second) {
   Gaussian<2 * M> start;
-  detail::two_point_start(detail::timed(first), detail::timed(second), detail::view(start));
+  detail::two_point_start(first, second, detail::view(start));
   return start;
 }
 
@@ -48,7 +46,7 @@ template <int M>
 Gaussian<3 * M> three_point_start(const TimedMeasurement<M>& first, const TimedMeasurement<M>& second,
                                   const TimedMeasurement<M>& third) {
   Gaussian<3 * M> start;
-  detail::three_point_start(detail::timed(first), detail::timed(second), detail::timed(third), detail::view(start));
+  detail::three_point_start(first, second, third, detail::view(start));
   return start;
 }
 
@@ -58,7 +56,7 @@ template <int M>
 Gaussian<3 * M> released_start(const TimedMeasurement<M>& first, const TimedMeasurement<M>& second,
                                const TimedMeasurement<M>& third) {
   Gaussian<3 * M> start;
-  detail::released_start(detail::timed(first), detail::timed(second), detail::timed(third), detail::view(start));
+  detail::released_start(first, second, third, detail::view(start));
   return start;
 }
 

@@ -16,7 +16,7 @@ View view(Gaussian<N, MaxN>& gaussian) {
 
 /// A Gaussian of n components to be written, of a type that allows as many.
 template <int N, int MaxN>
-View sized_view(Gaussian<N, MaxN>& gaussian, int n) {
+View sized_view(Gaussian<N, MaxN>& gaussian, Eigen::Index n) {
   gaussian.mean.resize(n);
   gaussian.covariance.resize(n, n);
   return view(gaussian);

@@ -117,7 +117,7 @@ namespace detail {
 
 /// Whether a model may move along independent axes, as far as its type tells.
 template <class Model>
-inline constexpr bool may_move_along_axes = AxisMotion<typename AskedAs<Model>::type>::value;
+inline constexpr bool may_move_along_axes = AxisMotion<AskedAs<Model>>::value;
 template <>
 inline constexpr bool may_move_along_axes<AnyModel> = true;
 
