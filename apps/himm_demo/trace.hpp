@@ -39,8 +39,8 @@ struct TracedRun {
 /// What the experiment's radar saw, sample by sample, as the filter takes it.
 std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen);
 
-/// Leads a filter through a recording and calls visit(point) for each estimate, with the number of its sample, from 0, as
-/// its tag. Throws std::runtime_error, naming filter and sample, where a filter throws.
+/// Leads a filter through a recording and calls visit(point) for each estimate, with the number of its sample, from 0,
+/// as its tag. Throws std::runtime_error, naming filter and sample, where a filter throws.
 void follow(const FilterSettings& filter, double step_s, const Recording& recording,
             const std::function<void(const TargetPoint&)>& visit);
 

@@ -15,11 +15,6 @@
 #include "support/spelling.hpp"
 
 namespace sigmax::apps {
-namespace {
-
-using Numbers = std::vector<double>;
-using Matrix = std::vector<Numbers>;
-using Strings = std::vector<std::string>;
 
 /// A file, or one `--set key=value`, whose single line needs no numbers.
 struct Origin {
@@ -31,6 +26,12 @@ struct Origin {
     return fmt::format("{}:{}:{}", name, region.begin.line, region.begin.column);
   }
 };
+
+namespace {
+
+using Numbers = std::vector<double>;
+using Matrix = std::vector<Numbers>;
+using Strings = std::vector<std::string>;
 
 std::string key_name(std::string_view key) { return "key " + in_quotes(key); }
 

@@ -24,13 +24,13 @@ TEST(StudyWalk, WritesWhatItFound) {
   EXPECT_NEAR(heads.mean(), 0.25, 0.05);
 
   ResultFiles files(options);
+  testing::internal::CaptureStdout();
   ResultTable table;
   table.row_of({{{.key = "coin", .header = "coin", .align = Align::left}, "bent"},
                 {{.key = "heads", .header = "heads", .digits = 3, .interval = true}, heads.interval()}});
   Result result(options);
   result.fact({"seed"}, seed);
   result.add(table, {.csv = "coins.csv", .summary = {"coins"}, .title = "The coins"});
-  testing::internal::CaptureStdout();
   result.publish(files);
   std::fflush(stdout);
   const std::string shown = testing::internal::GetCapturedStdout();

@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/gaussian.hpp>
 #include <sigmax/estimation/root_mean_square.hpp>

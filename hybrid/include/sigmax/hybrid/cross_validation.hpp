@@ -7,8 +7,8 @@
 
 namespace sigmax {
 
-/// What a filter loses at each row of each recording: minus its log_score, a squared error, …; NaN for rows that are not
-/// judged.
+/// What a filter loses at each row of each recording: minus its log_score, a squared error, …; NaN for rows that are
+/// not judged.
 using RowLosses = std::vector<std::vector<double>>;
 
 /// Something of each row: the fold that it is in.
@@ -36,8 +36,8 @@ struct MeanDifference {
 };
 MeanDifference mean_difference(const RowLosses& a, const RowLosses& b);
 
-/// Which settings are the best, by the mean of what they lose held out, and which are the simplest that lose no more than
-/// one standard error more: those with the fewest fitted numbers. The first wins a tie.
+/// Which settings are the best, by the mean of what they lose held out, and which are the simplest that lose no more
+/// than one standard error more: those with the fewest fitted numbers. The first wins a tie.
 struct Selected {
   std::size_t best = 0;
   std::size_t simple = 0;
