@@ -26,7 +26,7 @@ Matrix numbers(int rows, int columns) {
 /// In columns that are two numbers longer than they need be, of which the last two are not touched.
 TEST(Dense, ProductsAreEigens) {
   for (const int rows : {0, 1, 2, 5, 9, 10, 11, 14, 20, 25})
-    for (const int inner : {0, 1, 3, 8})
+    for (const int inner : {1, 3, 8})
       for (const int columns : {1, 2, 7}) {
         const Matrix A = numbers(rows + 2, inner), B = numbers(inner, columns), C = numbers(rows + 2, columns);
         const Matrix B_transposed = B.transpose(), product = A.topRows(rows) * B;

@@ -33,7 +33,7 @@ class Reporter {
   Words made() {
     add_facts();
     describe();
-    const Words warnings = make_warnings();
+    Words warnings = make_warnings();
     if (!warnings.empty()) result_.fact({"warnings"}, warnings);
     result_.page.title = "Tracks of " + options_.recording.file;
     for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
