@@ -86,7 +86,7 @@ class Script {
 
   /// Rows of numbers that gnuplot plots by the name that this returns.
   std::string data(const std::vector<std::vector<double>>& columns) {
-    const std::string name = fmt::format("$data{}", ++blocks_);
+    std::string name = fmt::format("$data{}", ++blocks_);
     text_ += name + " << END\n";
     for (std::size_t k = 0; k < columns.front().size(); ++k) {
       for (const auto& column : columns) text_ += std::isfinite(column[k]) ? fmt::format("{:.7g} ", column[k]) : "NaN ";

@@ -127,8 +127,8 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 std::string csv_number(double value) { return std::isfinite(value) ? shortest(value) : ""; }
 
 std::string csv_of(const Cell& cell, const ResultColumn& column) {
-  const std::string no_bounds = column.interval ? ",," : "";
-  return std::visit(Overloaded{[&](std::monostate) { return no_bounds; },
+  const char* const no_bounds = column.interval ? ",," : "";
+  return std::visit(Overloaded{[&](std::monostate) { return std::string(no_bounds); },
                                [&](const std::string& words) { return csv_field(words) + no_bounds; },
                                [&](double value) { return csv_number(value) + no_bounds; },
                                [&](auto whole) { return fmt::format("{}", whole) + no_bounds; },

@@ -80,7 +80,7 @@ constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
-constexpr std::array lifts = {Lift::zero, Lift::unbiased, Lift::borrowed_variance};
+constexpr std::array swept_lifts = {Lift::zero, Lift::unbiased, Lift::borrowed_variance};
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
   std::vector<std::array<double, 3>> error(recording.truth.size(), {nan, nan, nan});
@@ -203,7 +203,7 @@ FilterSettings SweepWorld::settings(std::size_t condition, std::size_t f, const 
   own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
   own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
   for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-  own.lift = *std::find_if(lifts.begin(), lifts.end(),
+  own.lift = *std::find_if(swept_lifts.begin(), swept_lifts.end(),
                            [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
   return own;
 }

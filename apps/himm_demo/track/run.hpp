@@ -117,13 +117,6 @@ struct TrackOutcome {
   Refusals refusals;
 };
 
-/// What one filter says of the time of one row, about where the positions of its track are counted from.
-struct Estimate {
-  std::size_t filter;
-  const TargetPoint& point;
-  std::optional<Geodetic> place;  ///< of a geodetic target
-};
-
 /// Where a run puts what it finds row by row; null where nobody wants it.
 struct TrackSinks {
   AtomicFile* estimates = nullptr;  ///< estimates.csv
