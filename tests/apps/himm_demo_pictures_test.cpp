@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
@@ -36,6 +37,26 @@ TEST(HimmDemoPictures, AreTheChartsOfSimulate) {
   }
   const auto files = std::filesystem::directory_iterator(directory.path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 16);
+}
+
+TEST(HimmDemoPictures, AreThoseOfOneShardAndOfMergedOnes) {
+  if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
+  const TemporaryDirectory directory;
+  const auto whole = directory.path() / "whole", merged = directory.path() / "merged";
+  const auto reproduce = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"reproduce", "--quiet", "--runs", "2"});
+    const auto ending = program::run(SIGMAX_HIMM_DEMO, more);
+    ASSERT_EQ(ending.status, 0) << ending.output;
+  };
+  reproduce({"--plots", whole});
+  for (const char* part : {"1", "2"})
+    reproduce({"--shard", part + std::string("/2"), "--out", directory.path() / part});
+  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"merge", directory.path() / "1", directory.path() / "2", "--out",
+                                                      directory.path() / "all", "--quiet", "--plots", merged});
+  ASSERT_EQ(ending.status, 0) << ending.output;
+  for (const auto& picture : std::filesystem::directory_iterator(whole))
+    if (picture.path().extension() == ".svg")
+      EXPECT_EQ(contents(merged / picture.path().filename()), contents(picture.path()));
 }
 
 TEST(HimmDemoPictures, AreNotDrawnWhereTheyCannotBeWritten) {
