@@ -10,6 +10,7 @@
 #include <sigmax/estimation/filtering.hpp>
 #include <sigmax/estimation/motion_numbers.hpp>
 
+#include "products.hpp"
 #include "sigma_points.hpp"
 
 namespace sigmax::detail {
@@ -121,22 +122,23 @@ void predict_axes(const AxisLaw& law, double* x, double* P) {
 
 /// Cholesky's factor of S. A pivot that drowned in the rounding of S, as where one model's spread is 10⁸ times as wide
 /// as the measurement, is lifted above it.
+template <int M>
 bool factorise(double* S, int m, double* L) {
-  bool drowned = !cholesky_factor(S, m, L);
+  bool drowned = !cholesky_factor<M>(S, m, L);
   for (int k = 0; !drowned && k < m; ++k) drowned = !(L[k + k * m] * L[k + k * m] >= rounding * S[k + k * m]);
   if (!drowned) return true;
   for (int k = 0; k < m; ++k) S[k + k * m] *= 1.0 + rounding;
-  return cholesky_factor(S, m, L);
+  return cholesky_factor<M>(S, m, L);
 }
 
-}  // namespace
-
-void score(const ModelRef& model, ConstView z, InnovationView& innovation, double* S_inverse) {
-  const int m = z.n;
+/// As `score`, of as many quantities as the compiler knows, if M is not 0.
+template <int M>
+void scored(const ModelRef& model, ConstView z, InnovationView& innovation, double* S_inverse) {
+  const int m = M > 0 ? M : z.n;
   Scratch<36> L(m * m), L_inverse(m * m);
-  if (!factorise(innovation.covariance, m, L))
+  if (!factorise<M>(innovation.covariance, m, L))
     throw std::domain_error("the innovation covariance of model '" + model.name() + "' is not positive definite");
-  lower_inverse(L, m, L_inverse);  // S⁻¹ = L⁻ᵀ L⁻¹
+  lower_inverse<M>(L, m, L_inverse);  // S⁻¹ = L⁻ᵀ L⁻¹
   double distance = 0.0, log_root = 0.0;
   for (int i = 0; i < m; ++i) {
     double whitened = 0.0;
@@ -162,14 +164,25 @@ void score(const ModelRef& model, ConstView z, InnovationView& innovation, doubl
     }
 }
 
+}  // namespace
+
+void score(const ModelRef& model, ConstView z, InnovationView& innovation, double* S_inverse) {
+  if (z.n == 1) return scored<1>(model, z, innovation, S_inverse);
+  if (z.n == 2) return scored<2>(model, z, innovation, S_inverse);
+  if (z.n == 3) return scored<3>(model, z, innovation, S_inverse);
+  scored<0>(model, z, innovation, S_inverse);
+}
+
 namespace {
 
 /// Joseph's update, (I − WH) P (I − WH)ᵀ + W R Wᵀ, block by block: of the k components that are seen, for which H (m ×
 /// k) has columns, and of the others. I − W [H 0] = [A 0; −B I]. Without H, which is [I 0] then, A is R S⁻¹, which does
-/// not cancel.
-void update_by(const ModelRef& model, const double* H, int k, ConstView prior, ConstView z, View posterior,
+/// not cancel. If K is not 0, it is k and m, and n is K + Rest.
+template <int K, int Rest>
+void update_by(const ModelRef& model, const double* H, int seen, ConstView prior, ConstView z, View posterior,
                InnovationView& innovation) {
-  const int n = prior.n, m = z.n, rest = n - k;
+  constexpr int N = K + Rest;
+  const int k = K > 0 ? K : seen, n = K > 0 ? N : prior.n, m = K > 0 ? K : z.n, rest = n - k;
   const double* const P = prior.covariance;
   const double* const R = z.covariance;
   Scratch PHt_(n * m), W_(n * m), WR_(n * m), B_(n * k), C_(n * k), result_(n * n), terms_(n);
@@ -178,39 +191,39 @@ void update_by(const ModelRef& model, const double* H, int k, ConstView prior, C
   double *S_inverse = S_inverse_, *A = A_, *AP = AP_;
   const double* PHt = P;  // its leading columns, if H has none
   if (H) {
-    multiply(P, n, transposed(H, m), PHt_, n, n, k, m);
+    multiply<N, K>(P, n, transposed(H, m), PHt_, n, n, k, m);
     PHt = PHt_;
     std::copy_n(R, m * m, innovation.covariance);
-    multiply(H, m, {PHt, 1, n}, innovation.covariance, m, m, k, m, Into::plus);
+    multiply<K, K>(H, m, {PHt, 1, n}, innovation.covariance, m, m, k, m, Into::plus);
   } else {
     for (int j = 0; j < m; ++j)
       for (int i = 0; i < m; ++i) innovation.covariance[i + j * m] = P[i + j * n] + R[i + j * m];
   }
   score(model, z, innovation, S_inverse);
-  multiply(PHt, n, columns_of(S_inverse, m), W, n, n, m, m);
-  multiply(W, n, columns_of(R, m), WR, n, n, m, m);
+  multiply<N, K>(PHt, n, columns_of(S_inverse, m), W, n, n, m, m);
+  multiply<N, K>(W, n, columns_of(R, m), WR, n, n, m, m);
   if (H) {
     std::fill_n(A, k * k, 0.0);
     for (int i = 0; i < k; ++i) A[i + i * k] = 1.0;
-    multiply(W, n, columns_of(H, m), A, k, k, m, k, Into::minus);
-    multiply(W + k, n, columns_of(H, m), B, rest, rest, m, k);
+    multiply<K, K>(W, n, columns_of(H, m), A, k, k, m, k, Into::minus);
+    multiply<Rest, K>(W + k, n, columns_of(H, m), B, rest, rest, m, k);
   } else {
-    multiply(R, m, columns_of(S_inverse, m), A, m, m, m, m);
+    multiply<K, K>(R, m, columns_of(S_inverse, m), A, m, m, m, m);
     for (int j = 0; j < k; ++j) std::copy_n(W + k + j * n, rest, B + j * rest);
   }
 
   // The blocks of the result on and below the diagonal.
-  multiply(A, k, {P, 1, n}, AP, k, k, k, k);
-  multiply(AP, k, transposed(A, k), result, n, k, k, k);
-  multiply(WR, n, transposed(W, n), result, n, k, m, k, Into::plus);
+  multiply<K, K>(A, k, {P, 1, n}, AP, k, k, k, k);
+  multiply<K, K>(AP, k, transposed(A, k), result, n, k, k, k);
+  multiply<K, K>(WR, n, transposed(W, n), result, n, k, m, k, Into::plus);
   for (int j = 0; j < k; ++j) std::copy_n(P + k + j * n, rest, C + j * rest);
-  multiply(B, rest, {P, 1, n}, C, rest, rest, k, k, Into::minus);
-  multiply(C, rest, transposed(A, k), result + k, n, rest, k, k);
-  multiply(WR + k, n, transposed(W, n), result + k, n, rest, m, k, Into::plus);
+  multiply<Rest, K>(B, rest, {P, 1, n}, C, rest, rest, k, k, Into::minus);
+  multiply<Rest, K>(C, rest, transposed(A, k), result + k, n, rest, k, k);
+  multiply<Rest, K>(WR + k, n, transposed(W, n), result + k, n, rest, m, k, Into::plus);
   for (int j = 0; j < rest; ++j) std::copy_n(P + k + (k + j) * n, rest, result + k + (k + j) * n);
-  multiply(B, rest, {P + k * n, 1, n}, result + k + k * n, n, rest, k, rest, Into::minus);
-  multiply(C, rest, transposed(B, rest), result + k + k * n, n, rest, k, rest, Into::minus);
-  multiply(WR + k, n, {W + k, n, 1}, result + k + k * n, n, rest, m, rest, Into::plus);
+  multiply<Rest, K>(B, rest, {P + k * n, 1, n}, result + k + k * n, n, rest, k, rest, Into::minus);
+  multiply<Rest, K>(C, rest, transposed(B, rest), result + k + k * n, n, rest, k, rest, Into::minus);
+  multiply<Rest, K>(WR + k, n, {W + k, n, 1}, result + k + k * n, n, rest, m, rest, Into::plus);
 
   for (int i = 0; i < n; ++i) terms[i] = i < k ? 0.0 : P[i + i * n];  // of the variances, before they may cancel
   for (int j = 0; j < k; ++j) {
@@ -222,8 +235,26 @@ void update_by(const ModelRef& model, const double* H, int k, ConstView prior, C
   mirror_lower(result, n);
 
   if (posterior.mean != prior.mean) std::copy_n(prior.mean, n, posterior.mean);
-  multiply(W, n, columns_of(innovation.residual, m), posterior.mean, n, n, m, 1, Into::plus);
+  multiply<N, K>(W, n, columns_of(innovation.residual, m), posterior.mean, n, n, m, 1, Into::plus);
   std::copy_n(result, n * n, posterior.covariance);
+}
+
+/// The same: the compiler knows the sizes where as many quantities are measured as there are axes.
+template <int Axes>
+void update_along(const ModelRef& model, const double* H, ConstView prior, ConstView z, View posterior,
+                  InnovationView& innovation) {
+  if (prior.n == 2 * Axes) return update_by<Axes, Axes>(model, H, Axes, prior, z, posterior, innovation);
+  if (prior.n == 2 * Axes + 1) return update_by<Axes, Axes + 1>(model, H, Axes, prior, z, posterior, innovation);
+  if (prior.n == 3 * Axes) return update_by<Axes, 2 * Axes>(model, H, Axes, prior, z, posterior, innovation);
+  update_by<0, 0>(model, H, Axes, prior, z, posterior, innovation);
+}
+
+void update_by_any(const ModelRef& model, const double* H, int seen, ConstView prior, ConstView z, View posterior,
+                   InnovationView& innovation) {
+  if (seen == z.n && seen == 1) return update_along<1>(model, H, prior, z, posterior, innovation);
+  if (seen == z.n && seen == 2) return update_along<2>(model, H, prior, z, posterior, innovation);
+  if (seen == z.n && seen == 3) return update_along<3>(model, H, prior, z, posterior, innovation);
+  update_by<0, 0>(model, H, seen, prior, z, posterior, innovation);
 }
 
 /// H of a sensor over what it sees, and z − h(x).
@@ -279,13 +310,13 @@ void update(const ModelRef& model, ConstView prior, ConstView z, const SensorRef
   const int seen = seen_of(sensor, model, prior.n, m);
   if (sensor.table->leading) {
     for (int i = 0; i < m; ++i) innovation.residual[i] = z.mean[i] - prior.mean[i];
-    return update_by(model, nullptr, seen, prior, z, posterior, innovation);
+    return update_by_any(model, nullptr, seen, prior, z, posterior, innovation);
   }
   if (!sensor.table->linear && model.by_points())
     return update_by_points(model, prior, z, sensor, posterior, innovation);
   Scratch<64> H(m * seen);
   tangent_of(model, sensor, seen, prior.mean, z, H, innovation.residual);
-  update_by(model, H, seen, prior, z, posterior, innovation);
+  update_by_any(model, H, seen, prior, z, posterior, innovation);
 }
 
 void linearised_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q) {
