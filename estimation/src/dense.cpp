@@ -1,29 +1,15 @@
 #include <sigmax/estimation/dense.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "products.hpp"
+#include "kernels/kernels.hpp"
 
 namespace sigmax::detail {
-namespace {
-
-using Multiply = void (*)(const double*, int, Strided, double*, int, int, int, Into);
-constexpr std::array<Multiply, 10> by_rows{
-    multiply_rows<1, 0>, multiply_rows<2, 0>, multiply_rows<3, 0>, multiply_rows<4, 0>, multiply_rows<5, 0>,
-    multiply_rows<6, 0>, multiply_rows<7, 0>, multiply_rows<8, 0>, multiply_rows<9, 0>, multiply_rows<10, 0>};
-
-}  // namespace
-
 void multiply(const double* A, int a_column, Strided B, double* C, int c_column, int rows, int inner, int columns,
               Into into) {
-  constexpr int most = by_rows.size();
-  for (int first = 0; first < rows; first += most) {
-    const int part = std::min(rows - first, most);
-    by_rows[static_cast<std::size_t>(part - 1)](A + first, a_column, B, C + first, c_column, inner, columns, into);
-  }
+  kernels().product(A, a_column, B, C, c_column, rows, inner, columns, into);
 }
 
 void multiply_transposed(const double* A, int a_column, const double* B, int b_column, double* C, int c_column,
@@ -36,7 +22,21 @@ void multiply_transposed(const double* A, int a_column, const double* B, int b_c
     }
 }
 
-bool cholesky_factor(const double* S, int n, double* L) { return cholesky_factor<0>(S, n, L); }
+bool cholesky_factor(const double* S, int n, double* L) {
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) {
+      if (i < k) {
+        L[i + k * n] = 0.0;
+        continue;
+      }
+      double sum = 0.0;
+      for (int j = 0; j < k; ++j) sum += L[i + j * n] * L[k + j * n];
+      const double rest = S[i + k * n] - sum;
+      if (i == k && rest <= 0.0) return false;
+      L[i + k * n] = i == k ? std::sqrt(rest) : rest / L[k + k * n];
+    }
+  return true;
+}
 
 void lower_solve(const double* L, int n, double* z) {
   for (int k = 0; k < n; ++k) {
@@ -57,6 +57,16 @@ double normalized_error_squared(const double* error, const double* P, int n) {
   return sum;
 }
 
-void lower_inverse(const double* L, int n, double* inverse) { lower_inverse<0>(L, n, inverse); }
+void lower_inverse(const double* L, int n, double* inverse) {
+  for (int column = 0; column < n; ++column) {
+    for (int row = 0; row < column; ++row) inverse[row + column * n] = 0.0;
+    inverse[column + column * n] = 1.0 / L[column + column * n];
+    for (int row = column + 1; row < n; ++row) {
+      double sum = 0.0;
+      for (int k = column; k < row; ++k) sum += L[row + k * n] * inverse[k + column * n];
+      inverse[row + column * n] = -sum / L[row + row * n];
+    }
+  }
+}
 
 }  // namespace sigmax::detail

@@ -79,10 +79,9 @@ std::array<double, 4> taylor(double dt) { return {1.0, dt, dt * dt / 2.0, dt * d
 
 /// F_s(a, b) = Tᵇ⁻ᵃ/(b−a)!: every derivative is the integral of the next.
 void taylor_transition(int order, double dt, double* numbers) {
-  const Entries F(numbers, order);
   const auto power = taylor(dt);
-  for (int a = 0; a < order; ++a)
-    for (int b = a; b < order; ++b) F(a, b) = power[static_cast<std::size_t>(b - a)];
+  for (int b = 0; b < order; ++b)
+    for (int a = 0; a < order; ++a) numbers[a + b * order] = a > b ? 0.0 : power[static_cast<std::size_t>(b - a)];
 }
 
 /// Σ_{n ≥ k} (−1)ⁿ uⁿ⁻ᵏ/n! (a 2ⁿ + b n + c): what is left of a e⁻²ᵘ − b u e⁻ᵘ + c e⁻ᵘ after its first k powers, over

@@ -23,7 +23,7 @@ using Columns = Scratch<210>;
 class SigmaPoints {
  public:
   /// Throws std::domain_error, naming the model, if the estimate's covariance is not positive semi-definite.
-  SigmaPoints(const ModelRef& model, ConstView estimate)
+  SigmaPoints(const ModelRef& model, const ConstView& estimate)
       : weights_(model.points),
         n_(estimate.n),
         centre_(weights_.centre_of_mean != 0.0 || weights_.centre_of_covariance != 0.0 ? 1 : 0),
@@ -162,7 +162,7 @@ void regress(SigmaPoints& points, int n, double* deviations, int rows, double* s
 
 }  // namespace
 
-void predict_by_points(const ModelRef& model, ConstView prior, double dt, View result) {
+void predict_by_points(const ModelRef& model, const ConstView& prior, double dt, const View& result) {
   const int n = prior.n;
   SigmaPoints points(model, prior);
   Columns deviations(n * points.count());
@@ -176,8 +176,8 @@ void predict_by_points(const ModelRef& model, ConstView prior, double dt, View r
   std::copy_n(mean.data(), n, result.mean);
 }
 
-void update_by_points(const ModelRef& model, ConstView prior, ConstView z, const SensorRef& sensor, View posterior,
-                      InnovationView& innovation) {
+void update_by_points(const ModelRef& model, const ConstView& prior, const ConstView& z, const SensorRef& sensor,
+                      const View& posterior, InnovationView& innovation) {
   const int n = prior.n, m = z.n;
   SigmaPoints points(model, prior);
   Columns seen(m * points.count()), rest(n * points.count());
@@ -204,7 +204,7 @@ void update_by_points(const ModelRef& model, ConstView prior, ConstView z, const
   multiply(W, n, columns_of(innovation.residual, m), posterior.mean, n, n, m, 1, Into::plus);
 }
 
-void regressed_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q) {
+void regressed_step(const ModelRef& model, const ConstView& start, double dt, double* mean, double* F, double* Q) {
   const int n = start.n;
   SigmaPoints points(model, start);
   Columns deviations(n * points.count());
@@ -214,8 +214,8 @@ void regressed_step(const ModelRef& model, ConstView start, double dt, double* m
   for (int i = 0; i < n * n; ++i) Q[i] += rest[i];
 }
 
-void regressed_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
-                           double* residual, double* H, double* R) {
+void regressed_measurement(const ModelRef& model, const ConstView& predicted, const ConstView& z,
+                           const SensorRef& sensor, double* residual, double* H, double* R) {
   const int n = predicted.n, m = z.n;
   SigmaPoints points(model, predicted);
   Columns seen(m * points.count());

@@ -16,7 +16,7 @@ double positive_step(double earlier, double later) {
 
 /// Adds one of independent measurements to a start, whose derivative d (0 position, 1 velocity, …) is the sum of them
 /// by their weights[d]. States are ordered by derivative, as in IndependentAxes.
-void add_point(std::initializer_list<double> weights, ConstView point, View start) {
+void add_point(std::initializer_list<double> weights, const ConstView& point, const View& start) {
   const double* const weight = weights.begin();
   const int orders = static_cast<int>(weights.size()), M = point.n;
   for (int a = 0; a < orders; ++a) {
@@ -28,21 +28,21 @@ void add_point(std::initializer_list<double> weights, ConstView point, View star
   mirror_lower(start.covariance, start.n);
 }
 
-void clear(View start) {
+void clear(const View& start) {
   std::fill_n(start.mean, start.n, 0.0);
   std::fill_n(start.covariance, start.n * start.n, 0.0);
 }
 
 }  // namespace
 
-void two_point_start(const TimedView& first, const TimedView& second, View start) {
+void two_point_start(const TimedView& first, const TimedView& second, const View& start) {
   const double T = positive_step(first.time, second.time);
   clear(start);
   add_point({0.0, -1.0 / T}, first.measurement, start);
   add_point({1.0, 1.0 / T}, second.measurement, start);
 }
 
-void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, View start) {
+void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start) {
   const double h = positive_step(first.time, second.time), k = positive_step(second.time, third.time);
   clear(start);
   add_point({0.0, k / (h * (h + k)), 2.0 / (h * (h + k))}, first.measurement, start);
@@ -50,7 +50,7 @@ void three_point_start(const TimedView& first, const TimedView& second, const Ti
   add_point({1.0, (h + 2.0 * k) / (k * (h + k)), 2.0 / (k * (h + k))}, third.measurement, start);
 }
 
-void released_start(const TimedView& first, const TimedView& second, const TimedView& third, View start) {
+void released_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start) {
   const double T = positive_step(second.time, third.time);
   const double* const R = third.measurement.covariance;
   clear(start);

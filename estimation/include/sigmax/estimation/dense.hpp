@@ -15,6 +15,7 @@ class Scratch {
     if (size > Few) many_ = std::make_unique<Number[]>(static_cast<std::size_t>(size));
   }
   Number* data() { return many_ ? many_.get() : few_; }
+  const Number* data() const { return many_ ? many_.get() : few_; }
   operator Number*() { return data(); }
 
  private:

@@ -16,29 +16,30 @@ struct InnovationView {
 
 /// Prediction, (27) and (28). Throws std::invalid_argument for an estimate of another size than the model's,
 /// std::domain_error if f or its Jacobian is not finite or a covariance not positive semi-definite, naming the model.
-void predict(const ModelRef& model, ConstView prior, double dt, View result);
+void predict(const ModelRef& model, const ConstView& prior, double dt, const View& result);
 
 /// The same with the law at hand, of a motion along independent axes.
-void predict(const AxisLaw& law, int axes, ConstView prior, View result);
+void predict(const AxisLaw& law, int axes, const ConstView& prior, const View& result);
 
 /// Update, (29)–(32); throws as sigmax::update.
-void update(const ModelRef& model, ConstView prior, ConstView z, const SensorRef& sensor, View posterior,
-            InnovationView& innovation);
+void update(const ModelRef& model, const ConstView& prior, const ConstView& z, const SensorRef& sensor,
+            const View& posterior, InnovationView& innovation);
 
 /// x_k = mean + F (x_{k−1} − m) + w, w ~ N(0, Q), about an estimate with mean m.
-void linearised_step(const ModelRef& model, ConstView start, double dt, double* mean, double* F, double* Q);
+void linearised_step(const ModelRef& model, const ConstView& start, double dt, double* mean, double* F, double* Q);
 
 /// Cov(x_k−1, x_k) = P Fᵀ with that F.
-void prediction_covariance(const ModelRef& model, ConstView prior, double dt, double* result);
+void prediction_covariance(const ModelRef& model, const ConstView& prior, double dt, double* result);
 
 /// A step of the smoother of Rauch, Tung and Striebel, see sigmax::smooth_step.
-void smooth_step(const ModelRef& model, ConstView filtered, double dt, ConstView next, View result);
+void smooth_step(const ModelRef& model, const ConstView& filtered, double dt, const ConstView& next,
+                 const View& result);
 
 /// residual = H (x − m) + v, v ~ N(0, R), about an estimate with mean m; H has a column for each component.
-void linearised_measurement(const ModelRef& model, ConstView predicted, ConstView z, const SensorRef& sensor,
-                            double* residual, double* H, double* R);
+void linearised_measurement(const ModelRef& model, const ConstView& predicted, const ConstView& z,
+                            const SensorRef& sensor, double* residual, double* H, double* R);
 
 /// p → A p + b of the position along `axes` axes, which leads the state, and A p of its derivatives; A by columns.
-void transform(const double* A, const double* b, int axes, View estimate);
+void transform(const double* A, const double* b, int axes, const View& estimate);
 
 }  // namespace sigmax::detail

@@ -36,10 +36,10 @@ struct View {
 /// What a motion along independent axes does in one step: F_s and Q_s, order × order, the same along each axis, and
 /// what a known input adds to the state.
 struct AxisLaw {
-  int order = 0;
-  double F[9] = {};
-  double Q[9] = {};
-  double input[9] = {};
+  int order;
+  double F[9];
+  double Q[9];
+  double input[9];
 };
 
 /// The functions of one type of motion; of the last three it has one.

@@ -14,9 +14,9 @@ struct TimedView {
 
 /// @{
 /// The starts below in numbers, of points along as many axes as they have; a result has two or three derivatives.
-void two_point_start(const TimedView& first, const TimedView& second, View start);
-void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, View start);
-void released_start(const TimedView& first, const TimedView& second, const TimedView& third, View start);
+void two_point_start(const TimedView& first, const TimedView& second, const View& start);
+void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start);
+void released_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start);
 /// @}
 
 }  // namespace detail
