@@ -78,7 +78,7 @@ void tangent_of(const ModelRef& model, const SensorRef& sensor, int seen, const 
   } else {
     Scratch<6> predicted(z.n);
     measured_at(model, sensor, x, z.n, predicted);
-    difference(sensor, z.mean, predicted, z.n, residual);
+    difference(sensor, z.mean, predicted, z.n, 1, residual);
   }
 }
 
@@ -202,9 +202,9 @@ void moved_from(const ModelRef& model, const double* x, double dt, double* image
   if (F) require_finite(F, n * n, "the Jacobian of f", model, x);
 }
 
-void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, double* result) {
-  if (sensor.table->difference) return sensor.table->difference(sensor.sensor, z, predicted, m, result);
-  for (int i = 0; i < m; ++i) result[i] = z[i] - predicted[i];
+void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, int count, double* result) {
+  if (sensor.table->difference) return sensor.table->difference(sensor.sensor, z, predicted, m, count, result);
+  for (int i = 0; i < m * count; ++i) result[i] = z[i] - predicted[i % m];
 }
 
 void transform(const double* A, const double* b, int axes, const View& estimate) {

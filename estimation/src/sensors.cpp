@@ -121,9 +121,12 @@ void doppler(int axes, const double* origin, const double* x, double* z, double*
   }
 }
 
-void polar_difference(const double* z, const double* predicted, int m, double* result) {
-  for (int i = 0; i < m; ++i) result[i] = z[i] - predicted[i];
-  result[1] = wrapped(result[1]);
+void polar_difference(const double* z, const double* predicted, int m, int count, double* result) {
+  for (int k = 0; k < count * m; k += m)
+    for (int i = 0; i < m; ++i) {
+      const double apart = z[k + i] - predicted[i];
+      result[k + i] = i == 1 ? wrapped(apart) : apart;
+    }
 }
 
 void convert(const double* measured, const double* sigma, Conversion conversion, double* mean, double* covariance) {
@@ -139,7 +142,9 @@ void convert(const double* measured, const double* sigma, Conversion conversion,
     const double J[9] = {ce * ca, ce * sa, se, -r * ce * sa, r * ce * ca, 0.0, -r * se * ca, -r * se * sa, r * ce};
     double scaled[9];
     for (int k = 0; k < 9; ++k) scaled[k] = J[k] * sigma[k / 3];
-    multiply(scaled, 3, transposed(scaled, 3), covariance, 3, 3, 3, 3);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i)
+        covariance[i + 3 * k] = scaled[i] * scaled[k] + scaled[i + 3] * scaled[k + 3] + scaled[i + 6] * scaled[k + 6];
     std::copy_n(position, 3, mean);
   } else {
     const double lambda_a = std::exp(-0.5 * sigma[1] * sigma[1]), lambda_e = std::exp(-0.5 * sigma[2] * sigma[2]);

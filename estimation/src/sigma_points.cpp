@@ -42,7 +42,6 @@ class SigmaPoints {
   /// Where a point lies about the mean.
   double* offset(int point) { return offsets_ + point * n_; }
   const double* root() { return root_; }
-  double spread() const { return weights_.spread; }
   /// The place of the first point up; those down are n behind.
   int up() const { return centre_; }
 
@@ -51,13 +50,25 @@ class SigmaPoints {
     return point < centre_ ? weights_.centre_of_covariance : 0.5 / weights_.spread;
   }
 
-  /// Σ wᵢ aᵢ bᵢᵀ, rows × columns, over deviations from two means; of one with itself it is symmetric.
-  void covariance(const double* a, int rows, const double* b, int columns, double* result) {
-    Columns weighted(rows * count());
-    for (int i = 0; i < count(); ++i)
-      for (int row = 0; row < rows; ++row) weighted[row + i * rows] = in_covariance(i) * a[row + i * rows];
-    multiply(weighted, rows, transposed(b, columns), result, rows, rows, count(), columns);
-    if (a == b) mirror_lower(result, rows);
+  /// Σ wᵢ dᵢ dᵢᵀ over deviations of so many rows. All weights but the centre's are equal.
+  void covariance(const double* deviations, int rows, double* result) {
+    const int size = rows * rows;
+    const double* const others = deviations + centre_ * rows;
+    multiply(others, rows, transposed(others, rows), result, rows, rows, 2 * n_, rows);
+    const double weight = in_covariance(centre_);
+    for (int i = 0; i < size; ++i) result[i] *= weight;
+    if (centre_ == 0) return;
+    for (int k = 0; k < rows; ++k)
+      for (int i = 0; i < rows; ++i)
+        result[i + k * rows] += weights_.centre_of_covariance * deviations[i] * deviations[k];
+  }
+
+  /// The slope of a function times the root: √spread Σ wᵢ dᵢ lᵢᵀ, rows × n, where lᵢ is the i-th axis, up or down.
+  void slope(const double* deviations, int rows, double* result) const {
+    const double* const up = deviations + centre_ * rows;
+    const double* const down = up + n_ * rows;
+    const double scale = 0.5 / std::sqrt(weights_.spread);
+    for (int i = 0; i < n_ * rows; ++i) result[i] = scale * (up[i] - down[i]);
   }
 
  private:
@@ -96,12 +107,11 @@ void mean_of(const SensorRef& sensor, SigmaPoints& points, const double* seen, i
     for (int i = 0; i < points.count(); ++i) weights[i] = points.in_mean(i);
     return sensor.table->mean(sensor.sensor, seen, weights, m, points.count(), mean);
   }
-  Scratch<6> apart(m);
+  Columns apart(m * points.count());
+  difference(sensor, seen, seen, m, points.count(), apart);
   std::copy_n(seen, m, mean);
-  for (int i = 1; i < points.count(); ++i) {
-    difference(sensor, seen + i * m, seen, m, apart);
-    for (int k = 0; k < m; ++k) mean[k] += points.in_mean(i) * apart[k];
-  }
+  for (int i = 1; i < points.count(); ++i)
+    for (int k = 0; k < m; ++k) mean[k] += points.in_mean(i) * apart[k + i * m];
 }
 
 /// What h makes of the points: its mean, and the deviations from it. Points that the sensor cannot tell from the mean
@@ -123,7 +133,7 @@ void measure(const ModelRef& model, SigmaPoints& points, const double* x, const 
     if (there) at_mean = i;
   }
   mean_of(sensor, points, deviations, m, mean);
-  for (int i = 0; i < points.count(); ++i) difference(sensor, deviations + i * m, mean, m, deviations + i * m);
+  difference(sensor, deviations, mean, m, points.count(), deviations);
 }
 
 /// Writes a symmetric sum of squares. Only a negative weight can take its definiteness away: throws std::domain_error
@@ -141,12 +151,9 @@ void write_semidefinite(const ModelRef& model, const double* covariance, int n, 
 void regress(SigmaPoints& points, int n, double* deviations, int rows, double* slope, double* rest) {
   double* const up = deviations + points.up() * rows;
   double* const down = up + n * rows;
-  const double scale = 0.5 / std::sqrt(points.spread());
-  for (int i = 0; i < n * rows; ++i) {
-    slope[i] = scale * (up[i] - down[i]);
-    up[i] = down[i] = 0.5 * (up[i] + down[i]);
-  }
-  points.covariance(deviations, rows, deviations, rows, rest);
+  points.slope(deviations, rows, slope);
+  for (int i = 0; i < n * rows; ++i) up[i] = down[i] = 0.5 * (up[i] + down[i]);
+  points.covariance(deviations, rows, rest);
   const double* const L = points.root();
   for (int k = n; k-- > 0;) {  // A with A L = slope; where a column of L is zero, A knows nothing
     double* const column = slope + k * rows;
@@ -169,7 +176,7 @@ void predict_by_points(const ModelRef& model, const ConstView& prior, double dt,
   Scratch<> Q(n * n), sum(n * n);
   Scratch<32> mean(n);
   propagate(model, points, prior.mean, dt, mean, deviations, Q);
-  points.covariance(deviations, n, deviations, n, sum);
+  points.covariance(deviations, n, sum);
   for (int i = 0; i < n * n; ++i) sum[i] += Q[i];
   mirror_lower(sum, n);
   write_semidefinite(model, sum, n, result.covariance);
@@ -183,19 +190,20 @@ void update_by_points(const ModelRef& model, const ConstView& prior, const Const
   Columns seen(m * points.count()), rest(n * points.count());
   Scratch<6> predicted(m);
   Scratch<36> S_inverse(m * m);
-  Scratch<> cross(n * m), W(n * m), WR(n * m), sum(n * n);
+  Scratch<> slope(m * n), cross(n * m), W(n * m), WR(n * m), sum(n * n);
   measure(model, points, prior.mean, sensor, m, predicted, seen);
-  difference(sensor, z.mean, predicted, m, innovation.residual);
-  points.covariance(seen, m, seen, m, innovation.covariance);
+  difference(sensor, z.mean, predicted, m, 1, innovation.residual);
+  points.covariance(seen, m, innovation.covariance);
   for (int i = 0; i < m * m; ++i) innovation.covariance[i] += z.covariance[i];
   mirror_lower(innovation.covariance, m);
   score(model, z, innovation, S_inverse);
 
-  points.covariance(points.offset(0), n, seen, m, cross);
+  points.slope(seen, m, slope);
+  multiply(points.root(), n, transposed(slope, m), cross, n, n, n, m);
   multiply(cross, n, columns_of(S_inverse, m), W, n, n, m, m);
   std::copy_n(points.offset(0), n * points.count(), rest.data());
   multiply(W, n, columns_of(seen, m), rest, n, n, m, points.count(), Into::minus);
-  points.covariance(rest, n, rest, n, sum);
+  points.covariance(rest, n, sum);
   multiply(W, n, columns_of(z.covariance, m), WR, n, n, m, m);
   multiply(WR, n, transposed(W, n), sum, n, n, m, n, Into::plus);
   mirror_lower(sum, n);
@@ -221,7 +229,7 @@ void regressed_measurement(const ModelRef& model, const ConstView& predicted, co
   Columns seen(m * points.count());
   Scratch<6> mean(m);
   measure(model, points, predicted.mean, sensor, m, mean, seen);
-  difference(sensor, z.mean, mean, m, residual);
+  difference(sensor, z.mean, mean, m, 1, residual);
   regress(points, n, seen, m, H, R);
   for (int i = 0; i < m * m; ++i) R[i] += z.covariance[i];
 }

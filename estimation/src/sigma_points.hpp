@@ -22,8 +22,8 @@ void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q);
 /// @}
 
-/// z − predicted by the sensor's own difference, also in the place of z.
-void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, double* result);
+/// z − predicted by the sensor's own difference, of so many z, a column each; also in the place of z.
+void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, int count, double* result);
 
 /// Fills in the squared distance and the log-likelihood of an innovation whose residual and covariance S are known, and
 /// gives S⁻¹. Throws as `update`.

@@ -23,8 +23,8 @@ void bearing(const double* origin, const double* position, double* z, double* H)
 /// What `polar` sees, and the rate of the range; of position and velocity.
 void doppler(int axes, const double* origin, const double* x, double* z, double* H);
 
-/// z − predicted of m quantities of which the second is an azimuth.
-void polar_difference(const double* z, const double* predicted, int m, double* result);
+/// z − predicted of m quantities of which the second is an azimuth, of so many z, a column each.
+void polar_difference(const double* z, const double* predicted, int m, int count, double* result);
 
 /// What a radar's measurement of m quantities, with its covariance, tells of the position: its unbiased conversion.
 void position_of_polar(int axes, const double* origin, const double* z, const double* R, int m, double* mean,

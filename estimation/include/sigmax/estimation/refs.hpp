@@ -78,8 +78,9 @@ struct SensorTable {
   /// h(x), m numbers, and H = ∂h/∂x by columns, where they are asked for. Throws std::invalid_argument if it measures
   /// another number of quantities.
   void (*measure)(const void* sensor, const void* model, const double* x, int n, int m, double* z, double* H) = nullptr;
-  /// z − predicted, also in the place of z; the plain difference if there is none.
-  void (*difference)(const void* sensor, const double* z, const double* predicted, int m, double* result) = nullptr;
+  /// z − predicted of so many z, a column each, also in their place; the plain difference if there is none.
+  void (*difference)(const void* sensor, const double* z, const double* predicted, int m, int count,
+                     double* result) = nullptr;
   /// The weighted mean of measurements, a column each; by differences if there is none.
   void (*mean)(const void* sensor, const double* points, const double* weights, int m, int count,
                double* result) = nullptr;

@@ -58,8 +58,15 @@ struct SensorFunctions {
     }
   }
 
-  static void difference(const void* pointer, const double* z, const double* predicted, int m, double* result) {
-    write<Measured>(sensor(pointer).measurement_difference(read<Measured>(z, m), read<Measured>(predicted, m)), result);
+  static void difference(const void* pointer, const double* z, const double* predicted, int m, int count,
+                         double* result) {
+    if constexpr (requires { sensor(pointer).compute_difference(z, predicted, count, result); }) {
+      sensor(pointer).compute_difference(z, predicted, count, result);
+    } else {
+      const auto from = read<Measured>(predicted, m);
+      for (int i = 0; i < count; ++i)
+        write<Measured>(sensor(pointer).measurement_difference(read<Measured>(z + i * m, m), from), result + i * m);
+    }
   }
 
   static void mean(const void* pointer, const double* points, const double* weights, int m, int count, double* result) {

@@ -109,8 +109,11 @@ class RadarSensor : public ComputedSensor<Sensor, M, Seen> {
 
   Vector<M> measurement_difference(const Vector<M>& z, const Vector<M>& predicted) const {
     Vector<M> difference;
-    polar_difference(z.data(), predicted.data(), M, difference.data());
+    compute_difference(z.data(), predicted.data(), 1, difference.data());
     return difference;
+  }
+  void compute_difference(const double* z, const double* predicted, int count, double* result) const {
+    polar_difference(z, predicted, M, count, result);
   }
 
   /// What a measurement tells of the position: its unbiased conversion, which neglects correlations of its errors.
