@@ -16,18 +16,6 @@
 namespace sigmax::detail {
 namespace {
 
-bool all_finite(const double* numbers, int count) {
-  return std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
-}
-
-/// Throws std::domain_error, naming the function, the model and the state, unless the values are finite.
-void require_finite(const double* values, int count, const char* function, const ModelRef& model, const double* x) {
-  if (all_finite(values, count)) return;
-  std::string message = std::string(function) + " of model '" + model.name() + "' is not finite at x = (";
-  for (int i = 0; i < model.size(); ++i) message += (i == 0 ? "" : ", ") + std::to_string(x[i]);
-  throw std::domain_error(message + ")");
-}
-
 void require_size(const ModelRef& model, int n) {
   if (n != model.size())
     throw std::invalid_argument("an estimate of model '" + model.name() + "' has " + std::to_string(n) +
@@ -71,7 +59,7 @@ void tangent_of(const ModelRef& model, const SensorRef& sensor, int seen, const 
                 double* H, double* residual) {
   const SensorTable& table = *sensor.table;
   table.measure(sensor.sensor, sensor.model, x, model.size(), z.n, nullptr, H);
-  require_finite(H, z.n * seen, "the Jacobian of h", model, x);
+  require_finite(H, z.n * seen, 1, "the Jacobian of h", model, x);
   if (table.linear) {
     std::copy_n(z.mean, z.n, residual);
     multiply(H, z.n, columns_of(x, seen), residual, z.n, z.n, seen, 1, Into::minus);
@@ -183,9 +171,20 @@ void linearised_measurement(const ModelRef& model, const ConstView& predicted, c
   tangent_of(model, sensor, seen, predicted.mean, z, H, residual);
 }
 
+void require_finite(const double* values, int rows, int columns, const char* function, const ModelRef& model,
+                    const double* states) {
+  const double* const end = values + rows * columns;
+  const auto not_finite = std::find_if_not(values, end, [](double value) { return std::isfinite(value); });
+  if (not_finite == end) return;
+  const double* const x = states + (not_finite - values) / rows * model.size();
+  std::string message = std::string(function) + " of model '" + model.name() + "' is not finite at x = (";
+  for (int i = 0; i < model.size(); ++i) message += (i == 0 ? "" : ", ") + std::to_string(x[i]);
+  throw std::domain_error(message + ")");
+}
+
 void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z) {
   sensor.table->measure(sensor.sensor, sensor.model, x, model.size(), m, z, nullptr);
-  require_finite(z, m, "h(x)", model, x);
+  require_finite(z, m, 1, "h(x)", model, x);
 }
 
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
@@ -198,8 +197,8 @@ void moved_from(const ModelRef& model, const double* x, double dt, double* image
   } else {
     model.table->tangent(model.motion, x, dt, image, F, Q);
   }
-  require_finite(image, n, "f(x)", model, x);
-  if (F) require_finite(F, n * n, "the Jacobian of f", model, x);
+  require_finite(image, n, 1, "f(x)", model, x);
+  if (F) require_finite(F, n * n, 1, "the Jacobian of f", model, x);
 }
 
 void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, int count, double* result) {

@@ -28,35 +28,37 @@ class SigmaPoints {
         n_(estimate.n),
         centre_(weights_.centre_of_mean != 0.0 || weights_.centre_of_covariance != 0.0 ? 1 : 0),
         root_(n_ * n_),
-        offsets_(n_ * count()) {
+        offsets_(n_ * count()),
+        points_(n_ * count()) {
     root_of(model, estimate.covariance, n_, root_);
     const double scale = std::sqrt(weights_.spread);
-    std::fill_n(offset(0), n_ * centre_, 0.0);
+    for (int k = 0; k < n_ * centre_; ++k) offsets_[k] = 0.0;
     for (int i = 0; i < n_ * n_; ++i) {
-      offset(centre_)[i] = scale * root_[i];
-      offset(centre_ + n_)[i] = -scale * root_[i];
+      offsets_[n_ * centre_ + i] = scale * root_[i];
+      offsets_[n_ * (centre_ + n_) + i] = -scale * root_[i];
     }
+    for (int i = 0; i < count(); ++i)
+      for (int k = 0; k < n_; ++k) points_[k + i * n_] = estimate.mean[k] + offsets_[k + i * n_];
   }
 
   int count() const { return 2 * n_ + centre_; }
   /// Where a point lies about the mean.
   double* offset(int point) { return offsets_ + point * n_; }
+  const double* point(int place) { return points_ + place * n_; }
   const double* root() { return root_; }
   /// The place of the first point up; those down are n behind.
   int up() const { return centre_; }
 
-  double in_mean(int point) const { return point < centre_ ? weights_.centre_of_mean : 0.5 / weights_.spread; }
-  double in_covariance(int point) const {
-    return point < centre_ ? weights_.centre_of_covariance : 0.5 / weights_.spread;
-  }
+  /// The weight of every point but the centre, and in a mean of this one.
+  double weight() const { return 0.5 / weights_.spread; }
+  double in_mean(int point) const { return point < centre_ ? weights_.centre_of_mean : weight(); }
 
   /// Σ wᵢ dᵢ dᵢᵀ over deviations of so many rows. All weights but the centre's are equal.
   void covariance(const double* deviations, int rows, double* result) {
     const int size = rows * rows;
     const double* const others = deviations + centre_ * rows;
     multiply(others, rows, transposed(others, rows), result, rows, rows, 2 * n_, rows);
-    const double weight = in_covariance(centre_);
-    for (int i = 0; i < size; ++i) result[i] *= weight;
+    for (int i = 0; i < size; ++i) result[i] *= weight();
     if (centre_ == 0) return;
     for (int k = 0; k < rows; ++k)
       for (int i = 0; i < rows; ++i)
@@ -76,28 +78,28 @@ class SigmaPoints {
   int n_;
   int centre_;
   Scratch<> root_;
-  Columns offsets_;
+  Columns offsets_, points_;
 };
 
 /// What f makes of the points: its mean, and the deviations from it.
-void propagate(const ModelRef& model, SigmaPoints& points, const double* x, double dt, double* mean, double* deviations,
-               double* Q) {
+void propagate(const ModelRef& model, SigmaPoints& points, double dt, double* mean, double* deviations, double* Q) {
   const int n = model.size();
-  Scratch<32> state(n), shift(n);
-  for (int i = 0; i < points.count(); ++i) {
-    for (int k = 0; k < n; ++k) state[k] = x[k] + points.offset(i)[k];
-    moved_from(model, state, dt, deviations + i * n, nullptr, i == 0 ? Q : nullptr);
-  }
-  std::copy_n(deviations, n, mean);
-  std::fill_n(shift.data(), n, 0.0);
-  for (int i = 0; i < points.count(); ++i)  // about one of them, so that large weights of either sign cancel little
-    for (int k = 0; k < n; ++k) {
-      deviations[k + i * n] -= mean[k];
-      shift[k] += deviations[k + i * n] * points.in_mean(i);
-    }
   for (int i = 0; i < points.count(); ++i)
-    for (int k = 0; k < n; ++k) deviations[k + i * n] -= shift[k];
-  for (int k = 0; k < n; ++k) mean[k] += shift[k];
+    model.table->tangent(model.motion, points.point(i), dt, deviations + i * n, nullptr, i == 0 ? Q : nullptr);
+  require_finite(deviations, n, points.count(), "f(x)", model, points.point(0));
+  Scratch<32> first(n), shift(n);
+  for (int k = 0; k < n; ++k) {
+    first[k] = deviations[k];
+    shift[k] = 0.0;
+  }
+  for (int i = 1; i < points.count(); ++i)  // about one of them, so that large weights of either sign cancel little
+    for (int k = 0; k < n; ++k) shift[k] += deviations[k + i * n] - first[k];
+  for (int k = 0; k < n; ++k) {
+    shift[k] *= points.weight();
+    mean[k] = first[k] + shift[k];
+  }
+  for (int i = 0; i < points.count(); ++i)
+    for (int k = 0; k < n; ++k) deviations[k + i * n] = (deviations[k + i * n] - first[k]) - shift[k];
 }
 
 /// The weighted mean of measurements, a column each: z₀ + Σ wᵢ (zᵢ − z₀) by the sensor's difference, or its own.
@@ -111,15 +113,14 @@ void mean_of(const SensorRef& sensor, SigmaPoints& points, const double* seen, i
   difference(sensor, seen, seen, m, points.count(), apart);
   std::copy_n(seen, m, mean);
   for (int i = 1; i < points.count(); ++i)
-    for (int k = 0; k < m; ++k) mean[k] += points.in_mean(i) * apart[k + i * m];
+    for (int k = 0; k < m; ++k) mean[k] += points.weight() * apart[k + i * m];
 }
 
 /// What h makes of the points: its mean, and the deviations from it. Points that the sensor cannot tell from the mean
 /// share one evaluation.
-void measure(const ModelRef& model, SigmaPoints& points, const double* x, const SensorRef& sensor, int m, double* mean,
+void measure(const ModelRef& model, SigmaPoints& points, const SensorRef& sensor, int m, double* mean,
              double* deviations) {
   const int n = model.size(), own = sensor.table->seen(sensor.sensor), seen = own == 0 ? n : own;
-  Scratch<32> state(n);
   int at_mean = -1;  // the first that is seen there
   for (int i = 0; i < points.count(); ++i) {
     const double* const offset = points.offset(i);
@@ -128,10 +129,10 @@ void measure(const ModelRef& model, SigmaPoints& points, const double* x, const 
       std::copy_n(deviations + at_mean * m, m, deviations + i * m);
       continue;
     }
-    for (int k = 0; k < n; ++k) state[k] = x[k] + offset[k];
-    measured_at(model, sensor, state, m, deviations + i * m);
+    sensor.table->measure(sensor.sensor, sensor.model, points.point(i), n, m, deviations + i * m, nullptr);
     if (there) at_mean = i;
   }
+  require_finite(deviations, m, points.count(), "h(x)", model, points.point(0));
   mean_of(sensor, points, deviations, m, mean);
   difference(sensor, deviations, mean, m, points.count(), deviations);
 }
@@ -175,7 +176,7 @@ void predict_by_points(const ModelRef& model, const ConstView& prior, double dt,
   Columns deviations(n * points.count());
   Scratch<> Q(n * n), sum(n * n);
   Scratch<32> mean(n);
-  propagate(model, points, prior.mean, dt, mean, deviations, Q);
+  propagate(model, points, dt, mean, deviations, Q);
   points.covariance(deviations, n, sum);
   for (int i = 0; i < n * n; ++i) sum[i] += Q[i];
   mirror_lower(sum, n);
@@ -191,7 +192,7 @@ void update_by_points(const ModelRef& model, const ConstView& prior, const Const
   Scratch<6> predicted(m);
   Scratch<36> S_inverse(m * m);
   Scratch<> slope(m * n), cross(n * m), W(n * m), WR(n * m), sum(n * n);
-  measure(model, points, prior.mean, sensor, m, predicted, seen);
+  measure(model, points, sensor, m, predicted, seen);
   difference(sensor, z.mean, predicted, m, 1, innovation.residual);
   points.covariance(seen, m, innovation.covariance);
   for (int i = 0; i < m * m; ++i) innovation.covariance[i] += z.covariance[i];
@@ -217,7 +218,7 @@ void regressed_step(const ModelRef& model, const ConstView& start, double dt, do
   SigmaPoints points(model, start);
   Columns deviations(n * points.count());
   Scratch<> rest(n * n);
-  propagate(model, points, start.mean, dt, mean, deviations, Q);
+  propagate(model, points, dt, mean, deviations, Q);
   regress(points, n, deviations, n, F, rest);
   for (int i = 0; i < n * n; ++i) Q[i] += rest[i];
 }
@@ -228,7 +229,7 @@ void regressed_measurement(const ModelRef& model, const ConstView& predicted, co
   SigmaPoints points(model, predicted);
   Columns seen(m * points.count());
   Scratch<6> mean(m);
-  measure(model, points, predicted.mean, sensor, m, mean, seen);
+  measure(model, points, sensor, m, mean, seen);
   difference(sensor, z.mean, mean, m, 1, residual);
   regress(points, n, seen, m, H, R);
   for (int i = 0; i < m * m; ++i) R[i] += z.covariance[i];

@@ -22,6 +22,11 @@ void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q);
 /// @}
 
+/// Throws std::domain_error, naming the function, the model and the state, a column of `states`, unless its values, a
+/// column for each state, are finite.
+void require_finite(const double* values, int rows, int columns, const char* function, const ModelRef& model,
+                    const double* states);
+
 /// z − predicted by the sensor's own difference, of so many z, a column each; also in the place of z.
 void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, int count, double* result);
 

@@ -416,13 +416,14 @@ void predict_any(const AxisLaw& law, int axes, const ConstView& prior, const Vie
 void predict_covariance(const double* F, const double* Q, const double* P, int n, double* result) {
   Block<0, 0> FP(n, n), sum(Q, n, n, n), terms(n, 1);
   product_of(F, n, columns_of(P, n), FP.data(), n, n, n, n, Into::only);
-  for (int i = 0; i < n; ++i) terms.data()[i] = 0.0;
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) terms.add(i, 0, F[i + k * n] * F[i + k * n] * P[k + k * n]);
   product_of(FP.data(), n, {F, n, 1}, sum.data(), n, n, n, n, Into::plus);
+  double* const total = terms.data();
+  for (int i = 0; i < n; ++i) total[i] = 0.0;
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) total[i] += F[i + k * n] * F[i + k * n] * P[k + k * n];
   for (int k = 0; k < n; ++k) {
-    sum.add(k, k, rounding * terms(k, 0));
-    for (int i = k; i < n; ++i) result[i + k * n] = result[k + i * n] = sum(i, k);
+    for (int i = k + 1; i < n; ++i) result[i + k * n] = result[k + i * n] = sum(i, k);
+    result[k + k * n] = sum(k, k) + rounding * total[k];
   }
 }
 
