@@ -44,6 +44,21 @@ void linear_motion(const ModelRef& model, double dt, double* F, double* Q, doubl
   std::copy_n(law.input, law.order * model.table->axes, input);
 }
 
+/// f(x), ∂f/∂x and the noise's covariance. Throws std::domain_error unless they are finite.
+void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
+  const int n = model.size();
+  if (model.linear()) {
+    Scratch moved(n);
+    linear_motion(model, dt, F, Q, moved);
+    multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
+    std::copy_n(moved.data(), n, image);
+  } else {
+    model.table->tangent(model.motion, x, dt, image, F, Q);
+  }
+  require_finite(image, n, 1, "f(x)", model, x);
+  require_finite(F, n * n, 1, "the Jacobian of f", model, x);
+}
+
 /// Throws std::domain_error or std::invalid_argument, naming the model, unless there is a result.
 void require(Outcome outcome, const ModelRef& model) {
   if (outcome == Outcome::measurement_not_finite)
@@ -65,7 +80,8 @@ void tangent_of(const ModelRef& model, const SensorRef& sensor, int seen, const 
     multiply(H, z.n, columns_of(x, seen), residual, z.n, z.n, seen, 1, Into::minus);
   } else {
     Scratch<6> predicted(z.n);
-    measured_at(model, sensor, x, z.n, predicted);
+    table.measure(sensor.sensor, sensor.model, x, model.size(), z.n, predicted, nullptr);
+    require_finite(predicted, z.n, 1, "h(x)", model, x);
     difference(sensor, z.mean, predicted, z.n, 1, residual);
   }
 }
@@ -180,25 +196,6 @@ void require_finite(const double* values, int rows, int columns, const char* fun
   std::string message = std::string(function) + " of model '" + model.name() + "' is not finite at x = (";
   for (int i = 0; i < model.size(); ++i) message += (i == 0 ? "" : ", ") + std::to_string(x[i]);
   throw std::domain_error(message + ")");
-}
-
-void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z) {
-  sensor.table->measure(sensor.sensor, sensor.model, x, model.size(), m, z, nullptr);
-  require_finite(z, m, 1, "h(x)", model, x);
-}
-
-void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
-  const int n = model.size();
-  if (model.linear()) {
-    Scratch moved(n);
-    linear_motion(model, dt, F, Q, moved);
-    multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
-    std::copy_n(moved.data(), n, image);
-  } else {
-    model.table->tangent(model.motion, x, dt, image, F, Q);
-  }
-  require_finite(image, n, 1, "f(x)", model, x);
-  if (F) require_finite(F, n * n, 1, "the Jacobian of f", model, x);
 }
 
 void difference(const SensorRef& sensor, const double* z, const double* predicted, int m, int count, double* result) {

@@ -15,13 +15,6 @@ void regressed_measurement(const ModelRef& model, const ConstView& predicted, co
                            const SensorRef& sensor, double* residual, double* H, double* R);
 /// @}
 
-/// @{
-/// h(x) of a sensor that is not linear, and f(x); ∂f/∂x and the noise's covariance are needed of a linear motion. Throw
-/// std::domain_error, naming the function, the model and the state, unless they are finite.
-void measured_at(const ModelRef& model, const SensorRef& sensor, const double* x, int m, double* z);
-void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q);
-/// @}
-
 /// Throws std::domain_error, naming the function, the model and the state, a column of `states`, unless its values, a
 /// column for each state, are finite.
 void require_finite(const double* values, int rows, int columns, const char* function, const ModelRef& model,
