@@ -57,9 +57,11 @@ void measure(const void* pointer, const void*, const double* x, int n, int m, do
   if (H) Eigen::Map<Columns>(H, m, sees.k) = matrix_of(sees.model.H(state)).leftCols(sees.k);
 }
 /// The first number is an angle, and a difference in it less than half a turn.
-void difference(const void*, const double* z, const double* predicted, int m, double* result) {
-  for (int i = 0; i < m; ++i) result[i] = z[i] - predicted[i];
-  result[0] = restatement::in_half_a_turn(result[0]);
+void difference(const void*, const double* z, const double* predicted, int m, int count, double* result) {
+  for (int i = 0; i < m * count; ++i) {
+    const double apart = z[i] - predicted[i % m];
+    result[i] = i % m == 0 ? restatement::in_half_a_turn(apart) : apart;
+  }
 }
 constexpr detail::SensorTable bends{false, false, seen, measure, difference}, is_linear{false, true, seen, measure},
     leads{true, true, seen};
@@ -191,7 +193,8 @@ TEST(Filtering, ALawAlongIndependentAxesMovesEachAxisByItself) {
       const auto derivatives = static_cast<std::size_t>(order), n = derivatives * static_cast<std::size_t>(axes);
       Dense F = draws.matrix(derivatives, derivatives), Q = draws.covariance(derivatives);
       const restatement::Vector input = draws.vector(n);
-      detail::AxisLaw law{order};
+      detail::AxisLaw law;
+      law.order = order;
       for (int i = 0; i < order; ++i) {
         for (int k = 0; k < i; ++k) F.values[static_cast<std::size_t>(k + i * order)] = 0.0;  // upper triangular
         if (draws.number() < 0.0) F.values[static_cast<std::size_t>(i + i * order)] = 1.0;
