@@ -9,9 +9,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
@@ -338,7 +336,7 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
   for (std::size_t c = 0; c < pattern.size(); ++c) support.columns.push_back(pattern.label(c));
   std::vector<Panel> reasons;
   for (const Contestant& contestant : all) {
-    const Trace trace = follow(contestant, 0, std::vector<Readings>{row.readings});
+    const Trace trace = follow(contestant, 0, {row.readings});
     support.rows.push_back(contestant.name);
     support.values.push_back(trace.belief);
     if (auto why = explanation(contestant, row.readings))

@@ -73,7 +73,7 @@ class DataTable {
   std::vector<std::string> warnings;  ///< what the reader of the results should know
 
   /// The number of rows.
-  std::size_t size() const { return static_cast<std::size_t>(rows_.size()) / row_bytes(); }
+  std::size_t size() const { return rows_.size() / row_bytes(); }
 
   /// Calls see(row) for all rows in the order of the file. Several threads may do so at a time.
   template <class See>

@@ -12,10 +12,9 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>
+#include <sigmax/recognition/reliability.hpp>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
@@ -360,6 +359,54 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
                "inference.)"}});
   if (data.classes.size() > most_classes) return;
   for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes()[i], options.foldings), {});
+}
+
+/// Rows of the data by true and decided class.
+HeatMap confusion_map(const std::string& classifier, const std::vector<std::string>& classes,
+                      const ConfusionMatrix& confusion, std::size_t foldings) {
+  HeatMap map{.title = classifier,
+              .row_label = "true class",
+              .column_label = "decided class",
+              .rows = classes,
+              .columns = classes,
+              .values = {},
+              .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
+              .digits = foldings == 1 ? 0 : 1};
+  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
+    auto& row = map.values.emplace_back();
+    for (std::size_t c = 0; c < classes.size(); ++c) row.push_back(confusion(truth, c) / static_cast<double>(foldings));
+  }
+  return map;
+}
+
+/// What was believed of the classes of rows against how often that was true. The diagonal is calibration, or the bound
+/// that possibilities are.
+LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
+                            std::size_t foldings) {
+  LineChart chart{.title = "Reliability of " + classifier,
+                  .x_label = fuzzy ? "possibility of a class" : "probability of a class",
+                  .y_label = "share of such classes that are the true one",
+                  .x = {},
+                  .curves = {{.name = "share, ± 95 %", .values = {}},
+                             {.name = fuzzy ? "bound: not more often than possible" : "calibrated", .values = {}}},
+                  .greatest_y = 1.15,
+                  .note = "Above each point: how many classes of rows had such a degree.",
+                  .joined = true};
+  Curve& share = chart.curves[0];
+  const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
+    chart.x.push_back(degree);
+    chart.curves[1].values.push_back(degree);
+    share.values.push_back(value);
+    share.lower.push_back(lower);
+    share.upper.push_back(upper);
+    chart.remarks.push_back(std::move(remark));
+  };
+  const double nan = std::nan("");
+  add(0.0, nan, nan, nan, "");
+  for (const auto& bin : reliability.bins(static_cast<double>(foldings)))
+    add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
+  add(1.0, nan, nan, nan, "");
+  return chart;
 }
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.

@@ -8,12 +8,9 @@
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/draws.hpp"
-#include "recognition_demo/esm_classifiers.hpp"
-#include "recognition_demo/esm_world.hpp"
+#include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/report.hpp"
+#include "recognition_demo/world.hpp"
 #include "support/options.hpp"
 
 namespace sigmax::apps {
@@ -45,18 +42,18 @@ struct Regime {
 struct SettingScores {
   std::string regime;
   std::string setting;
-  std::vector<Score> scores;
+  Scores scores;
 };
 
 /// Sigma, sigma-max and max inference from the same knowledge.
 std::vector<Contestant> equally_informed(const Relation<Random, Random>& probable,
                                          const Relation<Fuzzy, Fuzzy>& possible, const Relation<Random, Random>& sensor,
                                          std::size_t sensors) {
-  const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
-  return {sigma_contestant("sigma", probable, {sensors, sensor}),
-          sigma_max_contestant("sigma-max", possible, {sensors, sensor}),
-          max_contestant("max, Dubois-Prade", possible, {sensors, dubois_prade}),
-          max_sigma_contestant("max-sigma, Dubois-Prade", probable, {sensors, dubois_prade})};
+  const auto dubois_prade = to_possibility(sensor, DuboisPrade{});
+  return {read_by("sigma", probable, sensor, sensors),
+          read_by("sigma-max", possible, with_fuzzy_condition(sensor), sensors),
+          read_by("max, Dubois-Prade", possible, with_fuzzy_condition(dubois_prade), sensors),
+          read_by("max-sigma, Dubois-Prade", probable, dubois_prade, sensors)};
 }
 
 /// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion,
@@ -77,8 +74,8 @@ std::vector<Contestant> learned(const EsmWorld& world, const Usage& usage, std::
   const auto sensor = world.sensor(believed_hit);
   auto all = equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(),
                               sensor, 1);
-  all.push_back(sigma_max_contestant("sigma-max, p(f|c) by Dubois-Prade",
-                                     learned_relations(counts, 1.0, DuboisPrade{}).front(), {sensor}));
+  all.push_back(read_by("sigma-max, p(f|c) by Dubois-Prade", learned_relations(counts, 1.0, DuboisPrade{}).front(),
+                        with_fuzzy_condition(sensor)));
   return all;
 }
 
@@ -106,8 +103,7 @@ std::vector<Regime> regimes(const EsmWorld& world) {
       const EsmTruth truth{.usage = {Usage::Kind::dominant, share}, .hit = hit};
       dominant.settings.push_back({fmt::format("d = {}", share), truth, [&world, hit, truth](RandomStream&) {
                                      auto informed = from_the_lists(world, hit, 0.0, 1);
-                                     informed.push_back(usage_aware_contestant("sigma, averages over usages", world,
-                                                                               truth.usage, {world.sensor(hit)}));
+                                     informed.push_back(usage_aware_contestant(world, truth.usage, world.sensor(hit)));
                                      return informed;
                                    }});
     }
@@ -245,40 +241,22 @@ ResultTable regimes_table(const std::vector<SettingScores>& all) {
   return table;
 }
 
-SettingScores scores_of(const EsmWorld& world, const Regime& regime, const Setting& setting,
-                        const RegimesOptions& options, Progress& progress) {
+Condition condition_of(const EsmWorld& world, const Setting& setting, const RegimesOptions& options) {
   RandomStream for_names(options.draws.seed, 0);
-  const auto all = setting.contestants(for_names);
-  Scoreboard board(all);
-  for_each_draw(
-      options.draws, progress,
-      [&](RandomStream& random) {
-        const auto learned_anew =
-            setting.learned ? std::optional(setting.contestants(random)) : std::optional<std::vector<Contestant>>();
-        const EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
-        return follow_all(learned_anew ? *learned_anew : all, drawn.platform, drawn.reports);
-      },
-      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
-  return {regime.name, setting.name, board.scores()};
+  return {setting.contestants(for_names), [&](std::size_t run) {
+            RandomStream random(options.draws.seed, run);
+            std::vector<Contestant> learned;
+            if (setting.learned) learned = setting.contestants(random);
+            EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
+            return Drawn{drawn.platform, {std::move(drawn.reports)}, {}, std::move(learned)};
+          }};
 }
 
-void run_regimes(const RegimesOptions& options) {
+void tell(const RegimesOptions& options, const std::vector<Regime>& all, const std::vector<SettingScores>& results,
+          Result& result) {
   const DrawOptions& draws = options.draws;
-  ResultFiles files(draws.output);
-  const EsmWorld world;
-  const auto all = regimes(world);
-  std::size_t settings = 0;
-  for (const Regime& regime : all) settings += regime.settings.size();
-
-  std::vector<SettingScores> results;
-  Progress progress("runs", draws.runs * settings, draws.output.quiet);
-  for (const Regime& regime : all)
-    for (const Setting& setting : regime.settings)
-      results.push_back(scores_of(world, regime, setting, options, progress));
-  progress.finish();
-
-  Result result = result_of_contest("Where is max inference the better one?", draws.output);
   const Verdict verdict = verdict_of(results);
+  result.page.groups.clear();  // no chart has curves
   result.page.verdict = {
       verdict.sentence,
       fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more often right "
@@ -308,21 +286,35 @@ void run_regimes(const RegimesOptions& options) {
     result.add(scores_table(setting.scores),
                {.printed = false, .summary = {"regimes", setting.regime, setting.setting}});
   result.add(regimes_table(results), {.printed = false, .csv = "regimes.csv"});
-  result.publish(files);
+}
+
+void run_regimes(const RegimesOptions& options) {
+  ResultFiles files(options.draws.output);
+  const EsmWorld esm;
+  const auto all = regimes(esm);
+  World world{"Where is max inference the better one?", {}};
+  std::vector<SettingScores> results;
+  for (const Regime& regime : all)
+    for (const Setting& setting : regime.settings) {
+      world.conditions.push_back(condition_of(esm, setting, options));
+      results.push_back({regime.name, setting.name, {}});
+    }
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    for (std::size_t i = 0; i < scores.size(); ++i) results[i].scores = scores[i];
+    tell(options, all, results, result);
+  };
+  run_world(world, options.draws, files);
 }
 
 }  // namespace
 
 void add_regimes(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<RegimesOptions>();
-  options->draws.output.command = command;
-  options->draws.runs = 5000;
   Subcommand app(
       program, "regimes",
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
-  add_draws(app, options->draws);
-  add_report(app, options->draws.output);
+  add_draws(app, options->draws, command, 5000);
   app.footer(
       "Examples:\n"
       "  recognition_demo regimes\n"
