@@ -102,6 +102,21 @@ Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>&
   return beliefs;
 }
 
+Judged judged(const Contestant& contestant, const Readings& row) {
+  return std::visit(
+      [&](const auto& classifier) {
+        Belief belief{classifier.prior()};
+        bool excluded = false;
+        try {
+          update(belief, classifier.likelihood(row), belief);
+        } catch (const std::domain_error&) {
+          excluded = true;
+        }
+        return Judged{std::move(belief), excluded};
+      },
+      contestant.classifier);
+}
+
 std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
   std::vector<Dominated> result;
   for (const Contestant& contestant : contestants)

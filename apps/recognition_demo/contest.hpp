@@ -55,6 +55,13 @@ Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<
 using Beliefs = std::vector<std::vector<double>>;
 Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>& reports);
 
+/// What the contestant's classifier believes after a row of readings alone; the prior if that excludes every class.
+struct Judged {
+  std::variant<Belief<Random>, Belief<Fuzzy>> belief;
+  bool excluded = false;
+};
+Judged judged(const Contestant& contestant, const Readings& row);
+
 /// A pattern that a contestant can never prefer, since the dominator is always at least as good.
 struct Dominated {
   std::string contestant, pattern, dominator;

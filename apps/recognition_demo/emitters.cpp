@@ -5,6 +5,8 @@
 
 #include <boost/math/distributions/beta.hpp>
 
+#include <sigmax/core/transform.hpp>
+
 #include "recognition_demo/world.hpp"
 
 namespace sigmax::apps {

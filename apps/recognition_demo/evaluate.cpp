@@ -98,29 +98,17 @@ TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, c
   return {fold, std::move(model), std::move(contestants)};
 }
 
-/// Calls see(row, contestant's index, belief, whether every class was excluded) for the rows of a fold, and for each of
-/// them for the contestants from `first` on up to `end`.
+/// Calls see(row, contestant's index, what it judges) for the rows of a fold, and for each of them for the contestants
+/// from `first` on up to `end`.
 template <class See>
-void classify_rows(const DataTable& data, const Folds& folds, TaughtFold& taught, std::size_t first, std::size_t end,
-                   const See& see) {
+void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& taught, std::size_t first,
+                   std::size_t end, const See& see) {
   ScratchCursor<std::uint32_t> fold_of(folds);
   Readings readings;
   data.for_each([&](const DataRow& row) {
     if (fold_of[row.index()] != taught.fold) return;
     read(taught.model, row, readings);
-    for (std::size_t i = first; i < end; ++i)
-      std::visit(
-          [&](auto& classifier) {
-            classifier.reset();
-            bool excluded = false;
-            try {
-              classifier.observe(readings);
-            } catch (const std::domain_error&) {
-              excluded = true;  // the prior is what is left to say
-            }
-            see(row, i, classifier.log_belief(), excluded);
-          },
-          taught.contestants[i].classifier);
+    for (std::size_t i = first; i < end; ++i) see(row, i, judged(taught.contestants[i], readings));
   });
 }
 
@@ -130,21 +118,24 @@ using Right = ScratchArray<std::uint8_t>;
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
                                    const LearningOptions& options, Right& right) {
-  TaughtFold taught_fold = taught(data, folds, fold, options);
+  const TaughtFold taught_fold = taught(data, folds, fold, options);
   std::vector<Outcome> outcomes;
   for (const Contestant& contestant : taught_fold.contestants) outcomes.push_back(no_outcome(contestant));
   unsigned bits = 0;
-  classify_rows(data, folds, taught_fold, 0, outcomes.size(),
-                [&](const DataRow& row, std::size_t i, const auto& belief, bool excluded) {
-                  using Kind = typename std::decay_t<decltype(belief)>::kind;
-                  auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
-                  if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
-                  outcomes[i].reliability.add(row.label(), belief);
-                  if (excluded) ++outcomes[i].excluded;
-                  if (i + 1 < outcomes.size()) return;
-                  right.set(row.index(), static_cast<std::uint8_t>(bits));
-                  bits = 0;
-                });
+  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
+    std::visit(
+        [&](const auto& belief) {
+          using Kind = typename std::decay_t<decltype(belief)>::kind;
+          auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
+          if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
+          outcomes[i].reliability.add(row.label(), belief);
+        },
+        by.belief);
+    if (by.excluded) ++outcomes[i].excluded;
+    if (i + 1 < outcomes.size()) return;
+    right.set(row.index(), static_cast<std::uint8_t>(bits));
+    bits = 0;
+  });
   return outcomes;
 }
 
@@ -293,13 +284,17 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
   std::mt19937_64 generator(options.seed);
   const Folds folds = folds_of(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
-    TaughtFold taught_fold = taught(data, folds, fold, options.learning);
+    const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
-      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const auto& belief, bool) {
-        std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()], taught_fold.contestants[i].name,
-                                   data.classes[decide(belief).pattern]};
-        for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-        file.write(table.csv_line(cells));
+      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const Judged& by) {
+        std::visit(
+            [&](const auto& belief) {
+              std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()],
+                                         taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
+              for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+              file.write(table.csv_line(cells));
+            },
+            by.belief);
       });
   }
 }
