@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -133,42 +134,48 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
 }
 
-/// Why the best class rather than the next one; none if the readings exclude every class.
+/// Why the best class rather than the next one, with prior and belief of both.
+struct Reasons {
+  PatternExplanation why;
+  std::array<double, 2> prior, belief;
+};
+
 template <class Kind>
-std::optional<ResultTable> explanation(const std::string& name, const Classifier<Kind, Kind>& classifier,
-                                       const Judged& by, const Readings& readings) {
-  if (by.excluded) return std::nullopt;
-  const auto& belief = std::get<Belief<Kind>>(by.belief);
+Reasons reasons(const Classifier<Kind, Kind>& classifier, const Belief<Kind>& belief, const Readings& readings) {
   const auto best = best_patterns(belief, 2);
-  const auto& pattern = belief.variable();
-  auto why = explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]);
+  return {explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]),
+          {classifier.prior()[best[0]], classifier.prior()[best[1]]},
+          {belief[best[0]], belief[best[1]]}};
+}
+
+/// The reasons as a table; none if the readings exclude every class.
+std::optional<ResultTable> explanation(const Contestant& contestant, const RandomVariable& pattern,
+                                       const Readings& readings) {
+  const Judged by = judged(contestant, readings);
+  if (by.excluded) return std::nullopt;
+  auto [why, prior, belief] =
+      contestant.fuzzy()
+          ? reasons(std::get<MaxClassifier>(contestant.classifier), std::get<Belief<Fuzzy>>(by.belief), readings)
+          : reasons(std::get<SigmaClassifier>(contestant.classifier), std::get<Belief<Random>>(by.belief), readings);
   std::stable_sort(why.contributions.begin(), why.contributions.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
+  const std::string &best = pattern.label(why.pattern), &next = pattern.label(why.rival);
   ResultTable table(
-      {{.header = fmt::format("{}: {} rather than {}, because", name, pattern.label(best[0]), pattern.label(best[1])),
-        .align = Align::left},
-       {.header = "the same of " + pattern.label(best[1])},
+      {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
+       {.header = "the same of " + next},
        {.header = "log of the ratio"}});
-  table.row({fmt::format("before any reading: {} = {:.4g}", pattern.label(best[0]), classifier.prior()[best[0]]),
-             number(classifier.prior()[best[1]]), number(why.log_prior_ratio)});
+  table.row(
+      {fmt::format("before any reading: {} = {:.4g}", best, prior[0]), number(prior[1]), number(why.log_prior_ratio)});
   for (const Contribution& each : why.contributions)
     table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
   table.rule();
-  table.row({fmt::format("{} = {:.4g}", pattern.label(best[0]), belief[best[0]]), number(belief[best[1]]),
-             number(why.log_ratio())});
+  table.row({fmt::format("{} = {:.4g}", best, belief[0]), number(belief[1]), number(why.log_ratio())});
   return table;
 }
 
-std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
-  return std::visit(
-      [&](const auto& classifier) {
-        return explanation(contestant.name, classifier, judged(contestant, readings), readings);
-      },
-      contestant.classifier);
-}
-
-void say_explanation(Result& result, const Contestant& contestant, const Readings& readings) {
-  if (const auto table = explanation(contestant, readings))
+void say_explanation(Result& result, const Contestant& contestant, const RandomVariable& pattern,
+                     const Readings& readings) {
+  if (const auto table = explanation(contestant, pattern, readings))
     result.add(*table, {});
   else
     result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
@@ -322,18 +329,16 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
       .columns = labels_of(pattern),
       .values = {},
       .value_label = "probability or possibility"};
-  std::vector<Panel> reasons;
   for (const Contestant& contestant : all) {
-    const Trace trace = follow(contestant, 0, {row.readings});
     support.rows.push_back(contestant.name);
-    support.values.push_back(trace.belief);
-    if (auto why = explanation(contestant, row.readings))
-      reasons.emplace_back(ReportTable{contestant.name, std::move(*why)});
-    else
-      reasons.emplace_back(Words{contestant.name, "The readings exclude every class."});
+    support.values.push_back(follow(contestant, 0, {row.readings}).belief);
   }
   view.panels.emplace_back(std::move(support));
-  view.panels.insert(view.panels.end(), reasons.begin(), reasons.end());
+  for (const Contestant& contestant : all)
+    if (auto why = explanation(contestant, pattern, row.readings))
+      view.panels.emplace_back(ReportTable{contestant.name, std::move(*why)});
+    else
+      view.panels.emplace_back(Words{contestant.name, "The readings exclude every class."});
   return view;
 }
 
@@ -380,7 +385,7 @@ void run_classify(const ClassifyOptions& options) {
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
-      for (const Contestant& contestant : all) say_explanation(result, contestant, row.readings);
+      for (const Contestant& contestant : all) say_explanation(result, contestant, pattern, row.readings);
     }
   add_facts(options, pattern, all, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());

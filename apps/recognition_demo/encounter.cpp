@@ -226,7 +226,7 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
     result.fact({"seed"}, draws.seed);
     result.page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
                                        options.reports, options.file, draws.seed)};
-    result.page.panels = {accuracy_chart(scores.front())};
+    result.page.panels.emplace_back(accuracy_chart(scores.front()));
     result.page.last = relation_maps(relations, relations.size());
     add_scores(result, scores.front());
   };
@@ -352,9 +352,9 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
                   track.reports.size(), options.every_s)};
-  result.page.views = {view_of(data, all, track)};
+  result.page.views.push_back(view_of(data, all, track));
   const auto decisions = decisions_table(pattern, outcomes);
-  result.page.last = {ReportTable{"Decisions", decisions, "Ties share a report."}};
+  result.page.last.emplace_back(ReportTable{"Decisions", decisions, "Ties share a report."});
   result.add(seen_table(data, track), {.title = "What was seen"});
   result.add(decisions, {});
   result.say(

@@ -121,8 +121,9 @@ void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores
   page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
                               described_usage(options))};
   page.chooser = "Show";
-  page.views = std::move(runs);
-  page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
+  View& of_all = page.views.emplace_back(View{fmt::format("all {} runs", draws.runs), {}});
+  of_all.panels.emplace_back(accuracy_chart(scores));
+  for (View& run : runs) page.views.push_back(std::move(run));
   page.last.emplace_back(
       witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
   add_scores(result, scores);

@@ -334,7 +334,7 @@ void tell(const Scenario& scenario, const DrawOptions& options, const std::vecto
                   "reports.",
                   options.runs, options.seed)};
   result.page.chooser = "Show";
-  result.page.views.insert(result.page.views.begin(), view_of_all(scenario, options.runs, scores));
+  result.page.views.push_back(view_of_all(scenario, options.runs, scores));
 }
 
 void run_manoeuvre(const DrawOptions& options) {
@@ -356,8 +356,8 @@ void run_manoeuvre(const DrawOptions& options) {
     if (run.run == 0 && files.report_wanted()) views.push_back(view_of(scenario, world.conditions[run.condition], run));
   };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
-    result.page.views = std::move(views);
     tell(scenario, options, all, scores, result);
+    for (View& view : views) result.page.views.push_back(std::move(view));
   };
   run_world(world, options, files);
 }

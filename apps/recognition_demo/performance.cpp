@@ -294,7 +294,7 @@ void fill(Report& page, const PerformanceOptions& options, const PerformanceData
       fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
                   "those of the {} quantities that tell the types apart best.",
                   options.draws.runs, data.types.size(), options.draws.seed, most_quantities)};
-  page.panels = {accuracy_chart(scores, "quantities")};
+  page.panels.emplace_back(accuracy_chart(scores, "quantities"));
   page.chooser = "Type";
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t v = 0; v < knowledge.size(); ++v) order.emplace_back(-telling(knowledge[v].probable), v);
