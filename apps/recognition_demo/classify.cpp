@@ -173,14 +173,6 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Rando
   return table;
 }
 
-void say_explanation(Result& result, const Contestant& contestant, const RandomVariable& pattern,
-                     const Readings& readings) {
-  if (const auto table = explanation(contestant, pattern, readings))
-    result.add(*table, {});
-  else
-    result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
-}
-
 /// The rows of a file, classified one after the other.
 struct Classified {
   std::size_t rows = 0;
@@ -268,15 +260,13 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
 
 ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<Contestant>& all,
                         const std::vector<ShownRow>& shown) {
-  std::vector<ResultColumn> columns = {{.header = "line"}};
-  if (has_truth) columns.push_back({.header = label, .align = Align::left});
-  for (const Contestant& contestant : all) columns.push_back({.header = contestant.name, .align = Align::left});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const ShownRow& row : shown) {
-    std::vector<Cell> cells = {row.line};
-    if (has_truth) cells.emplace_back(row.truth);
-    cells.insert(cells.end(), row.decisions.begin(), row.decisions.end());
-    table.row(std::move(cells));
+    std::vector<Field> fields = {{{.header = "line"}, row.line}};
+    if (has_truth) fields.push_back({{.header = label, .align = Align::left}, row.truth});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      fields.push_back({{.header = all[i].name, .align = Align::left}, row.decisions[i]});
+    table.row_of(fields);
   }
   return table;
 }
@@ -285,18 +275,14 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
                          const Classified& result) {
   constexpr std::size_t most_classes = 10;
   const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
-  std::vector<ResultColumn> columns = {{.header = fmt::format("all {} rows", result.rows), .align = Align::left}};
-  for (std::size_t c = 0; c < shown_classes; ++c) columns.push_back({.header = pattern.label(c)});
-  columns.push_back({.header = "rejected"});
-  if (has_truth) columns.push_back({.header = "right, % of the decided", .scale = 100.0});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Tally& tally = result.tallies[i];
-    std::vector<Cell> cells = {all[i].name};
-    for (std::size_t c = 0; c < shown_classes; ++c) cells.emplace_back(tally.decided[c]);
-    cells.emplace_back(tally.rejected);
-    if (has_truth) cells.emplace_back(tally.accuracy());
-    table.row(std::move(cells));
+    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, all[i].name}};
+    for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
+    row.push_back({{.header = "rejected"}, tally.rejected});
+    if (has_truth) row.push_back({{.header = "right, % of the decided", .scale = 100.0}, tally.accuracy()});
+    table.row_of(row);
   }
   return table;
 }
@@ -385,7 +371,11 @@ void run_classify(const ClassifyOptions& options) {
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
-      for (const Contestant& contestant : all) say_explanation(result, contestant, pattern, row.readings);
+      for (const Contestant& contestant : all)
+        if (const auto table = explanation(contestant, pattern, row.readings))
+          result.add(*table, {});
+        else
+          result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
     }
   add_facts(options, pattern, all, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());

@@ -276,18 +276,16 @@ ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
 
 /// What the classifiers make of a recording.
 ResultTable decisions_table(const RandomVariable& pattern, const std::vector<TrackOutcome>& outcomes) {
-  std::vector<ResultColumn> columns = {{.header = "classifier", .align = Align::left}};
-  for (std::size_t c = 0; c < pattern.size(); ++c)
-    columns.push_back(
-        {.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"});
-  for (std::size_t c = 0; c < pattern.size(); ++c)
-    columns.push_back({.header = pattern.label(c), .group = "p or π after all:"});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const TrackOutcome& outcome : outcomes) {
-    std::vector<Cell> cells = {outcome.name};
-    cells.insert(cells.end(), outcome.single.begin(), outcome.single.end());
-    for (const double value : outcome.belief) cells.emplace_back(fmt::format("{:.2g}", value));
-    table.row(std::move(cells));
+    std::vector<Field> row = {{{.header = "classifier", .align = Align::left}, outcome.name}};
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      row.push_back({{.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"},
+                     outcome.single[c]});
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      row.push_back(
+          {{.header = pattern.label(c), .group = "p or π after all:"}, fmt::format("{:.2g}", outcome.belief[c])});
+    table.row_of(row);
   }
   return table;
 }

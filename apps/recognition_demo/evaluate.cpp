@@ -194,54 +194,45 @@ class Results {
 };
 
 ResultTable outcomes_table(const Results& results, std::size_t foldings) {
-  ResultTable table({{.key = "classifier", .header = "classifier", .align = Align::left},
-                     {.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0},
-                     {.key = "accuracy_minus_that_of_sigma",
-                      .header = "− sigma's",
-                      .unit = "points",
-                      .scale = 100.0,
-                      .sign = true,
-                      .interval = true},
-                     {.key = "macro_f1", .header = "macro F1", .digits = 3},
-                     {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
-                     {.key = "log_loss", .header = "log-loss", .digits = 3},
-                     {.key = "brier", .header = "Brier", .digits = 3},
-                     {.key = "calibration_error"},
-                     {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
-                     {.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
-                     {.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
-                     {.key = "rows_that_excluded_every_class"}});
+  ResultTable table;
   for (std::size_t i = 0; i < results.outcomes().size(); ++i) {
     const Outcome& outcome = results.outcomes()[i];
-    std::vector<Cell> cells = {outcome.name, outcome.confusion().accuracy(),
-                               i == 0 ? Cell() : Cell(results.minus_first(i, foldings)), outcome.confusion().macro_f1(),
-                               outcome.ties()};
-    cells.resize(12);
-    if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
-      cells[5] = random->log_loss();
-      cells[6] = random->brier();
-      cells[7] = outcome.reliability.calibration_error();
-    } else {
-      const auto& fuzzy = std::get<Evaluation<Fuzzy>>(outcome.evaluation);
-      cells[8] = fuzzy.necessity();
-      cells[9] = fuzzy.coverage();
-      cells[10] = fuzzy.cut_size();
-    }
-    if (outcome.excluded > 0) cells[11] = outcome.excluded;
-    table.row(std::move(cells));
+    const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
+    const auto* const fuzzy = std::get_if<Evaluation<Fuzzy>>(&outcome.evaluation);
+    table.row_of({{{.key = "classifier", .header = "classifier", .align = Align::left}, outcome.name},
+                  {{.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0}, outcome.confusion().accuracy()},
+                  {{.key = "accuracy_minus_that_of_sigma",
+                    .header = "− sigma's",
+                    .unit = "points",
+                    .scale = 100.0,
+                    .sign = true,
+                    .interval = true},
+                   i == 0 ? Cell() : Cell(results.minus_first(i, foldings))},
+                  {{.key = "macro_f1", .header = "macro F1", .digits = 3}, outcome.confusion().macro_f1()},
+                  {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, outcome.ties()},
+                  {{.key = "log_loss", .header = "log-loss", .digits = 3}, random ? Cell(random->log_loss()) : Cell()},
+                  {{.key = "brier", .header = "Brier", .digits = 3}, random ? Cell(random->brier()) : Cell()},
+                  {{.key = "calibration_error"}, random ? Cell(outcome.reliability.calibration_error()) : Cell()},
+                  {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+                   fuzzy ? Cell(fuzzy->necessity()) : Cell()},
+                  {{.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
+                   fuzzy ? Cell(fuzzy->coverage()) : Cell()},
+                  {{.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
+                   fuzzy ? Cell(fuzzy->cut_size()) : Cell()},
+                  {{.key = "rows_that_excluded_every_class"}, outcome.excluded > 0 ? Cell(outcome.excluded) : Cell()}});
   }
   return table;
 }
 
 ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
-  std::vector<ResultColumn> columns = {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}};
-  for (const auto& name : data.classes) columns.push_back({.header = name, .digits = foldings == 1 ? 0 : 1});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t truth = 0; truth < data.classes.size(); ++truth) {
-    std::vector<Cell> cells = {data.classes[truth]};
+    std::vector<Field> row = {
+        {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}, data.classes[truth]}};
     for (std::size_t c = 0; c < data.classes.size(); ++c)
-      cells.emplace_back(outcome.confusion()(truth, c) / static_cast<double>(foldings));
-    table.row(std::move(cells));
+      row.push_back({{.header = data.classes[c], .digits = foldings == 1 ? 0 : 1},
+                     outcome.confusion()(truth, c) / static_cast<double>(foldings)});
+    table.row_of(row);
   }
   return table;
 }
@@ -260,16 +251,14 @@ ResultTable rows_of_confusion(const DataTable& data, const Results& results, std
 void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
   std::size_t place = 0;
   for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings))) {
-    const auto fact = [&](const char* key, double value) {
-      result.fact({"reliability", outcome.name, place, key}, value);
-    };
-    fact("from", bin.from);
-    fact("to", bin.to);
-    fact("statements", bin.count);
-    fact("mean_degree", bin.mean_degree);
-    fact("share_that_is_true", bin.share);
-    fact("lower", bin.lower);
-    fact("upper", bin.upper);
+    const std::pair<const char*, double> facts[] = {{"from", bin.from},
+                                                    {"to", bin.to},
+                                                    {"statements", bin.count},
+                                                    {"mean_degree", bin.mean_degree},
+                                                    {"share_that_is_true", bin.share},
+                                                    {"lower", bin.lower},
+                                                    {"upper", bin.upper}};
+    for (const auto& [key, value] : facts) result.fact({"reliability", outcome.name, place, key}, value);
     ++place;
   }
 }
@@ -367,10 +356,9 @@ HeatMap confusion_map(const std::string& classifier, const std::vector<std::stri
               .values = {},
               .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
               .digits = foldings == 1 ? 0 : 1};
-  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
-    auto& row = map.values.emplace_back();
-    for (std::size_t c = 0; c < classes.size(); ++c) row.push_back(confusion(truth, c) / static_cast<double>(foldings));
-  }
+  map.fill([&](std::size_t truth, std::size_t c) {
+    return HeatMap::Cell{confusion(truth, c) / static_cast<double>(foldings)};
+  });
   return map;
 }
 

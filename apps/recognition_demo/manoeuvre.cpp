@@ -147,41 +147,37 @@ std::vector<std::vector<AnyReport>> reports_of(const Scenario& scenario, const M
 }
 
 ResultTable targets_table(const Scenario& scenario, const std::vector<Scores>& all) {
-  std::vector<ResultColumn> columns = {{.header = "after the last sample", .align = Align::left}};
-  for (std::size_t c = 0; c < all.size(); ++c)
-    columns.push_back({.header = fmt::format("{} ({} m/s²)", scenario.target.label(c), scenario.acceleration[c]),
-                       .digits = 1,
-                       .scale = 100.0,
-                       .group = "right, %:"});
-  for (const auto& target : labels_of(scenario.target))
-    columns.push_back({.header = target, .digits = 3, .group = "p or π of"});
-  columns.push_back({.header = "runs that end in a tie", .unit = "%", .digits = 1, .scale = 100.0});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t i = 0; i < all.front().size(); ++i) {
-    std::vector<Cell> cells = {all.front()[i].name};
+    std::vector<Field> row = {{{.header = "after the last sample", .align = Align::left}, all.front()[i].name}};
+    for (std::size_t c = 0; c < all.size(); ++c)
+      row.push_back({{.header = fmt::format("{} ({} m/s²)", scenario.target.label(c), scenario.acceleration[c]),
+                      .digits = 1,
+                      .scale = 100.0,
+                      .group = "right, %:"},
+                     all[c][i].accuracy.back()});
     double ties = 0.0;
-    for (const Scores& target : all) {
-      cells.emplace_back(target[i].accuracy.back());
-      ties += target[i].ties / static_cast<double>(all.size());
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      row.push_back(
+          {{.header = scenario.target.label(c), .digits = 3, .group = "p or π of"}, all[c][i].belief_in_truth});
+      ties += all[c][i].ties / static_cast<double>(all.size());
     }
-    for (const Scores& target : all) cells.emplace_back(target[i].belief_in_truth);
-    cells.emplace_back(ties);
-    table.row(std::move(cells));
+    row.push_back({{.header = "runs that end in a tie", .unit = "%", .digits = 1, .scale = 100.0}, ties});
+    table.row_of(row);
   }
   return table;
 }
 
 ResultTable differences_table(const Scenario& scenario, const std::vector<Scores>& all) {
   const auto& names = all.front();
-  std::vector<ResultColumn> columns = {
-      {.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}};
-  for (const auto& target : labels_of(scenario.target))
-    columns.push_back({.header = target, .scale = 100.0, .sign = true});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t i = 1; i < names.size(); ++i) {
-    std::vector<Cell> cells = {names[i].name};
-    for (const Scores& target : all) cells.emplace_back(target[i].minus_first.interval());
-    table.row(std::move(cells));
+    std::vector<Field> row = {
+        {{.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}, names[i].name}};
+    for (std::size_t c = 0; c < all.size(); ++c)
+      row.push_back(
+          {{.header = scenario.target.label(c), .scale = 100.0, .sign = true}, all[c][i].minus_first.interval()});
+    table.row_of(row);
   }
   return table;
 }

@@ -138,21 +138,17 @@ std::vector<Regime> regimes() {
 }
 
 ResultTable regime_table(std::span<const SettingScores> settings) {
-  std::vector<ResultColumn> columns = {{.header = "setting", .align = Align::left}};
-  const auto& first = settings.front().scores;
-  for (const Score& score : first) {
-    columns.push_back({.header = "right, %", .digits = 1, .scale = 100.0, .group = score.name + ":"});
-    if (&score != &first.front())
-      columns.push_back({.header = "− sigma's", .scale = 100.0, .sign = true, .group = score.name + ":"});
-  }
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const SettingScores& setting : settings) {
-    std::vector<Cell> cells = {setting.setting};
+    std::vector<Field> row = {{{.header = "setting", .align = Align::left}, setting.setting}};
     for (const Score& score : setting.scores) {
-      cells.emplace_back(score.accuracy.back());
-      if (&score != &setting.scores.front()) cells.emplace_back(score.minus_first.interval());
+      const std::string group = score.name + ":";
+      row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy.back()});
+      if (&score != &setting.scores.front())
+        row.push_back(
+            {{.header = "− sigma's", .scale = 100.0, .sign = true, .group = group}, score.minus_first.interval()});
     }
-    table.row(std::move(cells));
+    table.row_of(row);
   }
   return table;
 }
@@ -212,18 +208,17 @@ HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings
 }
 
 ResultTable regimes_table(const std::vector<SettingScores>& all) {
-  ResultTable table({{.key = "regime"},
-                     {.key = "setting"},
-                     {.key = "classifier"},
-                     {.key = "accuracy"},
-                     {.key = "difference"},
-                     {.key = "lower"},
-                     {.key = "upper"}});
+  ResultTable table;
   for (const SettingScores& setting : all)
     for (const Score& score : setting.scores) {
       const Interval difference = score.minus_first.interval();
-      table.row({setting.regime, setting.setting, score.name, score.accuracy.back(), difference.mean,
-                 difference.lower(), difference.upper()});
+      table.row_of({{{.key = "regime"}, setting.regime},
+                    {{.key = "setting"}, setting.setting},
+                    {{.key = "classifier"}, score.name},
+                    {{.key = "accuracy"}, score.accuracy.back()},
+                    {{.key = "difference"}, difference.mean},
+                    {{.key = "lower"}, difference.lower()},
+                    {{.key = "upper"}, difference.upper()}});
     }
   return table;
 }

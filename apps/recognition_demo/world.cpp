@@ -161,40 +161,32 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
 }
 
 ResultTable scores_table(const Scores& scores, const std::string& what_is_counted) {
-  const auto shown = shown_reports(scores.front().accuracy.size());
-  std::vector<ResultColumn> columns = {
-      {.key = "classifier", .header = fmt::format("right, % after {}:", what_is_counted), .align = Align::left}};
-  for (const std::size_t k : shown) columns.push_back({.header = fmt::format("{}", k), .digits = 1, .scale = 100.0});
-  const std::vector<ResultColumn> others = {
-      {.key = "accuracy"},
-      {.key = "accuracy_minus_that_of_the_first",
-       .header = "last, more than row 1",
-       .unit = "points",
-       .scale = 100.0,
-       .sign = true,
-       .interval = true},
-      {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
-      {.key = "mean_probability_of_truth"},
-      {.key = "mean_possibility_of_truth"},
-      {.header = "p or π of truth", .digits = 3},
-      {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
-      {.key = "reports_passed_over"}};
-  columns.insert(columns.end(), others.begin(), others.end());
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const Score& score : scores) {
-    std::vector<Cell> cells = {score.name};
-    for (const std::size_t k : shown) cells.emplace_back(score.accuracy[k - 1]);
     const bool first = &score == &scores.front();
-    const std::vector<Cell> rest = {score.accuracy.back(),
-                                    first ? Cell() : Cell(score.minus_first.interval()),
-                                    score.ties,
-                                    only_if(!score.fuzzy, score.belief_in_truth),
-                                    only_if(score.fuzzy, score.belief_in_truth),
-                                    score.belief_in_truth,
-                                    only_if(score.fuzzy, score.necessity_of_truth),
-                                    score.refused > 0 ? Cell(score.refused) : Cell()};
-    cells.insert(cells.end(), rest.begin(), rest.end());
-    table.row(std::move(cells));
+    std::vector<Field> row = {
+        {{.key = "classifier", .header = fmt::format("right, % after {}:", what_is_counted), .align = Align::left},
+         score.name}};
+    for (const std::size_t k : shown_reports(score.accuracy.size()))
+      row.push_back({{.header = fmt::format("{}", k), .digits = 1, .scale = 100.0}, score.accuracy[k - 1]});
+    const std::vector<Field> rest = {
+        {{.key = "accuracy"}, score.accuracy.back()},
+        {{.key = "accuracy_minus_that_of_the_first",
+          .header = "last, more than row 1",
+          .unit = "points",
+          .scale = 100.0,
+          .sign = true,
+          .interval = true},
+         first ? Cell() : Cell(score.minus_first.interval())},
+        {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, score.ties},
+        {{.key = "mean_probability_of_truth"}, only_if(!score.fuzzy, score.belief_in_truth)},
+        {{.key = "mean_possibility_of_truth"}, only_if(score.fuzzy, score.belief_in_truth)},
+        {{.header = "p or π of truth", .digits = 3}, score.belief_in_truth},
+        {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+         only_if(score.fuzzy, score.necessity_of_truth)},
+        {{.key = "reports_passed_over"}, score.refused > 0 ? Cell(score.refused) : Cell()}};
+    row.insert(row.end(), rest.begin(), rest.end());
+    table.row_of(row);
   }
   return table;
 }
