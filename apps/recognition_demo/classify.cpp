@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -9,9 +10,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
@@ -62,7 +61,8 @@ class RowReader {
       : model_(model),
         missing_(model.missing),
         unseen_is_missing_(unseen_is_missing),
-        label_(reader.find(model.label)) {
+        label_(reader.find(model.label)),
+        classes_(labels_of(model.counts.pattern())) {
     for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
   }
 
@@ -77,14 +77,8 @@ class RowReader {
   /// The class of a row, if it is given.
   std::optional<std::size_t> truth(const CsvRow& row) {
     if (!label_ || missing_(row[*label_])) return std::nullopt;
-    const auto& pattern = model_.counts.pattern();
-    const std::string_view cell = trimmed(row[*label_]);
-    for (std::size_t c = 0; c < pattern.size(); ++c)
-      if (pattern.label(c) == cell) return c;
-    std::vector<std::string> names;
-    for (std::size_t c = 0; c < pattern.size(); ++c) names.push_back(pattern.label(c));
-    unseen(row.error(*label_, "a class of the model: " + shown(names), remedy));
-    return std::nullopt;
+    const std::size_t found = place(row, *label_, classes_, "a class of the model: ");
+    return found == missing ? std::nullopt : std::optional(found);
   }
 
   /// How many cells held what the model does not know, and the first of them.
@@ -116,75 +110,67 @@ class RowReader {
       if (const auto number = parse_number(cell)) return feature.bins->bin(*number);
       return unseen(row.error(columns_[i], "a finite number with a decimal point", remedy));
     }
-    if (missing_(cell)) return missing;
-    const auto found = std::find(feature.values.begin(), feature.values.end(), cell);
-    if (found == feature.values.end())
-      return unseen(row.error(columns_[i], "a value that the model knows: " + shown(feature.values), remedy));
-    return static_cast<std::size_t>(found - feature.values.begin());
+    return missing_(cell) ? missing : place(row, columns_[i], feature.values, "a value that the model knows: ");
+  }
+
+  /// Where a cell is among names.
+  std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
+    const auto found = std::find(names.begin(), names.end(), trimmed(row[column]));
+    if (found == names.end()) return unseen(row.error(column, what + shown(names), remedy));
+    return static_cast<std::size_t>(found - names.begin());
   }
 
   const LearnedModel& model_;
   MissingWords missing_;
   bool unseen_is_missing_;
   std::optional<std::size_t> label_;
+  std::vector<std::string> classes_;
   std::vector<std::size_t> columns_;
   std::size_t unseen_cells_ = 0;
   std::string first_unseen_;
 };
 
-template <class Kind>
-std::string described(const Belief<Kind>& belief, double least_margin) {
-  const Decision decision = decide(belief);
-  const std::string measure = SelectiveAlgebra<AlgebraOf<Kind>> ? "N" : "margin";
-  if (decision.margin < least_margin) return fmt::format("rejected ({} {:.3f})", measure, decision.margin);
-  return fmt::format("{} ({} {:.3f}{})", belief.variable().label(decision.pattern), measure, decision.margin,
-                     decision.tied > 1 ? ", a tie" : "");
-}
-
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
 }
 
-/// Why the best class rather than the next one; none if the readings exclude every class.
+/// Why the best class rather than the next one, with prior and belief of both.
+struct Reasons {
+  PatternExplanation why;
+  std::array<double, 2> prior, belief;
+};
+
 template <class Kind>
-std::optional<ResultTable> explanation(const std::string& name, Classifier<Kind, Kind> classifier,
+Reasons reasons(const Classifier<Kind, Kind>& classifier, const Belief<Kind>& belief, const Readings& readings) {
+  const auto best = best_patterns(belief, 2);
+  return {explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]),
+          {classifier.prior()[best[0]], classifier.prior()[best[1]]},
+          {belief[best[0]], belief[best[1]]}};
+}
+
+/// The reasons as a table; none if the readings exclude every class.
+std::optional<ResultTable> explanation(const Contestant& contestant, const RandomVariable& pattern,
                                        const Readings& readings) {
-  classifier.reset();
-  try {
-    classifier.observe(readings);
-  } catch (const std::domain_error&) {
-    return std::nullopt;
-  }
-  const auto best = best_patterns(classifier.log_belief(), 2);
-  const auto& pattern = classifier.prior().variable();
-  auto why = explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]);
+  const Judged by = judged(contestant, readings);
+  if (by.excluded) return std::nullopt;
+  auto [why, prior, belief] =
+      contestant.fuzzy()
+          ? reasons(std::get<MaxClassifier>(contestant.classifier), std::get<Belief<Fuzzy>>(by.belief), readings)
+          : reasons(std::get<SigmaClassifier>(contestant.classifier), std::get<Belief<Random>>(by.belief), readings);
   std::stable_sort(why.contributions.begin(), why.contributions.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
+  const std::string &best = pattern.label(why.pattern), &next = pattern.label(why.rival);
   ResultTable table(
-      {{.header = fmt::format("{}: {} rather than {}, because", name, pattern.label(best[0]), pattern.label(best[1])),
-        .align = Align::left},
-       {.header = "the same of " + pattern.label(best[1])},
+      {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
+       {.header = "the same of " + next},
        {.header = "log of the ratio"}});
-  table.row({fmt::format("before any reading: {} = {:.4g}", pattern.label(best[0]), classifier.prior()[best[0]]),
-             number(classifier.prior()[best[1]]), number(why.log_prior_ratio)});
+  table.row(
+      {fmt::format("before any reading: {} = {:.4g}", best, prior[0]), number(prior[1]), number(why.log_prior_ratio)});
   for (const Contribution& each : why.contributions)
     table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
   table.rule();
-  table.row({fmt::format("{} = {:.4g}", pattern.label(best[0]), classifier.belief()[best[0]]),
-             number(classifier.belief()[best[1]]), number(why.log_ratio())});
+  table.row({fmt::format("{} = {:.4g}", best, belief[0]), number(belief[1]), number(why.log_ratio())});
   return table;
-}
-
-std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
-  return std::visit([&](const auto& classifier) { return explanation(contestant.name, classifier, readings); },
-                    contestant.classifier);
-}
-
-void say_explanation(Result& result, const Contestant& contestant, const Readings& readings) {
-  if (const auto table = explanation(contestant, readings))
-    result.add(*table, {});
-  else
-    result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
 }
 
 /// The rows of a file, classified one after the other.
@@ -206,7 +192,10 @@ ResultTable predictions_table(const RandomVariable& pattern, bool has_truth) {
 class Judge {
  public:
   Judge(const ClassifyOptions& options, const RandomVariable& pattern, bool has_truth, AtomicFile* file)
-      : options_(options), has_truth_(has_truth), file_(file), predictions_(predictions_table(pattern, has_truth)) {
+      : least_margin_(options.least_margin),
+        has_truth_(has_truth),
+        file_(file),
+        predictions_(predictions_table(pattern, has_truth)) {
     if (file_) file_->write(predictions_.csv_header());
   }
 
@@ -214,7 +203,8 @@ class Judge {
   void operator()(const std::string& name, const Belief<Kind>& belief, std::optional<std::size_t> truth,
                   std::size_t line, Tally& tally, ShownRow* show) {
     const Decision decision = decide(belief);
-    const bool rejected = decision.margin < options_.least_margin;
+    const auto label = [&](std::size_t c) { return belief.variable().label(c); };
+    const bool rejected = decision.margin < least_margin_;
     if (rejected) {
       ++tally.rejected;
     } else {
@@ -222,9 +212,11 @@ class Judge {
       if (truth) ++tally.judged;
       if (truth == decision.pattern) ++tally.right;
     }
-    if (show) show->decisions.push_back(described(belief, options_.least_margin));
+    if (show)
+      show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : label(decision.pattern),
+                                            SelectiveAlgebra<AlgebraOf<Kind>> ? "N" : "margin", decision.margin,
+                                            !rejected && decision.tied > 1 ? ", a tie" : ""));
     if (!file_) return;
-    const auto label = [&](std::size_t c) { return belief.variable().label(c); };
     std::vector<Cell> cells = {line};
     if (has_truth_) cells.emplace_back(truth ? label(*truth) : "");
     const std::vector<Cell> said = {name, rejected ? Cell() : Cell(label(decision.pattern)), decision.margin};
@@ -234,13 +226,13 @@ class Judge {
   }
 
  private:
-  const ClassifyOptions& options_;
+  double least_margin_;
   bool has_truth_;
   AtomicFile* file_;
   ResultTable predictions_;
 };
 
-Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, std::vector<Contestant>& all,
+Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
                         CsvReader& reader, RowReader& rows, AtomicFile* file) {
   const auto& pattern = model.counts.pattern();
   Judge judge(options, pattern, rows.has_truth(), file);
@@ -254,18 +246,12 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
         result.rows < options.rows
             ? &result.shown.emplace_back(ShownRow{row.line(), truth ? pattern.label(*truth) : "", report, {}})
             : nullptr;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      std::visit(
-          [&](auto& classifier) {
-            classifier.reset();
-            try {
-              classifier.observe(report);
-            } catch (const std::domain_error&) {
-              ++result.tallies[i].excluded;  // the prior is what is left to say
-            }
-            judge(all[i].name, classifier.log_belief(), truth, row.line(), result.tallies[i], show);
-          },
-          all[i].classifier);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Judged by = judged(all[i], report);
+      if (by.excluded) ++result.tallies[i].excluded;
+      std::visit([&](const auto& belief) { judge(all[i].name, belief, truth, row.line(), result.tallies[i], show); },
+                 by.belief);
+    }
     progress.advance(reader.bytes_read() - progress.done());
   }
   progress.finish();
@@ -274,15 +260,13 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
 
 ResultTable shown_table(const std::string& label, bool has_truth, const std::vector<Contestant>& all,
                         const std::vector<ShownRow>& shown) {
-  std::vector<ResultColumn> columns = {{.header = "line"}};
-  if (has_truth) columns.push_back({.header = label, .align = Align::left});
-  for (const Contestant& contestant : all) columns.push_back({.header = contestant.name, .align = Align::left});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const ShownRow& row : shown) {
-    std::vector<Cell> cells = {row.line};
-    if (has_truth) cells.emplace_back(row.truth);
-    cells.insert(cells.end(), row.decisions.begin(), row.decisions.end());
-    table.row(std::move(cells));
+    std::vector<Field> fields = {{{.header = "line"}, row.line}};
+    if (has_truth) fields.push_back({{.header = label, .align = Align::left}, row.truth});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      fields.push_back({{.header = all[i].name, .align = Align::left}, row.decisions[i]});
+    table.row_of(fields);
   }
   return table;
 }
@@ -291,18 +275,14 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
                          const Classified& result) {
   constexpr std::size_t most_classes = 10;
   const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
-  std::vector<ResultColumn> columns = {{.header = fmt::format("all {} rows", result.rows), .align = Align::left}};
-  for (std::size_t c = 0; c < shown_classes; ++c) columns.push_back({.header = pattern.label(c)});
-  columns.push_back({.header = "rejected"});
-  if (has_truth) columns.push_back({.header = "right, % of the decided", .scale = 100.0});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Tally& tally = result.tallies[i];
-    std::vector<Cell> cells = {all[i].name};
-    for (std::size_t c = 0; c < shown_classes; ++c) cells.emplace_back(tally.decided[c]);
-    cells.emplace_back(tally.rejected);
-    if (has_truth) cells.emplace_back(tally.accuracy());
-    table.row(std::move(cells));
+    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, all[i].name}};
+    for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
+    row.push_back({{.header = "rejected"}, tally.rejected});
+    if (has_truth) row.push_back({{.header = "right, % of the decided", .scale = 100.0}, tally.accuracy()});
+    table.row_of(row);
   }
   return table;
 }
@@ -332,22 +312,19 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
       .row_label = "classifier",
       .column_label = pattern.name(),
       .rows = {},
-      .columns = {},
+      .columns = labels_of(pattern),
       .values = {},
       .value_label = "probability or possibility"};
-  for (std::size_t c = 0; c < pattern.size(); ++c) support.columns.push_back(pattern.label(c));
-  std::vector<Panel> reasons;
   for (const Contestant& contestant : all) {
-    const Trace trace = follow(contestant, 0, std::vector<Readings>{row.readings});
     support.rows.push_back(contestant.name);
-    support.values.push_back(trace.belief);
-    if (auto why = explanation(contestant, row.readings))
-      reasons.emplace_back(ReportTable{contestant.name, std::move(*why)});
-    else
-      reasons.emplace_back(Words{contestant.name, "The readings exclude every class."});
+    support.values.push_back(follow(contestant, 0, {row.readings}).belief);
   }
   view.panels.emplace_back(std::move(support));
-  view.panels.insert(view.panels.end(), reasons.begin(), reasons.end());
+  for (const Contestant& contestant : all)
+    if (auto why = explanation(contestant, pattern, row.readings))
+      view.panels.emplace_back(ReportTable{contestant.name, std::move(*why)});
+    else
+      view.panels.emplace_back(Words{contestant.name, "The readings exclude every class."});
   return view;
 }
 
@@ -371,7 +348,7 @@ void run_classify(const ClassifyOptions& options) {
   const ModelFile model_file = read_model(options.model);
   const LearnedModel& model = model_file.model;
   const auto& pattern = model.counts.pattern();
-  auto all = classifiers(model, model_file.kinds);
+  const auto all = classifiers(model, model_file.kinds);
 
   CsvReader reader = open_csv(options.file);
   RowReader rows(model, reader, options.unseen == "missing");
@@ -394,7 +371,11 @@ void run_classify(const ClassifyOptions& options) {
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
-      for (const Contestant& contestant : all) say_explanation(result, contestant, row.readings);
+      for (const Contestant& contestant : all)
+        if (const auto table = explanation(contestant, pattern, row.readings))
+          result.add(*table, {});
+        else
+          result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
     }
   add_facts(options, pattern, all, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());

@@ -1,53 +1,58 @@
 #include "recognition_demo/contest.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <sigmax/core/compose.hpp>
+#include <sigmax/core/transform.hpp>
+#include <sigmax/core/update.hpp>
 #include <sigmax/recognition/decision.hpp>
+#include <sigmax/recognition/dominance.hpp>
 
 namespace sigmax::apps {
 namespace {
 
 template <class Kind>
-void observe(Classifier<Kind, Kind>& classifier, const Readings& report) {
-  classifier.observe(report);
-}
-template <class Kind>
-void observe(Classifier<Kind, Kind>& classifier, const GradedReport& report) {
-  Likelihood<Kind> likelihood{classifier.features().front().feature()};
-  for (std::size_t f = 0; f < report.size(); ++f) likelihood.set_log(f, report[f]);
-  classifier.observe(likelihood);
-}
-
-/// Logarithms of the belief in the patterns, and the belief itself.
-template <class Kind>
-Belief<Kind> belief_in_patterns(const Contestant& contestant, const Classifier<Kind, Kind>& classifier) {
-  if constexpr (std::is_same_v<Kind, Random>)
-    if (contestant.pattern_given_state)
-      return Belief<Random>{compose(*contestant.pattern_given_state, classifier.belief())};
-  return classifier.log_belief();
+Likelihood<Kind> likelihood_of(const Classifier<Kind, Kind>& classifier, const AnyReport& report) {
+  if (const auto* const readings = std::get_if<Readings>(&report)) return classifier.likelihood(*readings);
+  const auto& logs = std::get<GradedReading>(report);
+  const auto& relation = classifier.features().front().relation();
+  Likelihood<Kind> graded{relation.to()};
+  for (std::size_t f = 0; f < logs.size(); ++f) graded.set_log(f, logs[f]);
+  return compose(graded, relation);
 }
 
-/// Calls see(belief) after each report. What would exclude every pattern is passed over; returns how many reports were.
-template <class Reports, class See>
-std::size_t observe_all(const Contestant& contestant, const Reports& reports, const See& see) {
+/// Calls see(belief in the patterns) after each report. What would exclude every pattern is passed over; returns how
+/// many reports were. The classifier, whose tables are large, is not copied: any thread may use it.
+template <class See>
+std::size_t observe_all(const Contestant& contestant, const std::vector<AnyReport>& reports, const See& see) {
   std::size_t refused = 0;
-  std::visit(
-      [&](auto classifier) {
-        classifier.reset();
-        for (const auto& report : reports) {
-          try {
-            observe(classifier, report);
-          } catch (const std::domain_error&) {
-            ++refused;
-          }
-          see(belief_in_patterns(contestant, classifier));
-        }
-      },
-      contestant.classifier);
+  const auto observe = [&](const auto& classifier, const auto& say) {
+    Belief belief{classifier.prior()};
+    for (const AnyReport& report : reports) {
+      try {
+        update(belief, likelihood_of(classifier, report), belief);
+      } catch (const std::domain_error&) {
+        ++refused;
+      }
+      say(belief);
+    }
+  };
+  if (const auto* const max = std::get_if<MaxClassifier>(&contestant.classifier)) {
+    observe(*max, see);
+  } else {
+    observe(std::get<SigmaClassifier>(contestant.classifier), [&](const Belief<Random>& belief) {
+      if (const auto& patterns = contestant.pattern_given_state)
+        see(Belief<Random>{compose(*patterns, belief.distribution())});
+      else
+        see(belief);
+    });
+  }
   return refused;
 }
 
@@ -57,24 +62,21 @@ std::vector<double> numbers_of(const Belief<Kind>& belief) {
   return {distribution.values().begin(), distribution.values().end()};
 }
 
-template <class Reports>
-Trace follow_reports(const Contestant& contestant, std::size_t truth, const Reports& reports) {
-  Trace trace;
-  trace.refused = observe_all(contestant, reports, [&](const auto& belief) {
-    trace.credit.push_back(credit_of(belief.logs(), truth));
-    if (trace.credit.size() == reports.size()) trace.belief = numbers_of(belief);
+HeatMap relation_map(const Relation<Random, Random>& relation) {
+  const auto possible = to_possibility(relation, RatioScale{});
+  HeatMap map{.title = "What was learned of " + relation.to().name(),
+              .row_label = relation.from().name(),
+              .column_label = relation.to().name(),
+              .rows = labels_of(relation.from()),
+              .columns = labels_of(relation.to()),
+              .values = {},
+              .value_label = "probability of the value, given the class"};
+  map.fill([&](std::size_t c, std::size_t value) {
+    return HeatMap::Cell{relation(c, value),
+                         fmt::format("possibility {} on the ratio scale", sized_text(possible(c, value), 2))};
   });
-  return trace;
+  return map;
 }
-
-template <class Reports>
-Beliefs beliefs_over_reports(const Contestant& contestant, const Reports& reports) {
-  Beliefs beliefs;
-  observe_all(contestant, reports, [&](const auto& belief) { beliefs.push_back(numbers_of(belief)); });
-  return beliefs;
-}
-
-bool is_fuzzy(const Contestant& contestant) { return std::holds_alternative<MaxClassifier>(contestant.classifier); }
 
 }  // namespace
 
@@ -85,58 +87,104 @@ double credit_of(std::span<const double> logs, std::size_t truth) {
   return 1.0 / static_cast<double>(tied);
 }
 
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports) {
-  return follow_reports(contestant, truth, reports);
+Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<AnyReport>& reports) {
+  Trace trace;
+  trace.refused = observe_all(contestant, reports, [&](const auto& belief) {
+    trace.credit.push_back(credit_of(belief.logs(), truth));
+    if (trace.credit.size() == reports.size()) trace.belief = numbers_of(belief);
+  });
+  return trace;
 }
 
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<GradedReport>& reports) {
-  return follow_reports(contestant, truth, reports);
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>& reports) {
+  Beliefs beliefs;
+  observe_all(contestant, reports, [&](const auto& belief) { beliefs.push_back(numbers_of(belief)); });
+  return beliefs;
 }
 
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports) {
-  return beliefs_over_reports(contestant, reports);
+Judged judged(const Contestant& contestant, const Readings& row) {
+  return std::visit(
+      [&](const auto& classifier) {
+        Belief belief{classifier.prior()};
+        bool excluded = false;
+        try {
+          update(belief, classifier.likelihood(row), belief);
+        } catch (const std::domain_error&) {
+          excluded = true;
+        }
+        return Judged{std::move(belief), excluded};
+      },
+      contestant.classifier);
 }
 
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<GradedReport>& reports) {
-  return beliefs_over_reports(contestant, reports);
+std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
+  std::vector<Dominated> result;
+  for (const Contestant& contestant : contestants)
+    std::visit(
+        [&](const auto& classifier) {
+          const auto& pattern = classifier.prior().variable();
+          for (const Dominance& found : dominated_patterns(classifier))
+            result.push_back({contestant.name, pattern.label(found.pattern), pattern.label(found.dominator)});
+        },
+        contestant.classifier);
+  return result;
 }
 
-Scoreboard::Scoreboard(const std::vector<Contestant>& contestants) {
-  for (const Contestant& contestant : contestants) {
-    same_.emplace_back(sums_.size(), true);
-    sums_.push_back(
-        {.name = contestant.name, .fuzzy = is_fuzzy(contestant), .has_possibilities = contestant.has_possibilities});
+Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
+  constexpr std::size_t widest_words = 120;  // longer lines are hard to read
+  Result result(output);
+  result.words_width = output.wide ? widest_words : terminal_width;
+  result.page.title = std::move(title);
+  for (const Contestant& contestant : contestants) result.page.groups.push_back({.name = contestant.name});
+  return result;
+}
+
+std::vector<double> counted_from(std::size_t first, std::size_t count) {
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), static_cast<double>(first));
+  return numbers;
+}
+
+std::vector<Panel> support_charts(const std::vector<std::string>& patterns, const std::vector<Contestant>& contestants,
+                                  const std::vector<Beliefs>& beliefs, const std::vector<double>& x,
+                                  const std::string& x_label, std::optional<std::size_t> truth) {
+  std::vector<Panel> charts;
+  for (std::size_t pattern = 0; pattern < patterns.size(); ++pattern) {
+    LineChart chart{.title = patterns[pattern] + (pattern == truth ? ", the truth" : ""),
+                    .x_label = x_label,
+                    .y_label = "probability or possibility",
+                    .x = x,
+                    .curves = {},
+                    .greatest_y = 1.05};
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+      chart.curves.push_back({contestants[i].name, contestants[i].name, {}});
+      for (const auto& belief : beliefs[i]) chart.curves.back().values.push_back(belief[pattern]);
+    }
+    charts.emplace_back(std::move(chart));
   }
+  return charts;
 }
 
-void Scoreboard::add(const RunTraces& run) {
-  const auto last = [&](std::size_t i) { return run.traces[i].credit.back(); };
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const Trace& trace = run.traces[i];
-    Score& sum = sums_[i];
-    sum.accuracy.resize(trace.credit.size(), 0.0);
-    for (std::size_t k = 0; k < trace.credit.size(); ++k) sum.accuracy[k] += trace.credit[k];
-    sum.minus_first.add(last(i) - last(0));
-    sum.belief_in_truth += trace.belief[run.truth];
-    sum.necessity_of_truth += 1.0 - greatest_other(trace.belief, run.truth);
-    if (last(i) > 0.0 && last(i) < 1.0) sum.ties += 1.0;
-    sum.refused += trace.refused;
-    for (std::size_t j = 0; j < i; ++j)
-      if (last(j) != last(i)) same_[i][j] = false;
-  }
-  ++runs_;
+double telling(const Relation<Random, Random>& relation) {
+  const std::size_t patterns = relation.from().size();
+  double distance = 0.0;
+  for (std::size_t a = 0; a < patterns; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (std::size_t value = 0; value < relation.to().size(); ++value)
+        distance += std::abs(relation(a, value) - relation(b, value));
+  return patterns < 2 ? 0.0 : distance / static_cast<double>(patterns * (patterns - 1));
 }
 
-std::vector<Score> Scoreboard::scores() const {
-  std::vector<Score> scores = sums_;
-  const auto n = static_cast<double>(runs_);
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    Score& score = scores[i];
-    for (double& value : score.accuracy) value /= n;
-    for (double* value : {&score.belief_in_truth, &score.necessity_of_truth, &score.ties}) *value /= n;
-    score.same_as = static_cast<std::size_t>(std::find(same_[i].begin(), same_[i].end(), true) - same_[i].begin());
-  }
-  return scores;
+std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& learned, std::size_t most) {
+  constexpr std::size_t most_values = 30;  // of a feature, and classes
+  std::vector<std::pair<double, const Relation<Random, Random>*>> all;
+  for (const auto& relation : learned)
+    if (std::max(relation.to().size(), relation.from().size()) <= most_values)
+      all.emplace_back(telling(relation), &relation);
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Panel> maps;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) maps.emplace_back(relation_map(*all[i].second));
+  return maps;
 }
 
 }  // namespace sigmax::apps

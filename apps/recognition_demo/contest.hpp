@@ -7,17 +7,22 @@
 #include <variant>
 #include <vector>
 
-#include <sigmax/core/distribution.hpp>
 #include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/evaluation.hpp>
+
+#include "result/result.hpp"
 
 namespace sigmax::apps {
 
 using SigmaClassifier = Classifier<Random, Random>;
 using MaxClassifier = Classifier<Fuzzy, Fuzzy>;
 
-/// A report: for every feature the index of what was read, or `missing`.
+/// For every feature the index of what was read, or `missing`.
 using Readings = std::vector<std::size_t>;
+
+/// Log-likelihoods of the values of the only feature.
+using GradedReading = std::vector<double>;
+
+using AnyReport = std::variant<Readings, GradedReading>;
 
 /// One of the classifiers that are compared on the same reports.
 struct Contestant {
@@ -26,6 +31,8 @@ struct Contestant {
   /// For a sigma classifier of something finer than the pattern: the pattern of each of its outcomes.
   std::optional<Relation<Random, Random>> pattern_given_state = std::nullopt;
   bool has_possibilities = true;  ///< anywhere: of the pattern, of the feature, or of the reading
+
+  bool fuzzy() const { return std::holds_alternative<MaxClassifier>(classifier); }
 };
 
 /// What a classifier made of one run.
@@ -41,60 +48,51 @@ struct Trace {
 /// 1 if the greatest value is that of `truth` alone, 1/n if n values tie, else 0; ties as `decide` has them.
 double credit_of(std::span<const double> logs, std::size_t truth);
 
-/// A graded report about the only feature: log-likelihoods of its values.
-using GradedReport = std::vector<double>;
-
 /// The contestant's classifier, from its prior on, over the reports of one run.
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<Readings>& reports);
-Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<GradedReport>& reports);
+Trace follow(const Contestant& contestant, std::size_t truth, const std::vector<AnyReport>& reports);
 
 /// Probability or possibility of every pattern after each report.
 using Beliefs = std::vector<std::vector<double>>;
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<Readings>& reports);
-Beliefs beliefs_over(const Contestant& contestant, const std::vector<GradedReport>& reports);
+Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>& reports);
 
-/// What all runs together say of one contestant.
-struct Score {
-  std::string name;
-  bool fuzzy = false;
-  bool has_possibilities = false;
-  std::vector<double> accuracy{};   ///< mean credit after 1, 2, … reports
-  RunningMean minus_first{};        ///< credit after the last report, less that of the first contestant, by run
-  double belief_in_truth = 0.0;     ///< mean probability or possibility of the truth after the last report
-  double necessity_of_truth = 0.0;  ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
-  double ties = 0.0;                ///< share of the runs that end in a tie that includes the truth
-  std::size_t refused = 0;          ///< reports that were passed over
-  std::size_t same_as = 0;          ///< the first contestant with the same credit at the end of every run
+/// What the contestant's classifier believes after a row of readings alone; the prior if that excludes every class.
+struct Judged {
+  std::variant<Belief<Random>, Belief<Fuzzy>> belief;
+  bool excluded = false;
 };
+Judged judged(const Contestant& contestant, const Readings& row);
 
-/// The traces of one run, one a contestant in their order, and its truth.
-struct RunTraces {
-  std::size_t truth = 0;
-  std::vector<Trace> traces;
+/// A pattern that a contestant can never prefer, since the dominator is always at least as good.
+struct Dominated {
+  std::string contestant, pattern, dominator;
 };
+std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
 
-/// Follows the same reports by every contestant.
-template <class Reports>
-RunTraces follow_all(const std::vector<Contestant>& contestants, std::size_t truth, const Reports& reports) {
-  RunTraces result{truth, {}};
-  for (const Contestant& contestant : contestants) result.traces.push_back(follow(contestant, truth, reports));
-  return result;
+/// A result begun: the page has its title, and the contestants are what it switches on and off.
+Result result_of_contest(std::string title, const OutputOptions& output,
+                         const std::vector<Contestant>& contestants = {});
+
+template <class Variable>
+std::vector<std::string> labels_of(const Variable& variable) {
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < variable.size(); ++i) labels.push_back(variable.label(i));
+  return labels;
 }
 
-/// Adds up runs in their order; their number is all that it keeps of them.
-class Scoreboard {
- public:
-  explicit Scoreboard(const std::vector<Contestant>& contestants);
+/// first, first + 1, …: so many numbers.
+std::vector<double> counted_from(std::size_t first, std::size_t count);
 
-  void add(const RunTraces& run);
+/// Probability or possibility of each pattern over reports at `x`, a chart for each pattern, from the beliefs of each
+/// contestant.
+std::vector<Panel> support_charts(const std::vector<std::string>& patterns, const std::vector<Contestant>& contestants,
+                                  const std::vector<Beliefs>& beliefs, const std::vector<double>& x,
+                                  const std::string& x_label, std::optional<std::size_t> truth = std::nullopt);
 
-  /// Of the runs so far.
-  std::vector<Score> scores() const;
+/// What was learned of features: p(value|class), and the possibility that it is turned into. Of many values none are
+/// shown; the most telling features come first, and no more than `most`.
+std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& learned, std::size_t most);
 
- private:
-  std::vector<Score> sums_;
-  std::vector<std::vector<bool>> same_;  // by contestant, then by one before it
-  std::size_t runs_ = 0;
-};
+/// How far the patterns differ about a feature: the mean distance of two patterns' distributions.
+double telling(const Relation<Random, Random>& relation);
 
 }  // namespace sigmax::apps

@@ -234,7 +234,6 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   std::vector<std::size_t> rows_of, last_line_of;  // by class, as they come
   std::size_t first_line = 0;
   for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
-  std::vector<std::byte> bytes(table.row_bytes());
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
@@ -247,14 +246,13 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     ++rows_of[code];
     last_line_of[code] = row.line();
     if (first_line == 0) first_line = row.line();
-    table.put(row.line(), table.line_place(), bytes);
-    table.put(code, table.label_place(), bytes);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const DataCell cell = columns[i].take(row, missing);
-      table.put(cell.number, table.number_place(i), bytes);
-      table.put(cell.code, table.code_place(i), bytes);
+    table.cells_.push_back(code);
+    table.cells_.push_back(static_cast<double>(row.line()));
+    for (ColumnReader& column : columns) {
+      const DataCell cell = column.take(row, missing);
+      table.cells_.push_back(cell.number);
+      table.cells_.push_back(cell.code);
     }
-    table.rows_.append(bytes);
   }
   progress.finish();
   if (table.size() == 0)

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "support/csv.hpp"
@@ -38,30 +35,31 @@ class DataTable;
 /// One row of the data, while it is seen.
 class DataRow {
  public:
+  DataRow(const DataTable& table, std::size_t index, const double* cells)
+      : table_(table), index_(index), cells_(cells) {}
+
   std::size_t index() const { return index_; }
 
   /// An index into the classes.
   std::size_t label() const;
 
   /// The line of the file on which the row starts.
-  std::size_t line() const;
+  std::size_t line() const { return static_cast<std::size_t>(cells_[1]); }
 
   /// The number in a numeric column, NaN where it is missing.
-  double number(std::size_t column) const;
+  double number(std::size_t column) const { return cells_[2 + 2 * column]; }
 
   /// An index into the values of a categorical column, or `missing_code`.
   Code code(std::size_t column) const;
 
  private:
-  friend class DataTable;
-
-  const DataTable* table_ = nullptr;
-  const std::byte* bytes_ = nullptr;
-  std::size_t index_ = 0;
+  const DataTable& table_;
+  std::size_t index_;
+  const double* cells_;
 };
 
-/// Labelled data: the classes, sorted, and of each row its class and its features. The rows are in a Scratch: memory
-/// does not grow with their number.
+/// Labelled data: the classes, sorted, and of each row its class and its features. The rows are in a ScratchArray:
+/// memory does not grow with their number.
 class DataTable {
  public:
   std::string file;
@@ -73,23 +71,18 @@ class DataTable {
   std::vector<std::string> warnings;  ///< what the reader of the results should know
 
   /// The number of rows.
-  std::size_t size() const { return static_cast<std::size_t>(rows_.size()) / row_bytes(); }
+  std::size_t size() const { return cells_.size() / row_size(); }
 
   /// Calls see(row) for all rows in the order of the file. Several threads may do so at a time.
   template <class See>
   void for_each(const See& see) const {
-    const std::size_t most = std::max<std::size_t>(1, block_bytes / row_bytes());
-    std::vector<std::byte> block;
-    DataRow row;
-    row.table_ = this;
-    while (row.index_ < size()) {
-      const std::size_t count = std::min(most, size() - row.index_);
-      block.resize(count * row_bytes());
-      rows_.read(row.index_ * row_bytes(), block);
-      for (std::size_t i = 0; i < count; ++i, ++row.index_) {
-        row.bytes_ = block.data() + i * row_bytes();
-        see(std::as_const(row));
-      }
+    const std::size_t most = std::max<std::size_t>(1, block_size / row_size());
+    std::vector<double> block;
+    for (std::size_t first = 0; first < size(); first += most) {
+      const std::size_t count = std::min(most, size() - first);
+      block.resize(count * row_size());
+      cells_.read(first * row_size(), block);
+      for (std::size_t i = 0; i < count; ++i) see(DataRow(*this, first + i, block.data() + i * row_size()));
     }
   }
 
@@ -97,42 +90,21 @@ class DataTable {
   friend class DataRow;
   friend DataTable read_data(const std::string& file, const DataOptions& options, bool quiet);
 
-  static constexpr std::size_t block_bytes = std::size_t{1} << 16;
+  static constexpr std::size_t block_size = std::size_t{1} << 13;
 
-  // A row is the numbers of all columns, their words, the class and the line: which columns are numeric is known at the
+  // A row is the class, the line, and of each column the number and the word: which columns are numeric is known at the
   // end of the file only.
-  std::size_t number_place(std::size_t column) const { return column * sizeof(double); }
-  std::size_t code_place(std::size_t column) const { return number_place(columns.size()) + column * sizeof(Code); }
-  std::size_t label_place() const { return code_place(columns.size()); }
-  std::size_t line_place() const { return label_place() + sizeof(Code); }
-  std::size_t row_bytes() const { return line_place() + sizeof(std::size_t); }
+  std::size_t row_size() const { return 2 + 2 * columns.size(); }
 
-  template <class T>
-  static void put(const T& value, std::size_t place, std::span<std::byte> row) {
-    std::memcpy(row.data() + place, &value, sizeof value);
-  }
-  template <class T>
-  static T get(const std::byte* row, std::size_t place) {
-    T value;
-    std::memcpy(&value, row + place, sizeof value);
-    return value;
-  }
-
-  Scratch rows_;
+  ScratchArray<double> cells_;
   std::vector<Code> class_order_;               // the place, when sorted, of each class as they came
   std::vector<std::vector<Code>> value_order_;  // the same of the values of each categorical column
 };
 
-inline std::size_t DataRow::label() const {
-  return table_->class_order_[DataTable::get<Code>(bytes_, table_->label_place())];
-}
-inline std::size_t DataRow::line() const { return DataTable::get<std::size_t>(bytes_, table_->line_place()); }
-inline double DataRow::number(std::size_t column) const {
-  return DataTable::get<double>(bytes_, table_->number_place(column));
-}
+inline std::size_t DataRow::label() const { return table_.class_order_[static_cast<std::size_t>(cells_[0])]; }
 inline Code DataRow::code(std::size_t column) const {
-  const Code code = DataTable::get<Code>(bytes_, table_->code_place(column));
-  return code == missing_code ? code : table_->value_order_[column][code];
+  const auto code = static_cast<Code>(cells_[3 + 2 * column]);
+  return code == missing_code ? code : table_.value_order_[column][code];
 }
 
 /// Which cells hold nothing.

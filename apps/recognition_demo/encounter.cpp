@@ -1,21 +1,169 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
-#include <sigmax/recognition/decision.hpp>
+#include <sigmax/recognition/counts.hpp>
+#include <sigmax/recognition/discretization.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/draws.hpp"
-#include "recognition_demo/encounter_data.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/world.hpp"
+#include "support/csv.hpp"
+#include "support/input.hpp"
+#include "support/missing.hpp"
 #include "support/options.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+constexpr std::array<const char*, 4> feature_names = {"altitude_layer_ft_agl", "airspeed_kt",
+                                                      "vertical_rate_ft_per_min", "turn_rate_deg_per_s"};
+
+/// Bins of one feature, as one class has them.
+struct Layers {
+  std::vector<double> lower, upper, count;
+};
+
+std::size_t column_of(const CsvReader& reader, std::initializer_list<std::string_view> names) {
+  for (const auto name : names)
+    if (const auto found = reader.find(name)) return *found;
+  return reader.column(*names.begin());  // throws
+}
+
+/// How often aircraft of each class were seen in each bin of four features: altitude above ground (ft), airspeed (kt),
+/// vertical rate (ft/min) and turn rate (°/s).
+struct EncounterData {
+  Counts counts;
+  std::vector<Discretization> bins;  ///< of each feature
+  double lowest_ft;                  ///< where the first layer of altitude begins
+};
+
+/// Reads class,feature,bin,lower,upper,count; other features are ignored. Throws InputError with file, line, column and
+/// value where bins leave a gap, and for a class or a feature without counts.
+EncounterData read_encounter(const std::string& file) {
+  CsvReader reader = open_csv(file);
+  const std::size_t klass = reader.column("class"), feature = reader.column("feature");
+  const std::size_t lower = reader.column("lower"), upper = reader.column("upper"), count = reader.column("count");
+  std::vector<std::string> classes;
+  std::map<std::pair<std::string, std::size_t>, Layers> all;
+  for (CsvRow row; reader.next(row);) {
+    const std::string name{trimmed(row[klass])};
+    if (name.empty()) throw row.error(klass, "the name of a class");
+    if (std::find(classes.begin(), classes.end(), name) == classes.end()) classes.push_back(name);
+    const auto known = std::find(feature_names.begin(), feature_names.end(), trimmed(row[feature]));
+    if (known == feature_names.end()) continue;
+    Layers& layers = all[{name, static_cast<std::size_t>(known - feature_names.begin())}];
+    const double begin = row.number(lower), end = row.number(upper), times = row.number(count);
+    if (!layers.upper.empty() && layers.upper.back() != begin)
+      throw row.error(lower, fmt::format("{}, where the bin before ends", layers.upper.back()));
+    if (!(end > begin)) throw row.error(upper, fmt::format("a number above {}", begin));
+    if (times < 0.0) throw row.error(count, "a count that is not negative");
+    layers.lower.push_back(begin);
+    layers.upper.push_back(end);
+    layers.count.push_back(times);
+  }
+  if (classes.size() < 2)
+    throw InputError(message(
+        {.where = reader.file(), .found = fmt::format("{} classes", classes.size()), .expected = "at least two"}));
+
+  std::vector<Discretization> bins;
+  std::vector<RandomVariable> variables;
+  for (std::size_t i = 0; i < feature_names.size(); ++i) {
+    const Layers& first = all[{classes.front(), i}];
+    for (const auto& name : classes) {
+      const Layers& own = all[{name, i}];
+      double sum = 0.0;
+      for (const double times : own.count) sum += times;
+      if (own.lower != first.lower || own.upper != first.upper || !(sum > 0.0))
+        throw InputError(
+            message({.where = reader.file(),
+                     .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
+                     .expected = "counts, in the same bins for every class"}));
+    }
+    bins.emplace_back(std::vector<double>(first.lower.begin() + 1, first.lower.end()));
+    variables.push_back(bins.back().variable<Random>(feature_names[i]));
+  }
+  Counts counts{RandomVariable{"class", classes}, variables};
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    for (std::size_t i = 0; i < feature_names.size(); ++i) {
+      const Layers& own = all[{classes[c], i}];
+      for (std::size_t b = 0; b < own.count.size(); ++b) counts.observe_value(c, i, b, own.count[b]);
+    }
+  const double lowest = all[{classes.front(), 0}].lower.front();
+  return {std::move(counts), std::move(bins), lowest};
+}
+
+/// One report of a recording.
+struct TrackReport {
+  double time_s;
+  Readings readings;
+};
+
+struct TrackReports {
+  std::vector<TrackReport> reports;
+  std::size_t rows = 0;           ///< of the recording
+  std::size_t on_the_ground = 0;  ///< rows below the first layer of altitude
+  double ground_ft = 0.0;
+};
+
+/// Reads a recording and reports every so many seconds while it flies; the turn rate is that between the row and the
+/// one before, if that is at most 15 s earlier. Throws InputError with file, line, column and value.
+TrackReports read_track(const std::string& file, const EncounterData& data, double every_s,
+                        std::optional<double> ground_ft) {
+  constexpr double longest_step_s = 15.0;
+  CsvReader reader = open_csv(file);
+  const std::size_t time = reader.column("time_s");
+  const std::size_t altitude = column_of(reader, {"altitude_ft", "altitude_gnss_ft"});
+  const std::size_t speed = column_of(reader, {"tas_kt", "groundspeed_kt"});
+  const std::size_t track = reader.column("track_deg");
+  const std::size_t climb = column_of(reader, {"vertical_rate_fpm", "roc_fpm"});
+
+  struct Row {
+    double time, altitude, speed, track, climb;
+  };
+  std::vector<Row> rows;
+  const auto value = [&](const CsvRow& row, std::size_t column) { return row.optional_number(column).value_or(nan); };
+  double lowest = std::numeric_limits<double>::infinity();
+  for (CsvRow row; reader.next(row);) {
+    rows.push_back({row.number(time), value(row, altitude), value(row, speed), value(row, track), value(row, climb)});
+    if (rows.size() > 1 && rows.back().time < rows[rows.size() - 2].time)
+      throw row.error(time, fmt::format("a time not before {}", rows[rows.size() - 2].time));
+    if (!std::isnan(rows.back().altitude)) lowest = std::min(lowest, rows.back().altitude);
+  }
+  if (!std::isfinite(lowest)) throw InputError(message({.where = reader.file(), .what = "no row has an altitude"}));
+
+  TrackReports result;
+  result.rows = rows.size();
+  result.ground_ft = ground_ft.value_or(lowest);
+  double next = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Row& row = rows[k];
+    const double above_ground = row.altitude - result.ground_ft;
+    if (above_ground < data.lowest_ft) ++result.on_the_ground;
+    if (row.time < next || !(above_ground >= data.lowest_ft)) continue;
+    double turn_rate = nan;
+    if (k > 0 && row.time > rows[k - 1].time && row.time - rows[k - 1].time <= longest_step_s)
+      turn_rate = std::remainder(row.track - rows[k - 1].track, 360.0) / (row.time - rows[k - 1].time);
+    const std::array<double, 4> values = {above_ground, row.speed, row.climb, turn_rate};
+    TrackReport report{row.time, {}};
+    for (std::size_t i = 0; i < values.size(); ++i) report.readings.push_back(data.bins[i].bin(values[i]));
+    result.reports.push_back(std::move(report));
+    next = row.time + every_s;
+  }
+  if (result.reports.empty())
+    throw InputError(message(
+        {.where = reader.file(),
+         .what = fmt::format("no row is {} ft or more above the ground at {} ft", data.lowest_ft, result.ground_ft),
+         .remedy = "give the altitude of the ground by --ground"}));
+  return result;
+}
 
 struct EncounterOptions {
   std::string file;
@@ -50,42 +198,39 @@ void say_counts(const EncounterOptions& options, const Counts& counts, Result& r
   }
 }
 
-Result result_of_draws(const EncounterOptions& options, const EncounterData& data) {
+void publish_draws(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
   const DrawOptions& draws = options.draws;
-  const auto all = contestants(data.counts);
   const auto relations = learned_relations(data.counts, 0.0);
-  Scoreboard board(all);
-  Progress progress("runs", draws.runs, draws.output.quiet);
-  for_each_draw(
-      draws, progress,
-      [&](RandomStream& random) {
-        const std::size_t truth = draw_index(random, data.counts.pattern().size());
-        std::vector<Readings> reports(options.reports);
-        for (Readings& report : reports)
-          for (const auto& relation : relations) report.push_back(draw(random, relation.row(truth)));
-        return follow_all(all, truth, reports);
-      },
-      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
-  progress.finish();
-
-  const auto scores = board.scores();
-  Result result = result_of_contest("What class of aircraft is it?", draws.output, all);
-  say_counts(options, data.counts, result);
-  result.say(
-      fmt::format("{} seeded draws from the counts themselves, every feature and report independent, as sigma "
-                  "inference assumes; seed {}",
-                  draws.runs, draws.seed));
-  result.fact({"file"}, options.file);
-  result.fact({"drawn_from"}, "the counts");
-  result.fact({"runs"}, draws.runs);
-  result.fact({"reports"}, options.reports);
-  result.fact({"seed"}, draws.seed);
-  result.page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
-                                     options.reports, options.file, draws.seed)};
-  result.page.panels = {accuracy_chart(scores)};
-  result.page.last = relation_maps(relations, relations.size());
-  add_scores(result, scores);
-  return result;
+  const auto draw_run = [&](std::size_t run) {
+    RandomStream random(draws.seed, run);
+    const std::size_t truth = draw_index(random, data.counts.pattern().size());
+    std::vector<AnyReport> reports;
+    for (std::size_t k = 0; k < options.reports; ++k) {
+      Readings report;
+      for (const auto& relation : relations) report.push_back(draw(random, relation.row(truth)));
+      reports.emplace_back(std::move(report));
+    }
+    return Drawn{truth, {std::move(reports)}};
+  };
+  World world{"What class of aircraft is it?", {{contestants(data.counts), draw_run}}};
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    say_counts(options, data.counts, result);
+    result.say(
+        fmt::format("{} seeded draws from the counts themselves, every feature and report independent, as sigma "
+                    "inference assumes; seed {}",
+                    draws.runs, draws.seed));
+    result.fact({"file"}, options.file);
+    result.fact({"drawn_from"}, "the counts");
+    result.fact({"runs"}, draws.runs);
+    result.fact({"reports"}, options.reports);
+    result.fact({"seed"}, draws.seed);
+    result.page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
+                                       options.reports, options.file, draws.seed)};
+    result.page.panels.emplace_back(accuracy_chart(scores.front()));
+    result.page.last = relation_maps(relations, relations.size());
+    add_scores(result, scores.front());
+  };
+  run_world(world, draws, files);
 }
 
 /// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
@@ -131,18 +276,16 @@ ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
 
 /// What the classifiers make of a recording.
 ResultTable decisions_table(const RandomVariable& pattern, const std::vector<TrackOutcome>& outcomes) {
-  std::vector<ResultColumn> columns = {{.header = "classifier", .align = Align::left}};
-  for (std::size_t c = 0; c < pattern.size(); ++c)
-    columns.push_back(
-        {.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"});
-  for (std::size_t c = 0; c < pattern.size(); ++c)
-    columns.push_back({.header = pattern.label(c), .group = "p or π after all:"});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const TrackOutcome& outcome : outcomes) {
-    std::vector<Cell> cells = {outcome.name};
-    cells.insert(cells.end(), outcome.single.begin(), outcome.single.end());
-    for (const double value : outcome.belief) cells.emplace_back(fmt::format("{:.2g}", value));
-    table.row(std::move(cells));
+    std::vector<Field> row = {{{.header = "classifier", .align = Align::left}, outcome.name}};
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      row.push_back({{.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"},
+                     outcome.single[c]});
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      row.push_back(
+          {{.header = pattern.label(c), .group = "p or π after all:"}, fmt::format("{:.2g}", outcome.belief[c])});
+    table.row_of(row);
   }
   return table;
 }
@@ -150,8 +293,8 @@ ResultTable decisions_table(const RandomVariable& pattern, const std::vector<Tra
 /// What each classifier thinks of the classes along a recording.
 View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track) {
   const std::vector<std::string> classes = labels_of(data.counts.pattern());
-  std::vector<Readings> reports;
-  for (const TrackReport& report : track.reports) reports.push_back(report.readings);
+  std::vector<AnyReport> reports;
+  for (const TrackReport& report : track.reports) reports.emplace_back(report.readings);
   std::vector<Beliefs> beliefs;
   for (const Contestant& contestant : contestants) beliefs.push_back(beliefs_over(contestant, reports));
   const std::size_t columns = contestants.size() * classes.size();
@@ -188,7 +331,7 @@ ResultTable reports_table(const EncounterData& data, const TrackReports& track) 
   return table;
 }
 
-Result result_of_track(const EncounterOptions& options, const EncounterData& data) {
+void publish_track(const EncounterOptions& options, const EncounterData& data, ResultFiles& files) {
   const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
@@ -207,9 +350,9 @@ Result result_of_track(const EncounterOptions& options, const EncounterData& dat
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
                   track.reports.size(), options.every_s)};
-  result.page.views = {view_of(data, all, track)};
+  result.page.views.push_back(view_of(data, all, track));
   const auto decisions = decisions_table(pattern, outcomes);
-  result.page.last = {ReportTable{"Decisions", decisions, "Ties share a report."}};
+  result.page.last.emplace_back(ReportTable{"Decisions", decisions, "Ties share a report."});
   result.add(seen_table(data, track), {.title = "What was seen"});
   result.add(decisions, {});
   result.say(
@@ -225,22 +368,20 @@ Result result_of_track(const EncounterOptions& options, const EncounterData& dat
       result.fact({"classifiers", outcome.name, "share_of_single_reports", pattern.label(c)}, outcome.single[c]);
       result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.belief[c]);
     }
-  return result;
+  result.publish(files);
 }
 
 void run_encounter(const EncounterOptions& options) {
   refuse_to_overwrite(options.draws.output, {options.file, options.track}, {"curves.csv", "reports.csv"});
   ResultFiles files(options.draws.output);
   const EncounterData data = read_encounter(options.file);
-  (options.track.empty() ? result_of_draws : result_of_track)(options, data).publish(files);
+  (options.track.empty() ? publish_draws : publish_track)(options, data, files);
 }
 
 }  // namespace
 
 void add_encounter(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EncounterOptions>();
-  options->draws.output.command = command;
-  options->draws.runs = 50000;
   Subcommand app(program, "encounter",
                  "What class of aircraft is it? From counts of altitude, airspeed, climb and turn rate.");
   app.option("counts", options->file,
@@ -261,8 +402,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
       .number_in(-2000.0, 30000.0)
       .needs(track)
       .type("FT");
-  add_draws(app, options->draws);
-  add_report(app, options->draws.output);
+  add_draws(app, options->draws, command, 50000);
   app.footer(
       "Examples:\n"
       "  recognition_demo encounter encounter_features.csv\n"

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
+#include <sigmax/core/witness.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/esm_classifiers.hpp"
-#include "recognition_demo/esm_world.hpp"
-#include "recognition_demo/pages.hpp"
+#include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/world.hpp"
 #include "support/error.hpp"
 #include "support/options.hpp"
 
@@ -31,20 +30,18 @@ Usage usage_of(const EsmOptions& options) {
 
 std::vector<Contestant> contestants(const EsmWorld& world, const EsmOptions& options) {
   const auto sensor = world.sensor(sensor_hit);
-  const auto ratio = with_fuzzy_condition(to_possibility(sensor, RatioScale{}));
-  const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
+  const auto ratio = to_possibility(sensor, RatioScale{}), dubois_prade = to_possibility(sensor, DuboisPrade{});
   const auto usage = world.equal_usage();
   const auto carries = world.carries();
   std::vector<Contestant> all = {
-      sigma_contestant("sigma", usage, {sensor}),
-      max_contestant("max, ratio scale", carries, {ratio}),
-      max_contestant("max, Dubois-Prade", carries, {dubois_prade}),
-      sigma_max_contestant("sigma-max", carries, {sensor}),
-      max_sigma_contestant("max-sigma, ratio scale", usage, {ratio}),
-      max_sigma_contestant("max-sigma, Dubois-Prade", usage, {dubois_prade}),
+      read_by("sigma", usage, sensor),
+      read_by("max, ratio scale", carries, with_fuzzy_condition(ratio)),
+      read_by("max, Dubois-Prade", carries, with_fuzzy_condition(dubois_prade)),
+      read_by("sigma-max", carries, with_fuzzy_condition(sensor)),
+      read_by("max-sigma, ratio scale", usage, ratio),
+      read_by("max-sigma, Dubois-Prade", usage, dubois_prade),
   };
-  if (options.usage == "dirichlet")
-    all.push_back(usage_aware_contestant("sigma, averages over usages", world, usage_of(options), {sensor}));
+  if (options.usage == "dirichlet") all.push_back(usage_aware_contestant(world, usage_of(options), sensor));
   return all;
 }
 
@@ -56,70 +53,58 @@ std::string described_usage(const EsmOptions& options) {
                    options.alpha);
 }
 
-/// A run with what was read in it.
-struct EsmTraces : RunTraces {
-  std::vector<Readings> reports;
-};
+/// What may be read of each emitter, and of which emitter that most possibly is.
+HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
+                    const Relation<Fuzzy, Fuzzy>& feature_given_pattern) {
+  const auto witnessed = compose_with_witness(reading_given_feature, feature_given_pattern);
+  const auto& relation = witnessed.relation();
+  HeatMap map{.title = fmt::format("What may be read of each {}", relation.from().name()),
+              .row_label = relation.from().name(),
+              .column_label = relation.to().name(),
+              .rows = labels_of(relation.from()),
+              .columns = labels_of(relation.to()),
+              .values = {},
+              .value_label = "possibility by max inference"};
+  map.fill([&](std::size_t c, std::size_t value) {
+    const double possible = relation(c, value);
+    return HeatMap::Cell{possible,
+                         possible > 0.0
+                             ? fmt::format("through {}", feature_given_pattern.to().label(witnessed.winner(c, value)))
+                             : "through nothing"};
+  });
+  return map;
+}
+
+/// A run that the page shows: the support of each platform over its reports.
+View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, EsmRun drawn) {
+  constexpr std::size_t most = 100;
+  if (drawn.reports.size() > most) drawn.reports.resize(most);
+  std::vector<Beliefs> beliefs;
+  for (const Contestant& contestant : all) beliefs.push_back(beliefs_over(contestant, drawn.reports));
+  return {fmt::format("run {}", run + 1),
+          support_charts(labels_of(world.platform), all, beliefs, counted_from(1, drawn.reports.size()), "reports",
+                         drawn.platform)};
+}
 
 /// runs.csv: a row for each run with the truth, the readings, and what each classifier believed at last.
 ResultTable runs_table(const EsmWorld& world, const std::vector<Contestant>& contestants) {
   std::vector<ResultColumn> columns = {{.key = "run"}, {.key = "platform"}, {.key = "readings"}};
-  for (const Contestant& contestant : contestants)
-    for (std::size_t c = 0; c < world.platform.size(); ++c)
-      columns.push_back({.key = contestant.name + ": " + world.platform.label(c)});
+  add_belief_columns(contestants, labels_of(world.platform), columns);
   return ResultTable(std::move(columns));
 }
 
-std::vector<Cell> row_of_run(const EsmWorld& world, std::size_t run, const EsmTraces& traces) {
+std::vector<Cell> row_of_run(const EsmWorld& world, const SeenRun& run) {
   std::string readings;
-  for (const Readings& report : traces.reports)
-    readings += (readings.empty() ? "" : " ") + world.reading.label(report.front());
-  std::vector<Cell> cells = {run + 1, world.platform.label(traces.truth), readings};
-  for (const Trace& trace : traces.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+  for (const double reading : run.numbers)
+    readings += (readings.empty() ? "" : " ") + world.reading.label(static_cast<std::size_t>(reading));
+  std::vector<Cell> cells = {run.run + 1, world.platform.label(run.truth), readings};
+  add_beliefs(run, cells);
   return cells;
 }
 
-/// A run that the page shows: the support of each platform over its reports.
-View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, const EsmTraces& traces) {
-  const std::size_t most = std::min<std::size_t>(traces.reports.size(), 100);
-  const std::vector<Readings> reports(traces.reports.begin(),
-                                      traces.reports.begin() + static_cast<std::ptrdiff_t>(most));
-  std::vector<Beliefs> beliefs;
-  for (const Contestant& contestant : all) beliefs.push_back(beliefs_over(contestant, reports));
-  return {fmt::format("run {}", run + 1),
-          support_charts(labels_of(world.platform), all, beliefs, counted_from(1, most), "reports", traces.truth)};
-}
-
-void run_esm(const EsmOptions& options) {
+void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, std::vector<View> runs,
+          Result& result) {
   const DrawOptions& draws = options.draws;
-  ResultFiles files(draws.output);
-  const EsmWorld world;
-  const EsmTruth truth{.usage = usage_of(options), .hit = sensor_hit};
-  const auto all = contestants(world, options);
-  const ResultTable runs = runs_table(world, all);
-  AtomicFile* const runs_file = files.open("runs.csv");
-  if (runs_file) runs_file->write(runs.csv_header());
-
-  constexpr std::size_t runs_in_page = 6;
-  Result result = result_of_contest("Which platform is it?", draws.output, all);
-  Report& page = result.page;
-  page.chooser = "Show";
-  Scoreboard board(all);
-  Progress progress("runs", draws.runs, draws.output.quiet);
-  for_each_draw(
-      draws, progress,
-      [&](RandomStream& random) {
-        EsmRun drawn = draw_run(world, truth, options.reports, random);
-        return EsmTraces{follow_all(all, drawn.platform, drawn.reports), std::move(drawn.reports)};
-      },
-      [&](std::size_t run, const EsmTraces& traces) {
-        board.add(traces);
-        if (files.report_wanted() && run < runs_in_page) page.views.push_back(view_of(world, all, run, traces));
-        if (runs_file) runs_file->write(runs.csv_line(row_of_run(world, run, traces)));
-      });
-  progress.finish();
-
-  const auto scores = board.scores();
   result.say(fmt::format(
       "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports "
       "the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, "
@@ -132,21 +117,53 @@ void run_esm(const EsmOptions& options) {
   result.fact({"runs"}, draws.runs);
   result.fact({"reports"}, options.reports);
   result.fact({"seed"}, draws.seed);
+  Report& page = result.page;
   page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
                               described_usage(options))};
-  page.views.insert(page.views.begin(), View{fmt::format("all {} runs", draws.runs), {accuracy_chart(scores)}});
+  page.chooser = "Show";
+  View& of_all = page.views.emplace_back(View{fmt::format("all {} runs", draws.runs), {}});
+  of_all.panels.emplace_back(accuracy_chart(scores));
+  for (View& run : runs) page.views.push_back(std::move(run));
   page.last.emplace_back(
       witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
   add_scores(result, scores);
-  result.publish(files);
+}
+
+void run_esm(const EsmOptions& options) {
+  constexpr std::size_t runs_in_page = 6;
+  const EsmWorld esm;
+  const auto drawn = [&](std::size_t run) {
+    RandomStream random(options.draws.seed, run);
+    return draw_run(esm, {.usage = usage_of(options), .hit = sensor_hit}, options.reports, random);
+  };
+  const auto draw = [&](std::size_t run) {
+    EsmRun one = drawn(run);
+    Drawn result{one.platform, {one.reports}};
+    for (const AnyReport& report : one.reports)
+      result.numbers.push_back(static_cast<double>(std::get<Readings>(report).front()));
+    return result;
+  };
+  World world{"Which platform is it?", {{contestants(esm, options), draw}}};
+  const auto& all = world.conditions.front().contestants;
+  ResultFiles files(options.draws.output);
+  const ResultTable runs = runs_table(esm, all);
+  AtomicFile* const runs_file = files.open("runs.csv");
+  if (runs_file) runs_file->write(runs.csv_header());
+  std::vector<View> views;
+  world.see = [&](const SeenRun& run) {
+    if (files.report_wanted() && run.run < runs_in_page) views.push_back(view_of(esm, all, run.run, drawn(run.run)));
+    if (runs_file) runs_file->write(runs.csv_line(row_of_run(esm, run)));
+  };
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    tell(esm, options, scores.front(), std::move(views), result);
+  };
+  run_world(world, options.draws, files);
 }
 
 }  // namespace
 
 void add_esm(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EsmOptions>();
-  options->draws.output.command = command;
-  options->draws.runs = 20000;
   Subcommand app(program, "esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
   app.option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
       .one_of(std::vector<std::string>{"uniform", "dirichlet"})
@@ -156,8 +173,7 @@ void add_esm(CLI::App& program, const std::string& command) {
           .number_in(0.01, 1000.0)
           .shows_default();
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
-  add_draws(app, options->draws);
-  add_report(app, options->draws.output);
+  add_draws(app, options->draws, command, 20000);
   app.footer(
       "Examples:\n"
       "  recognition_demo esm --usage dirichlet --alpha 0.5\n"

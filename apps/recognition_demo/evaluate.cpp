@@ -12,10 +12,9 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>
+#include <sigmax/recognition/reliability.hpp>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
@@ -99,29 +98,17 @@ TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, c
   return {fold, std::move(model), std::move(contestants)};
 }
 
-/// Calls see(row, contestant's index, belief, whether every class was excluded) for the rows of a fold, and for each of
-/// them for the contestants from `first` on up to `end`.
+/// Calls see(row, contestant's index, what it judges) for the rows of a fold, and for each of them for the contestants
+/// from `first` on up to `end`.
 template <class See>
-void classify_rows(const DataTable& data, const Folds& folds, TaughtFold& taught, std::size_t first, std::size_t end,
-                   const See& see) {
+void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& taught, std::size_t first,
+                   std::size_t end, const See& see) {
   ScratchCursor<std::uint32_t> fold_of(folds);
   Readings readings;
   data.for_each([&](const DataRow& row) {
     if (fold_of[row.index()] != taught.fold) return;
     read(taught.model, row, readings);
-    for (std::size_t i = first; i < end; ++i)
-      std::visit(
-          [&](auto& classifier) {
-            classifier.reset();
-            bool excluded = false;
-            try {
-              classifier.observe(readings);
-            } catch (const std::domain_error&) {
-              excluded = true;  // the prior is what is left to say
-            }
-            see(row, i, classifier.log_belief(), excluded);
-          },
-          taught.contestants[i].classifier);
+    for (std::size_t i = first; i < end; ++i) see(row, i, judged(taught.contestants[i], readings));
   });
 }
 
@@ -131,21 +118,24 @@ using Right = ScratchArray<std::uint8_t>;
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
                                    const LearningOptions& options, Right& right) {
-  TaughtFold taught_fold = taught(data, folds, fold, options);
+  const TaughtFold taught_fold = taught(data, folds, fold, options);
   std::vector<Outcome> outcomes;
   for (const Contestant& contestant : taught_fold.contestants) outcomes.push_back(no_outcome(contestant));
   unsigned bits = 0;
-  classify_rows(data, folds, taught_fold, 0, outcomes.size(),
-                [&](const DataRow& row, std::size_t i, const auto& belief, bool excluded) {
-                  using Kind = typename std::decay_t<decltype(belief)>::kind;
-                  auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
-                  if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
-                  outcomes[i].reliability.add(row.label(), belief);
-                  if (excluded) ++outcomes[i].excluded;
-                  if (i + 1 < outcomes.size()) return;
-                  right.set(row.index(), static_cast<std::uint8_t>(bits));
-                  bits = 0;
-                });
+  classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
+    std::visit(
+        [&](const auto& belief) {
+          using Kind = typename std::decay_t<decltype(belief)>::kind;
+          auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
+          if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
+          outcomes[i].reliability.add(row.label(), belief);
+        },
+        by.belief);
+    if (by.excluded) ++outcomes[i].excluded;
+    if (i + 1 < outcomes.size()) return;
+    right.set(row.index(), static_cast<std::uint8_t>(bits));
+    bits = 0;
+  });
   return outcomes;
 }
 
@@ -204,54 +194,45 @@ class Results {
 };
 
 ResultTable outcomes_table(const Results& results, std::size_t foldings) {
-  ResultTable table({{.key = "classifier", .header = "classifier", .align = Align::left},
-                     {.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0},
-                     {.key = "accuracy_minus_that_of_sigma",
-                      .header = "− sigma's",
-                      .unit = "points",
-                      .scale = 100.0,
-                      .sign = true,
-                      .interval = true},
-                     {.key = "macro_f1", .header = "macro F1", .digits = 3},
-                     {.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0},
-                     {.key = "log_loss", .header = "log-loss", .digits = 3},
-                     {.key = "brier", .header = "Brier", .digits = 3},
-                     {.key = "calibration_error"},
-                     {.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
-                     {.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
-                     {.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
-                     {.key = "rows_that_excluded_every_class"}});
+  ResultTable table;
   for (std::size_t i = 0; i < results.outcomes().size(); ++i) {
     const Outcome& outcome = results.outcomes()[i];
-    std::vector<Cell> cells = {outcome.name, outcome.confusion().accuracy(),
-                               i == 0 ? Cell() : Cell(results.minus_first(i, foldings)), outcome.confusion().macro_f1(),
-                               outcome.ties()};
-    cells.resize(12);
-    if (const auto* random = std::get_if<Evaluation<Random>>(&outcome.evaluation)) {
-      cells[5] = random->log_loss();
-      cells[6] = random->brier();
-      cells[7] = outcome.reliability.calibration_error();
-    } else {
-      const auto& fuzzy = std::get<Evaluation<Fuzzy>>(outcome.evaluation);
-      cells[8] = fuzzy.necessity();
-      cells[9] = fuzzy.coverage();
-      cells[10] = fuzzy.cut_size();
-    }
-    if (outcome.excluded > 0) cells[11] = outcome.excluded;
-    table.row(std::move(cells));
+    const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
+    const auto* const fuzzy = std::get_if<Evaluation<Fuzzy>>(&outcome.evaluation);
+    table.row_of({{{.key = "classifier", .header = "classifier", .align = Align::left}, outcome.name},
+                  {{.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0}, outcome.confusion().accuracy()},
+                  {{.key = "accuracy_minus_that_of_sigma",
+                    .header = "− sigma's",
+                    .unit = "points",
+                    .scale = 100.0,
+                    .sign = true,
+                    .interval = true},
+                   i == 0 ? Cell() : Cell(results.minus_first(i, foldings))},
+                  {{.key = "macro_f1", .header = "macro F1", .digits = 3}, outcome.confusion().macro_f1()},
+                  {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, outcome.ties()},
+                  {{.key = "log_loss", .header = "log-loss", .digits = 3}, random ? Cell(random->log_loss()) : Cell()},
+                  {{.key = "brier", .header = "Brier", .digits = 3}, random ? Cell(random->brier()) : Cell()},
+                  {{.key = "calibration_error"}, random ? Cell(outcome.reliability.calibration_error()) : Cell()},
+                  {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+                   fuzzy ? Cell(fuzzy->necessity()) : Cell()},
+                  {{.key = "coverage", .header = "covered", .unit = "%", .digits = 1, .scale = 100.0},
+                   fuzzy ? Cell(fuzzy->coverage()) : Cell()},
+                  {{.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
+                   fuzzy ? Cell(fuzzy->cut_size()) : Cell()},
+                  {{.key = "rows_that_excluded_every_class"}, outcome.excluded > 0 ? Cell(outcome.excluded) : Cell()}});
   }
   return table;
 }
 
 ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
-  std::vector<ResultColumn> columns = {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}};
-  for (const auto& name : data.classes) columns.push_back({.header = name, .digits = foldings == 1 ? 0 : 1});
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (std::size_t truth = 0; truth < data.classes.size(); ++truth) {
-    std::vector<Cell> cells = {data.classes[truth]};
+    std::vector<Field> row = {
+        {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}, data.classes[truth]}};
     for (std::size_t c = 0; c < data.classes.size(); ++c)
-      cells.emplace_back(outcome.confusion()(truth, c) / static_cast<double>(foldings));
-    table.row(std::move(cells));
+      row.push_back({{.header = data.classes[c], .digits = foldings == 1 ? 0 : 1},
+                     outcome.confusion()(truth, c) / static_cast<double>(foldings)});
+    table.row_of(row);
   }
   return table;
 }
@@ -270,16 +251,14 @@ ResultTable rows_of_confusion(const DataTable& data, const Results& results, std
 void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
   std::size_t place = 0;
   for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings))) {
-    const auto fact = [&](const char* key, double value) {
-      result.fact({"reliability", outcome.name, place, key}, value);
-    };
-    fact("from", bin.from);
-    fact("to", bin.to);
-    fact("statements", bin.count);
-    fact("mean_degree", bin.mean_degree);
-    fact("share_that_is_true", bin.share);
-    fact("lower", bin.lower);
-    fact("upper", bin.upper);
+    const std::pair<const char*, double> facts[] = {{"from", bin.from},
+                                                    {"to", bin.to},
+                                                    {"statements", bin.count},
+                                                    {"mean_degree", bin.mean_degree},
+                                                    {"share_that_is_true", bin.share},
+                                                    {"lower", bin.lower},
+                                                    {"upper", bin.upper}};
+    for (const auto& [key, value] : facts) result.fact({"reliability", outcome.name, place, key}, value);
     ++place;
   }
 }
@@ -294,13 +273,17 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
   std::mt19937_64 generator(options.seed);
   const Folds folds = folds_of(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
-    TaughtFold taught_fold = taught(data, folds, fold, options.learning);
+    const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
-      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const auto& belief, bool) {
-        std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()], taught_fold.contestants[i].name,
-                                   data.classes[decide(belief).pattern]};
-        for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-        file.write(table.csv_line(cells));
+      classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const Judged& by) {
+        std::visit(
+            [&](const auto& belief) {
+              std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()],
+                                         taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
+              for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+              file.write(table.csv_line(cells));
+            },
+            by.belief);
       });
   }
 }
@@ -360,6 +343,53 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
                "inference.)"}});
   if (data.classes.size() > most_classes) return;
   for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes()[i], options.foldings), {});
+}
+
+/// Rows of the data by true and decided class.
+HeatMap confusion_map(const std::string& classifier, const std::vector<std::string>& classes,
+                      const ConfusionMatrix& confusion, std::size_t foldings) {
+  HeatMap map{.title = classifier,
+              .row_label = "true class",
+              .column_label = "decided class",
+              .rows = classes,
+              .columns = classes,
+              .values = {},
+              .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
+              .digits = foldings == 1 ? 0 : 1};
+  map.fill([&](std::size_t truth, std::size_t c) {
+    return HeatMap::Cell{confusion(truth, c) / static_cast<double>(foldings)};
+  });
+  return map;
+}
+
+/// What was believed of the classes of rows against how often that was true. The diagonal is calibration, or the bound
+/// that possibilities are.
+LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
+                            std::size_t foldings) {
+  LineChart chart{.title = "Reliability of " + classifier,
+                  .x_label = fuzzy ? "possibility of a class" : "probability of a class",
+                  .y_label = "share of such classes that are the true one",
+                  .x = {},
+                  .curves = {{.name = "share, ± 95 %", .values = {}},
+                             {.name = fuzzy ? "bound: not more often than possible" : "calibrated", .values = {}}},
+                  .greatest_y = 1.15,
+                  .note = "Above each point: how many classes of rows had such a degree.",
+                  .joined = true};
+  Curve& share = chart.curves[0];
+  const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
+    chart.x.push_back(degree);
+    chart.curves[1].values.push_back(degree);
+    share.values.push_back(value);
+    share.lower.push_back(lower);
+    share.upper.push_back(upper);
+    chart.remarks.push_back(std::move(remark));
+  };
+  const double nan = std::nan("");
+  add(0.0, nan, nan, nan, "");
+  for (const auto& bin : reliability.bins(static_cast<double>(foldings)))
+    add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
+  add(1.0, nan, nan, nan, "");
+  return chart;
 }
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <sigmax/recognition/dominance.hpp>
 #include <sigmax/recognition/equal_frequency_fit.hpp>
 
 #include "support/options.hpp"
@@ -179,21 +178,6 @@ std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const s
     all.push_back(fuzzy(model, kind + ", Dubois-Prade", DuboisPrade{}, random_sensor));
   }
   return all;
-}
-
-std::vector<std::string> warnings(const std::vector<Contestant>& classifiers) {
-  std::vector<std::string> result;
-  for (const Contestant& contestant : classifiers)
-    std::visit(
-        [&](const auto& classifier) {
-          const auto& pattern = classifier.prior().variable();
-          for (const Dominance& found : dominated_patterns(classifier))
-            result.push_back(fmt::format("{} can never prefer {}: whatever is read, {} is at least as possible",
-                                         contestant.name, in_quotes(pattern.label(found.pattern)),
-                                         in_quotes(pattern.label(found.dominator))));
-        },
-        contestant.classifier);
-  return result;
 }
 
 }  // namespace sigmax::apps

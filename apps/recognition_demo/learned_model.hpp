@@ -74,9 +74,6 @@ inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};
 /// for Dubois and Prade's transform.
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds);
 
-/// "max, Dubois-Prade cannot prefer 'a': 'b' is at least as possible whatever is read", for each such class.
-std::vector<std::string> warnings(const std::vector<Contestant>& classifiers);
-
 /// A model as a JSON file, which appears whole or not at all, and back. `read_model` throws InputError with the file
 /// and the place for what is no model, is truncated or of another version, or contradicts itself.
 void write_model(const LearnedModel& model, std::span<const std::string> kinds, const std::filesystem::path& path);

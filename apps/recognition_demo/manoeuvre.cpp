@@ -1,173 +1,257 @@
+#include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
+#include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/update.hpp>
-#include <sigmax/recognition/dominance.hpp>
+#include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/start.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/manoeuvre_scenario.hpp"
-#include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/world.hpp"
 #include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-/// A classifier and the filter whose mode weights it takes.
-struct Pairing {
-  Contestant contestant;
-  bool of_himm;
+/// The authors' example of kinematic recognition on one axis. The target flies at −150 m/s from 10 km and accelerates
+/// during the steps that lead to samples 15 … 20, by its class's acceleration. SI units.
+struct ManoeuvreScenario {
+  static constexpr double step_s = 2.0;
+  static constexpr std::size_t samples = 30;
+  static constexpr std::size_t first_accelerated = 15, last_accelerated = 20;
+  static constexpr double start_m = 10000.0, speed = -150.0;
+  static constexpr double sigma_position = 50.0;
+  static constexpr std::size_t first_classified = 10;  ///< the sample from which mode weights are reports
+
+  /// The filter: constant velocity, and known inputs of ±3 g and ±5 g, all with this process noise.
+  static constexpr double sigma_w = 5.0;
+  static constexpr double gravity = 9.80665;
+  static constexpr double stay = 0.9;  ///< p(mode|same mode); the possibilities are in proportion
+
+  RandomVariable mode{"mode", {"cv", "+3g", "-3g", "+5g", "-5g"}};
+  std::array<double, 5> inputs{0.0, 3.0 * gravity, -3.0 * gravity, 5.0 * gravity, -5.0 * gravity};
+  RandomVariable manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
+  std::array<std::size_t, 5> manoeuvre_of_mode{0, 1, 1, 2, 2};
+  RandomVariable target{"target", {"airliner", "bomber", "fighter"}};
+  std::array<double, 3> acceleration{-5.0, -25.0, -45.0};  ///< by target
+
+  /// p(target|manoeuvre) and π(target|manoeuvre), as the authors give them.
+  Relation<Random, Random> target_given_manoeuvre_p() const {
+    return {target, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
+  }
+  Relation<Fuzzy, Fuzzy> target_given_manoeuvre_pi() const {
+    return {as_fuzzy(target), as_fuzzy(manoeuvre), {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
+  }
 };
 
-std::vector<Pairing> pairings(const ManoeuvreScenario& scenario) {
+/// Logarithms of the weights of both filters' modes after each sample; none before the filters start, from samples 1
+/// and 2.
+struct ManoeuvreRun {
+  std::vector<double> positions;  ///< measured
+  std::vector<std::vector<double>> imm, himm;
+};
+
+using Scenario = ManoeuvreScenario;
+
+using Model = IndependentAxes<1, DiscreteWhiteNoise<2>>;
+using Point = TimedMeasurement<1>;
+
+Relation<Random, Random> transition(const ManoeuvreScenario& scenario) {
+  const std::size_t n = scenario.mode.size();
+  std::vector<std::vector<double>> rows(
+      n, std::vector<double>(n, (1.0 - ManoeuvreScenario::stay) / static_cast<double>(n - 1)));
+  for (std::size_t i = 0; i < n; ++i) rows[i][i] = ManoeuvreScenario::stay;
+  return {scenario.mode, scenario.mode, rows};
+}
+
+/// The logarithms of the mode's weights after every sample.
+template <Uncertainty Kind>
+std::vector<std::vector<double>> mode_weights(const ManoeuvreScenario& scenario, const Relation<Kind, Kind>& transition,
+                                              const std::vector<Point>& points) {
+  std::vector<Model> models;
+  for (const double input : scenario.inputs) models.push_back(dwna<1>(ManoeuvreScenario::sigma_w, Vector<1>(input)));
+  const Gaussian<2> start = two_point_start(points[0], points[1]);
+  const std::vector<Gaussian<2>> starts(models.size(), start);
+  InteractingMultipleModel<std::vector<Model>, Kind> filter(std::move(models), transition, starts);
+  std::vector<std::vector<double>> weights(2);
+  for (std::size_t k = 2; k < points.size(); ++k) {
+    filter.step(ManoeuvreScenario::step_s, points[k].measurement);
+    weights.emplace_back(filter.belief().logs().begin(), filter.belief().logs().end());
+  }
+  return weights;
+}
+
+/// Manoeuvres instead of modes, from sample `first_classified` on: their weights are the ⊕ of those of their modes.
+template <Uncertainty Kind>
+std::vector<AnyReport> reports_of(const ManoeuvreScenario& scenario, const std::vector<std::vector<double>>& weights) {
+  const auto mode = interpreted_as<Kind>(scenario.mode);
+  const auto manoeuvre = interpreted_as<Kind>(scenario.manoeuvre);
+  std::vector<std::vector<double>> rows(mode.size(), std::vector<double>(manoeuvre.size(), 0.0));
+  for (std::size_t j = 0; j < rows.size(); ++j) rows[j][scenario.manoeuvre_of_mode[j]] = 1.0;
+  const Relation<Kind, Kind> manoeuvre_given_mode{manoeuvre, mode, rows};
+  Belief<Kind> of_mode{uninformative(mode)};
+  std::vector<AnyReport> result;
+  for (std::size_t k = ManoeuvreScenario::first_classified - 1; k < weights.size(); ++k) {
+    of_mode.assign([&](std::size_t j) { return weights[k][j]; });
+    const auto belief = compose(manoeuvre_given_mode, of_mode);
+    result.emplace_back(GradedReading(belief.logs().begin(), belief.logs().end()));
+  }
+  return result;
+}
+
+ManoeuvreRun fly(const ManoeuvreScenario& scenario, double acceleration, RandomStream& random) {
+  constexpr double T = Scenario::step_s;
+  ManoeuvreRun run;
+  std::vector<Point> points;
+  double x = Scenario::start_m, v = Scenario::speed;
+  for (std::size_t k = 1; k <= Scenario::samples; ++k) {
+    if (k > 1) {
+      const double a = k >= Scenario::first_accelerated && k <= Scenario::last_accelerated ? acceleration : 0.0;
+      x += T * v + 0.5 * T * T * a;
+      v += T * a;
+    }
+    run.positions.push_back(x + Scenario::sigma_position * random.normal());
+    points.push_back(
+        {T * static_cast<double>(k - 1),
+         {Vector<1>(run.positions.back()), SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
+  }
+  const auto random_transition = transition(scenario);
+  run.imm = mode_weights(scenario, random_transition, points);
+  run.himm = mode_weights(scenario, with_fuzzy_condition(to_possibility(random_transition, RatioScale{})), points);
+  return run;
+}
+
+/// Two classifiers of each filter's mode weights: those of the HIMM by maxima, those of the IMM by sums.
+std::vector<Contestant> contestants(const Scenario& scenario) {
   const auto probable = invert(scenario.target_given_manoeuvre_p(), uninformative(scenario.manoeuvre)).relation;
   const auto possible =
       invert(scenario.target_given_manoeuvre_pi(), uninformative(as_fuzzy(scenario.manoeuvre))).relation;
   const SigmaClassifier sigma{uninformative(scenario.target), probable};
   const MaxClassifier max{uninformative(as_fuzzy(scenario.target)), possible};
-  return {{{"sigma, of the IMM", sigma}, false},
-          {{"max, of the HIMM", max}, true},
-          {{"sigma-max, of the IMM", max}, false},
-          {{"max-sigma, of the HIMM", sigma}, true}};
+  return {{"sigma, of the IMM", sigma},
+          {"max, of the HIMM", max},
+          {"sigma-max, of the IMM", max},
+          {"max-sigma, of the HIMM", sigma}};
 }
 
-struct TargetScores {
-  std::string target;
-  std::vector<Score> scores;
-};
+/// What each of them is told.
+std::vector<std::vector<AnyReport>> reports_of(const Scenario& scenario, const ManoeuvreRun& run) {
+  const auto by_sum = reports_of<Random>(scenario, run.imm), by_max = reports_of<Fuzzy>(scenario, run.himm);
+  return {by_sum, by_max, by_sum, by_max};
+}
 
-/// A flight with what the classifiers made of it.
-struct Flight : RunTraces {
-  ManoeuvreRun run;
-};
-
-ResultTable targets_table(const ManoeuvreScenario& scenario, const std::vector<TargetScores>& all) {
-  std::vector<ResultColumn> columns = {{.header = "after the last sample", .align = Align::left}};
-  for (std::size_t c = 0; c < all.size(); ++c)
-    columns.push_back({.header = fmt::format("{} ({} m/s²)", all[c].target, scenario.acceleration[c]),
-                       .digits = 1,
-                       .scale = 100.0,
-                       .group = "right, %:"});
-  for (const TargetScores& target : all)
-    columns.push_back({.header = target.target, .digits = 3, .group = "p or π of"});
-  columns.push_back({.header = "runs that end in a tie", .unit = "%", .digits = 1, .scale = 100.0});
-  ResultTable table(std::move(columns));
-  for (std::size_t i = 0; i < all.front().scores.size(); ++i) {
-    std::vector<Cell> cells = {all.front().scores[i].name};
+ResultTable targets_table(const Scenario& scenario, const std::vector<Scores>& all) {
+  ResultTable table;
+  for (std::size_t i = 0; i < all.front().size(); ++i) {
+    std::vector<Field> row = {{{.header = "after the last sample", .align = Align::left}, all.front()[i].name}};
+    for (std::size_t c = 0; c < all.size(); ++c)
+      row.push_back({{.header = fmt::format("{} ({} m/s²)", scenario.target.label(c), scenario.acceleration[c]),
+                      .digits = 1,
+                      .scale = 100.0,
+                      .group = "right, %:"},
+                     all[c][i].accuracy.back()});
     double ties = 0.0;
-    for (const TargetScores& target : all) {
-      cells.emplace_back(target.scores[i].accuracy.back());
-      ties += target.scores[i].ties / static_cast<double>(all.size());
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      row.push_back(
+          {{.header = scenario.target.label(c), .digits = 3, .group = "p or π of"}, all[c][i].belief_in_truth});
+      ties += all[c][i].ties / static_cast<double>(all.size());
     }
-    for (const TargetScores& target : all) cells.emplace_back(target.scores[i].belief_in_truth);
-    cells.emplace_back(ties);
-    table.row(std::move(cells));
+    row.push_back({{.header = "runs that end in a tie", .unit = "%", .digits = 1, .scale = 100.0}, ties});
+    table.row_of(row);
   }
   return table;
 }
 
-ResultTable differences_table(const std::vector<TargetScores>& all) {
-  const auto& names = all.front().scores;
-  std::vector<ResultColumn> columns = {
-      {.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}};
-  for (const TargetScores& target : all) columns.push_back({.header = target.target, .scale = 100.0, .sign = true});
-  ResultTable table(std::move(columns));
+ResultTable differences_table(const Scenario& scenario, const std::vector<Scores>& all) {
+  const auto& names = all.front();
+  ResultTable table;
   for (std::size_t i = 1; i < names.size(); ++i) {
-    std::vector<Cell> cells = {names[i].name};
-    for (const TargetScores& target : all) cells.emplace_back(target.scores[i].minus_first.interval());
-    table.row(std::move(cells));
+    std::vector<Field> row = {
+        {{.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}, names[i].name}};
+    for (std::size_t c = 0; c < all.size(); ++c)
+      row.push_back(
+          {{.header = scenario.target.label(c), .scale = 100.0, .sign = true}, all[c][i].minus_first.interval()});
+    table.row_of(row);
   }
   return table;
 }
 
-void say_dominated(Result& result, const std::vector<Contestant>& contestants) {
-  for (const Contestant& contestant : contestants)
-    std::visit(
-        [&](const auto& classifier) {
-          const auto& target = classifier.prior().variable();
-          for (const Dominance& found : dominated_patterns(classifier))
-            result.say(fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as possible",
-                                   contestant.name, target.label(found.pattern), target.label(found.dominator)));
-        },
-        contestant.classifier);
-}
-
-/// samples.csv: the measured positions, and the weights of the filters' modes.
-ResultTable samples_table(const ManoeuvreScenario& scenario) {
-  std::vector<ResultColumn> columns = {{.key = "target"}, {.key = "run"}, {.key = "sample"}, {.key = "position_m"}};
+/// What a run tells of each sample: the measured position, and the weights of the filters' modes.
+std::vector<ResultColumn> sample_columns(const Scenario& scenario) {
+  std::vector<ResultColumn> columns = {{.key = "position_m"}};
   for (const char* filter : {"imm", "himm"})
-    for (std::size_t j = 0; j < scenario.mode.size(); ++j)
-      columns.push_back({.key = fmt::format("{}_{}", filter, scenario.mode.label(j))});
-  return ResultTable(std::move(columns));
+    for (const auto& mode : labels_of(scenario.mode)) columns.push_back({.key = fmt::format("{}_{}", filter, mode)});
+  return columns;
 }
 
-/// runs.csv: what each classifier believed at the end of every run.
-ResultTable runs_table(const ManoeuvreScenario& scenario, const std::vector<Contestant>& contestants) {
-  std::vector<ResultColumn> columns = {{.key = "target"}, {.key = "run"}};
-  for (const Contestant& contestant : contestants)
-    for (std::size_t c = 0; c < scenario.target.size(); ++c)
-      columns.push_back({.key = contestant.name + ": " + scenario.target.label(c)});
-  return ResultTable(std::move(columns));
+/// The same as numbers, sample after sample; NaN where there is no weight.
+std::vector<double> numbers_of(const Scenario& scenario, const ManoeuvreRun& run) {
+  std::vector<double> numbers;
+  for (std::size_t k = 0; k < Scenario::samples; ++k) {
+    numbers.push_back(run.positions[k]);
+    for (const auto* weights : {&run.imm[k], &run.himm[k]})
+      for (std::size_t j = 0; j < scenario.mode.size(); ++j)
+        numbers.push_back(weights->empty() ? std::nan("") : std::exp((*weights)[j]));
+  }
+  return numbers;
 }
 
-/// Writes samples.csv and runs.csv bit by bit.
+/// Writes samples.csv, and runs.csv, what each classifier believed at the end of every run, bit by bit.
 class FlightFiles {
  public:
-  FlightFiles(const ManoeuvreScenario& scenario, const std::vector<Contestant>& contestants, ResultFiles& files)
-      : scenario_(scenario),
-        samples_(samples_table(scenario)),
-        runs_(runs_table(scenario, contestants)),
-        samples_file_(files.open("samples.csv")),
-        runs_file_(files.open("runs.csv")) {
+  FlightFiles(const Scenario& scenario, const std::vector<Contestant>& contestants, ResultFiles& files)
+      : scenario_(scenario), samples_file_(files.open("samples.csv")), runs_file_(files.open("runs.csv")) {
     if (!samples_file_) return;
+    std::vector<ResultColumn> samples = {{.key = "target"}, {.key = "run"}, {.key = "sample"}};
+    const auto told = sample_columns(scenario);
+    samples.insert(samples.end(), told.begin(), told.end());
+    samples_ = ResultTable(std::move(samples));
+    std::vector<ResultColumn> runs = {{.key = "target"}, {.key = "run"}};
+    add_belief_columns(contestants, labels_of(scenario.target), runs);
+    runs_ = ResultTable(std::move(runs));
     samples_file_->write(samples_.csv_header());
     runs_file_->write(runs_.csv_header());
   }
 
-  void write(std::size_t run, const Flight& flight) {
+  void write(const SeenRun& run) {
     if (!samples_file_) return;
-    const std::string& target = scenario_.target.label(flight.truth);
-    for (std::size_t k = 0; k < ManoeuvreScenario::samples; ++k) {
-      std::vector<Cell> cells = {target, run + 1, k + 1, flight.run.positions[k]};
-      for (const auto* weights : {&flight.run.imm[k], &flight.run.himm[k]})
-        for (std::size_t j = 0; j < scenario_.mode.size(); ++j)
-          cells.push_back(weights->empty() ? Cell() : Cell(std::exp((*weights)[j])));
+    const std::string& target = scenario_.target.label(run.truth);
+    auto number = run.numbers.begin();
+    for (std::size_t k = 0; k < Scenario::samples; ++k) {
+      std::vector<Cell> cells = {target, run.run + 1, k + 1};
+      for (std::size_t i = 0; i < run.numbers.size() / Scenario::samples; ++i, ++number) {
+        Cell& cell = cells.emplace_back();
+        if (!std::isnan(*number)) cell = *number;
+      }
       samples_file_->write(samples_.csv_line(cells));
     }
-    std::vector<Cell> cells = {target, run + 1};
-    for (const Trace& trace : flight.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+    std::vector<Cell> cells = {target, run.run + 1};
+    add_beliefs(run, cells);
     runs_file_->write(runs_.csv_line(cells));
   }
 
  private:
-  const ManoeuvreScenario& scenario_;
+  const Scenario& scenario_;
   ResultTable samples_, runs_;
   AtomicFile *samples_file_, *runs_file_;
 };
 
-Flight flown(const ManoeuvreScenario& scenario, const std::vector<Pairing>& pairings, std::size_t target,
-             RandomStream& random) {
-  Flight flight{{target, {}}, fly(scenario, scenario.acceleration[target], random)};
-  const auto by_sum = reports_by_sum(scenario, flight.run), by_max = reports_by_max(scenario, flight.run);
-  for (const Pairing& pairing : pairings)
-    flight.traces.push_back(follow(pairing.contestant, target, pairing.of_himm ? by_max : by_sum));
-  return flight;
-}
-
-ResultTable curves_of_targets(const std::vector<TargetScores>& all) {
+ResultTable curves_of_targets(const Scenario& scenario, const std::vector<Scores>& all) {
   ResultTable table({{.key = "target"}, {.key = "sample"}, {.key = "classifier"}, {.key = "accuracy"}});
-  for (const TargetScores& target : all)
-    for (const Score& score : target.scores)
+  for (std::size_t target = 0; target < all.size(); ++target)
+    for (const Score& score : all[target])
       for (std::size_t k = 0; k < score.accuracy.size(); ++k)
-        table.row({target.target, ManoeuvreScenario::first_classified + k, score.name, score.accuracy[k]});
+        table.row({scenario.target.label(target), Scenario::first_classified + k, score.name, score.accuracy[k]});
   return table;
 }
 
 std::string described(const DrawOptions& options) {
-  using Scenario = ManoeuvreScenario;
   return fmt::format(
       "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
       "{} m/s, accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. "
@@ -178,111 +262,108 @@ std::string described(const DrawOptions& options) {
 }
 
 LineChart with_acceleration(LineChart chart) {
-  using Scenario = ManoeuvreScenario;
   chart.shaded = {{double{Scenario::first_accelerated}, double{Scenario::last_accelerated}, "acceleration"}};
   return chart;
 }
 
 /// A flight: what each filter thinks of the modes, and what that says of the target.
-View view_of(const ManoeuvreScenario& scenario, const std::vector<Pairing>& pairings,
-             const std::vector<Contestant>& contestants, const Flight& flight) {
-  View view{fmt::format("run 1, {}", scenario.target.label(flight.truth)), {}};
-  const auto modes = [&](std::string title, std::string y_label, const std::vector<std::vector<double>>& logs) {
+View view_of(const Scenario& scenario, const Condition& condition, const SeenRun& run) {
+  View view{fmt::format("run 1, {}", scenario.target.label(run.truth)), {}};
+  const std::size_t modes = scenario.mode.size(), numbers = 1 + 2 * modes;  // of a sample
+  const auto add_modes = [&](std::string title, std::string y_label, std::size_t first) {
     LineChart chart{.title = std::move(title),
                     .x_label = "sample",
                     .y_label = std::move(y_label),
-                    .x = counted_from(1, logs.size()),
+                    .x = counted_from(1, Scenario::samples),
                     .curves = {},
                     .greatest_y = 1.05};
-    for (std::size_t j = 0; j < scenario.mode.size(); ++j) {
+    for (std::size_t j = 0; j < modes; ++j) {
       chart.curves.push_back({.name = scenario.mode.label(j), .values = {}});
-      for (const auto& weights : logs)
-        chart.curves.back().values.push_back(weights.empty() ? std::nan("") : std::exp(weights[j]));
+      for (std::size_t k = 0; k < Scenario::samples; ++k)
+        chart.curves.back().values.push_back(run.numbers[k * numbers + first + j]);
     }
-    return with_acceleration(std::move(chart));
+    view.panels.emplace_back(with_acceleration(std::move(chart)));
   };
-  view.panels.emplace_back(modes("Modes of the IMM", "probability", flight.run.imm));
-  view.panels.emplace_back(modes("Modes of the HIMM", "possibility", flight.run.himm));
-  const auto by_sum = reports_by_sum(scenario, flight.run), by_max = reports_by_max(scenario, flight.run);
+  add_modes("Modes of the IMM", "probability", 1);
+  add_modes("Modes of the HIMM", "possibility", 1 + modes);
+  const auto reports = condition.draw(run.run).reports;
   std::vector<Beliefs> beliefs;
-  for (const Pairing& pairing : pairings)
-    beliefs.push_back(beliefs_over(pairing.contestant, pairing.of_himm ? by_max : by_sum));
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    beliefs.push_back(beliefs_over(condition.contestants[i], reports[i]));
   for (Panel& chart :
-       support_charts(labels_of(scenario.target), contestants, beliefs,
-                      counted_from(ManoeuvreScenario::first_classified, by_sum.size()), "sample", flight.truth))
+       support_charts(labels_of(scenario.target), condition.contestants, beliefs,
+                      counted_from(Scenario::first_classified, reports.front().size()), "sample", run.truth))
     view.panels.emplace_back(with_acceleration(std::get<LineChart>(std::move(chart))));
   return view;
 }
 
 /// Right decisions about each target over the samples, from all runs.
-View view_of_all(std::size_t runs, const std::vector<TargetScores>& results) {
+View view_of_all(const Scenario& scenario, std::size_t runs, const std::vector<Scores>& all) {
   View view{fmt::format("all {} runs", runs), {}};
-  for (const TargetScores& result : results) {
-    LineChart chart = with_acceleration(accuracy_chart(result.scores, "sample", ManoeuvreScenario::first_classified));
-    chart.title = "Right decisions about the " + result.target;
+  for (std::size_t target = 0; target < all.size(); ++target) {
+    LineChart chart = with_acceleration(accuracy_chart(all[target], "sample", Scenario::first_classified));
+    chart.title = "Right decisions about the " + scenario.target.label(target);
     chart.greatest_y = 1.05;
     view.panels.emplace_back(std::move(chart));
   }
   return view;
 }
 
-void run_manoeuvre(const DrawOptions& options) {
-  ResultFiles files(options.output);
-  const ManoeuvreScenario scenario;
-  const auto all = pairings(scenario);
-  std::vector<Contestant> contestants;
-  for (const Pairing& pairing : all) contestants.push_back(pairing.contestant);
-  FlightFiles flights(scenario, contestants, files);
-
-  const std::size_t targets = scenario.target.size();
-  std::vector<TargetScores> results;
-  Result result = result_of_contest("Airliner, bomber or fighter?", options.output, contestants);
-  Report& page = result.page;
-  page.chooser = "Show";
-  Progress progress("runs", options.runs * targets, options.output.quiet);
-  for (std::size_t target = 0; target < targets; ++target) {
-    Scoreboard board(contestants);
-    for_each_draw(
-        options, progress, [&](RandomStream& random) { return flown(scenario, all, target, random); },
-        [&](std::size_t run, const Flight& flight) {
-          board.add(flight);
-          flights.write(run, flight);
-          if (run == 0 && files.report_wanted()) page.views.push_back(view_of(scenario, all, contestants, flight));
-        },
-        targets, target);
-    results.push_back({scenario.target.label(target), board.scores()});
-  }
-  progress.finish();
-
+void tell(const Scenario& scenario, const DrawOptions& options, const std::vector<Contestant>& contestants,
+          const std::vector<Scores>& scores, Result& result) {
   result.say(described(options));
-  result.add(targets_table(scenario, results), {.title = "After the last sample"});
+  result.add(targets_table(scenario, scores), {.title = "After the last sample"});
   result.say("(Ties share the credit.)");
-  result.add(differences_table(results), {.title = "Differences, ± 95 % by paired runs"});
+  result.add(differences_table(scenario, scores), {.title = "Differences, ± 95 % by paired runs"});
   result.say("(± 95 % by paired runs.)\n\n");
-  say_dominated(result, contestants);
+  for (const auto& [contestant, target, dominator] : dominated(contestants))
+    result.say(fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as possible", contestant,
+                           target, dominator));
   result.fact({"simulated"}, true);
   result.fact({"runs"}, options.runs);
   result.fact({"seed"}, options.seed);
-  for (const TargetScores& target : results)
-    result.add(scores_table(target.scores), {.printed = false, .summary = {"targets", target.target}});
-  result.add(curves_of_targets(results), {.printed = false, .csv = "curves.csv"});
-  page.verdict = {
+  for (std::size_t target = 0; target < scores.size(); ++target)
+    result.add(scores_table(scores[target]), {.printed = false, .summary = {"targets", scenario.target.label(target)}});
+  result.add(curves_of_targets(scenario, scores), {.printed = false, .csv = "curves.csv"});
+  result.page.verdict = {
       fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the "
                   "reports.",
                   options.runs, options.seed)};
-  page.views.insert(page.views.begin(), view_of_all(options.runs, results));
-  result.publish(files);
+  result.page.chooser = "Show";
+  result.page.views.push_back(view_of_all(scenario, options.runs, scores));
+}
+
+void run_manoeuvre(const DrawOptions& options) {
+  ResultFiles files(options.output);
+  const Scenario scenario;
+  const auto all = contestants(scenario);
+  FlightFiles flights(scenario, all, files);
+  World world{"Airliner, bomber or fighter?", {}};
+  const std::size_t targets = scenario.target.size();
+  for (std::size_t target = 0; target < targets; ++target)
+    world.conditions.push_back({all, [&, target](std::size_t run) {
+                                  RandomStream random(options.seed, run * targets + target);
+                                  const auto flight = fly(scenario, scenario.acceleration[target], random);
+                                  return Drawn{target, reports_of(scenario, flight), numbers_of(scenario, flight)};
+                                }});
+  std::vector<View> views;
+  world.see = [&](const SeenRun& run) {
+    flights.write(run);
+    if (run.run == 0 && files.report_wanted()) views.push_back(view_of(scenario, world.conditions[run.condition], run));
+  };
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    tell(scenario, options, all, scores, result);
+    for (View& view : views) result.page.views.push_back(std::move(view));
+  };
+  run_world(world, options, files);
 }
 
 }  // namespace
 
 void add_manoeuvre(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<DrawOptions>();
-  options->runs = 1000;
-  options->output.command = command;
   Subcommand app(program, "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
-  add_draws(app, *options);
-  add_report(app, options->output);
+  add_draws(app, *options, command, 1000);
   app.footer(
       "Examples:\n"
       "  recognition_demo manoeuvre\n"

@@ -1,22 +1,163 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <utility>
+#include <variant>
+
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/gamma.hpp>
+#include <boost/math/distributions/normal.hpp>
 
 #include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/discretization.hpp>
+#include <sigmax/recognition/triangle.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/draws.hpp"
-#include "recognition_demo/pages.hpp"
-#include "recognition_demo/performance_data.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "recognition_demo/world.hpp"
+#include "support/csv.hpp"
+#include "support/input.hpp"
 #include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+/// A density of a quantity, as it was fitted to flights: normal, gamma or beta, shifted and scaled.
+struct FittedDensity {
+  std::variant<boost::math::normal_distribution<>, boost::math::gamma_distribution<>, boost::math::beta_distribution<>>
+      standard;
+  double location, scale;
+
+  /// Probability below x, which may be infinite.
+  double cdf(double x) const {
+    if (std::isinf(x)) return x > 0.0 ? 1.0 : 0.0;
+    const double z = (x - location) / scale;
+    return std::visit(
+        [z](const auto& density) {
+          const auto [least, greatest] = boost::math::support(density);
+          if (z <= least) return 0.0;
+          if (z >= greatest) return 1.0;
+          return boost::math::cdf(density, z);
+        },
+        standard);
+  }
+
+  /// The number below which the probability is u, for 0 < u < 1.
+  double quantile(double u) const {
+    return location +
+           scale * std::visit([u](const auto& density) { return boost::math::quantile(density, u); }, standard);
+  }
+};
+
+/// One quantity of one type of aircraft, known in two ways.
+struct Performance {
+  Triangle triangle;      ///< [minimum, optimum, maximum]
+  FittedDensity density;  ///< fitted to the same flights
+};
+
+/// Types of aircraft and the quantities that are known of all of them.
+struct PerformanceData {
+  std::vector<std::string> types;
+  std::vector<std::string> variables;
+  std::vector<std::vector<Performance>> table;  ///< by variable, then by type
+  std::vector<std::string> remarks;             ///< what had to be mended, with its line
+};
+
+/// Numbers between bars: "8.56|0.43|0.14".
+std::vector<double> parameters(const CsvRow& row, std::size_t column, std::size_t count) {
+  std::vector<double> numbers;
+  for (std::string_view rest = row[column];;) {
+    const auto bar = rest.find('|');
+    const auto number = parse_number(rest.substr(0, bar));
+    if (!number) throw row.error(column, "numbers between bars, as 8.56|0.43|0.14");
+    numbers.push_back(*number);
+    if (bar == std::string_view::npos) break;
+    rest.remove_prefix(bar + 1);
+  }
+  if (numbers.size() != count) throw row.error(column, fmt::format("{} numbers between bars", count));
+  return numbers;
+}
+
+FittedDensity density(const CsvRow& row, std::size_t model, std::size_t column, double optimum,
+                      std::vector<std::string>& remarks) {
+  const std::string_view name = trimmed(row[model]);
+  const auto require_positive = [&](double value) {
+    if (!(value > 0.0)) throw row.error(column, "positive deviation, shapes and scale");
+  };
+  if (name == "norm") {
+    const auto p = parameters(row, column, 2);
+    require_positive(p[1]);
+    return {boost::math::normal_distribution<>(0.0, 1.0), p[0], p[1]};
+  }
+  if (name == "gamma") {
+    auto p = parameters(row, column, 3);
+    require_positive(p[0]);
+    if (p[2] == 0.0 && p[0] > 1.0 && optimum > p[1]) {
+      p[2] = (optimum - p[1]) / (p[0] - 1.0);
+      remarks.push_back(
+          fmt::format("line {}: a scale printed as 0 is rebuilt from the mode, {:.4f}", row.line(), p[2]));
+    }
+    require_positive(p[2]);
+    return {boost::math::gamma_distribution<>(p[0], 1.0), p[1], p[2]};
+  }
+  if (name == "beta") {
+    const auto p = parameters(row, column, 4);
+    for (const std::size_t i : {0U, 1U, 3U}) require_positive(p[i]);
+    return {boost::math::beta_distribution<>(p[0], p[1]), p[2], p[3]};
+  }
+  throw row.error(model, "norm, gamma or beta");
+}
+
+/// Reads type,variable,optimum,minimum,maximum,model,parameters; other columns are ignored. Throws InputError with
+/// file, line, column and value for what cannot be, and for a quantity that a type lacks.
+PerformanceData read_performance(const std::string& file) {
+  CsvReader reader = open_csv(file);
+  const std::size_t type = reader.column("type"), variable = reader.column("variable");
+  const std::size_t optimum = reader.column("optimum"), minimum = reader.column("minimum"),
+                    maximum = reader.column("maximum");
+  const std::size_t model = reader.column("model"), parameter_list = reader.column("parameters");
+  PerformanceData data;
+  std::map<std::pair<std::string, std::string>, Performance> cells;
+  const auto remember = [](std::vector<std::string>& names, std::string name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  };
+  for (CsvRow row; reader.next(row);) {
+    for (const std::size_t column : {type, variable})
+      if (row.blank(column)) throw row.error(column, "a name");
+    const std::string of_type{trimmed(row[type])}, of_variable{trimmed(row[variable])};
+    const double least = row.number(minimum), greatest = row.number(maximum);
+    if (!(least < greatest)) throw row.error(maximum, fmt::format("a number above the minimum, {}", least));
+    const double given = row.number(optimum), inside = std::clamp(given, least, greatest);
+    if (inside != given)
+      data.remarks.push_back(fmt::format("line {}: the optimum {} lies outside [{}, {}] and counts as {}", row.line(),
+                                         given, least, greatest, inside));
+    Performance performance{Triangle(least, inside, greatest),
+                            density(row, model, parameter_list, given, data.remarks)};
+    if (!cells.emplace(std::pair{of_type, of_variable}, performance).second)
+      throw row.error(variable, "a quantity that the type does not have yet", "remove one of the two rows");
+    remember(data.types, of_type);
+    remember(data.variables, of_variable);
+  }
+  if (data.types.size() < 2)
+    throw InputError(message(
+        {.where = reader.file(), .found = fmt::format("{} types", data.types.size()), .expected = "at least two"}));
+  for (const auto& of_variable : data.variables) {
+    auto& row = data.table.emplace_back();
+    for (const auto& of_type : data.types) {
+      const auto found = cells.find({of_type, of_variable});
+      if (found == cells.end())
+        throw InputError(
+            message({.where = reader.file(),
+                     .what = fmt::format("type {} has no quantity {}", in_quotes(of_type), in_quotes(of_variable)),
+                     .remedy = "add the row, or remove the quantity from all types"}));
+      row.push_back(found->second);
+    }
+  }
+  return data;
+}
 
 struct PerformanceOptions {
   std::string file;
@@ -26,46 +167,36 @@ struct PerformanceOptions {
   DrawOptions draws;
 };
 
-/// All but a thousandth of every type's density at either end.
-std::pair<double, double> range_of(const std::vector<Performance>& types) {
+/// What a quantity says of the types, over bins of all but a thousandth of every type's density at either end.
+struct Knowledge {
+  double least, greatest;
+  Discretization bins;
+  Relation<Random, Random> probable;  ///< p(bin|type) from the densities
+  Relation<Fuzzy, Fuzzy> possible;    ///< π(bin|type) from [minimum, optimum, maximum]
+};
+
+Knowledge knowledge_of(const PerformanceData& data, std::size_t variable, const PerformanceOptions& options) {
+  const auto& types = data.table[variable];
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const Performance& type : types) {
     least = std::min(least, type.density.quantile(0.001));
     greatest = std::max(greatest, type.density.quantile(0.999));
   }
-  return {least, greatest};
-}
-
-/// Bins of one quantity over that range.
-Discretization bins_of(const std::vector<Performance>& types, std::size_t bins) {
-  const auto [least, greatest] = range_of(types);
   std::vector<double> cuts;
-  for (std::size_t i = 1; i < bins; ++i)
-    cuts.push_back(least + (greatest - least) * static_cast<double>(i) / static_cast<double>(bins));
-  return Discretization{cuts};
-}
-
-/// p(bin|type) from the densities.
-Relation<Random, Random> probable(const RandomVariable& feature, const RandomVariable& type, const Discretization& bins,
-                                  const std::vector<Performance>& types) {
-  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 1; i < options.bins; ++i)
+    cuts.push_back(least + (greatest - least) * static_cast<double>(i) / static_cast<double>(options.bins));
+  Discretization bins{cuts};
+  const auto feature = bins.variable<Random>(data.variables[variable]);
+  std::vector<std::vector<double>> probable, possible;
   for (const Performance& each : types) {
-    auto& row = rows.emplace_back();
+    auto& row = probable.emplace_back();
     for (std::size_t b = 0; b < bins.size(); ++b)
       row.push_back(std::max(0.0, each.density.cdf(bins.upper(b)) - each.density.cdf(bins.lower(b))));
+    const auto triangle = triangular(as_fuzzy(feature), bins, each.triangle, options.least);
+    possible.emplace_back(triangle.values().begin(), triangle.values().end());
   }
-  return {feature, type, rows};
-}
-
-/// π(bin|type) from [minimum, optimum, maximum].
-Relation<Fuzzy, Fuzzy> possible(const RandomVariable& feature, const RandomVariable& type, const Discretization& bins,
-                                const std::vector<Performance>& types, double least) {
-  std::vector<std::vector<double>> rows;
-  for (const Performance& each : types) {
-    const auto row = triangular(as_fuzzy(feature), bins, each.triangle, least);
-    rows.emplace_back(row.values().begin(), row.values().end());
-  }
-  return {as_fuzzy(feature), as_fuzzy(type), rows};
+  const RandomVariable type{"type", data.types};
+  return {least, greatest, std::move(bins), {feature, type, probable}, {as_fuzzy(feature), as_fuzzy(type), possible}};
 }
 
 /// A number with the density that is in proportion to the triangle.
@@ -75,38 +206,23 @@ double draw_from(const Triangle& triangle, double u) {
   return u < below ? a + std::sqrt(u * (b - a) * (c - a)) : b - std::sqrt((1.0 - u) * (b - a) * (b - c));
 }
 
-struct World {
-  std::vector<Discretization> bins;
-  std::vector<Contestant> contestants;
-};
-
-World world_of(const PerformanceData& data, const PerformanceOptions& options) {
-  const RandomVariable type{"type", data.types};
+std::vector<Contestant> contestants(const std::vector<Knowledge>& all) {
   std::vector<FeatureModel<Random, Random>> by_density, by_triangle_p;
   std::vector<FeatureModel<Fuzzy, Fuzzy>> by_triangle, by_ratio, by_dubois_prade;
-  World world;
-  for (std::size_t v = 0; v < data.variables.size(); ++v) {
-    const auto bins = bins_of(data.table[v], options.bins);
-    const auto feature = bins.variable<Random>(data.variables[v]);
-    const auto p = probable(feature, type, bins, data.table[v]);
-    const auto pi = possible(feature, type, bins, data.table[v], options.least);
-    by_density.emplace_back(p);
-    by_triangle.emplace_back(pi);
-    by_triangle_p.emplace_back(with_random_condition(to_probability(pi, RatioScale{})));
-    by_ratio.emplace_back(with_fuzzy_condition(to_possibility(p, RatioScale{})));
-    by_dubois_prade.emplace_back(with_fuzzy_condition(to_possibility(p, DuboisPrade{})));
-    world.bins.push_back(bins);
+  for (const Knowledge& each : all) {
+    by_density.emplace_back(each.probable);
+    by_triangle.emplace_back(each.possible);
+    by_triangle_p.emplace_back(with_random_condition(to_probability(each.possible, RatioScale{})));
+    by_ratio.emplace_back(with_fuzzy_condition(to_possibility(each.probable, RatioScale{})));
+    by_dubois_prade.emplace_back(with_fuzzy_condition(to_possibility(each.probable, DuboisPrade{})));
   }
-  const auto random_prior = uninformative(type);
-  const auto fuzzy_prior = uninformative(as_fuzzy(type));
-  world.contestants = {
-      {"sigma, p of the density", SigmaClassifier{random_prior, std::move(by_density)}},
-      {"max, π of the triangle", MaxClassifier{fuzzy_prior, std::move(by_triangle)}},
-      {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, std::move(by_triangle_p)}},
-      {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, std::move(by_ratio)}},
-      {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}},
-  };
-  return world;
+  const auto random_prior = uninformative(all.front().probable.from());
+  const auto fuzzy_prior = uninformative(all.front().possible.from());
+  return {{"sigma, p of the density", SigmaClassifier{random_prior, std::move(by_density)}},
+          {"max, π of the triangle", MaxClassifier{fuzzy_prior, std::move(by_triangle)}},
+          {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, std::move(by_triangle_p)}},
+          {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, std::move(by_ratio)}},
+          {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}}};
 }
 
 double mean_probability_inside(const PerformanceData& data) {
@@ -118,17 +234,20 @@ double mean_probability_inside(const PerformanceData& data) {
 }
 
 /// A type and, independently, its quantities; a report is one of them.
-RunTraces drawn_run(const PerformanceData& data, const World& world, const PerformanceOptions& options,
-                    RandomStream& random) {
+Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge, const PerformanceOptions& options,
+            std::size_t run) {
+  RandomStream random(options.draws.seed, run);
   const std::size_t truth = draw_index(random, data.types.size());
-  std::vector<Readings> reports;
-  for (std::size_t v = 0; v < data.variables.size(); ++v) {
+  std::vector<AnyReport> reports;
+  for (std::size_t v = 0; v < knowledge.size(); ++v) {
     const Performance& of_type = data.table[v][truth];
     const double u = random.uniform();
     const double value = options.drawn_from == "density" ? of_type.density.quantile(u) : draw_from(of_type.triangle, u);
-    reports.emplace_back(data.variables.size(), missing)[v] = world.bins[v].bin(value);
+    Readings report(knowledge.size(), missing);
+    report[v] = knowledge[v].bins.bin(value);
+    reports.emplace_back(std::move(report));
   }
-  return follow_all(world.contestants, truth, reports);
+  return {truth, {std::move(reports)}};
 }
 
 void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
@@ -147,59 +266,43 @@ void say_performance(const PerformanceOptions& options, const PerformanceData& d
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.
-LineChart quantity_chart(const PerformanceData& data, const PerformanceOptions& options, const World& world,
-                         std::size_t variable, std::size_t type) {
-  const auto& types = data.table[variable];
-  const auto [least, greatest] = range_of(types);
-  const Discretization& bins = world.bins[variable];
-  const RandomVariable type_variable{"type", data.types};
-  const auto feature = bins.variable<Random>(data.variables[variable]);
-  const auto p = probable(feature, type_variable, bins, types);
-  LineChart chart{.title = data.variables[variable],
-                  .x_label = data.variables[variable] + ", in the file's unit",
+LineChart quantity_chart(const Knowledge& quantity, std::size_t type) {
+  const auto& [least, greatest, bins, probable, possible] = quantity;
+  const std::string& name = probable.to().name();
+  LineChart chart{.title = name,
+                  .x_label = name + ", in the file's unit",
                   .y_label = "possibility",
                   .x = {},
                   .curves = {},
                   .greatest_y = 1.05};
   const double width = (greatest - least) / static_cast<double>(bins.size());
   for (std::size_t b = 0; b < bins.size(); ++b) chart.x.push_back(least + (static_cast<double>(b) + 0.5) * width);
-  const auto add = [&](const std::string& name, const auto& relation) {
-    chart.curves.push_back({.name = name, .values = {}});
-    for (std::size_t b = 0; b < bins.size(); ++b) chart.curves.back().values.push_back(relation(type, b));
+  const auto add = [&](const std::string& curve, const auto& relation) {
+    chart.curves.push_back({.name = curve, .values = {}});
+    for (std::size_t b = 0; b < chart.x.size(); ++b) chart.curves.back().values.push_back(relation(type, b));
   };
-  add("triangle", possible(feature, type_variable, bins, types, options.least));
-  add("density by the ratio scale", to_possibility(p, RatioScale{}));
-  add("density by Dubois-Prade", to_possibility(p, DuboisPrade{}));
+  add("triangle", possible);
+  add("density by the ratio scale", to_possibility(probable, RatioScale{}));
+  add("density by Dubois-Prade", to_possibility(probable, DuboisPrade{}));
   return chart;
 }
 
-/// The quantities that tell the types apart best.
-std::vector<std::size_t> most_telling(const PerformanceData& data, const World& world, std::size_t most) {
-  const RandomVariable type{"type", data.types};
-  std::vector<std::pair<double, std::size_t>> all;
-  for (std::size_t v = 0; v < data.variables.size(); ++v)
-    all.emplace_back(
-        -telling(probable(world.bins[v].variable<Random>(data.variables[v]), type, world.bins[v], data.table[v])), v);
-  std::sort(all.begin(), all.end());
-  std::vector<std::size_t> best;
-  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) best.push_back(all[i].second);
-  return best;
-}
-
-void fill(Report& page, const PerformanceOptions& options, const PerformanceData& data, const World& world,
-          const std::vector<Score>& scores) {
+void fill(Report& page, const PerformanceOptions& options, const PerformanceData& data,
+          const std::vector<Knowledge>& knowledge, const Scores& scores) {
   constexpr std::size_t most_types = 20, most_quantities = 6;
   page.verdict = {
       fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
                   "those of the {} quantities that tell the types apart best.",
                   options.draws.runs, data.types.size(), options.draws.seed, most_quantities)};
-  page.panels = {accuracy_chart(scores, "quantities")};
+  page.panels.emplace_back(accuracy_chart(scores, "quantities"));
   page.chooser = "Type";
-  const auto quantities = most_telling(data, world, most_quantities);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t v = 0; v < knowledge.size(); ++v) order.emplace_back(-telling(knowledge[v].probable), v);
+  std::sort(order.begin(), order.end());
   for (std::size_t type = 0; type < std::min(most_types, data.types.size()); ++type) {
     View& view = page.views.emplace_back(View{data.types[type], {}});
-    for (const std::size_t variable : quantities)
-      view.panels.emplace_back(quantity_chart(data, options, world, variable, type));
+    for (std::size_t i = 0; i < std::min(most_quantities, order.size()); ++i)
+      view.panels.emplace_back(quantity_chart(knowledge[order[i].second], type));
   }
 }
 
@@ -208,34 +311,29 @@ void run_performance(const PerformanceOptions& options) {
   refuse_to_overwrite(draws.output, {options.file}, {"curves.csv"});
   ResultFiles files(draws.output);
   const PerformanceData data = read_performance(options.file);
-  const World world = world_of(data, options);
-  Scoreboard board(world.contestants);
-  Progress progress("runs", draws.runs, draws.output.quiet);
-  for_each_draw(
-      draws, progress, [&](RandomStream& random) { return drawn_run(data, world, options, random); },
-      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
-  progress.finish();
-  const auto scores = board.scores();
-  Result result = result_of_contest("Which type of aircraft is it?", draws.output, world.contestants);
-  say_performance(options, data, result);
-  result.fact({"file"}, options.file);
-  result.fact({"drawn_from"}, options.drawn_from);
-  result.fact({"bins"}, options.bins);
-  result.fact({"least_possibility"}, options.least);
-  result.fact({"runs"}, draws.runs);
-  result.fact({"seed"}, draws.seed);
-  result.fact({"remarks"}, data.remarks);
-  if (files.report_wanted()) fill(result.page, options, data, world, scores);
-  add_scores(result, scores, "quantities");
-  result.publish(files);
+  std::vector<Knowledge> knowledge;
+  for (std::size_t v = 0; v < data.variables.size(); ++v) knowledge.push_back(knowledge_of(data, v, options));
+  World world{"Which type of aircraft is it?",
+              {{contestants(knowledge), [&](std::size_t run) { return drawn(data, knowledge, options, run); }}}};
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    say_performance(options, data, result);
+    result.fact({"file"}, options.file);
+    result.fact({"drawn_from"}, options.drawn_from);
+    result.fact({"bins"}, options.bins);
+    result.fact({"least_possibility"}, options.least);
+    result.fact({"runs"}, draws.runs);
+    result.fact({"seed"}, draws.seed);
+    result.fact({"remarks"}, data.remarks);
+    if (files.report_wanted()) fill(result.page, options, data, knowledge, scores.front());
+    add_scores(result, scores.front(), "quantities");
+  };
+  run_world(world, draws, files);
 }
 
 }  // namespace
 
 void add_performance(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<PerformanceOptions>();
-  options->draws.output.command = command;
-  options->draws.runs = 60000;  // intervals below a tenth of the differences
   Subcommand app(program, "performance",
                  "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
   app.option("data", options->file,
@@ -250,8 +348,7 @@ void add_performance(CLI::App& program, const std::string& command) {
   app.option("--least", options->least, "Possibility of what lies outside [min, max]")
       .number_in(0.0, 1.0)
       .shows_default();
-  add_draws(app, options->draws);
-  add_report(app, options->draws.output);
+  add_draws(app, options->draws, command, 60000);  // intervals below a tenth of the differences
   app.footer(
       "Examples:\n"
       "  recognition_demo performance openap_performance.csv\n"

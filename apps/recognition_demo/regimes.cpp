@@ -1,5 +1,5 @@
 #include <cmath>
-#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 
@@ -8,31 +8,28 @@
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
 
-#include "recognition_demo/contest_report.hpp"
-#include "recognition_demo/draws.hpp"
-#include "recognition_demo/esm_classifiers.hpp"
-#include "recognition_demo/esm_world.hpp"
+#include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/report.hpp"
+#include "recognition_demo/world.hpp"
 #include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {
-
-/// What the classifiers believe of the sensor unless a regime says otherwise.
-constexpr double believed_hit = 0.7;
 
 struct RegimesOptions {
   std::size_t reports = 40;
   DrawOptions draws;
 };
 
-/// One setting: what really happens, and what the classifiers know, which may be learned anew in every run.
+/// One setting: what really happens, and what the classifiers know.
 struct Setting {
   std::string name;
-  EsmTruth truth;
-  std::function<std::vector<Contestant>(RandomStream&)> contestants;
-  bool learned = false;
+  EsmTruth truth{};
+  double hit = 0.7;        ///< what they believe of the sensor
+  double elsewhere = 0.0;  ///< how possible they take emitters that a platform does not carry
+  bool averaged = false;   ///< one more knows how usages are drawn
+  std::size_t seen =
+      0;  ///< they learn from so many reports of each platform, anew in every run; 0: they know the lists
 };
 
 /// Settings of one kind, in which one number changes.
@@ -45,131 +42,113 @@ struct Regime {
 struct SettingScores {
   std::string regime;
   std::string setting;
-  std::vector<Score> scores;
+  Scores scores;
 };
 
 /// Sigma, sigma-max and max inference from the same knowledge.
 std::vector<Contestant> equally_informed(const Relation<Random, Random>& probable,
                                          const Relation<Fuzzy, Fuzzy>& possible, const Relation<Random, Random>& sensor,
                                          std::size_t sensors) {
-  const auto dubois_prade = with_fuzzy_condition(to_possibility(sensor, DuboisPrade{}));
-  return {sigma_contestant("sigma", probable, {sensors, sensor}),
-          sigma_max_contestant("sigma-max", possible, {sensors, sensor}),
-          max_contestant("max, Dubois-Prade", possible, {sensors, dubois_prade}),
-          max_sigma_contestant("max-sigma, Dubois-Prade", probable, {sensors, dubois_prade})};
+  const auto dubois_prade = to_possibility(sensor, DuboisPrade{});
+  return {read_by("sigma", probable, sensor, sensors),
+          read_by("sigma-max", possible, with_fuzzy_condition(sensor), sensors),
+          read_by("max, Dubois-Prade", possible, with_fuzzy_condition(dubois_prade), sensors),
+          read_by("max-sigma, Dubois-Prade", probable, dubois_prade, sensors)};
 }
 
 /// From the lists of what platforms carry; emitters elsewhere are possible to a degree, and probable in proportion,
 /// (35).
-std::vector<Contestant> from_the_lists(const EsmWorld& world, double hit, double elsewhere, std::size_t sensors) {
-  const auto possible = world.carries(elsewhere);
+std::vector<Contestant> from_the_lists(const EsmWorld& world, const Setting& setting) {
+  const auto possible = world.carries(setting.elsewhere);
   const auto probable = with_random_condition(to_probability(possible, RatioScale{}));
-  return equally_informed(probable, possible, world.sensor(hit), sensors);
-}
-
-/// From `seen` labelled reports of each platform, earlier, when the usages were others.
-std::vector<Contestant> learned(const EsmWorld& world, const Usage& usage, std::size_t seen, RandomStream& random) {
-  Counts counts{world.platform, {world.emitter}};
-  for (std::size_t c = 0; c < world.platform.size(); ++c) {
-    const auto earlier = draw_usage(world, c, usage, random);
-    for (std::size_t k = 0; k < seen; ++k) counts.observe_value(c, 0, draw(random, earlier));
-  }
-  const auto sensor = world.sensor(believed_hit);
-  auto all = equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(),
-                              sensor, 1);
-  all.push_back(sigma_max_contestant("sigma-max, p(f|c) by Dubois-Prade",
-                                     learned_relations(counts, 1.0, DuboisPrade{}).front(), {sensor}));
+  const auto sensor = world.sensor(setting.hit);
+  auto all = equally_informed(probable, possible, sensor, setting.truth.sensors);
+  if (setting.averaged) all.push_back(usage_aware_contestant(world, setting.truth.usage, sensor));
   return all;
 }
 
-std::vector<Regime> regimes(const EsmWorld& world) {
-  const auto lists = [&world](double hit, double elsewhere, std::size_t sensors) {
-    return [&world, hit, elsewhere, sensors](RandomStream&) { return from_the_lists(world, hit, elsewhere, sensors); };
-  };
+/// From labelled reports of each platform, earlier, when the usages were others.
+std::vector<Contestant> learned(const EsmWorld& world, const Setting& setting, RandomStream& random) {
+  Counts counts{world.platform, {world.emitter}};
+  for (std::size_t c = 0; c < world.platform.size(); ++c) {
+    const auto earlier = draw_usage(world, c, setting.truth.usage, random);
+    for (std::size_t k = 0; k < setting.seen; ++k) counts.observe_value(c, 0, draw(random, earlier));
+  }
+  const auto sensor = world.sensor(setting.hit);
+  auto all = equally_informed(learned_relation(counts, 0, 1.0), learned_relations(counts, 1.0, RatioScale{}).front(),
+                              sensor, 1);
+  all.push_back(read_by("sigma-max, p(f|c) by Dubois-Prade", learned_relations(counts, 1.0, DuboisPrade{}).front(),
+                        with_fuzzy_condition(sensor)));
+  return all;
+}
+
+template <class SettingOf>
+Regime regime(std::string name, std::string description, const char* symbol, std::initializer_list<double> numbers,
+              const SettingOf& setting_of) {
+  Regime result{std::move(name), std::move(description), {}};
+  for (const double number : numbers) {
+    Setting setting = setting_of(number);
+    setting.name = fmt::format("{} = {}", symbol, number);
+    result.settings.push_back(std::move(setting));
+  }
+  return result;
+}
+
+std::vector<Regime> regimes() {
   std::vector<Regime> all;
-
-  Regime usage{"usage", "Usage is Dirichlet(α), drawn for each run; the classifiers assume it equal", {}};
-  usage.settings.push_back({"equal", {}, lists(believed_hit, 0.0, 1)});
-  for (const double alpha : {2.0, 1.0, 0.5, 0.2, 0.1}) {
-    const EsmTruth truth{.usage = {Usage::Kind::dirichlet, alpha}};
-    usage.settings.push_back({fmt::format("α = {}", alpha), truth, lists(believed_hit, 0.0, 1)});
-  }
-  all.push_back(std::move(usage));
-
-  for (const double hit : {0.7, 0.95, 0.99}) {
-    Regime dominant{fmt::format("dominant_{}", hit),
-                    fmt::format("All emitters are used, but one, drawn for each run, has the share d; the classifiers "
-                                "assume equal shares.\nThe sensor is right with probability {}, as they believe",
-                                hit),
-                    {}};
-    for (const double share : {0.5, 0.7, 0.8, 0.9, 0.95, 0.99}) {
-      const EsmTruth truth{.usage = {Usage::Kind::dominant, share}, .hit = hit};
-      dominant.settings.push_back({fmt::format("d = {}", share), truth, [&world, hit, truth](RandomStream&) {
-                                     auto informed = from_the_lists(world, hit, 0.0, 1);
-                                     informed.push_back(usage_aware_contestant("sigma, averages over usages", world,
-                                                                               truth.usage, {world.sensor(hit)}));
-                                     return informed;
-                                   }});
-    }
-    all.push_back(std::move(dominant));
-  }
-
-  Regime sensor{"sensor", "The sensor is right with probability h; the classifiers believe 0.7", {}};
-  for (const double hit : {0.9, 0.7, 0.5, 0.4, 0.3})
-    sensor.settings.push_back({fmt::format("h = {}", hit), {.hit = hit}, lists(believed_hit, 0.0, 1)});
-  all.push_back(std::move(sensor));
-
-  for (const double alpha : {0.5, 0.1}) {
-    Regime few{
+  const auto dirichlet = [](double alpha) { return Usage{Usage::Kind::dirichlet, alpha}; };
+  all.push_back(regime("usage", "Usage is Dirichlet(α), drawn for each run; the classifiers assume it equal", "α",
+                       {2.0, 1.0, 0.5, 0.2, 0.1},
+                       [&](double alpha) { return Setting{.name = {}, .truth = {.usage = dirichlet(alpha)}}; }));
+  all.back().settings.insert(all.back().settings.begin(), Setting{"equal"});
+  for (const double hit : {0.7, 0.95, 0.99})
+    all.push_back(regime(
+        fmt::format("dominant_{}", hit),
+        fmt::format("All emitters are used, but one, drawn for each run, has the share d; the classifiers assume equal "
+                    "shares.\nThe sensor is right with probability {}, as they believe",
+                    hit),
+        "d", {0.5, 0.7, 0.8, 0.9, 0.95, 0.99}, [&](double share) {
+          return Setting{
+              .name = {}, .truth = {.usage = {Usage::Kind::dominant, share}, .hit = hit}, .hit = hit, .averaged = true};
+        }));
+  all.push_back(regime("sensor", "The sensor is right with probability h; the classifiers believe 0.7", "h",
+                       {0.9, 0.7, 0.5, 0.4, 0.3},
+                       [](double hit) { return Setting{.name = {}, .truth = {.hit = hit}}; }));
+  for (const double alpha : {0.5, 0.1})
+    all.push_back(regime(
         fmt::format("learned_{}", alpha),
         fmt::format("Usage is Dirichlet({0}); p(f|c) is learned from n labelled reports of each platform, under an "
                     "earlier draw of the usage",
                     alpha),
-        {}};
-    const Usage usages{Usage::Kind::dirichlet, alpha};
-    for (const std::size_t seen : {1U, 3U, 10U, 30U, 100U, 1000U})
-      few.settings.push_back(
-          {fmt::format("n = {}", seen),
-           {.usage = usages},
-           [&world, usages, seen](RandomStream& random) { return learned(world, usages, seen, random); },
-           true});
-    all.push_back(std::move(few));
-  }
-
-  for (const double elsewhere : {0.0, 0.2}) {
-    Regime unlisted{fmt::format("unlisted_{}", elsewhere),
-                    fmt::format("A report comes from an emitter that the platform does not carry with probability u; "
-                                "believed possible to {}",
-                                elsewhere),
-                    {}};
-    for (const double u : {0.0, 0.1, 0.2, 0.4})
-      unlisted.settings.push_back({fmt::format("u = {}", u), {.unlisted = u}, lists(believed_hit, elsewhere, 1)});
-    all.push_back(std::move(unlisted));
-  }
-
-  Regime conflict{"conflict", "Two sensors; in a share s of the runs the second listens to another platform", {}};
-  for (const double s : {0.0, 0.25, 0.5, 1.0})
-    conflict.settings.push_back({fmt::format("s = {}", s), {.astray = s, .sensors = 2}, lists(believed_hit, 0.0, 2)});
-  all.push_back(std::move(conflict));
+        "n", {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}, [&](double seen) {
+          return Setting{.name = {}, .truth = {.usage = dirichlet(alpha)}, .seen = static_cast<std::size_t>(seen)};
+        }));
+  for (const double elsewhere : {0.0, 0.2})
+    all.push_back(regime(
+        fmt::format("unlisted_{}", elsewhere),
+        fmt::format("A report comes from an emitter that the platform does not carry with probability u; believed "
+                    "possible to {}",
+                    elsewhere),
+        "u", {0.0, 0.1, 0.2, 0.4},
+        [&](double unlisted) { return Setting{.name = {}, .truth = {.unlisted = unlisted}, .elsewhere = elsewhere}; }));
+  all.push_back(regime("conflict", "Two sensors; in a share s of the runs the second listens to another platform", "s",
+                       {0.0, 0.25, 0.5, 1.0},
+                       [](double astray) { return Setting{.name = {}, .truth = {.astray = astray, .sensors = 2}}; }));
   return all;
 }
 
 ResultTable regime_table(std::span<const SettingScores> settings) {
-  std::vector<ResultColumn> columns = {{.header = "setting", .align = Align::left}};
-  const auto& first = settings.front().scores;
-  for (const Score& score : first) {
-    columns.push_back({.header = "right, %", .digits = 1, .scale = 100.0, .group = score.name + ":"});
-    if (&score != &first.front())
-      columns.push_back({.header = "− sigma's", .scale = 100.0, .sign = true, .group = score.name + ":"});
-  }
-  ResultTable table(std::move(columns));
+  ResultTable table;
   for (const SettingScores& setting : settings) {
-    std::vector<Cell> cells = {setting.setting};
+    std::vector<Field> row = {{{.header = "setting", .align = Align::left}, setting.setting}};
     for (const Score& score : setting.scores) {
-      cells.emplace_back(score.accuracy.back());
-      if (&score != &setting.scores.front()) cells.emplace_back(score.minus_first.interval());
+      const std::string group = score.name + ":";
+      row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy.back()});
+      if (&score != &setting.scores.front())
+        row.push_back(
+            {{.header = "− sigma's", .scale = 100.0, .sign = true, .group = group}, score.minus_first.interval()});
     }
-    table.row(std::move(cells));
+    table.row_of(row);
   }
   return table;
 }
@@ -229,56 +208,40 @@ HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings
 }
 
 ResultTable regimes_table(const std::vector<SettingScores>& all) {
-  ResultTable table({{.key = "regime"},
-                     {.key = "setting"},
-                     {.key = "classifier"},
-                     {.key = "accuracy"},
-                     {.key = "difference"},
-                     {.key = "lower"},
-                     {.key = "upper"}});
+  ResultTable table;
   for (const SettingScores& setting : all)
     for (const Score& score : setting.scores) {
       const Interval difference = score.minus_first.interval();
-      table.row({setting.regime, setting.setting, score.name, score.accuracy.back(), difference.mean,
-                 difference.lower(), difference.upper()});
+      table.row_of({{{.key = "regime"}, setting.regime},
+                    {{.key = "setting"}, setting.setting},
+                    {{.key = "classifier"}, score.name},
+                    {{.key = "accuracy"}, score.accuracy.back()},
+                    {{.key = "difference"}, difference.mean},
+                    {{.key = "lower"}, difference.lower()},
+                    {{.key = "upper"}, difference.upper()}});
     }
   return table;
 }
 
-SettingScores scores_of(const EsmWorld& world, const Regime& regime, const Setting& setting,
-                        const RegimesOptions& options, Progress& progress) {
+Condition condition_of(const EsmWorld& world, const Setting& setting, const RegimesOptions& options) {
+  const auto contestants = [&](RandomStream& random) {
+    return setting.seen > 0 ? learned(world, setting, random) : from_the_lists(world, setting);
+  };
   RandomStream for_names(options.draws.seed, 0);
-  const auto all = setting.contestants(for_names);
-  Scoreboard board(all);
-  for_each_draw(
-      options.draws, progress,
-      [&](RandomStream& random) {
-        const auto learned_anew =
-            setting.learned ? std::optional(setting.contestants(random)) : std::optional<std::vector<Contestant>>();
-        const EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
-        return follow_all(learned_anew ? *learned_anew : all, drawn.platform, drawn.reports);
-      },
-      [&](std::size_t, const RunTraces& traces) { board.add(traces); });
-  return {regime.name, setting.name, board.scores()};
+  return {contestants(for_names), [&, contestants](std::size_t run) {
+            RandomStream random(options.draws.seed, run);
+            std::vector<Contestant> anew;
+            if (setting.seen > 0) anew = contestants(random);
+            EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
+            return Drawn{drawn.platform, {std::move(drawn.reports)}, {}, std::move(anew)};
+          }};
 }
 
-void run_regimes(const RegimesOptions& options) {
+void tell(const RegimesOptions& options, const std::vector<Regime>& all, const std::vector<SettingScores>& results,
+          Result& result) {
   const DrawOptions& draws = options.draws;
-  ResultFiles files(draws.output);
-  const EsmWorld world;
-  const auto all = regimes(world);
-  std::size_t settings = 0;
-  for (const Regime& regime : all) settings += regime.settings.size();
-
-  std::vector<SettingScores> results;
-  Progress progress("runs", draws.runs * settings, draws.output.quiet);
-  for (const Regime& regime : all)
-    for (const Setting& setting : regime.settings)
-      results.push_back(scores_of(world, regime, setting, options, progress));
-  progress.finish();
-
-  Result result = result_of_contest("Where is max inference the better one?", draws.output);
   const Verdict verdict = verdict_of(results);
+  result.page.groups.clear();  // no chart has curves
   result.page.verdict = {
       verdict.sentence,
       fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more often right "
@@ -308,21 +271,35 @@ void run_regimes(const RegimesOptions& options) {
     result.add(scores_table(setting.scores),
                {.printed = false, .summary = {"regimes", setting.regime, setting.setting}});
   result.add(regimes_table(results), {.printed = false, .csv = "regimes.csv"});
-  result.publish(files);
+}
+
+void run_regimes(const RegimesOptions& options) {
+  ResultFiles files(options.draws.output);
+  const EsmWorld esm;
+  const auto all = regimes();
+  World world{"Where is max inference the better one?", {}};
+  std::vector<SettingScores> results;
+  for (const Regime& regime : all)
+    for (const Setting& setting : regime.settings) {
+      world.conditions.push_back(condition_of(esm, setting, options));
+      results.push_back({regime.name, setting.name, {}});
+    }
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    for (std::size_t i = 0; i < scores.size(); ++i) results[i].scores = scores[i];
+    tell(options, all, results, result);
+  };
+  run_world(world, options.draws, files);
 }
 
 }  // namespace
 
 void add_regimes(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<RegimesOptions>();
-  options->draws.output.command = command;
-  options->draws.runs = 5000;
   Subcommand app(
       program, "regimes",
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
-  add_draws(app, options->draws);
-  add_report(app, options->draws.output);
+  add_draws(app, options->draws, command, 5000);
   app.footer(
       "Examples:\n"
       "  recognition_demo regimes\n"

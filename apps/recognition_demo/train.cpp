@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "recognition_demo/contest_report.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
@@ -46,13 +45,14 @@ void run_train(const TrainOptions& options) {
   print_warnings(data);
   LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
-  const auto all = classifiers(model, options.kinds);
   write_model(model, options.kinds, options.model);
 
   Result result = result_of_contest("", options.output);
   result.say(fmt::format("{}: {}\n{}", data.file, described(data), described(options.learning)));
   result.add(features_table(model), {});
-  for (const auto& warning : warnings(all)) result.say("warning: " + warning);
+  for (const auto& [classifier, pattern, dominator] : dominated(classifiers(model, options.kinds)))
+    result.say(fmt::format("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
+                           in_quotes(pattern), in_quotes(dominator)));
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 

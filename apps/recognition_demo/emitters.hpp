@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
-
-#include <sigmax/core/relation.hpp>
 
 #include "recognition_demo/contest.hpp"
 #include "support/random.hpp"
@@ -51,20 +52,28 @@ struct EsmTruth {
 
 struct EsmRun {
   std::size_t platform = 0;
-  std::vector<Readings> reports;  ///< a reading of each sensor
+  std::vector<AnyReport> reports;  ///< a reading of each sensor
 };
-
-/// p(emitter) of a platform that uses its emitters, in their order, with these shares.
-std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t platform,
-                                         const std::vector<double>& shares);
-
-/// Shares of `size` emitters of which one dominates.
-std::vector<double> dominant_shares(std::size_t size, std::size_t dominant, double share);
 
 /// How often the platform uses each emitter, drawn.
 std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, const Usage& usage, RandomStream& random);
 
 /// A platform, its usage and its reports, drawn.
 EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random);
+
+/// A classifier by what platforms use or carry and how a sensor reads it, or several alike: sigma inference, (41)–(43),
+/// if all is random, max inference, (44)–(46), if all is fuzzy; sigma-max inference, (17) without β and (19), if a
+/// random sensor reads what platforms may carry, and max-sigma inference, (18) without β and (20), the other way round.
+template <Uncertainty Kind, Uncertainty Reading>
+Contestant read_by(std::string name, const Relation<Kind, Kind>& emitter_given_platform,
+                   const Relation<Reading, Kind>& sensor, std::size_t sensors = 1) {
+  const std::vector features(sensors, FeatureModel<Kind, Kind>{emitter_given_platform, sensor});
+  return {std::move(name), Classifier<Kind, Kind>{uninformative(emitter_given_platform.from()), features}, std::nullopt,
+          std::is_same_v<Kind, Fuzzy> || std::is_same_v<Reading, Fuzzy>};
+}
+
+/// Sigma inference that knows how usages are drawn and averages over them: its patterns are usages, a grid of equal
+/// probability for Dirichlet(α). The reference: nothing can be better but by what the grid leaves out.
+Contestant usage_aware_contestant(const EsmWorld& world, const Usage& usage, const Relation<Random, Random>& sensor);
 
 }  // namespace sigmax::apps

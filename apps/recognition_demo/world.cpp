@@ -1,0 +1,230 @@
+#include "recognition_demo/world.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <sigmax/recognition/decision.hpp>
+
+#include "study/study.hpp"
+#include "support/command_line.hpp"
+#include "support/options.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+/// A run as the row of a cell: truth, numbers of patterns and of reports; of each contestant what it refused, its
+/// belief and its credits; the world's own numbers.
+Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants) {
+  Study::Row row = {static_cast<double>(drawn.truth)};
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    const auto& reports = drawn.reports[drawn.reports.size() == 1 ? 0 : i];
+    const Trace trace = follow(contestants[i], drawn.truth, reports);
+    if (i == 0)
+      row.insert(row.end(), {static_cast<double>(trace.belief.size()), static_cast<double>(trace.credit.size())});
+    row.push_back(static_cast<double>(trace.refused));
+    row.insert(row.end(), trace.belief.begin(), trace.belief.end());
+    row.insert(row.end(), trace.credit.begin(), trace.credit.end());
+  }
+  row.insert(row.end(), drawn.numbers.begin(), drawn.numbers.end());
+  return row;
+}
+
+SeenRun run_of(const Study::Row& row, std::size_t condition, std::size_t run, std::size_t contestants) {
+  auto at = row.begin();
+  const auto number = [&] { return static_cast<std::size_t>(*at++); };
+  const auto numbers = [&](std::size_t count) {
+    at += static_cast<std::ptrdiff_t>(count);
+    return std::vector<double>(at - static_cast<std::ptrdiff_t>(count), at);
+  };
+  SeenRun seen{condition, run, number(), {}, {}};
+  const std::size_t patterns = number(), reports = number();
+  for (std::size_t i = 0; i < contestants; ++i) {
+    Trace& trace = seen.traces.emplace_back();
+    trace.refused = number();
+    trace.belief = numbers(patterns);
+    trace.credit = numbers(reports);
+  }
+  seen.numbers.assign(at, row.end());
+  return seen;
+}
+
+/// Adds up runs in their order; their number is all that it keeps of them.
+class Scoreboard {
+ public:
+  explicit Scoreboard(const std::vector<Contestant>& contestants) {
+    for (const Contestant& contestant : contestants) {
+      same_.emplace_back(sums_.size(), true);
+      sums_.push_back({contestant.name, contestant.fuzzy(), contestant.has_possibilities});
+    }
+  }
+
+  void add(const SeenRun& run) {
+    const auto last = [&](std::size_t i) { return run.traces[i].credit.back(); };
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const Trace& trace = run.traces[i];
+      Score& sum = sums_[i];
+      sum.accuracy.resize(trace.credit.size(), 0.0);
+      for (std::size_t k = 0; k < trace.credit.size(); ++k) sum.accuracy[k] += trace.credit[k];
+      sum.minus_first.add(last(i) - last(0));
+      sum.belief_in_truth += trace.belief[run.truth];
+      sum.necessity_of_truth += 1.0 - greatest_other(trace.belief, run.truth);
+      if (last(i) > 0.0 && last(i) < 1.0) sum.ties += 1.0;
+      sum.refused += trace.refused;
+      for (std::size_t j = 0; j < i; ++j)
+        if (last(j) != last(i)) same_[i][j] = false;
+    }
+    ++runs_;
+  }
+
+  Scores scores() const {
+    Scores scores = sums_;
+    const auto n = static_cast<double>(runs_);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      Score& score = scores[i];
+      for (double& value : score.accuracy) value /= n;
+      for (double* value : {&score.belief_in_truth, &score.necessity_of_truth, &score.ties}) *value /= n;
+      score.same_as = static_cast<std::size_t>(std::find(same_[i].begin(), same_[i].end(), true) - same_[i].begin());
+    }
+    return scores;
+  }
+
+ private:
+  Scores sums_;
+  std::vector<std::vector<bool>> same_;  // by contestant, then by one before it
+  std::size_t runs_ = 0;
+};
+
+/// Some of 1 … reports to show: 1, 2, 5, 10, 20, … and the last.
+std::vector<std::size_t> shown_reports(std::size_t reports) {
+  std::vector<std::size_t> shown;
+  for (std::size_t decade = 1; decade < reports; decade *= 10)
+    for (const std::size_t digit : {1U, 2U, 5U})
+      if (digit * decade < reports) shown.push_back(digit * decade);
+  shown.push_back(reports);
+  return shown;
+}
+
+/// A cell of the column for one kind of contestants.
+Cell only_if(bool holds, double value) { return holds ? Cell(value) : Cell(); }
+
+}  // namespace
+
+std::size_t draw_index(RandomStream& random, std::size_t size) {
+  return std::min(size - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(size)));
+}
+
+std::size_t draw(RandomStream& random, std::span<const double> probabilities) {
+  const double u = random.uniform();
+  double sum = 0.0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < probabilities.size(); ++i) {
+    if (probabilities[i] <= 0.0) continue;
+    last = i;
+    sum += probabilities[i];
+    if (u < sum) break;
+  }
+  return last;
+}
+
+void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs) {
+  options.output.command = command;
+  options.runs = runs;
+  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000).shows_default();
+  add_seed(app, options.seed);
+  add_threads(app, options.threads);
+  add_output(app, options.output);
+  add_report(app, options.output);
+}
+
+void run_world(const World& world, const DrawOptions& options, ResultFiles& files) {
+  std::vector<Scoreboard> boards;
+  for (const Condition& condition : world.conditions) boards.emplace_back(condition.contestants);
+  const Study study{"runs", options.runs * world.conditions.size(), [&](std::size_t cell) {
+                      const Condition& condition = world.conditions[cell / options.runs];
+                      const Drawn drawn = condition.draw(cell % options.runs);
+                      return row_of(drawn, drawn.contestants.empty() ? condition.contestants : drawn.contestants);
+                    }};
+  const auto add = [&](std::size_t cell, const Study::Row& row) {
+    const std::size_t condition = cell / options.runs;
+    const SeenRun seen = run_of(row, condition, cell % options.runs, world.conditions[condition].contestants.size());
+    boards[condition].add(seen);
+    if (world.see) world.see(seen);
+  };
+  if (!run(study, {.threads = options.threads}, options.output, add)) return;
+  std::vector<Scores> scores;
+  for (const Scoreboard& board : boards) scores.push_back(board.scores());
+  Result result = result_of_contest(world.title, options.output, world.conditions.front().contestants);
+  world.tell(scores, result);
+  result.publish(files);
+}
+
+ResultTable scores_table(const Scores& scores, const std::string& what_is_counted) {
+  ResultTable table;
+  for (const Score& score : scores) {
+    const bool first = &score == &scores.front();
+    std::vector<Field> row = {
+        {{.key = "classifier", .header = fmt::format("right, % after {}:", what_is_counted), .align = Align::left},
+         score.name}};
+    for (const std::size_t k : shown_reports(score.accuracy.size()))
+      row.push_back({{.header = fmt::format("{}", k), .digits = 1, .scale = 100.0}, score.accuracy[k - 1]});
+    const std::vector<Field> rest = {
+        {{.key = "accuracy"}, score.accuracy.back()},
+        {{.key = "accuracy_minus_that_of_the_first",
+          .header = "last, more than row 1",
+          .unit = "points",
+          .scale = 100.0,
+          .sign = true,
+          .interval = true},
+         first ? Cell() : Cell(score.minus_first.interval())},
+        {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, score.ties},
+        {{.key = "mean_probability_of_truth"}, only_if(!score.fuzzy, score.belief_in_truth)},
+        {{.key = "mean_possibility_of_truth"}, only_if(score.fuzzy, score.belief_in_truth)},
+        {{.header = "p or π of truth", .digits = 3}, score.belief_in_truth},
+        {{.key = "mean_necessity_of_truth", .header = "necessity of truth", .digits = 3},
+         only_if(score.fuzzy, score.necessity_of_truth)},
+        {{.key = "reports_passed_over"}, score.refused > 0 ? Cell(score.refused) : Cell()}};
+    row.insert(row.end(), rest.begin(), rest.end());
+    table.row_of(row);
+  }
+  return table;
+}
+
+void add_scores(Result& result, const Scores& scores, const std::string& what_is_counted) {
+  result.add(scores_table(scores, what_is_counted),
+             {.summary = {"classifiers"}, .title = "Right decisions", .note = "Differences ± 95 % by paired runs."});
+  result.say(
+      "(Ties share the credit. Differences ± 95 % by paired runs. Means over the runs. Necessity: 1 − the possibility "
+      "of the best other.)");
+  for (const Score& score : scores)
+    if (score.refused > 0)
+      result.say(fmt::format("{}: {} reports excluded every pattern that was left and were passed over", score.name,
+                             score.refused));
+  ResultTable curves({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
+  for (const Score& score : scores)
+    for (std::size_t k = 0; k < score.accuracy.size(); ++k) curves.row({k + 1, score.name, score.accuracy[k]});
+  result.add(curves, {.printed = false, .csv = "curves.csv"});
+}
+
+LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted, std::size_t first) {
+  LineChart chart{.title = "Right decisions",
+                  .x_label = what_is_counted,
+                  .y_label = "share of the runs that are right; ties share the credit",
+                  .x = counted_from(first, scores.front().accuracy.size()),
+                  .curves = {}};
+  for (const Score& score : scores) chart.curves.push_back({score.name, score.name, score.accuracy});
+  return chart;
+}
+
+void add_belief_columns(const std::vector<Contestant>& contestants, const std::vector<std::string>& patterns,
+                        std::vector<ResultColumn>& columns) {
+  for (const Contestant& contestant : contestants)
+    for (const std::string& pattern : patterns) columns.push_back({.key = contestant.name + ": " + pattern});
+}
+
+void add_beliefs(const SeenRun& run, std::vector<Cell>& cells) {
+  for (const Trace& trace : run.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+}
+
+}  // namespace sigmax::apps

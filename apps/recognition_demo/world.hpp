@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sigmax/core/mean_interval.hpp>
+
+#include "recognition_demo/contest.hpp"
+#include "support/random.hpp"
+
+namespace sigmax::apps {
+
+/// One of `size` outcomes, all equally probable.
+std::size_t draw_index(RandomStream& random, std::size_t size);
+
+/// An outcome with these probabilities; they may miss a sum of one by rounding.
+std::size_t draw(RandomStream& random, std::span<const double> probabilities);
+
+/// The options of worlds, which are drawn at random.
+struct DrawOptions {
+  std::size_t runs;
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: as many as the machine has
+  OutputOptions output;
+};
+void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs);
+
+/// One run: the true pattern, and the reports about it.
+struct Drawn {
+  std::size_t truth;
+  std::vector<std::vector<AnyReport>> reports;  ///< the same for all contestants, or those of each
+  std::vector<double> numbers{};                ///< what else `World::see` is to know of the run
+  std::vector<Contestant> contestants{};        ///< if they learn anew in every run
+};
+
+/// Who is compared, and a run by its number, which any thread draws.
+struct Condition {
+  std::vector<Contestant> contestants;
+  std::function<Drawn(std::size_t run)> draw;
+};
+
+/// A run, and what each contestant made of it.
+struct SeenRun {
+  std::size_t condition, run;
+  std::size_t truth;
+  std::vector<Trace> traces;
+  std::vector<double> numbers;
+};
+
+/// What all runs together say of one contestant.
+struct Score {
+  std::string name;
+  bool fuzzy = false;
+  bool has_possibilities = false;
+  std::vector<double> accuracy{};   ///< mean credit after 1, 2, … reports
+  RunningMean minus_first{};        ///< credit after the last report, less that of the first contestant, by run
+  double belief_in_truth = 0.0;     ///< mean probability or possibility of the truth after the last report
+  double necessity_of_truth = 0.0;  ///< mean of 1 − the greatest possibility of another pattern; fuzzy only
+  double ties = 0.0;                ///< share of the runs that end in a tie that includes the truth
+  std::size_t refused = 0;          ///< reports that were passed over
+  std::size_t same_as = 0;          ///< the first contestant with the same credit at the end of every run
+};
+using Scores = std::vector<Score>;
+
+/// A world that is simulated: what differs from one to the next.
+///
+///     World world{.title = "Which coin is it?", .conditions = {{contestants, draw}}};
+///     world.tell = [&](const std::vector<Scores>& scores, Result& result) { add_scores(result, scores.front()); };
+///     run_world(world, options, files);
+struct World {
+  std::string title;
+  std::vector<Condition> conditions;
+  std::function<void(const std::vector<Scores>& scores, Result& result)> tell{};  ///< the scores of each condition
+  std::function<void(const SeenRun& run)> see{};                                  ///< every run, in order, if wanted
+};
+
+/// Draws all runs of all conditions, by threads or ranks, and publishes what the world tells of them.
+void run_world(const World& world, const DrawOptions& options, ResultFiles& files);
+
+/// Shares of right decisions after some numbers of reports, the belief in the truth, and each difference from the
+/// first.
+ResultTable scores_table(const Scores& scores, const std::string& what_is_counted = "reports");
+
+/// The table in all its places, with what it cannot say, and curves.csv: report,classifier,accuracy.
+void add_scores(Result& result, const Scores& scores, const std::string& what_is_counted = "reports");
+
+/// Shares of right decisions over the reports, one curve a contestant, from the report with number `first` on.
+LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted = "reports", std::size_t first = 1);
+
+/// The columns of a file of beliefs at the end of runs, and their cells.
+void add_belief_columns(const std::vector<Contestant>& contestants, const std::vector<std::string>& patterns,
+                        std::vector<ResultColumn>& columns);
+void add_beliefs(const SeenRun& run, std::vector<Cell>& cells);
+
+}  // namespace sigmax::apps

@@ -1,0 +1,75 @@
+// The code of docs/extending.md that makes a world of recognition_demo, and what it writes.
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/binomial.hpp>
+
+#include <sigmax/core/transform.hpp>
+
+#include "apps/temporary_directory.hpp"
+#include "recognition_demo/world.hpp"
+#include "support/csv.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+struct Written {
+  std::string printed, curves;
+};
+
+Written run_coins(int threads) {
+  const TemporaryDirectory directory;
+  const DrawOptions options{
+      .runs = 4000, .threads = threads, .output = {.out = directory.path().string(), .quiet = true}};
+  const RandomVariable coin{"coin", {"fair", "bent"}}, side{"side", {"heads", "tails"}};
+  const Relation<Random, Random> probable{side, coin, {{0.5, 0.5}, {0.2, 0.8}}};
+  const auto possible = with_fuzzy_condition(to_possibility(probable, RatioScale{}));
+  const std::vector<Contestant> contestants = {{"sigma", SigmaClassifier{uninformative(coin), probable}},
+                                               {"max", MaxClassifier{uninformative(as_fuzzy(coin)), possible}}};
+  const auto draw_run = [&](std::size_t run) {
+    RandomStream random(options.seed, run);
+    const std::size_t truth = draw_index(random, coin.size());
+    std::vector<AnyReport> throws;
+    for (int k = 0; k < 10; ++k) throws.emplace_back(Readings{draw(random, probable.row(truth))});
+    return Drawn{truth, {throws}};
+  };
+  World world{"Which coin is it?", {{contestants, draw_run}}};
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
+    result.say("Ten throws of one of two coins");
+    result.page.panels = {accuracy_chart(scores.front(), "throws")};
+    add_scores(result, scores.front(), "throws");
+  };
+  testing::internal::CaptureStdout();
+  {
+    ResultFiles files(options.output);
+    run_world(world, options, files);
+  }
+  std::fflush(stdout);
+  return {testing::internal::GetCapturedStdout(), contents(directory.path() / "curves.csv")};
+}
+
+/// The share of runs that Bayes' rule gets right: it names the likelier coin for each number of heads.
+double right_by_bayes() {
+  const boost::math::binomial fair(10, 0.5), bent(10, 0.2);
+  double sum = 0.0;
+  for (int heads = 0; heads <= 10; ++heads) sum += 0.5 * std::max(pdf(fair, heads), pdf(bent, heads));
+  return sum;
+}
+
+TEST(WorldWalk, TellsWhichCoinItIs) {
+  const Written by_one = run_coins(1);
+  EXPECT_TRUE(by_one.printed.starts_with("Ten throws of one of two coins\n\n")) << by_one.printed;
+  EXPECT_NE(by_one.printed.find("\nafter throws:     1     2     5    10"), std::string::npos) << by_one.printed;
+  std::istringstream curves(by_one.curves);
+  CsvReader reader(curves, "curves.csv");
+  std::vector<double> last;
+  for (CsvRow row; reader.next(row);)
+    if (row.number(reader.column("report")) == 10.0) last.push_back(row.number(reader.column("accuracy")));
+  ASSERT_EQ(last.size(), 2U);
+  EXPECT_NEAR(last[0], right_by_bayes(), 0.025);  // four standard deviations
+  EXPECT_LT(last[1], last[0]);
+  const Written by_three = run_coins(3);
+  EXPECT_EQ(by_three.curves, by_one.curves);
+}
+
+}  // namespace
+}  // namespace sigmax::apps
