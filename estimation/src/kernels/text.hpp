@@ -277,7 +277,7 @@ Outcome update_by(const double* numbers_of_H, int seen, const ConstView& prior, 
   const Block<K, K> H(themselves ? P : numbers_of_H, themselves ? n : m, m, k);
   const auto PHt1 = themselves ? P11 : product(P11, transposed(H));
   const auto PHt2 = themselves ? P21 : product(P21, transposed(H));
-  auto S = R;
+  Block<K, K> S(z.covariance, m, m, m);
   if constexpr (!themselves) multiply_blocks<Into::plus>(H, PHt1, S);
   double few[K > 0 ? K * K : 1];
   Block<0, 0> many(K > 0 ? 0 : m, m);
