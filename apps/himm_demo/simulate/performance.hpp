@@ -9,7 +9,7 @@
 
 #include <sigmax/core/mean_interval.hpp>
 
-#include "himm_demo/experiment/figures.hpp"
+#include "himm_demo/experiment/experiment.hpp"
 #include "result/report.hpp"
 #include "study/study.hpp"
 
