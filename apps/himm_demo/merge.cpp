@@ -9,8 +9,8 @@
 #include "result/result.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 #include "support/output.hpp"
 #include "version.hpp"
 

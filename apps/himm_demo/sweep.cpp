@@ -20,8 +20,7 @@
 #include "study/statistic.hpp"
 #include "study/study.hpp"
 #include "support/command_line.hpp"
-#include "support/missing.hpp"
-#include "support/options.hpp"
+#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "version.hpp"
 

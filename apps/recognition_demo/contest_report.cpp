@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "support/command_line.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

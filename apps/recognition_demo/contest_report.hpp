@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "recognition_demo/contest.hpp"
-#include "result/output_options.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
 #include "support/json.hpp"

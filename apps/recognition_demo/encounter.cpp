@@ -11,7 +11,7 @@
 #include "recognition_demo/encounter_data.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {

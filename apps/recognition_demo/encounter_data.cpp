@@ -11,7 +11,7 @@
 
 #include "support/csv.hpp"
 #include "support/input.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -9,8 +9,8 @@
 #include "recognition_demo/esm_world.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -11,7 +11,7 @@
 #include "recognition_demo/manoeuvre_scenario.hpp"
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include "recognition_demo/pages.hpp"
 #include "recognition_demo/performance_data.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

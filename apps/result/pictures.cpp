@@ -18,7 +18,7 @@
 #include "result/report.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
-#include "support/unnamed_file.hpp"
+#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/run.hpp"
 
 #ifdef SIGMAX_MPI
 #include <mpi.h>

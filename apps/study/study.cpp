@@ -11,8 +11,8 @@
 #include "result/result.hpp"
 #include "study/journal.hpp"
 #include "study/ranks.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 

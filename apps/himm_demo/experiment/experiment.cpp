@@ -8,7 +8,7 @@
 
 #include <sigmax/estimation/metrics.hpp>
 
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

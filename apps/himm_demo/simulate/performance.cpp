@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 

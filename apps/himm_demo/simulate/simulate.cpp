@@ -13,8 +13,7 @@
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "support/command_line.hpp"
-#include "support/missing.hpp"
-#include "support/options.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

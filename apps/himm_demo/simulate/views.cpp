@@ -8,8 +8,7 @@
 
 #include <sigmax/estimation/chi_square.hpp>
 
-#include "support/angle.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -17,9 +17,7 @@
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "support/command_line.hpp"
-#include "support/options.hpp"
 #include "support/output.hpp"
-#include "support/run.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {

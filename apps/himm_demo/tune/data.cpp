@@ -11,7 +11,7 @@
 #include <Eigen/Cholesky>
 
 #include "recording/plots.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {

@@ -10,8 +10,8 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/options.hpp"
-#include "result/output_options.hpp"
+#include "recording/plots.hpp"
+#include "result/result.hpp"
 
 namespace sigmax::apps {
 
