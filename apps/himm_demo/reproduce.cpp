@@ -20,7 +20,6 @@
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/command_line.hpp"
 #include "support/numbers.hpp"
 #include "version.hpp"
 
@@ -34,11 +33,10 @@ struct ReproduceChoice {
 };
 
 /// The readings of (57) by which there is a filter himm_…; `envelope` is without.
-inline constexpr std::array<const char*, 5> himm_readings = {"selected", "own", "own_recentred", "released",
-                                                             "envelope"};
+constexpr std::array<const char*, 5> himm_readings = {"selected", "own", "own_recentred", "released", "envelope"};
 
 /// The reading that a preset takes for the paper's.
-inline std::string_view reading_of(Preset preset) { return preset == Preset::released ? "released" : "own"; }
+std::string_view reading_of(Preset preset) { return preset == Preset::released ? "released" : "own"; }
 
 /// The figures of one filter in one batch of runs, as they follow each other in a row: sums over the runs. Those of the
 /// measurement are the squares alone.
@@ -53,86 +51,6 @@ struct Column {
   static constexpr std::size_t curve_samples = 16;
   static constexpr std::size_t count = curve + curve_samples;
 };
-
-/// One scenario and group under one preset, with all that was found there.
-class Condition {
- public:
-  Condition(Preset under, int scenario_number, int group_number, const ReproduceChoice& choice);
-
-  /// The runs first … last − 1 of all filters, as one row: how many they are, and the columns of the measurement and of
-  /// each filter.
-  Study::Row batch(std::uint64_t first, std::uint64_t last) const;
-
-  /// Whether there is such a filter here, or the measurement.
-  bool has(std::string_view filter) const;
-
-  /// The mean of one column over the runs. `filter` may be "measurement" for mean square errors.
-  Statistic mean(std::string_view filter, std::size_t column) const { return batches.mean(place(filter) + column); }
-
-  /// RMSE of a phase and axis in m.
-  Statistic rmse(std::string_view filter, std::size_t phase, std::size_t axis) const {
-    return sqrt(mean(filter, Column::square + 3 * phase + axis));
-  }
-
-  /// The mean cross-time of the runs that crossed.
-  Statistic cross_time_of_runs(std::string_view filter) const {
-    return batches.mean(place(filter) + Column::crossing, place(filter) + Column::crossed);
-  }
-
-  /// Where the averaged curves cross; NaN if not soon after the onset.
-  Statistic cross_time_of_curves(std::string_view filter) const;
-
-  Preset preset;
-  int scenario, group;
-  Experiment experiment;
-  Batches batches;
-
- private:
-  std::size_t place(std::string_view filter) const;
-};
-
-/// Both presets, both scenarios and all groups, in this order.
-std::vector<Condition> conditions(const ReproduceChoice& choice);
-
-/// All runs of the conditions, in batches whose number does not depend on the runs (but for few). Does them, and gives
-/// each condition its own; false where there is nothing to report.
-bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOptions& options,
-         std::vector<Condition>& conditions);
-
-/// One figure of a sentence, measured. The intervals of all figures of one sentence hold together with 95 %.
-struct Measured {
-  const Statement* statement;
-  std::optional<std::size_t> phase;
-  std::optional<std::size_t> axis;
-  Interval interval;
-  Finding finding;
-};
-
-/// Which filters a sentence is read of.
-struct Cast {
-  std::string_view reading;  ///< of (57), for HIMM
-  bool released_imm;         ///< the authors' program's IMM rather than the correct one
-
-  std::string filter(Actor subject) const;
-};
-
-enum class Verdict { holds, only_against_released, does_not_hold, undecided };
-
-/// One sentence under one preset and reading, against both IMMs.
-struct Judged {
-  std::vector<Measured> against_correct;
-  std::vector<Measured> against_released;
-
-  /// A sentence holds if all its figures are inside their regions, and does not if one is outside. The correct IMM
-  /// decides, unless it holds only against the released one.
-  Verdict verdict() const;
-};
-
-/// Everything that is judged, by preset, reading and sentence.
-using Judgements = std::map<Preset, std::map<std::string_view, std::vector<Judged>>>;
-
-/// Measures every sentence for every preset and reading.
-Judgements judge(const std::vector<Condition>& conditions);
 
 constexpr std::size_t first_filter = 1 + squares;  // after the number of runs and the measurement's squares
 
@@ -184,6 +102,108 @@ void add_figures(const Experiment& experiment, const Trace& trace, std::size_t m
   for (std::size_t i = 0; i < Column::curve_samples; ++i)
     sums[Column::curve + i] += leads(static_cast<std::size_t>(onset - 2) + i);
 }
+
+/// One scenario and group under one preset, with all that was found there.
+class Condition {
+ public:
+  Condition(Preset under, int scenario_number, int group_number, const ReproduceChoice& choice)
+      : preset(under),
+        scenario(scenario_number),
+        group(group_number),
+        experiment(experiment_of(preset, scenario, group, choice)),
+        batches(first_filter + Column::count * experiment.filters.size()) {}
+
+  /// The runs first … last − 1 of all filters, as one row: how many they are, and the columns of the measurement and of
+  /// each filter.
+  Study::Row batch(std::uint64_t first, std::uint64_t last) const {
+    Study::Row row(first_filter + Column::count * experiment.filters.size(), 0.0);
+    row[0] = static_cast<double>(last - first);
+    for (std::uint64_t number = first; number < last; ++number) {
+      const TracedRun run = experiment.traced(number);
+      add_squares(experiment.scenario, run.measurement.error, &row[1]);
+      for (std::size_t f = 0; f < run.filters.size(); ++f)
+        add_figures(experiment, run.filters[f], manoeuvre_model(experiment.filters[f]).value(),
+                    &row[first_filter + Column::count * f]);
+    }
+    return row;
+  }
+
+  /// Whether there is such a filter here, or the measurement.
+  bool has(std::string_view filter) const {
+    const auto& filters = experiment.filters;
+    return filter == measurement_name ||
+           std::any_of(filters.begin(), filters.end(), [&](const FilterSettings& own) { return own.name == filter; });
+  }
+
+  /// The mean of one column over the runs. `filter` may be "measurement" for mean square errors.
+  Statistic mean(std::string_view filter, std::size_t column) const { return batches.mean(place(filter) + column); }
+
+  /// RMSE of a phase and axis in m.
+  Statistic rmse(std::string_view filter, std::size_t phase, std::size_t axis) const {
+    return sqrt(mean(filter, Column::square + 3 * phase + axis));
+  }
+
+  /// The mean cross-time of the runs that crossed.
+  Statistic cross_time_of_runs(std::string_view filter) const {
+    return batches.mean(place(filter) + Column::crossing, place(filter) + Column::crossed);
+  }
+
+  /// Where the averaged curves cross; NaN if not soon after the onset.
+  Statistic cross_time_of_curves(std::string_view filter) const {
+    for (std::size_t i = 1; i < Column::curve_samples; ++i) {
+      const Statistic before = mean(filter, Column::curve + i - 1), now = mean(filter, Column::curve + i);
+      if (before.value() <= 0.0 && now.value() > 0.0)
+        return before / (before - now) +
+               (experiment.scenario.phases[1].first - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
+    }
+    return {};
+  }
+
+  Preset preset;
+  int scenario, group;
+  Experiment experiment;
+  Batches batches;
+
+ private:
+  std::size_t place(std::string_view filter) const {
+    if (filter == measurement_name) return 1;
+    for (std::size_t f = 0; f < experiment.filters.size(); ++f)
+      if (experiment.filters[f].name == filter) return first_filter + Column::count * f;
+    throw std::logic_error(fmt::format("there is no filter {} here", filter));
+  }
+};
+
+/// One figure of a sentence, measured. The intervals of all figures of one sentence hold together with 95 %.
+struct Measured {
+  const Statement* statement;
+  std::optional<std::size_t> phase;
+  std::optional<std::size_t> axis;
+  Interval interval;
+  Finding finding;
+};
+
+/// Which filters a sentence is read of.
+struct Cast {
+  std::string_view reading;  ///< of (57), for HIMM
+  bool released_imm;         ///< the authors' program's IMM rather than the correct one
+
+  std::string filter(Actor subject) const {
+    switch (subject) {
+      case Actor::himm:
+        return "himm_" + std::string(reading);
+      case Actor::himm_wide:
+        return "himm_" + std::string(reading) + "_5";
+      case Actor::imm:
+        return released_imm ? "imm_released" : "imm";
+      case Actor::imm_most_likely:
+        return released_imm ? "imm_released_most_likely" : "imm_most_likely";
+      case Actor::measurement:
+        return measurement_name;
+      default:
+        return "";
+    }
+  }
+};
 
 const Condition& condition_of(const Statement& statement, const std::vector<Condition>& conditions, Preset preset) {
   for (const Condition& condition : conditions)
@@ -244,55 +264,7 @@ std::vector<Measured> measure(const Sentence& sentence, const std::vector<Condit
   return all;
 }
 
-Finding finding_of(const std::vector<Measured>& all) {
-  const auto is = [](Finding finding) { return [=](const Measured& measured) { return measured.finding == finding; }; };
-  if (std::all_of(all.begin(), all.end(), is(Finding::inside))) return Finding::inside;
-  return std::any_of(all.begin(), all.end(), is(Finding::outside)) ? Finding::outside : Finding::open;
-}
-
-Condition::Condition(Preset under, int scenario_number, int group_number, const ReproduceChoice& choice)
-    : preset(under),
-      scenario(scenario_number),
-      group(group_number),
-      experiment(experiment_of(preset, scenario, group, choice)),
-      batches(first_filter + Column::count * experiment.filters.size()) {}
-
-Study::Row Condition::batch(std::uint64_t first, std::uint64_t last) const {
-  Study::Row row(first_filter + Column::count * experiment.filters.size(), 0.0);
-  row[0] = static_cast<double>(last - first);
-  for (std::uint64_t number = first; number < last; ++number) {
-    const TracedRun run = experiment.traced(number);
-    add_squares(experiment.scenario, run.measurement.error, &row[1]);
-    for (std::size_t f = 0; f < run.filters.size(); ++f)
-      add_figures(experiment, run.filters[f], manoeuvre_model(experiment.filters[f]).value(),
-                  &row[first_filter + Column::count * f]);
-  }
-  return row;
-}
-
-bool Condition::has(std::string_view filter) const {
-  const auto& filters = experiment.filters;
-  return filter == measurement_name ||
-         std::any_of(filters.begin(), filters.end(), [&](const FilterSettings& own) { return own.name == filter; });
-}
-
-std::size_t Condition::place(std::string_view filter) const {
-  if (filter == measurement_name) return 1;
-  for (std::size_t f = 0; f < experiment.filters.size(); ++f)
-    if (experiment.filters[f].name == filter) return first_filter + Column::count * f;
-  throw std::logic_error(fmt::format("there is no filter {} here", filter));
-}
-
-Statistic Condition::cross_time_of_curves(std::string_view filter) const {
-  for (std::size_t i = 1; i < Column::curve_samples; ++i) {
-    const Statistic before = mean(filter, Column::curve + i - 1), now = mean(filter, Column::curve + i);
-    if (before.value() <= 0.0 && now.value() > 0.0)
-      return before / (before - now) +
-             (experiment.scenario.phases[1].first - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
-  }
-  return {};
-}
-
+/// Both presets, both scenarios and all groups, in this order.
 std::vector<Condition> conditions(const ReproduceChoice& choice) {
   std::vector<Condition> all;
   for (const Preset preset : both_presets)
@@ -301,6 +273,8 @@ std::vector<Condition> conditions(const ReproduceChoice& choice) {
   return all;
 }
 
+/// All runs of the conditions, in batches whose number does not depend on the runs (but for few). Does them, and gives
+/// each condition its own; false where there is nothing to report.
 bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOptions& options,
          std::vector<Condition>& conditions) {
   constexpr std::size_t most_batches = 100;
@@ -316,30 +290,33 @@ bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOpti
              [&](std::size_t cell, const Study::Row& row) { conditions[cell / batches].batches.add(row); });
 }
 
-std::string Cast::filter(Actor subject) const {
-  switch (subject) {
-    case Actor::himm:
-      return "himm_" + std::string(reading);
-    case Actor::himm_wide:
-      return "himm_" + std::string(reading) + "_5";
-    case Actor::imm:
-      return released_imm ? "imm_released" : "imm";
-    case Actor::imm_most_likely:
-      return released_imm ? "imm_released_most_likely" : "imm_most_likely";
-    case Actor::measurement:
-      return measurement_name;
-    default:
-      return "";
+Finding finding_of(const std::vector<Measured>& all) {
+  const auto is = [](Finding finding) { return [=](const Measured& measured) { return measured.finding == finding; }; };
+  if (std::all_of(all.begin(), all.end(), is(Finding::inside))) return Finding::inside;
+  return std::any_of(all.begin(), all.end(), is(Finding::outside)) ? Finding::outside : Finding::open;
+}
+
+enum class Verdict { holds, only_against_released, does_not_hold, undecided };
+
+/// One sentence under one preset and reading, against both IMMs.
+struct Judged {
+  std::vector<Measured> against_correct;
+  std::vector<Measured> against_released;
+
+  /// A sentence holds if all its figures are inside their regions, and does not if one is outside. The correct IMM
+  /// decides, unless it holds only against the released one.
+  Verdict verdict() const {
+    const Finding correct = finding_of(against_correct);
+    if (correct == Finding::inside) return Verdict::holds;
+    if (finding_of(against_released) == Finding::inside) return Verdict::only_against_released;
+    return correct == Finding::outside ? Verdict::does_not_hold : Verdict::undecided;
   }
-}
+};
 
-Verdict Judged::verdict() const {
-  const Finding correct = finding_of(against_correct);
-  if (correct == Finding::inside) return Verdict::holds;
-  if (finding_of(against_released) == Finding::inside) return Verdict::only_against_released;
-  return correct == Finding::outside ? Verdict::does_not_hold : Verdict::undecided;
-}
+/// Everything that is judged, by preset, reading and sentence.
+using Judgements = std::map<Preset, std::map<std::string_view, std::vector<Judged>>>;
 
+/// Measures every sentence for every preset and reading.
 Judgements judge(const std::vector<Condition>& conditions) {
   Judgements all;
   for (const Preset preset : both_presets)

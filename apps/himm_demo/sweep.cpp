@@ -19,7 +19,6 @@
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/command_line.hpp"
 #include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "version.hpp"
@@ -75,55 +74,6 @@ struct Tuned {
   std::size_t tried;    ///< how many settings were
   Statistic score;      ///< the same as the tuning score, of other runs
 };
-
-/// All conditions and filters, and what was found of them.
-class SweepWorld {
- public:
-  /// Throws InputError for a filter that there is not.
-  explicit SweepWorld(const SweepChoice& choice);
-
-  /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
-  Study study() const;
-  void add(const Study::Row& row);  ///< of the next cell
-
-  const SweepChoice& choice() const { return choice_; }
-  const std::vector<SweepCondition>& conditions() const { return conditions_; }
-  const std::vector<FilterSettings>& filters() const { return filters_; }
-  const std::vector<Tuned>& all_tuned() const { return tuned_; }
-  const Tuned& tuned(std::size_t condition, std::size_t f) const { return tuned_[condition * filters_.size() + f]; }
-
-  /// How many settings are on the lists of a filter.
-  std::size_t listed_settings(std::size_t f) const;
-
-  /// The settings that were chosen.
-  FilterSettings settings(std::size_t condition, std::size_t f) const {
-    return settings(condition, f, tuned(condition, f).place);
-  }
-
-  /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
-  /// least: what is called HIMM.
-  std::optional<std::size_t> imm() const;
-  std::optional<std::size_t> himm(std::size_t condition) const;
-
-  /// By how much the score is above that of the tuned IMM, relatively; one of as many intervals as there are
-  /// conditions.
-  Interval against_imm(std::size_t condition, std::size_t f) const;
-
- private:
-  std::vector<Axis> lattice(std::size_t f) const;
-  FilterSettings settings(std::size_t condition, std::size_t f, const Place& place) const;
-  Recording recording(std::size_t condition, int number) const;
-  std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const;
-  Study::Row work(std::size_t condition, std::size_t f) const;
-
-  SweepChoice choice_;
-  std::vector<SweepCondition> conditions_;
-  std::vector<FilterSettings> filters_;
-  std::vector<Tuned> tuned_;  // by condition and filter
-};
-
-/// The name of a lift in settings.
-const char* name_of(Lift lift);
 
 /// The name of a lift in settings.
 const char* name_of(Lift lift) {
@@ -270,145 +220,167 @@ Scenario scenario_of(const SweepCondition& condition) {
   return result;
 }
 
-SweepWorld::SweepWorld(const SweepChoice& choice) : choice_(choice), conditions_(conditions_of(choice)) {
-  for (auto* const list : {&choice_.probability, &choice_.possibility, &choice_.sigma_w}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
-  const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(choice.filters, ","))};
-  filters_ = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
-}
-
-std::vector<Axis> SweepWorld::lattice(std::size_t f) const {
-  const bool fuzzy = filters_[f].fuzzy;
-  const Axis off_diagonal =
-      continued(fuzzy ? choice_.possibility : choice_.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice_.beyond);
-  const Axis sigma_w = continued(choice_.sigma_w, 1e-6, 1e6, choice_.beyond);
-  Axis lift{.numbers = std::vector<double>(choice_.lifts.size())};
-  lift.ordered = false;
-  return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
-}
-
-std::size_t SweepWorld::listed_settings(std::size_t f) const { return grid(lattice(f)).size(); }
-
-FilterSettings SweepWorld::settings(std::size_t condition, std::size_t f, const Place& place) const {
-  const std::vector<Axis> lattice = this->lattice(f);
-  const auto number = [&](std::size_t axis) { return lattice[axis].numbers[place[axis]]; };
-  const double leaving = number(0), returning = number(1);
-  const double mismatch = conditions_[condition].mismatch;
-  const Polar sigma = group(1, conditions_[condition].scenario).data;
-  FilterSettings own = filters_[f];
-  own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
-  own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
-  for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-  own.lift = *std::find_if(swept_lifts.begin(), swept_lifts.end(),
-                           [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
-  return own;
-}
-
-Recording SweepWorld::recording(std::size_t condition, int number) const {
-  RandomStream random(choice_.seed, static_cast<std::uint64_t>(number));
-  return simulate(scenario_of(conditions_[condition]), group(1, conditions_[condition].scenario).data, random);
-}
-
-std::vector<double> SweepWorld::scores_of(std::size_t condition, std::size_t f,
-                                          const std::vector<Place>& places) const {
-  const Scenario scenario = scenario_of(conditions_[condition]);
-  std::vector<FilterSettings> tried;
-  for (const Place& place : places) tried.push_back(settings(condition, f, place));
-  Squares measured{};
-  std::vector<Squares> sums(places.size(), Squares{});
-  for (int run = 0; run < choice_.tuning_runs; ++run) {
-    const Recording one = recording(condition, run);
-    add_measurement(scenario, one, measured);
-    for (std::size_t i = 0; i < places.size(); ++i) try {
-        add_run(scenario, tried[i], one, sums[i]);
-      } catch (const std::exception&) {
-        sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
-      }
-  }
-  std::vector<double> scores;
-  for (const Squares& own : sums) scores.push_back(score(own, measured));
-  return scores;
-}
-
-/// The best place with its score and how many were tried; then of each batch of runs their number, and the squares of
-/// the measurement and of the filter.
-Study::Row SweepWorld::work(std::size_t condition, std::size_t f) const {
-  constexpr int most_batches = 25;
-  const Scenario scenario = scenario_of(conditions_[condition]);
-  // The best of the grid, then from neighbour to better neighbour until none is better; the first of equals is taken.
-  Place best{};
-  double best_score = infinity;
-  std::set<Place> tried;
-  for (auto places = grid(lattice(f)); !places.empty();) {
-    const auto scores = scores_of(condition, f, places);
-    const auto least = std::min_element(scores.begin(), scores.end());
-    const bool first = tried.empty();
-    tried.insert(places.begin(), places.end());
-    if (!first && *least >= best_score) break;
-    best = places[static_cast<std::size_t>(least - scores.begin())];
-    best_score = *least;
-    places = neighbours(lattice(f), best);
-    std::erase_if(places, [&](const Place& one) { return tried.contains(one); });
-  }
-  const FilterSettings tuned = settings(condition, f, best);
-  Study::Row row(best.begin(), best.end());
-  row.insert(row.end(), {best_score, static_cast<double>(tried.size())});
-  const int batches = std::min(most_batches, choice_.runs);
-  for (int batch = 0; batch < batches; ++batch) {
-    Squares own{}, raw{};
-    const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice_.runs) * at / batches); };
-    for (int number = bound(batch); number < bound(batch + 1); ++number) {
-      const Recording one = recording(condition, choice_.tuning_runs + number);
-      add_measurement(scenario, one, raw);
-      add_run(scenario, tuned, one, own);
+/// All conditions and filters, and what was found of them.
+class SweepWorld {
+ public:
+  /// Throws InputError for a filter that there is not.
+  explicit SweepWorld(const SweepChoice& choice) : choice_(choice), conditions_(conditions_of(choice)) {
+    for (auto* const list : {&choice_.probability, &choice_.possibility, &choice_.sigma_w}) {
+      std::sort(list->begin(), list->end());
+      list->erase(std::unique(list->begin(), list->end()), list->end());
     }
-    row.push_back(bound(batch + 1) - bound(batch));
-    row.insert(row.end(), raw.begin(), raw.end());
-    row.insert(row.end(), own.begin(), own.end());
+    const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(choice.filters, ","))};
+    filters_ = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
   }
-  return row;
-}
 
-Study SweepWorld::study() const {
-  return {"cells", conditions_.size() * filters_.size(),
-          [this](std::size_t cell) { return work(cell / filters_.size(), cell % filters_.size()); },
-          command_of(choice_)};
-}
+  /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
+  Study study() const {
+    return {"cells", conditions_.size() * filters_.size(),
+            [this](std::size_t cell) { return work(cell / filters_.size(), cell % filters_.size()); },
+            command_of(choice_)};
+  }
+  /// Of the next cell.
+  void add(const Study::Row& row) {
+    Place place{};
+    for (std::size_t i = 0; i < of_a_place; ++i) place[i] = static_cast<std::size_t>(row[i]);
+    constexpr std::size_t of_a_batch = 1 + 2 * squares;
+    Batches batches(of_a_batch);
+    for (auto rest = std::span(row).subspan(of_a_place + 2); !rest.empty(); rest = rest.subspan(of_a_batch))
+      batches.add(rest.first(of_a_batch));
+    const auto ratio = [&](std::size_t i) { return sqrt(batches.mean(1 + squares + i)) / sqrt(batches.mean(1 + i)); };
+    Statistic sum = ratio(0);
+    for (std::size_t i = 1; i < squares; ++i) sum = sum + ratio(i);
+    tuned_.push_back({place, at_the_limit(lattice(tuned_.size() % filters_.size()), place), row[of_a_place],
+                      static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
+  }
 
-void SweepWorld::add(const Study::Row& row) {
-  Place place{};
-  for (std::size_t i = 0; i < of_a_place; ++i) place[i] = static_cast<std::size_t>(row[i]);
-  constexpr std::size_t of_a_batch = 1 + 2 * squares;
-  Batches batches(of_a_batch);
-  for (auto rest = std::span(row).subspan(of_a_place + 2); !rest.empty(); rest = rest.subspan(of_a_batch))
-    batches.add(rest.first(of_a_batch));
-  const auto ratio = [&](std::size_t i) { return sqrt(batches.mean(1 + squares + i)) / sqrt(batches.mean(1 + i)); };
-  Statistic sum = ratio(0);
-  for (std::size_t i = 1; i < squares; ++i) sum = sum + ratio(i);
-  tuned_.push_back({place, at_the_limit(lattice(tuned_.size() % filters_.size()), place), row[of_a_place],
-                    static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
-}
+  const SweepChoice& choice() const { return choice_; }
+  const std::vector<SweepCondition>& conditions() const { return conditions_; }
+  const std::vector<FilterSettings>& filters() const { return filters_; }
+  const std::vector<Tuned>& all_tuned() const { return tuned_; }
+  const Tuned& tuned(std::size_t condition, std::size_t f) const { return tuned_[condition * filters_.size() + f]; }
 
-std::optional<std::size_t> SweepWorld::imm() const {
-  for (std::size_t f = filters_.size(); f-- > 0;)
-    if (filters_[f].name == "imm") return f;
-  return std::nullopt;
-}
+  /// How many settings are on the lists of a filter.
+  std::size_t listed_settings(std::size_t f) const { return grid(lattice(f)).size(); }
 
-std::optional<std::size_t> SweepWorld::himm(std::size_t condition) const {
-  std::optional<std::size_t> best;
-  for (std::size_t f = 0; f < filters_.size(); ++f)
-    if (filters_[f].fuzzy && filters_[f].scheme == Scheme::interacting &&
-        (!best || tuned(condition, f).tuning_score < tuned(condition, *best).tuning_score))
-      best = f;
-  return best;
-}
+  /// The settings that were chosen.
+  FilterSettings settings(std::size_t condition, std::size_t f) const {
+    return settings(condition, f, tuned(condition, f).place);
+  }
 
-Interval SweepWorld::against_imm(std::size_t condition, std::size_t f) const {
-  return (tuned(condition, f).score / tuned(condition, *imm()).score - 1.0).interval(conditions_.size());
-}
+  /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
+  /// least: what is called HIMM.
+  std::optional<std::size_t> imm() const {
+    for (std::size_t f = filters_.size(); f-- > 0;)
+      if (filters_[f].name == "imm") return f;
+    return std::nullopt;
+  }
+  std::optional<std::size_t> himm(std::size_t condition) const {
+    std::optional<std::size_t> best;
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      if (filters_[f].fuzzy && filters_[f].scheme == Scheme::interacting &&
+          (!best || tuned(condition, f).tuning_score < tuned(condition, *best).tuning_score))
+        best = f;
+    return best;
+  }
+
+  /// By how much the score is above that of the tuned IMM, relatively; one of as many intervals as there are
+  /// conditions.
+  Interval against_imm(std::size_t condition, std::size_t f) const {
+    return (tuned(condition, f).score / tuned(condition, *imm()).score - 1.0).interval(conditions_.size());
+  }
+
+ private:
+  std::vector<Axis> lattice(std::size_t f) const {
+    const bool fuzzy = filters_[f].fuzzy;
+    const Axis off_diagonal =
+        continued(fuzzy ? choice_.possibility : choice_.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice_.beyond);
+    const Axis sigma_w = continued(choice_.sigma_w, 1e-6, 1e6, choice_.beyond);
+    Axis lift{.numbers = std::vector<double>(choice_.lifts.size())};
+    lift.ordered = false;
+    return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
+  }
+  FilterSettings settings(std::size_t condition, std::size_t f, const Place& place) const {
+    const std::vector<Axis> lattice = this->lattice(f);
+    const auto number = [&](std::size_t axis) { return lattice[axis].numbers[place[axis]]; };
+    const double leaving = number(0), returning = number(1);
+    const double mismatch = conditions_[condition].mismatch;
+    const Polar sigma = group(1, conditions_[condition].scenario).data;
+    FilterSettings own = filters_[f];
+    own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
+    own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
+    for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
+    own.lift = *std::find_if(swept_lifts.begin(), swept_lifts.end(),
+                             [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
+    return own;
+  }
+  Recording recording(std::size_t condition, int number) const {
+    RandomStream random(choice_.seed, static_cast<std::uint64_t>(number));
+    return simulate(scenario_of(conditions_[condition]), group(1, conditions_[condition].scenario).data, random);
+  }
+  std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const {
+    const Scenario scenario = scenario_of(conditions_[condition]);
+    std::vector<FilterSettings> tried;
+    for (const Place& place : places) tried.push_back(settings(condition, f, place));
+    Squares measured{};
+    std::vector<Squares> sums(places.size(), Squares{});
+    for (int run = 0; run < choice_.tuning_runs; ++run) {
+      const Recording one = recording(condition, run);
+      add_measurement(scenario, one, measured);
+      for (std::size_t i = 0; i < places.size(); ++i) try {
+          add_run(scenario, tried[i], one, sums[i]);
+        } catch (const std::exception&) {
+          sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
+        }
+    }
+    std::vector<double> scores;
+    for (const Squares& own : sums) scores.push_back(score(own, measured));
+    return scores;
+  }
+  // The best place with its score and how many were tried; then of each batch of runs their number, and the squares of
+  // the measurement and of the filter.
+  Study::Row work(std::size_t condition, std::size_t f) const {
+    constexpr int most_batches = 25;
+    const Scenario scenario = scenario_of(conditions_[condition]);
+    // The best of the grid, then from neighbour to better neighbour until none is better; the first of equals is taken.
+    Place best{};
+    double best_score = infinity;
+    std::set<Place> tried;
+    for (auto places = grid(lattice(f)); !places.empty();) {
+      const auto scores = scores_of(condition, f, places);
+      const auto least = std::min_element(scores.begin(), scores.end());
+      const bool first = tried.empty();
+      tried.insert(places.begin(), places.end());
+      if (!first && *least >= best_score) break;
+      best = places[static_cast<std::size_t>(least - scores.begin())];
+      best_score = *least;
+      places = neighbours(lattice(f), best);
+      std::erase_if(places, [&](const Place& one) { return tried.contains(one); });
+    }
+    const FilterSettings tuned = settings(condition, f, best);
+    Study::Row row(best.begin(), best.end());
+    row.insert(row.end(), {best_score, static_cast<double>(tried.size())});
+    const int batches = std::min(most_batches, choice_.runs);
+    for (int batch = 0; batch < batches; ++batch) {
+      Squares own{}, raw{};
+      const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice_.runs) * at / batches); };
+      for (int number = bound(batch); number < bound(batch + 1); ++number) {
+        const Recording one = recording(condition, choice_.tuning_runs + number);
+        add_measurement(scenario, one, raw);
+        add_run(scenario, tuned, one, own);
+      }
+      row.push_back(bound(batch + 1) - bound(batch));
+      row.insert(row.end(), raw.begin(), raw.end());
+      row.insert(row.end(), own.begin(), own.end());
+    }
+    return row;
+  }
+
+  SweepChoice choice_;
+  std::vector<SweepCondition> conditions_;
+  std::vector<FilterSettings> filters_;
+  std::vector<Tuned> tuned_;  // by condition and filter
+};
 
 struct SweepOptions {
   SweepChoice choice;

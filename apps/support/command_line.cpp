@@ -33,7 +33,7 @@ namespace {
 
 constexpr int exit_signal = 128;
 
-const char* program = "";
+const char* running = "";
 
 // Made before a signal can come: a handler may not allocate.
 std::array<char, 200> interrupted{};
@@ -156,10 +156,10 @@ int exit_code(const std::exception& error) {
   return dynamic_cast<const UsageError*>(&error) != nullptr ? exit_usage : exit_input;
 }
 
-void complain(const std::exception& error) { complain(fmt::format("{}: {}", program, error.what())); }
+void complain(const std::exception& error) { complain(fmt::format("{}: {}", running, error.what())); }
 
 int run_program(const char* name, const std::function<void()>& work) {
-  program = name;
+  running = name;
   try {
     handle_signals(name);
     work();
@@ -268,8 +268,8 @@ void Subcommand::footer(const std::string& text) { app_.footer(text); }
 
 void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
 
-void run_again(const std::vector<void (*)(CLI::App& program, const std::string& command)>& subcommands,
-               const std::string& program, std::vector<std::string> arguments) {
+void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
+               std::vector<std::string> arguments) {
   CLI::App app{"", program};
   std::string command = program;
   for (const std::string& argument : arguments) command += " " + argument;

@@ -109,19 +109,19 @@ class Subcommand {
   CLI::App& app_;
 };
 
+/// Adds one subcommand with its options to the program; its callback does the work. `command` is the whole command as
+/// typed.
+using AddSubcommand = void (*)(CLI::App& program, const std::string& command);
+
 /// Runs a subcommand, whose name is the first argument, as if the program had been called with it.
-void run_again(const std::vector<void (*)(CLI::App& program, const std::string& command)>& subcommands,
-               const std::string& program, std::vector<std::string> arguments);
+void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
+               std::vector<std::string> arguments);
 
 /// --seed, which refuses what is no whole number below 2^64.
 void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what = "of the random numbers");
 
 /// --threads; zero stands for all of them.
 void add_threads(CLI::App& app, int& threads);
-
-/// Adds one subcommand with its options to the program; its callback does the work. `command` is the whole command as
-/// typed.
-using AddSubcommand = void (*)(CLI::App& program, const std::string& command);
 
 struct ProgramOutline {
   std::string name;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "apps/temporary_directory.hpp"
@@ -19,14 +20,19 @@ TEST(OptionPages, AreWhatTheProgramsPrint) {
   }
 }
 
-TEST(OptionPages, EverySubcommandHasTwoExamples) {
+TEST(OptionPages, EverySubcommandHasTwoExamplesThatCanBeCopied) {
   for (const std::string subcommand : {"simulate", "reproduce", "sweep", "merge", "track", "tune"}) {
     const std::string help = program::run(SIGMAX_HIMM_DEMO, {subcommand, "--help"}).output;
-    const auto examples = help.find("\nExamples:\n");
+    const std::string heading = "\nExamples:\n";
+    const auto examples = help.find(heading);
     ASSERT_NE(examples, std::string::npos);
+    std::istringstream lines(help.substr(examples + heading.size()));
     std::size_t count = 0;
-    for (auto at = help.find("\n  himm_demo ", examples); at != std::string::npos; ++count)
-      at = help.find("\n  himm_demo ", at + 1);
+    bool goes_on = false;
+    for (std::string line; std::getline(lines, line); goes_on = line.ends_with(" \\")) {
+      EXPECT_TRUE(line.starts_with(goes_on ? "    -" : "  himm_demo ")) << line;
+      count += goes_on ? 0U : 1U;
+    }
     EXPECT_GE(count, 2U) << help;
   }
 }

@@ -16,17 +16,14 @@
 #include "himm_demo/track/shares.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
-#include "support/command_line.hpp"
 #include "support/output.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-using Words = std::vector<std::string>;
-
 std::string numbered(const std::vector<std::pair<std::string, std::size_t>>& counts) {
-  Words parts;
+  std::vector<std::string> parts;
   for (const auto& [name, count] : counts) parts.push_back(fmt::format("{} {}", name, count));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -42,17 +39,17 @@ class Reporter {
            const TrackOutcome& outcome, Result& result)
       : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
 
-  Words made() {
+  std::vector<std::string> made() {
     add_facts();
     describe();
-    Words warnings = make_warnings();
+    std::vector<std::string> warnings = make_warnings();
     if (!warnings.empty()) result_.fact({"warnings"}, warnings);
     result_.page.title = "Tracks of " + options_.recording.file;
     for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
-    result_.page.panels.emplace_back(apps::Words{"The recording", result_.text});
+    result_.page.panels.emplace_back(Words{"The recording", result_.text});
     for (std::size_t p = 0; p < (recording_.has_roll() ? parts.size() : 1); ++p) tabulate(p);
     explain();
-    result_.page.last.emplace_back(apps::Words{"Settings in force", as_toml(filters_), true});
+    result_.page.last.emplace_back(Words{"Settings in force", as_toml(filters_), true});
     return warnings;
   }
 
@@ -98,7 +95,7 @@ class Reporter {
     const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
       return filter.radar_measurement == RadarForm::polar;
     });
-    Words parts;  // of the measurements that are not positions along all axes
+    std::vector<std::string> parts;  // of the measurements that are not positions along all axes
     if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
     if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));
     say(true, fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file_, outcome_.rows, outcome_.measurements,
@@ -143,8 +140,8 @@ class Reporter {
     result_.say(all);
   }
 
-  Words make_warnings() const {
-    Words warnings;
+  std::vector<std::string> make_warnings() const {
+    std::vector<std::string> warnings;
     const auto warn = [&](bool holds, const auto& words) {
       if (holds) warnings.push_back(words());
     };
@@ -254,7 +251,7 @@ class Reporter {
                       judged ? Cell(nis.median_nis()) : Cell()});
     fields.push_back({{.key = "nis_inside_95", .header = "in 95 %", .digits = 1, .scale = 100.0, .group = "NIS:"},
                       judged ? Cell(nis.share_inside()) : Cell()});
-    Words weights;
+    std::vector<std::string> weights;
     std::map<std::string, double> by_model;
     for (std::size_t j = 0; filter && count > 0 && j < filter->models.size(); ++j) {
       const double weight = by_model[filter->models[j]] = sums.weights[j] / static_cast<double>(count);
@@ -274,7 +271,7 @@ class Reporter {
     for (std::size_t f = 0; f < filters_.size(); ++f)
       for (const auto& [track, stays] : outcome_.filters[f].histories) {
         if (stays.empty()) continue;
-        Words told;
+        std::vector<std::string> told;
         for (std::size_t i = 0; i < stays.size(); ++i) {
           const std::string& mode = filters_[f].models[stays[i].mode];
           result_.fact({"histories", filters_[f].name, track, i, "since_s"}, stays[i].since);
@@ -386,10 +383,12 @@ void add_track(CLI::App& program, const std::string& command) {
       "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 --set sigma_azimuth_deg=0.2\n"
+      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 \\\n"
+      "    --set sigma_azimuth_deg=0.2\n"
       "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
-      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
-      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
+      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip \\\n"
+      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude \\\n"
+      "    --set sigma_w=0.05 --out results");
   app.option(
          "--predict-to",
          [options](const std::string& text) {

@@ -22,7 +22,6 @@
 #include "result/report.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
-#include "support/command_line.hpp"
 #include "support/error.hpp"
 #include "support/json.hpp"
 #include "support/numbers.hpp"
@@ -561,7 +560,8 @@ void add_tune(CLI::App& program, const std::string& command) {
   app.footer(
       "Examples:\n"
       "  himm_demo tune flight.csv --out best.toml\n"
-      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --truth\n"
+      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --truth \\\n"
+      "    --radar-at=-20000,-10000,0\n"
       "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
   app.run([options] { tune_and_write(*options); });
 }
