@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -18,13 +18,8 @@ class UnnamedFile {
  public:
   /// What it is for ends the message: "the rows".
   explicit UnnamedFile(std::string purpose);
-  UnnamedFile(UnnamedFile&& other) noexcept
-      : purpose_(std::move(other.purpose_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
-  UnnamedFile& operator=(UnnamedFile&& other) noexcept {
-    std::swap(purpose_, other.purpose_);
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
+  UnnamedFile(const UnnamedFile&) = delete;
+  UnnamedFile& operator=(const UnnamedFile&) = delete;
   ~UnnamedFile();
 
   int descriptor() const { return descriptor_; }
@@ -47,17 +42,7 @@ class UnnamedFile {
 /// before is in an UnnamedFile. Different threads may read, and overwrite different bytes, at a time.
 class Scratch {
  public:
-  Scratch() = default;
-  Scratch(Scratch&& other) noexcept
-      : held_(std::move(other.held_)), in_file_(std::exchange(other.in_file_, 0)), file_(std::move(other.file_)) {}
-  Scratch& operator=(Scratch&& other) noexcept {
-    std::swap(held_, other.held_);
-    std::swap(in_file_, other.in_file_);
-    std::swap(file_, other.file_);
-    return *this;
-  }
-
-  std::uint64_t size() const { return in_file_ + held_.size(); }
+  std::uint64_t size() const { return in_file() + held_.size(); }
 
   void append(std::span<const std::byte> bytes);
 
@@ -66,11 +51,15 @@ class Scratch {
   void overwrite(std::uint64_t first, std::span<const std::byte> bytes);
 
  private:
+  struct Filed {
+    UnnamedFile file{"the rows"};
+    std::uint64_t size = 0;
+  };
+  std::uint64_t in_file() const { return filed_ ? filed_->size : 0; }
   std::size_t in_file(std::uint64_t first, std::size_t count) const;
 
   std::vector<std::byte> held_;
-  std::uint64_t in_file_ = 0;
-  std::optional<UnnamedFile> file_;
+  std::unique_ptr<Filed> filed_;
 };
 
 /// Plain values in a Scratch.
