@@ -137,20 +137,11 @@ using Squares = std::array<double, squares>;
 constexpr std::array swept_lifts = {Lift::zero, Lift::unbiased, Lift::borrowed_variance};
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
-  std::vector<std::array<double, 3>> error(recording.truth.size(), {nan, nan, nan});
+  Errors error(recording.truth.size(), {nan, nan, nan});
   follow(filter, scenario.step_s, recording, [&](const TargetPoint& point) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       error[point.tag][axis] = point.mean[axis] - recording.truth[point.tag](static_cast<Eigen::Index>(axis));
   });
-  add_squares(scenario, error, sums.data());
-}
-
-void add_measurement(const Scenario& scenario, const Recording& recording, Squares& sums) {
-  std::vector<std::array<double, 3>> error;
-  for (std::size_t k = 0; k < recording.truth.size(); ++k) {
-    const Vector<3> seen = to_cartesian(recording.measured[k]) - recording.truth[k].head<3>();
-    error.push_back({seen.x(), seen.y(), seen.z()});
-  }
   add_squares(scenario, error, sums.data());
 }
 
@@ -326,7 +317,7 @@ class SweepWorld {
     std::vector<Squares> sums(places.size(), Squares{});
     for (int run = 0; run < choice_.tuning_runs; ++run) {
       const Recording one = recording(condition, run);
-      add_measurement(scenario, one, measured);
+      add_squares(scenario, errors_of(one), measured.data());
       for (std::size_t i = 0; i < places.size(); ++i) try {
           add_run(scenario, tried[i], one, sums[i]);
         } catch (const std::exception&) {
@@ -366,7 +357,7 @@ class SweepWorld {
       const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice_.runs) * at / batches); };
       for (int number = bound(batch); number < bound(batch + 1); ++number) {
         const Recording one = recording(condition, choice_.tuning_runs + number);
-        add_measurement(scenario, one, raw);
+        add_squares(scenario, errors_of(one), raw.data());
         add_run(scenario, tuned, one, own);
       }
       row.push_back(bound(batch + 1) - bound(batch));
