@@ -1,22 +1,15 @@
 #include "himm_demo/subcommands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "result/report.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"

@@ -1,28 +1,21 @@
 #include "himm_demo/subcommands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <ctime>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <sigmax/core/mean_interval.hpp>
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
 #include "himm_demo/filters/keys.hpp"
 #include "result/braille.hpp"
-#include "result/report.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
 #include "support/numbers.hpp"

@@ -1,16 +1,11 @@
 #include "himm_demo/subcommands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

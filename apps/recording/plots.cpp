@@ -1,7 +1,6 @@
 #include "recording/plots.hpp"
 
 #include <cmath>
-#include <string>
 
 #include <fmt/format.h>
 

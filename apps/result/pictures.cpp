@@ -11,7 +11,6 @@
 #include <set>
 #include <span>
 #include <stdexcept>
-#include <type_traits>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <deque>
-#include <initializer_list>
 
 #include <fmt/core.h>
 

@@ -1,7 +1,6 @@
 #include "study/study.hpp"
 
 #include <charconv>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +14,6 @@
 #include "himm_demo/track/shares.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
-#include "support/output.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {

@@ -1,4 +1,4 @@
-#include "himm_demo/tune/fit.hpp"
+#include "himm_demo/tune/tune.hpp"
 
 #include <algorithm>
 #include <array>

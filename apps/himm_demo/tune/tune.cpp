@@ -4,28 +4,20 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <sigmax/estimation/consistency.hpp>
 
 #include "himm_demo/filters/keys.hpp"
-#include "himm_demo/tune/fit.hpp"
-#include "result/report.hpp"
+#include "himm_demo/tune/tune.hpp"
 #include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/error.hpp"
 #include "support/json.hpp"
 #include "support/numbers.hpp"
-#include "support/output.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "version.hpp"
