@@ -1,7 +1,6 @@
 // From probability to possibility and back, and what each way keeps: order always, Π(A) ≥ P(A) not always.
 
 #include <iostream>
-#include <string>
 
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/transform.hpp>

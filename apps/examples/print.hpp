@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <iostream>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include <sigmax/core/variable.hpp>

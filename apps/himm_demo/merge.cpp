@@ -10,7 +10,6 @@
 #include "study/journal.hpp"
 #include "study/study.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 #include "support/output.hpp"
 #include "version.hpp"
 
@@ -70,7 +69,7 @@ void merge(const MergeOptions& options) {
   if (!options.output.report.empty()) arguments.insert(arguments.end(), {"--report", options.output.report});
   if (!options.output.plots.empty()) arguments.insert(arguments.end(), {"--plots", options.output.plots});
   if (options.output.quiet) arguments.emplace_back("--quiet");
-  run_again({add_reproduce, add_sweep}, "himm_demo", arguments);
+  run_again(subcommands, "himm_demo", arguments);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 
@@ -28,5 +27,9 @@ void add_tune(CLI::App& program, const std::string& command);
 
 /// The keys of --config and --set.
 void add_keys(CLI::App& program, const std::string& command);
+
+/// All of them, as the help lists them.
+inline const std::vector<AddSubcommand> subcommands = {add_simulate, add_reproduce, add_sweep, add_merge,
+                                                       add_track,    add_tune,      add_keys};
 
 }  // namespace sigmax::apps

@@ -14,9 +14,9 @@
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
+#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
-#include "support/options.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {

@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {

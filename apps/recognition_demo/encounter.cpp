@@ -14,10 +14,10 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
+#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
-#include "support/missing.hpp"
-#include "support/options.hpp"
+#include "support/numbers.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {

@@ -8,8 +8,8 @@
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

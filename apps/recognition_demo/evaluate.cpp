@@ -19,7 +19,6 @@
 #include "result/result.hpp"
 #include "result/table.hpp"
 #include "support/command_line.hpp"
-#include "support/options.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "support/scratch.hpp"

@@ -8,8 +8,7 @@
 
 #include <sigmax/recognition/equal_frequency_fit.hpp>
 
-#include "support/options.hpp"
-#include "support/run.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
-#include "result/output_options.hpp"
+#include "result/result.hpp"
 
 namespace sigmax::apps {
 

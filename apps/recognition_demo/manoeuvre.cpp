@@ -14,7 +14,7 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

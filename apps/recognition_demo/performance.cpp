@@ -18,9 +18,9 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
+#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

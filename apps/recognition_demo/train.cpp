@@ -8,7 +8,7 @@
 #include "recognition_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "result/table.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "study/study.hpp"
 #include "support/command_line.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

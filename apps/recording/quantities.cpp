@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "support/error.hpp"
-#include "support/spelling.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

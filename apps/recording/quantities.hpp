@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "support/angle.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 

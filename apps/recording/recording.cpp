@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/timestamp.hpp"
 

@@ -13,8 +13,8 @@
 
 #include <fmt/core.h>
 
-#include "result/output_options.hpp"
 #include "result/report.hpp"
+#include "result/result.hpp"
 #include "support/error.hpp"
 #include "support/text.hpp"
 

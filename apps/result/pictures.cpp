@@ -11,14 +11,13 @@
 #include <set>
 #include <span>
 #include <stdexcept>
-#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "result/report.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
-#include "support/unnamed_file.hpp"
+#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -96,7 +96,7 @@ void append(std::string& text, const Block& block, const std::vector<Lines>& cel
   }
 }
 
-std::string text_of(const Block& block, const std::vector<Lines>& rows) {
+std::string text_of(const Block& block, const std::vector<std::vector<Cell>>& rows) {
   std::string text, rule;
   std::vector<Lines> cells;
   for (const Laid& column : block) {
@@ -149,56 +149,6 @@ void check(const Columns& columns, const Cells& cells) {
 }
 
 }  // namespace
-
-TextTable::TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {
-  check(columns_, columns_);
-  for (Column& column : columns_) {
-    column.header = printable(column.header);
-    column.group = printable(column.group);
-  }
-}
-
-void TextTable::row(std::vector<std::string> cells) {
-  check(columns_, cells);
-  for (std::string& cell : cells) cell = printable(cell);
-  rows_.push_back(std::move(cells));
-}
-
-std::string TextTable::text(std::size_t width) const {
-  // The first column and those from `begin` to `end`, as they stand in one block.
-  const auto laid = [&](std::size_t begin, std::size_t end) {
-    Block block;
-    for (std::size_t i = 0; i < end; i = i == 0 ? begin : i + 1) {
-      const auto& [header, align, group] = columns_[i];
-      const bool first_of_group = !group.empty() && (i == begin || columns_[i - 1].group != group);
-      Laid& column = block.emplace_back(Laid{first_of_group ? group + " " + header : header, {}, align});
-      for (const auto& row : rows_) column.cells.push_back(row.empty() ? "" : row[i]);
-      column.fit();
-    }
-    if (width != any_width) squeeze(block, width);
-    return block;
-  };
-  const auto end_of_group = [&](std::size_t begin) {
-    std::size_t end = begin + 1;
-    while (end < columns_.size() && !columns_[begin].group.empty() && columns_[end].group == columns_[begin].group)
-      ++end;
-    return end;
-  };
-
-  const Block whole = laid(1, columns_.size());
-  if (width == any_width || total(whole) <= width || columns_.size() == 1) return text_of(whole, rows_);
-  std::string text;
-  for (std::size_t begin = 1; begin < columns_.size();) {
-    std::size_t end = end_of_group(begin);
-    while (end > begin + 1 && total(laid(begin, end)) > width) --end;  // a group that is too wide for one block
-    const bool whole_groups = end == end_of_group(begin);
-    while (whole_groups && end < columns_.size() && total(laid(begin, end_of_group(end))) <= width)
-      end = end_of_group(end);
-    text += (text.empty() ? "" : "\n") + text_of(laid(begin, end), rows_);
-    begin = end;
-  }
-  return text;
-}
 
 std::string number_text(double value, int digits, bool sign) {
   constexpr double greatest = 1e9;  // longer numbers are unreadable
@@ -268,20 +218,49 @@ ResultTable ResultTable::part(unsigned part, const std::string& header, std::siz
 }
 
 std::string ResultTable::text(std::size_t width) const {
-  std::vector<TextTable::Column> shown;
-  for (const ResultColumn& column : columns_)
-    if (!column.header.empty()) shown.push_back({column.full_header(), column.align, column.group});
-  TextTable table(std::move(shown));
-  for (const auto& row : rows_) {
-    std::vector<std::string> cells;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      if (!columns_[i].header.empty()) cells.push_back(shown_in(columns_[i], row[i]));
-    if (row.empty())
-      table.rule();
-    else
-      table.row(std::move(cells));
+  struct Shown {
+    std::string header, group;
+    Align align;
+    Lines cells;
+  };
+  std::vector<Shown> columns;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].header.empty()) continue;
+    Shown& own = columns.emplace_back(
+        Shown{printable(columns_[i].full_header()), printable(columns_[i].group), columns_[i].align, {}});
+    for (const auto& row : rows_) own.cells.push_back(row.empty() ? "" : printable(shown_in(columns_[i], row[i])));
   }
-  return table.text(width);
+  check(columns, columns);
+  // The first column and those from `begin` to `end`, as they stand in one block.
+  const auto laid = [&](std::size_t begin, std::size_t end) {
+    Block block;
+    for (std::size_t i = 0; i < end; i = i == 0 ? begin : i + 1) {
+      const auto& [header, group, align, cells] = columns[i];
+      const bool first_of_group = !group.empty() && (i == begin || columns[i - 1].group != group);
+      block.emplace_back(Laid{first_of_group ? group + " " + header : header, cells, align}).fit();
+    }
+    if (width != any_width) squeeze(block, width);
+    return block;
+  };
+  const auto end_of_group = [&](std::size_t begin) {
+    std::size_t end = begin + 1;
+    while (end < columns.size() && !columns[begin].group.empty() && columns[end].group == columns[begin].group) ++end;
+    return end;
+  };
+
+  const Block whole = laid(1, columns.size());
+  if (width == any_width || total(whole) <= width || columns.size() == 1) return text_of(whole, rows_);
+  std::string text;
+  for (std::size_t begin = 1; begin < columns.size();) {
+    std::size_t end = end_of_group(begin);
+    while (end > begin + 1 && total(laid(begin, end)) > width) --end;  // a group that is too wide for one block
+    const bool whole_groups = end == end_of_group(begin);
+    while (whole_groups && end < columns.size() && total(laid(begin, end_of_group(end))) <= width)
+      end = end_of_group(end);
+    text += (text.empty() ? "" : "\n") + text_of(laid(begin, end), rows_);
+    begin = end;
+  }
+  return text;
 }
 
 std::string ResultTable::csv() const {

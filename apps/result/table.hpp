@@ -22,38 +22,6 @@ namespace sigmax::apps {
 
 enum class Align { left, right };
 
-/// A table as aligned text:
-///
-///     filter  RMSE x, m
-///     ──────  ─────────
-///     IMM         12.30
-///
-/// Where it is wider than it may be, headers are broken into lines, then long words in cells that are aligned left,
-/// and then the columns go into blocks, one under the other, each with the first column before it.
-class TextTable {
- public:
-  struct Column {
-    std::string header;
-    Align align = Align::right;
-    /// Neighbours of one group stand in one block if they can. The first of them has the group before its header.
-    std::string group{};
-  };
-
-  explicit TextTable(std::vector<Column> columns);
-
-  /// Adds a row with a cell a column; throws std::invalid_argument for another number.
-  void row(std::vector<std::string> cells);
-
-  /// Adds a rule below the rows so far.
-  void rule() { rows_.emplace_back(); }
-
-  std::string text(std::size_t width = any_width) const;
-
- private:
-  std::vector<Column> columns_;
-  std::vector<std::vector<std::string>> rows_;  // a rule is a row without cells
-};
-
 /// A number with so many digits after the point. Great numbers come as 1.5e+150, NaN as "–".
 std::string number_text(double value, int digits, bool sign = false);
 
@@ -108,7 +76,8 @@ struct ResultColumn {
   bool sized = false;     ///< see `sized_text`
   bool interval = false;  ///< its numbers are intervals: three columns in CSV
   Align align = Align::right;
-  std::string group{};         ///< see `TextTable::Column`
+  /// Neighbours of one group stand in one block if they can. The first of them has the group before its header.
+  std::string group{};
   unsigned parts = all_parts;  ///< see `ResultTable::part`
 
   static constexpr unsigned all_parts = ~0U;
@@ -157,7 +126,14 @@ class ResultTable {
   ResultTable part(unsigned part, const std::string& header, std::size_t first_row = 0,
                    std::size_t rows = std::string::npos) const;
 
-  /// The columns with a header. See `TextTable` for what does not fit; `any_width` fits all.
+  /// The columns with a header as aligned text:
+  ///
+  ///     filter  RMSE x, m
+  ///     ──────  ─────────
+  ///     IMM         12.30
+  ///
+  /// Where it is wider than it may be, headers are broken into lines, then long words in cells that are aligned left,
+  /// and then the columns go into blocks, one under the other, each with the first column before it.
   std::string text(std::size_t width = terminal_width) const;
 
   /// The columns with a key, below their keys.

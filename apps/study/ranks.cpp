@@ -3,12 +3,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <deque>
-#include <initializer_list>
 
 #include <fmt/core.h>
 
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/run.hpp"
 
 #ifdef SIGMAX_MPI
 #include <mpi.h>
@@ -31,7 +30,8 @@ constexpr int tag_row = 1;   // from a worker: the cell and its row, or nothing 
 constexpr int tag_cell = 2;  // to a worker: the next cell, or none
 constexpr int tag_told = 3;  // from a worker: bytes
 constexpr long none = -1;
-constexpr std::size_t most_under_way = 1000;  // messages of bytes
+constexpr std::size_t most_under_way = 1000;               // messages of bytes
+constexpr std::size_t most_bytes = std::size_t{1} << 30U;  // of a message, whose size is an int; a full one goes on
 
 class MpiRanks : public Ranks {
  public:
@@ -84,6 +84,29 @@ class MpiRanks : public Ranks {
   }
 
   void tell(std::string bytes) override {
+    for (; bytes.size() >= most_bytes; bytes.erase(0, most_bytes)) send(bytes.substr(0, most_bytes));
+    send(std::move(bytes));
+  }
+
+  std::string hear(int rank) override {
+    std::string all, part;
+    do {
+      MPI_Status status;
+      MPI_Probe(rank, tag_told, MPI_COMM_WORLD, &status);
+      part = receive<std::string>(status, MPI_BYTE);
+      all += part;
+    } while (part.size() == most_bytes);
+    return all;
+  }
+
+  void abort(const std::exception& error) override {
+    complain(error);
+    MPI_Abort(MPI_COMM_WORLD, exit_code(error));
+    std::abort();
+  }
+
+ private:
+  void send(std::string bytes) {
     auto& [kept, request] = under_way_.emplace_back(std::move(bytes), MPI_REQUEST_NULL);
     MPI_Isend(kept.data(), static_cast<int>(kept.size()), MPI_BYTE, 0, tag_told, MPI_COMM_WORLD, &request);
     if (under_way_.size() > most_under_way) MPI_Wait(&under_way_.front().second, MPI_STATUS_IGNORE);
@@ -94,19 +117,6 @@ class MpiRanks : public Ranks {
     }
   }
 
-  std::string hear(int rank) override {
-    MPI_Status status;
-    MPI_Probe(rank, tag_told, MPI_COMM_WORLD, &status);
-    return receive<std::string>(status, MPI_BYTE);
-  }
-
-  void abort(const std::exception& error) override {
-    complain(error);
-    MPI_Abort(MPI_COMM_WORLD, exit_code(error));
-    std::abort();
-  }
-
- private:
   template <class Values>
   static Values receive(const MPI_Status& status, MPI_Datatype type) {
     int count = 0;

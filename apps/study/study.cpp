@@ -1,7 +1,6 @@
 #include "study/study.hpp"
 
 #include <charconv>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -11,8 +10,8 @@
 #include "result/result.hpp"
 #include "study/journal.hpp"
 #include "study/ranks.hpp"
+#include "support/command_line.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 

@@ -1,25 +1,75 @@
 #include "support/command_line.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include "support/error.hpp"
 #include "support/input.hpp"
-#include "support/run.hpp"
-#include "support/spelling.hpp"
+#include "support/output.hpp"
 #include "support/text.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+constexpr int exit_signal = 128;
+
+const char* running = "";
+
+// Made before a signal can come: a handler may not allocate.
+std::array<char, 200> interrupted{};
+std::size_t interrupted_size = 0;
+
+extern "C" void end_interrupted(int signal) {
+  remove_unfinished_files();
+  if (signal != SIGPIPE && ::write(STDERR_FILENO, interrupted.data(), interrupted_size) < 0) {
+    // Nobody is left to be told.
+  }
+  ::_exit(exit_signal + signal);
+}
+
+void handle_signals(const char* name) {
+  const char* const wipe = ::isatty(STDERR_FILENO) != 0 ? "\r\x1B[K" : "";  // a progress bar
+  const std::string text = fmt::format("{}{}: interrupted; unfinished output was removed\n", wipe, name);
+  interrupted_size = std::min(text.size(), interrupted.size());
+  std::copy_n(text.begin(), interrupted_size, interrupted.begin());
+
+  struct sigaction action = {};
+  action.sa_handler = end_interrupted;
+  ::sigfillset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    struct sigaction before = {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Throws InputError unless all that was printed has left.
+void flush_output() {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  const int error_number = errno;
+  if (flushed && std::ferror(stdout) == 0) return;
+  throw InputError(message({.where = "standard output",
+                            .what = "cannot be written: " + reason(error_number != 0 ? error_number : EIO),
+                            .remedy = "make room there, or choose another place"}));
+}
 
 using Arguments = std::vector<std::string>;
 
@@ -92,6 +142,137 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
 }
 
 }  // namespace
+
+void complain(std::string_view text) {
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  std::fputs(wrapped(text, terminal ? terminal_width : any_width).c_str(), stderr);  // print would throw without one
+}
+
+int exit_code(const std::exception& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr ? exit_usage : exit_input;
+}
+
+void complain(const std::exception& error) { complain(fmt::format("{}: {}", running, error.what())); }
+
+int run_program(const char* name, const std::function<void()>& work) {
+  running = name;
+  try {
+    handle_signals(name);
+    work();
+    flush_output();
+  } catch (const std::exception& error) {
+    complain(error);
+    return exit_code(error);
+  }
+  return 0;
+}
+
+Option& Option::in(int least, int greatest) { return option_->check(CLI::Range(least, greatest)), *this; }
+
+Option& Option::number_in(double least, double greatest) {
+  const std::string range = fmt::format("[{} - {}]", least, greatest);
+  const auto check = [=](const std::string& text) -> std::string {
+    const auto number = parse_number(text);
+    if (number && *number >= least && *number <= greatest) return "";
+    return fmt::format("found {}, expected a number in {}", in_quotes(text), range);
+  };
+  return option_->check(CLI::Validator(check, "FLOAT in " + range)), *this;
+}
+
+Option& Option::one_of(const std::vector<int>& values) { return option_->check(CLI::IsMember(values)), *this; }
+
+Option& Option::one_of(const std::vector<std::string>& values) { return option_->check(CLI::IsMember(values)), *this; }
+
+Option& Option::check(const std::function<std::string(const std::string&)>& complaint) {
+  return option_->check(CLI::Validator(complaint, "")), *this;
+}
+
+Option& Option::shows_default() { return option_->capture_default_str(), *this; }
+
+Option& Option::text(const std::string& text) { return option_->option_text(text), *this; }
+
+Option& Option::type(const std::string& name) { return option_->type_name(name), *this; }
+
+Option& Option::list() { return option_->delimiter(','), *this; }
+
+Option& Option::list_alone() { return option_->delimiter(',')->allow_extra_args(false), *this; }
+
+Option& Option::repeated() { return option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll), *this; }
+
+Option& Option::required() { return option_->required(), *this; }
+
+Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+
+Option& Option::hidden() { return option_->group(""), *this; }
+
+bool Option::given() const { return option_->count() > 0; }
+
+Subcommand::Subcommand(CLI::App& program, const std::string& name, const std::string& meaning)
+    : app_(*program.add_subcommand(name, meaning)) {}
+
+template <class Value>
+Option Subcommand::option(const std::string& name, Value& value, const std::string& meaning) {
+  return Option(app_.add_option(name, value, meaning));
+}
+
+template Option Subcommand::option(const std::string&, int&, const std::string&);
+template Option Subcommand::option(const std::string&, std::size_t&, const std::string&);
+template Option Subcommand::option(const std::string&, double&, const std::string&);
+template Option Subcommand::option(const std::string&, std::string&, const std::string&);
+template Option Subcommand::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Subcommand::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Subcommand::option(const std::string&, std::vector<int>&, const std::string&);
+template Option Subcommand::option(const std::string&, std::vector<double>&, const std::string&);
+template Option Subcommand::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+Option Subcommand::option(const std::string& name, const std::function<void(const std::string&)>& read,
+                          const std::string& meaning) {
+  const auto refused = [=](const std::string& text) {
+    try {
+      read(text);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  return Option(app_.add_option_function<std::string>(name, refused, meaning));
+}
+
+Option Subcommand::choice(const std::string& name, const std::vector<std::string>& names,
+                          const std::function<void(int)>& chosen, const std::string& meaning) {
+  std::map<std::string, int> places;
+  for (const std::string& one : names) places.emplace(one, static_cast<int>(places.size()));
+  return Option(app_.add_option_function<int>(name, chosen, meaning)->transform(CLI::CheckedTransformer(places)));
+}
+
+Option Subcommand::flag(const std::string& name, bool& value, const std::string& meaning) {
+  return Option(app_.add_flag(name, value, meaning));
+}
+
+Option Subcommand::flag(const std::string& name, std::string& value, const std::string& meaning) {
+  return Option(app_.add_flag(name, value, meaning));
+}
+
+Option Subcommand::triple(const std::string& name, std::optional<std::array<double, 3>>& values,
+                          const std::string& meaning) {
+  const auto take = [&values](const std::vector<double>& given) { values = {given[0], given[1], given[2]}; };
+  return Option(app_.add_option_function<std::vector<double>>(name, take, meaning)->delimiter(',')->expected(3));
+}
+
+Option Subcommand::option(const std::string& name) { return Option(app_.get_option(name)); }
+
+void Subcommand::footer(const std::string& text) { app_.footer(text); }
+
+void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
+
+void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
+               std::vector<std::string> arguments) {
+  CLI::App app{"", program};
+  std::string command = program;
+  for (const std::string& argument : arguments) command += " " + argument;
+  for (const auto add : subcommands) add(app, command);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  app.parse(arguments);
+}
 
 void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& of_what) {
   const auto check = [](const std::string& text) -> std::string {

@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "support/angle.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -3,31 +3,45 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
+#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "support/unnamed_file.hpp"
-
 namespace sigmax::apps {
+
+/// A temporary file without a name, so that it is gone with the program; in $TMPDIR, else in /tmp. What cannot be made,
+/// written or read is an InputError, which says where and why.
+class UnnamedFile {
+ public:
+  /// What it is for ends the message: "the rows".
+  explicit UnnamedFile(std::string purpose);
+  UnnamedFile(const UnnamedFile&) = delete;
+  UnnamedFile& operator=(const UnnamedFile&) = delete;
+  ~UnnamedFile();
+
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const;
+
+  /// From some byte on; what is read must be there.
+  void write(std::uint64_t first, std::span<const std::byte> bytes) const;
+  void read(std::uint64_t first, std::span<std::byte> bytes) const;
+
+ private:
+  [[noreturn]] void fail(const char* what, int error_number) const;
+  template <class Transfer>
+  void all_of(std::size_t count, const char* what, const Transfer& transfer) const;
+
+  std::string purpose_;
+  int descriptor_;
+};
 
 /// Bytes that are written once and read often, in memory that does not grow with them: the last MiB is held, what came
 /// before is in an UnnamedFile. Different threads may read, and overwrite different bytes, at a time.
 class Scratch {
  public:
-  Scratch() = default;
-  Scratch(Scratch&& other) noexcept
-      : held_(std::move(other.held_)), in_file_(std::exchange(other.in_file_, 0)), file_(std::move(other.file_)) {}
-  Scratch& operator=(Scratch&& other) noexcept {
-    std::swap(held_, other.held_);
-    std::swap(in_file_, other.in_file_);
-    std::swap(file_, other.file_);
-    return *this;
-  }
-
-  std::uint64_t size() const { return in_file_ + held_.size(); }
+  std::uint64_t size() const { return in_file() + held_.size(); }
 
   void append(std::span<const std::byte> bytes);
 
@@ -36,11 +50,15 @@ class Scratch {
   void overwrite(std::uint64_t first, std::span<const std::byte> bytes);
 
  private:
+  struct Filed {
+    UnnamedFile file{"the rows"};
+    std::uint64_t size = 0;
+  };
+  std::uint64_t in_file() const { return filed_ ? filed_->size : 0; }
   std::size_t in_file(std::uint64_t first, std::size_t count) const;
 
   std::vector<std::byte> held_;
-  std::uint64_t in_file_ = 0;
-  std::optional<UnnamedFile> file_;
+  std::unique_ptr<Filed> filed_;
 };
 
 /// Plain values in a Scratch.

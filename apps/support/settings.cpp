@@ -12,7 +12,7 @@
 #include <toml++/toml.h>
 
 #include "support/input.hpp"
-#include "support/spelling.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 

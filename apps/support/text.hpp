@@ -1,9 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "support/error.hpp"
 
 namespace sigmax::apps {
 
@@ -26,5 +32,40 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width);
 /// The same as one text that no terminal takes for commands, see `printable`; each line ends with a line break.
 /// `any_width` breaks none.
 std::string wrapped(std::string_view text, std::size_t width = terminal_width);
+
+/// Letters to change, to add or to leave out until one word is the other (Levenshtein).
+inline std::size_t spelling_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0U : 1U);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// "did you mean …?" where a known word is near, else nothing.
+template <class Words>
+std::string nearest_word(std::string_view word, const Words& known, std::string_view prefix = {}) {
+  std::string_view nearest;
+  std::size_t least = (word.size() + 2) / 3 + 1;
+  for (const std::string_view candidate : known)
+    if (const std::size_t distance = spelling_distance(word, candidate); distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  return nearest.empty() ? "" : fmt::format("did you mean {}?", in_quotes(fmt::format("{}{}", prefix, nearest)));
+}
+
+/// As `nearest_word`, but all words where none is near.
+template <class Words>
+std::string suggestion(std::string_view word, const Words& known, std::string_view prefix = {}) {
+  std::string text = nearest_word(word, known, prefix);
+  return !text.empty() || known.empty() ? text : fmt::format("the known ones are {}", fmt::join(known, ", "));
+}
 
 }  // namespace sigmax::apps

@@ -7,9 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "result/output_options.hpp"
+#include "result/result.hpp"
 #include "support/error.hpp"
-#include "support/options.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "support/run.hpp"
+#include "support/command_line.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "apps/temporary_directory.hpp"
-#include "result/output_options.hpp"
+#include "result/result.hpp"
 #include "support/error.hpp"
 #include "support/throws.hpp"
 

@@ -10,8 +10,8 @@
 namespace sigmax::apps {
 namespace {
 
-TextTable example() {
-  TextTable table{{{"filter", Align::left}, {"RMSE x, m"}, {"β ∈ [1, 2]"}}};
+ResultTable example() {
+  ResultTable table{{{.header = "filter", .align = Align::left}, {.header = "RMSE x, m"}, {.header = "β ∈ [1, 2]"}}};
   table.row({"IMM", "12.30", "1"});
   table.row({"HIMM σ²", "5.125", "1.2"});
   return table;
@@ -26,7 +26,7 @@ TEST(Table, AlignsColumnsBelowTheirHeaders) {
 }
 
 TEST(Table, DrawsRulesBetweenRows) {
-  TextTable table{{{"a", Align::left}, {"b", Align::left}}};
+  ResultTable table{{{.header = "a", .align = Align::left}, {.header = "b", .align = Align::left}}};
   table.row({"1", ""});
   table.rule();
   table.row({"", "22"});
@@ -39,17 +39,17 @@ TEST(Table, DrawsRulesBetweenRows) {
 }
 
 TEST(Table, ShowsControlCharactersInsteadOfObeyingThem) {
-  TextTable table{{{"na\tme", Align::left}}};
+  ResultTable table{{{.header = "na\tme", .align = Align::left}}};
   table.row({"\x1B[31mred\n"});
   table.row({"\xC2\x9B 2J"});
   EXPECT_EQ(table.text(), "na\\x09me\n───────────────\n\\x1B[31mred\\x0A\n\\x9B 2J\n");
 }
 
 TEST(Table, NeedsACellAColumn) {
-  TextTable table = example();
+  ResultTable table = example();
   EXPECT_THROW(table.row({"1", "2"}), std::invalid_argument);
   EXPECT_THROW(table.row({}), std::invalid_argument);
-  EXPECT_THROW(TextTable{{}}, std::invalid_argument);
+  EXPECT_THROW(ResultTable(std::vector<ResultColumn>{}), std::invalid_argument);
 }
 
 /// No line of a text is wider than this.
@@ -81,7 +81,8 @@ TEST(Table, BreaksHeadersNoMoreThanItMust) {
 }
 
 TEST(Table, BreaksCellsOfWordsNext) {
-  TextTable table{{{"name", Align::left}, {"n"}, {"what they are", Align::left}}};
+  ResultTable table{
+      {{.header = "name", .align = Align::left}, {.header = "n"}, {.header = "what they are", .align = Align::left}}};
   table.row({"legs", "6", "0, 2, 4, 5, 6, 8 as the zoo has them"});
   table.row({"hair", "2", "0, 1"});
   EXPECT_EQ(table.text(32),
@@ -93,12 +94,12 @@ TEST(Table, BreaksCellsOfWordsNext) {
 }
 
 TEST(Table, PutsColumnsInBlocksLast) {
-  TextTable table{{{"filter", Align::left},
-                   {"x", Align::right, "before"},
-                   {"y", Align::right, "before"},
-                   {"x", Align::right, "during"},
-                   {"y", Align::right, "during"},
-                   {"NIS"}}};
+  ResultTable table{{{.header = "filter", .align = Align::left},
+                     {.header = "x", .group = "before"},
+                     {.header = "y", .group = "before"},
+                     {.header = "x", .group = "during"},
+                     {.header = "y", .group = "during"},
+                     {.header = "NIS"}}};
   table.row({"IMM", "12.30", "11.25", "13.37", "14.44", "3.01"});
   table.rule();
   table.row({"HIMM", "12.30", "11.25", "13.37", "14.44", "2.99"});
@@ -119,13 +120,13 @@ TEST(Table, PutsColumnsInBlocksLast) {
 
 TEST(Table, FitsWhateverItHolds) {
   for (std::size_t columns = 1; columns < 12; ++columns) {
-    std::vector<TextTable::Column> headers = {{"a title of several words", Align::left}};
-    std::vector<std::string> cells = {"σ² of what was seen, π(venomous = 0|type = mammal)"};
+    std::vector<ResultColumn> headers = {{.header = "a title of several words", .align = Align::left}};
+    std::vector<Cell> cells = {"σ² of what was seen, π(venomous = 0|type = mammal)"};
     for (std::size_t i = 1; i < columns; ++i) {
-      headers.push_back({"last − the first row's, points", Align::right, i % 3 == 0 ? "" : "group"});
-      cells.push_back("-10.93 ± 2.80");
+      headers.push_back({.header = "last − the first row's, points", .group = i % 3 == 0 ? "" : "group"});
+      cells.emplace_back("-10.93 ± 2.80");
     }
-    TextTable table{headers};
+    ResultTable table{headers};
     table.row(cells);
     EXPECT_TRUE(fits(table.text(80), 80)) << table.text(80);
     EXPECT_TRUE(fits(table.text(45), 45)) << table.text(45);

@@ -3,7 +3,7 @@
 #include <cassert>
 
 #include "recording/plots.hpp"
-#include "support/angle.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/angle.hpp"
-#include "support/options.hpp"
+#include "support/command_line.hpp"
+#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 

@@ -9,7 +9,7 @@
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "recording/plots.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

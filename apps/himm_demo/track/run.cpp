@@ -14,7 +14,7 @@
 #include "himm_demo/track/shares.hpp"
 #include "recording/plots.hpp"
 #include "result/table.hpp"
-#include "support/angle.hpp"
+#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"

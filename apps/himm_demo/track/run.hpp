@@ -14,8 +14,8 @@
 #include <sigmax/estimation/root_mean_square.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/options.hpp"
-#include "result/output_options.hpp"
+#include "recording/plots.hpp"
+#include "result/result.hpp"
 
 namespace sigmax::apps {
 

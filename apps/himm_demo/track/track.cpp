@@ -1,23 +1,302 @@
+#include "himm_demo/subcommands.hpp"
+
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "himm_demo/filters/keys.hpp"
-#include "himm_demo/subcommands.hpp"
 #include "himm_demo/track/page.hpp"
-#include "himm_demo/track/report.hpp"
 #include "himm_demo/track/run.hpp"
 #include "himm_demo/track/shares.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
-#include "support/command_line.hpp"
-#include "support/options.hpp"
-#include "support/run.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+std::string numbered(const std::vector<std::pair<std::string, std::size_t>>& counts) {
+  std::vector<std::string> parts;
+  for (const auto& [name, count] : counts) parts.push_back(fmt::format("{} {}", name, count));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string numbered(const std::map<std::string, std::size_t>& counts) {
+  return numbered(std::vector<std::pair<std::string, std::size_t>>(counts.begin(), counts.end()));
+}
+
+/// Makes the report part by part.
+class Reporter {
+ public:
+  Reporter(const TrackOptions& options, const RecordingReader& recording, const std::vector<FilterSettings>& filters,
+           const TrackOutcome& outcome, Result& result)
+      : options_(options), recording_(recording), filters_(filters), outcome_(outcome), result_(result) {}
+
+  std::vector<std::string> made() {
+    add_facts();
+    describe();
+    std::vector<std::string> warnings = make_warnings();
+    if (!warnings.empty()) result_.fact({"warnings"}, warnings);
+    result_.page.title = "Tracks of " + options_.recording.file;
+    for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
+    result_.page.panels.emplace_back(Words{"The recording", result_.text});
+    for (std::size_t p = 0; p < (recording_.has_roll() ? parts.size() : 1); ++p) tabulate(p);
+    explain();
+    result_.page.last.emplace_back(Words{"Settings in force", as_toml(filters_), true});
+    return warnings;
+  }
+
+ private:
+  void add_facts() {
+    const auto add = [&](const Path& path, const Cell& value) { result_.fact(path, value); };
+    add({"file"}, file_);
+    add({"seed"}, options_.seed);
+    if (const auto& sigma = options_.radar.sigma)
+      for (std::size_t i = 0; i < 3; ++i)
+        add({"radar", std::array{"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"}[i]}, (*sigma)[i]);
+    if (options_.radar.sigma || recording_.polar() || recording_.bearings())
+      for (std::size_t i = 0; i < 3; ++i) add({"radar", "at_m", i}, options_.radar.place()[i]);
+    if (const auto& origin = outcome_.origin) {
+      add({"origin", "latitude_deg"}, origin->latitude_deg);
+      add({"origin", "longitude_deg"}, origin->longitude_deg);
+      add({"origin", "altitude_m"}, origin->altitude_m);
+    }
+    add({"rows"}, outcome_.rows);
+    add({"measurements"}, outcome_.measurements);
+    if (outcome_.partial > 0) add({"partial_measurements"}, outcome_.partial);
+    if (outcome_.bearings > 0) add({"bearings"}, outcome_.bearings);
+    add({"skipped"}, recording_.skipped());
+    if (recording_.has_sensors())
+      for (const auto& [sensor, rows] : outcome_.sensors) add({"sensors", sensor}, rows);
+    if (recording_.has_tracks()) {
+      add({"tracks", "count"}, outcome_.tracks);
+      result_.fact({"tracks", "never_started"}, outcome_.never_started);
+    }
+    add({"settings_toml"}, as_toml(filters_));
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      if (const std::size_t rejected = outcome_.filters[f].rejected; rejected > 0)
+        add({"rejected", filters_[f].name}, rejected);
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      if (const std::size_t restarts = outcome_.filters[f].restarts; restarts > 0)
+        add({"restarts", filters_[f].name}, restarts);
+  }
+
+  /// What was read and how the filters started, in sentences.
+  void describe() {
+    std::vector<std::pair<bool, std::string>> all;
+    const auto say = [&](bool holds, std::string words) { all.emplace_back(holds, std::move(words)); };
+    const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
+      return filter.radar_measurement == RadarForm::polar;
+    });
+    std::vector<std::string> parts;  // of the measurements that are not positions along all axes
+    if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
+    if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));
+    say(true, fmt::format("{}: {} rows, {} measurements{}, {} {}{}{}", file_, outcome_.rows, outcome_.measurements,
+                          parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", ")), recording_.axes(),
+                          recording_.axes() == 1 ? "axis" : "axes",
+                          recording_.geodetic() ? ", geodetic to local east-north-up" : "",
+                          !recording_.polar() ? ""
+                          : converted         ? ", a radar's measurements converted"
+                                              : ", a radar's measurements"));
+    say(true, fmt::format("Taken for: {}", recording_.taken()));
+    for (const std::string& note : recording_.notes()) say(true, note);
+    say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
+    say(!outcome_.velocity_unknown.empty(),
+        "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
+            numbered(outcome_.velocity_unknown));
+    say(!outcome_.range_rate_unknown.empty(),
+        "Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps: " +
+            numbered(outcome_.range_rate_unknown));
+    const std::size_t short_ones = outcome_.never_started.size();
+    say(recording_.has_tracks(),
+        fmt::format("{} tracks by {}{}", outcome_.tracks, options_.recording.track_id,
+                    short_ones > 0 ? fmt::format(", {} of them too short for every filter to start", short_ones) : ""));
+    say(recording_.skipped() > 0,
+        fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
+    std::vector<std::pair<std::string, std::size_t>> rejected, restarts;
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      const FilterOutcome& own = outcome_.filters[f];
+      if (own.rejected > 0) rejected.emplace_back(filters_[f].name, own.rejected);
+      if (own.restarts > 0) restarts.emplace_back(filters_[f].name, own.restarts);
+    }
+    say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
+    say(outcome_.refused_by_all > 0, fmt::format("Turned away by every filter: {}, the first on line {}",
+                                                 outcome_.refused_by_all, outcome_.first_refused_line));
+    say(!restarts.empty(), "Starts after a gap, or after rejections in a row: " + numbered(restarts));
+    const auto sigma = options_.radar.sigma.value_or(Position{});
+    const auto at = options_.radar.place();
+    say(options_.radar.sigma.has_value(),
+        fmt::format("The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, "
+                    "{}, {}) m, seed {}",
+                    shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]),
+                    shortest(at[2]), options_.seed));
+    result_.say(all);
+  }
+
+  std::vector<std::string> make_warnings() const {
+    std::vector<std::string> warnings;
+    const auto warn = [&](bool holds, const auto& words) {
+      if (holds) warnings.push_back(words());
+    };
+    const Validity& validity = outcome_.validity;
+    warn(validity.outside > 0, [&] {
+      const double unit = std::pow(10.0, std::floor(std::log10(validity.sigma_range_needed)) - 1.0);
+      return fmt::format(
+          "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements "
+          "holds below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance "
+          "covers the error of the conversion, or radar_measurement=polar, which converts only for the start",
+          file_, validity.first_line, validity.first_value, validity.first_range, Validity::limit, validity.outside,
+          validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
+    });
+    const Outliers& outliers = outcome_.outliers;
+    warn(outliers.count > 0, [&] {
+      const bool many =
+          options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
+      return fmt::format(
+          "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
+          "or raise sigma_w or the sensor's sigmas{}",
+          file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
+          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
+    });
+    const Refusals& worst = outcome_.refusals;
+    warn(worst.many > 0, [&] {
+      return fmt::format(
+          "{}: the gate of filter '{}' turned {} of {} measurements{} away{}, where {:.2g} are expected: the filter "
+          "does not follow, or there are several targets or many outliers; raise sigma_w, the sensor's sigmas or "
+          "gate_probability",
+          file_, worst.filter->name, worst.rejected, worst.measurements,
+          worst.track.empty() ? "" : fmt::format(" of track '{}'", worst.track),
+          worst.many > 1 ? fmt::format(" (and of {} other filters or tracks too many)", worst.many - 1) : "",
+          (1.0 - worst.filter->gate_probability) * static_cast<double>(worst.measurements));
+    });
+    const auto& [senseless, first_senseless] = recording_.senseless();
+    warn(senseless > 0, [&, rows = senseless, line = first_senseless] {
+      return fmt::format(
+          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
+          file_, line, rows, rows == 1 ? "row counts" : "rows count");
+    });
+    const auto greatest = greatest_nis();
+    const int expected = recording_.bearings() && !recording_.located() ? 1 : recording_.axes();
+    warn(worst.many == 0 && greatest && *greatest < 0.1 * expected, [&] {  // what the gate lets pass has a low one
+      return fmt::format(
+          "{}: the mean NIS is {:.2g} at most, where {} is expected: the measurements are far better than the sensor's "
+          "sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, altitude_ft",
+          file_, *greatest, expected);
+    });
+    for (const auto& filter : filters_)
+      for (const auto& own : filter.sensors)
+        warn(!outcome_.sensors.contains(own.first), [&] {
+          return fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", own.first, filter.name,
+                             file_);
+        });
+    warn(options_.predict_to && outcome_.predicted == 0, [&] {
+      return fmt::format(
+          "{}: nothing was predicted: every track ends at the time of --predict-to or "
+          "later; write it as the recording writes its times",
+          file_);
+    });
+    return warnings;
+  }
+
+  /// The greatest mean NIS of a filter, if all have some.
+  std::optional<double> greatest_nis() const {
+    double greatest = 0.0;
+    for (const auto& filter : outcome_.filters) {
+      const InnovationTally& innovations = filter.sums[0].innovations;
+      if (innovations.count() < 10) return std::nullopt;
+      greatest = std::max(greatest, innovations.mean_nis());
+    }
+    return greatest;
+  }
+
+  /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
+  void tabulate(std::size_t p) {
+    const auto models = model_names(filters_);
+    ResultTable table;
+    if (truth_known_) table.row_of(row_of(p, models, "measurement", outcome_.raw[p], nullptr));
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      table.row_of(row_of(p, models, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f]));
+    const std::string part(parts[p].name);
+    result_.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
+  }
+
+  std::vector<Field> row_of(std::size_t p, const std::vector<std::string>& models, const std::string& name,
+                            const Sums& sums, const FilterSettings* filter) const {
+    const std::size_t count = filter ? sums.count : sums.error[0].count();
+    std::vector<Field> fields = {{{.key = "filter", .header = std::string(parts[p].name), .align = Align::left}, name},
+                                 {{.key = "rows", .header = "rows"}, count}};
+    const auto add = [&](std::string_view key, const std::string& group, const std::array<RootMeanSquare, 3>& values) {
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
+        const std::string of(1, "xyz"[axis]);
+        fields.push_back({{.key = fmt::format("{}_{}_m", key, of), .header = of, .sized = true, .group = group},
+                          values[axis].count() > 0 ? Cell(values[axis].value())
+                          : filter                 ? Cell("–")
+                                                   : Cell()});
+      }
+    };
+    if (truth_known_) add("rmse", "RMSE, m:", sums.error);
+    add("sigma", "σ, m:", sums.sigma);
+    const InnovationTally& nis = sums.innovations;
+    const bool judged = filter && nis.count() > 0;
+    fields.push_back({{.key = "mean_nis", .header = "mean", .sized = true, .group = "NIS:"},
+                      judged ? Cell(nis.mean_nis()) : Cell()});
+    fields.push_back({{.key = "median_nis", .header = "median", .sized = true, .group = "NIS:"},
+                      judged ? Cell(nis.median_nis()) : Cell()});
+    fields.push_back({{.key = "nis_inside_95", .header = "in 95 %", .digits = 1, .scale = 100.0, .group = "NIS:"},
+                      judged ? Cell(nis.share_inside()) : Cell()});
+    std::vector<std::string> weights;
+    std::map<std::string, double> by_model;
+    for (std::size_t j = 0; filter && count > 0 && j < filter->models.size(); ++j) {
+      const double weight = by_model[filter->models[j]] = sums.weights[j] / static_cast<double>(count);
+      weights.push_back(fmt::format("{} {:.3f}", filter->models[j], weight));
+    }
+    fields.push_back({{.header = "mean weights", .align = Align::left}, fmt::format("{}", fmt::join(weights, ", "))});
+    for (const auto& model : models) {
+      const auto weight = by_model.find(model);
+      fields.push_back({{.key = "mean_weight_" + model}, weight == by_model.end() ? Cell() : Cell(weight->second)});
+    }
+    return fields;
+  }
+
+  /// When the modes changed; all of it in the data, the first changes in the text.
+  void explain() {
+    constexpr std::size_t shown = 12;
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      for (const auto& [track, stays] : outcome_.filters[f].histories) {
+        if (stays.empty()) continue;
+        std::vector<std::string> told;
+        for (std::size_t i = 0; i < stays.size(); ++i) {
+          const std::string& mode = filters_[f].models[stays[i].mode];
+          result_.fact({"histories", filters_[f].name, track, i, "since_s"}, stays[i].since);
+          result_.fact({"histories", filters_[f].name, track, i, "mode"}, mode);
+          result_.fact({"histories", filters_[f].name, track, i, "start"}, stays[i].is_start);
+          if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
+        }
+        result_.text += "\n";
+        result_.say(fmt::format(
+            "Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track, fmt::join(told, ", "),
+            stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""));
+      }
+  }
+
+  const TrackOptions& options_;
+  const RecordingReader& recording_;
+  const std::vector<FilterSettings>& filters_;
+  const TrackOutcome& outcome_;
+  Result& result_;
+  const std::string& file_ = recording_.file();
+  bool truth_known_ = options_.radar.sigma || recording_.has_truth();
+};
+
+std::vector<std::string> report(const TrackOptions& options, const RecordingReader& recording,
+                                const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
+                                Result& result) {
+  return Reporter(options, recording, filters, outcome, result).made();
+}
 
 void refuse_what_means_nothing(const TrackOptions& options, const RecordingReader& recording) {
   if (options.radar.at && !options.radar.sigma && !recording.polar() && !recording.bearings())
@@ -101,10 +380,12 @@ void add_track(CLI::App& program, const std::string& command) {
       "\n"
       "Examples:\n"
       "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 --set sigma_azimuth_deg=0.2\n"
+      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 \\\n"
+      "    --set sigma_azimuth_deg=0.2\n"
       "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
-      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip --set sigma_w=0.05 \\\n"
-      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude --out results");
+      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip \\\n"
+      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude \\\n"
+      "    --set sigma_w=0.05 --out results");
   app.option(
          "--predict-to",
          [options](const std::string& text) {

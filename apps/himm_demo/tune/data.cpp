@@ -1,4 +1,4 @@
-#include "himm_demo/tune/data.hpp"
+#include "himm_demo/tune/tune.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <Eigen/Cholesky>
 
 #include "recording/plots.hpp"
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {

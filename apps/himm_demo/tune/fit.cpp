@@ -1,4 +1,4 @@
-#include "himm_demo/tune/fit.hpp"
+#include "himm_demo/tune/tune.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "support/angle.hpp"
+#include "support/numbers.hpp"
 #include "support/parallel.hpp"
-#include "support/spelling.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 

@@ -1,25 +1,416 @@
+#include "himm_demo/subcommands.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <sigmax/estimation/consistency.hpp>
+
 #include "himm_demo/filters/keys.hpp"
-#include "himm_demo/subcommands.hpp"
-#include "himm_demo/tune/report.hpp"
+#include "himm_demo/tune/tune.hpp"
 #include "result/result.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
-#include "support/options.hpp"
-#include "support/output.hpp"
+#include "support/json.hpp"
+#include "support/numbers.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
+#include "version.hpp"
 
 namespace sigmax::apps {
-
 namespace {
+
+/// What one filter's innovations say of its settings.
+struct Diagnosis {
+  struct Part {
+    std::string name;
+    InnovationTally innovations{};
+    double weight = 0.0;  ///< mean, of a mode
+  };
+  std::vector<Part> sensors;
+  std::vector<Part> modes;       ///< rows of which the mode is the most likely
+  std::optional<double> rmse_m;  ///< where the truth is known
+};
+
+/// What tuning found for one filter, and its innovations before and, if that is better, with the best settings.
+struct TuneFindings {
+  Diagnosis before;
+  std::optional<Diagnosis> after;
+  TunedFilter tuned;
+};
+
+constexpr const char *before_name = "before", *best_name = "best", *simple_name = "simple";
+
+const std::string& name_of(const TuneFindings& findings) { return findings.tuned.before().settings.name; }
+
+const char* unit_of(Objective objective) { return objective == Objective::rmse ? "RMSE, m" : "nats a row"; }
+
+/// What is wrong with a sensor, in words.
+std::string_view verdict_of(const InnovationTally& sensor) {
+  if (sensor.count() < 10) return "too few rows to say";
+  const double nis = sensor.mean_square(), apart = sensor.autocorrelation();
+  const bool high = nis > sensor.band().upper, low = nis < sensor.band().lower;
+  const bool lags = apart > sensor.autocorrelation_band(), overshoots = apart < -sensor.autocorrelation_band();
+  if (high) return lags ? "models too stiff" : "optimistic sensor";
+  if (low) return overshoots ? "models too loose" : "pessimistic sensor";
+  return lags ? "gain too low" : overshoots ? "gain too high" : "as it should be";
+}
+
+/// What to do: sentences.
+std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
+  const std::map<std::string_view, std::string_view> remedies = {
+      {"models too stiff", "errors are greater than believed, and last: raise sigma_w, or add a model that manoeuvres"},
+      {"optimistic sensor",
+       "errors are greater than believed, and do not last: raise its sigmas, by a factor of {:.2g} at most"},
+      {"models too loose", "errors are smaller than believed, and alternate: lower sigma_w"},
+      {"pessimistic sensor", "errors are smaller than believed: lower its sigmas, by a factor of {:.2g} at most"},
+      {"gain too low", "errors last: raise sigma_w, or lower its sigmas"},
+      {"gain too high", "errors alternate: lower sigma_w, or raise its sigmas"}};
+  std::vector<std::string> sentences;
+  for (const auto& [name, innovations, weight] : diagnosis.sensors)
+    if (const auto found = remedies.find(verdict_of(innovations)); found != remedies.end())
+      sentences.push_back(fmt::format("{}{}: {}.", name == "all rows" ? "" : "sensor ", name,
+                                      fmt::format(fmt::runtime(found->second), std::sqrt(innovations.mean_square()))));
+  std::size_t rows = 0;
+  for (const auto& mode : diagnosis.modes) rows += mode.innovations.count();
+  for (const auto& mode : diagnosis.modes)
+    if (diagnosis.modes.size() > 1 && 100 * mode.innovations.count() < rows)
+      sentences.push_back(
+          fmt::format("model {}: it is almost never the most likely: drop it, or let it differ more.", mode.name));
+  if (sentences.empty())
+    sentences.push_back("nothing: the innovations are as large and as independent as they should be.");
+  return sentences;
+}
+
+/// A table of sensors or of modes.
+ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool modes) {
+  std::vector<ResultColumn> columns = {{.key = "part", .header = modes ? "mode" : "sensor", .align = Align::left},
+                                       {.key = "rows", .header = "rows"},
+                                       {.key = "nis", .header = "NIS"},
+                                       {.header = "right"},
+                                       {.key = "nis_lower"},
+                                       {.key = "nis_upper"}};
+  if (modes)
+    columns.push_back({.key = "mean_weight", .header = "mean weight", .digits = 3});
+  else
+    columns.insert(columns.end(), {{.key = "neighbours", .header = "neighbours", .sign = true},
+                                   {.key = "neighbours_right", .header = "right"},
+                                   {.key = "verdict", .header = "verdict", .align = Align::left}});
+  ResultTable table(columns);
+  for (const auto& [name, tally, weight] : parts) {
+    const bool any = tally.count() > 0;
+    const Band band = any ? tally.band() : Band{nan, nan};
+    std::vector<Cell> cells = {name,
+                               tally.count(),
+                               any ? Cell(tally.mean_square(), fmt::format("{:.3g}", tally.mean_square())) : Cell(nan),
+                               any ? fmt::format("{:.2f}–{:.2f}", band.lower, band.upper) : "–",
+                               band.lower,
+                               band.upper};
+    const double right = tally.autocorrelation_band();
+    if (modes)
+      cells.emplace_back(weight);
+    else
+      cells.insert(cells.end(),
+                   {tally.autocorrelation(), Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
+    table.row(std::move(cells));
+  }
+  return table;
+}
+
+ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
+  ResultTable table({{.key = "models", .header = "models", .align = Align::left},
+                     {.key = "remark"},
+                     {.key = "numbers", .header = "fitted numbers"},
+                     {.key = "fitted", .header = fmt::format("fitted, {}", unit_of(objective))},
+                     {.key = "held_out", .header = fmt::format("held out, {}", unit_of(objective))},
+                     {.key = "gain", .header = objective == Objective::rmse ? "gain, m²" : "gain held out"},
+                     {.key = "gain_error"},
+                     {.header = " ", .align = Align::left}});
+  const auto figure = [&](double loss) {
+    const double value = figure_of(loss, objective);
+    return Cell(value, fmt::format("{:.4g}", value));
+  };
+  for (std::size_t c = 0; c < tuned.candidates.size(); ++c) {
+    const Candidate& candidate = tuned.candidates[c];
+    const auto& [gain, error] = candidate.gain;
+    std::string remark = c == tuned.selected.best ? best_name : "";
+    if (c == tuned.selected.simple) remark += remark.empty() ? simple_name : ", simple";
+    table.row({candidate.name, remark, tuned.numbers[c], figure(candidate.fitted), figure(candidate.held_out),
+               c == 0 ? Cell() : Cell(gain, fmt::format("{:+.3g} ± {:.2g}", gain, error)),
+               c == 0 ? Cell() : Cell(error), remark});
+  }
+  return table;
+}
+
+/// The settings that differ; "–" where there is none.
+ResultTable changes_table(const TunedFilter& tuned) {
+  const FilterSettings &before = tuned.before().settings, &best = tuned.best().settings,
+                       &simple = tuned.simple().settings;
+  const bool two = tuned.selected.simple != tuned.selected.best;
+  ResultTable table({{.key = "key", .header = "key", .align = Align::left},
+                     {.key = before_name, .header = before_name, .align = Align::left},
+                     {.key = best_name, .header = best_name, .align = Align::left},
+                     {.key = simple_name, .header = two ? simple_name : "", .align = Align::left}});
+  const auto add = [&](const std::string& name, const auto& value) {
+    std::vector<Cell> cells = {name};
+    std::set<std::string> different;
+    for (const FilterSettings* settings : {&before, &best, &simple}) {
+      const std::string text = value(*settings);
+      different.insert(text);
+      cells.emplace_back(text.empty() ? "–" : text);
+    }
+    if (different.size() > 1) table.row(std::move(cells));
+  };
+  for (const auto& key : filter_keys())
+    add(key.name, [&](const FilterSettings& settings) { return key.applies(settings) ? key.write(settings) : ""; });
+  std::set<std::string> sensors;
+  for (const auto* settings : {&before, &best, &simple})
+    for (const auto& [name, accuracy] : settings->sensors) sensors.insert(name);
+  for (const auto& key : accuracy_keys()) {
+    add(key.name, [&](const FilterSettings& settings) { return key.write(settings.accuracy); });
+    for (const auto& sensor : sensors)
+      add(fmt::format("sensor.{}.{}", sensor, key.name),
+          [&](const FilterSettings& settings) { return key.write(settings.accuracy_of(sensor)); });
+  }
+  return table;
+}
+
+/// What settings lose in each fold, held out, and in all of them.
+struct FoldFigures {
+  const char* name;
+  std::vector<double> figures;
+};
+
+/// Of the settings before, the best and the simple ones, as far as they differ.
+std::vector<FoldFigures> by_fold(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
+  const RowFolds folds = data.folds(options.folds);
+  const auto& [best, simple] = tuned.selected;
+  std::vector<FoldFigures> all;
+  const auto add = [&](const char* name, std::size_t candidate) {
+    auto& figures = all.emplace_back(FoldFigures{name, {}}).figures;
+    for (std::size_t fold = 0; fold <= options.folds; ++fold)
+      figures.push_back(figure_of(
+          objective_of(tuned.held_out[candidate], options.objective,
+                       [&](std::size_t t, std::size_t k) { return fold == options.folds || folds[t][k] == fold; }),
+          options.objective));
+  };
+  add(before_name, 0);
+  if (best != 0) add(best_name, best);
+  if (simple != best && simple != 0) add(simple_name, simple);
+  return all;
+}
+
+std::string name_of_fold(std::size_t fold, const TuneOptions& options) {
+  return fold == options.folds ? "all folds" : fmt::format("fold {}", fold + 1);
+}
+
+/// The innovations before, and with the best settings.
+std::vector<std::pair<const char*, const Diagnosis*>> diagnoses(const TuneFindings& findings) {
+  std::vector<std::pair<const char*, const Diagnosis*>> all = {{before_name, &findings.before}};
+  if (findings.after) all.emplace_back(best_name, &*findings.after);
+  return all;
+}
+
+/// NIS or correlation of neighbours, before and after, in their bands. `figure(tally)` is the number and its band.
+template <class Figure>
+IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings, bool modes, const Figure& figure) {
+  chart.wanted_label = "95 % of right filters";
+  std::vector<std::map<std::string, const InnovationTally*>> parts;
+  for (const auto& [when, diagnosis] : diagnoses(findings)) {
+    auto& own = parts.emplace_back();
+    const auto add = [&](const std::string& row, const InnovationTally& tally) {
+      own[row] = &tally;
+      if (std::find(chart.rows.begin(), chart.rows.end(), row) == chart.rows.end()) chart.rows.push_back(row);
+    };
+    for (const auto& sensor : diagnosis->sensors) add(sensor.name, sensor.innovations);
+    for (const auto& mode : diagnosis->modes)
+      if (modes) add("mode " + mode.name, mode.innovations);
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const char* const name = diagnoses(findings)[i].first;
+    IntervalSeries series{.name = name, .group = name, .values = {}};
+    for (const auto& row : chart.rows) {
+      const auto found = parts[i].find(row);
+      const bool any = found != parts[i].end() && found->second->count() > 0;
+      const auto [value, band] = any ? figure(*found->second) : std::pair(nan, Band{nan, nan});
+      series.values.push_back({value, 0.0});
+      series.wanted.push_back({band.lower, band.upper});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+IntervalChart fold_chart(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
+  IntervalChart chart{.title = "Held out, by fold",
+                      .x_label = fmt::format("{}; less is better", unit_of(options.objective)),
+                      .rows = {},
+                      .series = {},
+                      .digits = 4};
+  for (std::size_t fold = 0; fold <= options.folds; ++fold) chart.rows.push_back(name_of_fold(fold, options));
+  for (const auto& [name, figures] : by_fold(tuned, options, data)) {
+    auto& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+    for (const double figure : figures) series.values.push_back({figure, 0.0});
+  }
+  return chart;
+}
+
+/// What came of it.
+std::string sentence_of(const TuneFindings& findings, Objective objective) {
+  const TunedFilter& tuned = findings.tuned;
+  const Candidate& best = tuned.best();
+  if (tuned.selected.best == 0) return fmt::format("{}: no settings are better than those before.", name_of(findings));
+  std::string text =
+      fmt::format("{}: {} with {} fitted numbers is best; held out it has {:.4g} {} rather than {:.4g}.",
+                  name_of(findings), best.name, tuned.numbers[tuned.selected.best], figure_of(best.held_out, objective),
+                  unit_of(objective), figure_of(tuned.before().held_out, objective));
+  if (findings.before.rmse_m && findings.after->rmse_m)
+    text += fmt::format(" RMSE against the truth: {:.4g} m before, {:.4g} m now.", *findings.before.rmse_m,
+                        *findings.after->rmse_m);
+  return text;
+}
+
+View view_of(const TuneFindings& findings, const TuneOptions& options, const TuneData& data) {
+  View view{name_of(findings), {}};
+  const auto all = diagnoses(findings);
+  const auto when = [&](std::size_t i) { return i == 0 ? "before" : "with the best settings"; };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    view.panels.emplace_back(Words{fmt::format("What the innovations say, {}", when(i)),
+                                   fmt::format("{}", fmt::join(advice_of(*all[i].second), "\n"))});
+  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1", .rows = {}, .series = {}};
+  nis.reference = 1.0;
+  nis.digits = 3;
+  view.panels.emplace_back(innovation_chart(
+      nis, findings, true, [](const InnovationTally& tally) { return std::pair(tally.mean_square(), tally.band()); }));
+  nis.title = "Correlation of neighbouring innovations";
+  nis.x_label = "correlation; right is 0";
+  nis.reference = 0.0;
+  view.panels.emplace_back(innovation_chart(nis, findings, false, [](const InnovationTally& tally) {
+    const double band = tally.autocorrelation_band();
+    return std::pair(tally.autocorrelation(), Band{-band, band});
+  }));
+  view.panels.emplace_back(fold_chart(findings.tuned, options, data));
+  view.panels.emplace_back(ReportTable{"Sets of models", candidates_table(findings.tuned, options.objective)});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    view.panels.emplace_back(ReportTable{fmt::format("Innovations of each sensor, {}", when(i)),
+                                         innovations_table(all[i].second->sensors, false)});
+    view.panels.emplace_back(ReportTable{fmt::format("Rows by their most likely mode, {}", when(i)),
+                                         innovations_table(all[i].second->modes, true)});
+  }
+  if (const ResultTable settings = changes_table(findings.tuned); !settings.empty())
+    view.panels.emplace_back(ReportTable{"Settings that change", settings});
+  return view;
+}
+
+Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objective objective) {
+  Diagnosis diagnosis;
+  std::map<std::string, InnovationTally, std::less<>> sensors;
+  for (const auto& model : settings.models) diagnosis.modes.push_back({model});
+  std::map<std::string, std::vector<double>, std::less<>> last;  // by sensor, of the track at hand
+  std::size_t track = 0, rows = 0, judged = 0;
+  double squares = 0.0;
+  const auto look = [&](std::size_t t, const TargetPoint& now) {
+    if (t != track) last.clear();
+    track = t;
+    const Row& row = data.tracks[t].rows[now.tag];
+    if (row.truth) {
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(data.axes); ++axis)
+        squares += std::pow(now.mean[axis] - (*row.truth)[axis], 2);
+      ++judged;
+    }
+    if (!now.nis) return;
+    sensors[row.sensor].add(now.normalized_innovation, last[row.sensor]);
+    diagnosis.modes[now.most_likely_mode].innovations.add(now.normalized_innovation);
+    last[row.sensor] = now.normalized_innovation;
+    for (std::size_t j = 0; j < now.weights.size(); ++j) diagnosis.modes[j].weight += now.weights[j];
+    ++rows;
+  };
+  RowLosses lost;
+  try {
+    lost = losses(data, settings, objective, look);
+  } catch (const std::exception& error) {
+    const TuneTrack& its = data.tracks[track];
+    throw InputError(
+        message({.where = fmt::format("{}:{}", its.file, its.rows.front().line),
+                 .what = fmt::format("filter '{}' on the track that begins here: {}", settings.name, error.what()),
+                 .remedy = "begin with settings that track takes, see --config and --set"}));
+  }
+  if (std::isnan(mean_loss(lost)))
+    throw InputError(
+        message({.where = data.tracks.front().file,
+                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
+                                     settings.name),
+                 .remedy = "give bearings a start of their own, --set start=given; see himm_demo tune --help"}));
+  for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
+  for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
+  if (judged > 0) diagnosis.rmse_m = std::sqrt(squares / static_cast<double>(judged));
+  return diagnosis;
+}
+
+std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
+  std::string text = innovations_table(diagnosis.sensors, false).text(width) + "\n" +
+                     innovations_table(diagnosis.modes, true).text(width);
+  for (const auto& sentence : advice_of(diagnosis))
+    for (std::size_t line = 0;
+         const auto& each : lines_of(printable(sentence), width == any_width ? any_width : width - 2))
+      text += (line++ == 0 ? "- " : "  ") + each + "\n";
+  return text;
+}
+
+std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t width) {
+  const ResultTable changes = changes_table(tuned);
+  return candidates_table(tuned, objective).text(width) + "\n" +
+         (changes.empty() ? "No setting changes.\n" : changes.text(width));
+}
+
+Json summary_of(const TuneOptions& options, const TuneData& data, const std::vector<TuneFindings>& all) {
+  Json summary = {{"version", version},
+                  {"command", options.page.command},
+                  {"measurements", data.measurements},
+                  {"objective", unit_of(options.objective)},
+                  {"folds", options.folds},
+                  {"seed", options.seed}};
+  for (const TuneFindings& findings : all) {
+    Json& filter = summary["filters"][name_of(findings)];
+    for (const auto& [when, diagnosis] : diagnoses(findings)) {
+      filter[when]["sensors"] = innovations_table(diagnosis->sensors, false).json();
+      filter[when]["modes"] = innovations_table(diagnosis->modes, true).json();
+      filter[when]["advice"] = advice_of(*diagnosis);
+      if (diagnosis->rmse_m) filter[when]["rmse_m"] = *diagnosis->rmse_m;
+    }
+    for (std::size_t fold = 0; fold <= options.folds; ++fold)
+      for (const auto& [name, figures] : by_fold(findings.tuned, options, data))
+        filter["held_out"][name_of_fold(fold, options)][name] = figures[fold];
+    filter["candidates"] = candidates_table(findings.tuned, options.objective).json();
+    filter["settings"] = changes_table(findings.tuned).json();
+  }
+  return summary;
+}
+
+Report page_of(const std::string& heading, const TuneOptions& options, const TuneData& data,
+               const std::vector<TuneFindings>& all) {
+  Report page{.title = fmt::format("Settings for {}", fmt::join(options.files, ", ")),
+              .verdict = {heading},
+              .command = options.page.command,
+              .groups = {},
+              .panels = {},
+              .chooser = "Filter"};
+  std::set<std::string> names;
+  for (const TuneFindings& findings : all) {
+    page.verdict.push_back(sentence_of(findings, options.objective));
+    page.views.push_back(view_of(findings, options, data));
+    for (const auto& [name, figures] : by_fold(findings.tuned, options, data))
+      if (names.insert(name).second) page.groups.push_back({name});
+    page.last.emplace_back(
+        Words{"The best settings of " + name_of(findings), as_toml({findings.tuned.best().settings}), true});
+  }
+  return page;
+}
 
 /// What is read must not be written over.
 void refuse_inputs(const TuneOptions& options) {
@@ -161,7 +552,8 @@ void add_tune(CLI::App& program, const std::string& command) {
   app.footer(
       "Examples:\n"
       "  himm_demo tune flight.csv --out best.toml\n"
-      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0 --truth\n"
+      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --truth \\\n"
+      "    --radar-at=-20000,-10000,0\n"
       "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
   app.run([options] { tune_and_write(*options); });
 }

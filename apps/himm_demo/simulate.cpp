@@ -1,23 +1,382 @@
 #include "himm_demo/subcommands.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <map>
 #include <memory>
+#include <span>
+#include <tuple>
 
 #include <fmt/format.h>
 
+#include <sigmax/estimation/chi_square.hpp>
+
+#include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
 #include "himm_demo/filters/keys.hpp"
-#include "himm_demo/simulate/performance.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
-#include "support/command_line.hpp"
-#include "support/missing.hpp"
-#include "support/options.hpp"
+#include "study/study.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+/// What all runs say of one filter, or of the raw measurement. Samples and phases are counted from 0; what is by sample
+/// is NaN before the first estimate.
+class Performance {
+ public:
+  /// Of the measurement, if there is no filter.
+  explicit Performance(const Experiment& experiment, const FilterSettings* filter = nullptr)
+      : experiment_(experiment),
+        filter_(filter),
+        manoeuvre_(filter ? manoeuvre_model(*filter) : std::nullopt),
+        figures_(first_weight + (filter ? filter->models.size() : 0)),
+        sums_(figures_ * static_cast<std::size_t>(experiment.scenario.samples), 0.0),
+        spread_(3 * static_cast<std::size_t>(experiment.scenario.samples)) {}
+
+  const FilterSettings* filter() const { return filter_; }
+  std::string name() const { return filter_ ? filter_->name : "measurement"; }
+
+  /// What is summed up of a sample beside squared errors by axis, which come first, and the weights, which come last.
+  enum Figure : std::size_t { nees_position = 3, nees_velocity, nis, nis_count, weight_count, first_weight };
+
+  /// The numbers of a run go into a row, and out of it into the sums; `row` begins behind them afterwards.
+  void append(const Trace& trace, Study::Row& row) const {
+    row.resize(row.size() + squares, 0.0);
+    add_squares(experiment_.scenario, trace.error, &row[row.size() - squares]);
+    std::optional<double> crossing;
+    if (manoeuvre_)
+      crossing =
+          cross_time(experiment_, [&](std::size_t k) { return weight_difference(trace.weights[k], *manoeuvre_); });
+    row.push_back(crossing.value_or(nan));
+    for (std::size_t k = 0; k < trace.error.size(); ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) row.push_back(trace.squared_error(k, axis));
+      const bool taken = !std::isnan(trace.nis[k]);  // else the gate turned the measurement away
+      const auto& weights = trace.weights[k];
+      row.insert(row.end(), {trace.nees_position[k], trace.nees_velocity[k], taken ? trace.nis[k] : 0.0,
+                             taken ? 1.0 : 0.0, weights.empty() ? 0.0 : 1.0});
+      row.insert(row.end(), weights.begin(), weights.end());
+      row.resize(row.size() + figures_ - first_weight - weights.size(), 0.0);
+    }
+  }
+  void add(std::span<const double>& row) {
+    for (std::size_t i = 0; i < squares; ++i) run_squares_[i].push_back(row[i]);
+    if (!std::isnan(row[squares])) crossings_.push_back(row[squares]);
+    row = row.subspan(squares + 1);
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += row[i];
+    for (std::size_t i = 0; i < spread_.size(); ++i) spread_[i].add(row[i / 3 * figures_ + i % 3]);
+    row = row.subspan(sums_.size());
+  }
+
+  double rmse(std::size_t sample, std::size_t axis) const { return std::sqrt(sum(sample, axis) / runs()); }
+  /// At 95 % confidence.
+  double rmse_half_width(std::size_t sample, std::size_t axis) const {
+    return spread_[3 * sample + axis].interval().half_width / (2.0 * rmse(sample, axis));  // delta method
+  }
+
+  /// The mean of NEES or NIS at a sample, over a phase, or over all of them; 3 if consistent, or 6 with the velocity.
+  double at(std::size_t sample, Figure figure) const {
+    const double count = figure == nis ? sum(sample, nis_count) : runs();
+    return count > 0.0 ? sum(sample, figure) / count : nan;
+  }
+  double mean(Figure figure, std::optional<std::size_t> phase = std::nullopt) const {
+    double sums = 0.0, samples = 0.0;
+    for (const Phase& each : experiment_.scenario.phases) {
+      const double mean = figure == nis ? phase_mean(each, [&](std::size_t k) { return sum(k, nis); }) /
+                                              phase_mean(each, [&](std::size_t k) { return sum(k, nis_count); })
+                                        : phase_mean(each, [&](std::size_t k) { return sum(k, figure) / runs(); });
+      if (phase && &each == &experiment_.scenario.phases[*phase]) return mean;
+      const double length = each.last - each.first + 1;
+      sums += length * mean;
+      samples += length;
+    }
+    return sums / samples;
+  }
+
+  /// Means of the models' weights, as they are told of a sample; empty before the first estimate.
+  std::vector<double> told_weights(std::size_t sample) const {
+    const auto source = experiment_.mode_sample(sample);
+    return source ? weights(*source) : std::vector<double>();
+  }
+
+  /// Root mean square over the samples of a phase: by axis, and of the distance.
+  double phase_rmse(std::size_t phase, std::size_t axis) const {
+    return std::sqrt(
+        phase_mean(experiment_.scenario.phases[phase], [&](std::size_t k) { return sum(k, axis) / runs(); }));
+  }
+  double phase_rmse(std::size_t phase) const {
+    const double x = phase_rmse(phase, 0), y = phase_rmse(phase, 1), z = phase_rmse(phase, 2);
+    return std::sqrt(x * x + y * y + z * z);
+  }
+  /// Of all phases.
+  double peak_rmse(std::size_t axis) const {
+    double peak = 0.0;
+    for (const Phase& phase : experiment_.scenario.phases)
+      for (int k = phase.first; k <= phase.last; ++k)
+        peak = std::max(peak, rmse(static_cast<std::size_t>(k - 1), axis));
+    return peak;
+  }
+
+  /// When the manoeuvre model's weight first crosses the other's upwards after the onset, in (fractional) samples, over
+  /// the runs that crossed, how many those are, and of the averaged curves. None of it holds for a filter without a
+  /// manoeuvre model, or a smoothed one, which knows of the manoeuvre before it begins.
+  std::optional<Interval> cross_time_of_runs() const {
+    return crossings_.empty() ? std::nullopt : std::optional(mean_interval(crossings_));
+  }
+  std::optional<std::size_t> runs_crossed() const {
+    return manoeuvre_ ? std::optional(crossings_.size()) : std::nullopt;
+  }
+  std::optional<double> cross_time_of_curves() const {
+    if (!manoeuvre_) return std::nullopt;
+    return cross_time(experiment_, [&](std::size_t k) { return weight_difference(weights(k), *manoeuvre_); });
+  }
+
+  /// This RMSE minus that of another one in one phase and axis, paired by run (delta method).
+  Interval minus(const Performance& other, std::size_t phase, std::size_t axis) const {
+    // RMSE = √mean(m) over the runs' mean squares m; its first-order change with one run's m is m / (2 RMSE n).
+    const double own = phase_rmse(phase, axis), others = other.phase_rmse(phase, axis);
+    const auto& own_squares = run_squares_[3 * phase + axis];
+    const auto& others_squares = other.run_squares_[3 * phase + axis];
+    std::vector<double> influence(own_squares.size());
+    for (std::size_t s = 0; s < influence.size(); ++s)
+      influence[s] = own_squares[s] / (2.0 * own) - others_squares[s] / (2.0 * others);
+    return {own - others, mean_interval(influence).half_width};
+  }
+
+ private:
+  std::vector<double> weights(std::size_t sample) const {
+    std::vector<double> weights;
+    for (std::size_t i = first_weight; i < figures_ && sum(sample, weight_count) > 0.0; ++i)
+      weights.push_back(sum(sample, i) / runs());
+    return weights;
+  }
+  double sum(std::size_t sample, std::size_t figure) const { return sums_[sample * figures_ + figure]; }
+  double runs() const { return static_cast<double>(experiment_.runs); }
+
+  const Experiment& experiment_;
+  const FilterSettings* filter_;
+  std::optional<std::size_t> manoeuvre_;  // its model
+  std::size_t figures_;
+  std::vector<double> sums_;                                // over the runs, in their order
+  std::vector<RunningMean> spread_;                         // of squared errors, by sample and axis
+  std::array<std::vector<double>, squares> run_squares_{};  // by run
+  std::vector<double> crossings_;
+};
+
+/// So many filters that not all can be told apart at once.
+bool crowded(const Experiment& experiment) { return experiment.filters.size() > 6; }
+
+/// Of the measurement, then of the filters, so far of no run; and all numbers of a run, which are added to all of them.
+std::vector<Performance> performances(const Experiment& experiment) {
+  std::vector<Performance> all = {Performance(experiment, nullptr)};
+  for (const auto& filter : experiment.filters) all.emplace_back(experiment, &filter);
+  return all;
+}
+
+Study::Row row_of(const std::vector<Performance>& performances, const TracedRun& run) {
+  Study::Row row;
+  performances[0].append(run.measurement, row);
+  for (std::size_t f = 0; f < run.filters.size(); ++f) performances[f + 1].append(run.filters[f], row);
+  return row;
+}
+
+void add(std::span<const double> row, std::vector<Performance>& performances) {
+  for (Performance& of : performances) of.add(row);
+}
+
+using Samples = std::vector<double>;
+
+/// Where a position in plan lies with a probability of 95 %, if it is normal.
+ErrorEllipse error_ellipse(const std::string& group, const Vector<3>& centre, const SquareMatrix<3>& covariance) {
+  const double chi_square = -2.0 * std::log(0.05);  // the 95 % quantile with two degrees of freedom
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1)), apart = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  const double radius = std::hypot(apart, covariance(0, 1));  // of Mohr's circle: variances are mean ± radius
+  const double angle = 0.5 * std::atan2(covariance(0, 1), apart) / degree;
+  return {group,
+          centre.x(),
+          centre.y(),
+          std::sqrt(chi_square * (mean + radius)),
+          std::sqrt(chi_square * std::max(0.0, mean - radius)),
+          angle > 45.0 ? angle - 180.0 : angle};  // of both directions of the axis the one from −135° on
+}
+
+/// Makes the panels of all runs and of one run alike.
+class Views {
+ public:
+  explicit Views(const Experiment& experiment) : experiment_(experiment), one_(experiment) {
+    one_.runs = 1;
+    const Phase& manoeuvre = experiment_.scenario.phases[1];
+    shaded_ = {{static_cast<double>(manoeuvre.first), static_cast<double>(manoeuvre.last), "manoeuvre"}};
+  }
+
+  View all_runs(const std::vector<Performance>& found, const TracedRun& first) const {
+    View view{experiment_.runs == 1 ? "the only run" : fmt::format("all {} runs", experiment_.runs), {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) view.panels.emplace_back(rmse(found, axis));
+    add_consistency(view, found, "mean ");
+    view.panels.emplace_back(plan(first, 1));
+    return view;
+  }
+
+  View one_run(const TracedRun& run, std::size_t number) const {
+    View view{fmt::format("run {}", number), {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) view.panels.emplace_back(error(run, axis));
+    std::vector<Performance> found = performances(one_);
+    add(row_of(found, run), found);
+    add_consistency(view, found, "");
+    view.panels.emplace_back(plan(run, number));
+    return view;
+  }
+
+ private:
+  const std::string& name(std::size_t f) const { return experiment_.filters[f].name; }
+
+  /// The numbers of all samples, counted from 0.
+  template <class Value>
+  Samples by_sample(const Value& value) const {
+    Samples values;
+    for (int k = 0; k < experiment_.scenario.samples; ++k) values.push_back(value(static_cast<std::size_t>(k)));
+    return values;
+  }
+
+  LineChart chart(std::string title, std::string y_label) const {
+    return {.title = std::move(title),
+            .x_label = "sample",
+            .y_label = std::move(y_label),
+            .x = by_sample([](std::size_t k) { return static_cast<double>(k + 1); }),
+            .curves = {},
+            .shaded = shaded_};
+  }
+
+  LineChart rmse(const std::vector<Performance>& found, std::size_t axis) const {
+    LineChart made = chart(fmt::format("RMSE in {}", axis_names[axis]), "RMSE, m");
+    for (const Performance& of : found) {
+      const auto value = [&](std::size_t k) { return of.rmse(k, axis); };
+      const auto shifted = [&](double widths) {
+        return by_sample([&](std::size_t k) { return value(k) + widths * of.rmse_half_width(k, axis); });
+      };
+      Curve& curve = made.curves.emplace_back(Curve{of.name(), of.name(), by_sample(value)});
+      if (crowded(experiment_)) continue;
+      curve.lower = shifted(-1.0);
+      curve.upper = shifted(1.0);
+    }
+    if (experiment_.runs > 1 && !crowded(experiment_)) made.note = "Bands: 95 % confidence of the RMSE over the runs.";
+    return made;
+  }
+
+  LineChart error(const TracedRun& run, std::size_t axis) const {
+    LineChart made = chart(fmt::format("Error in {}", axis_names[axis]), "error, m");
+    const auto errors = [&](const Trace& trace) {
+      return by_sample([&](std::size_t k) { return trace.error[k][axis]; });
+    };
+    made.curves.push_back(
+        {.name = measurement_name, .group = measurement_name, .values = errors(run.measurement), .dots = true});
+    for (std::size_t f = 0; f < experiment_.filters.size(); ++f)
+      made.curves.push_back({name(f), name(f), errors(run.filters[f])});
+    return made;
+  }
+
+  /// Weights, NEES and NIS of the filters.
+  void add_consistency(View& view, const std::vector<Performance>& found, const std::string& mean) const {
+    view.panels.emplace_back(weights(found, mean + "probability (IMM) or possibility (HIMM)"));
+    for (const auto& [title, label, figure] : {std::tuple("NEES of the position", "NEES", Performance::nees_position),
+                                               std::tuple("NIS", "NIS", Performance::nis)}) {
+      LineChart made = chart(title, mean + label);
+      const Band band = chi_square_band(3, mean.empty() ? 1 : experiment_.runs);
+      made.expected = {{band.lower, band.upper, "95 % if consistent"}};
+      for (std::size_t f = 0; f < experiment_.filters.size(); ++f)
+        made.curves.push_back(
+            {name(f), name(f), by_sample([&, figure = figure](std::size_t k) { return found[f + 1].at(k, figure); })});
+      limit_axis(made);
+      view.panels.emplace_back(std::move(made));
+    }
+  }
+
+  /// A curve of each filter and model; the dash tells the model.
+  LineChart weights(const std::vector<Performance>& found, std::string y_label) const {
+    LineChart made = chart("Mode weights", std::move(y_label));
+    made.greatest_y = 1.05;
+    const std::vector<std::string> models = model_names(experiment_.filters);
+    for (std::size_t f = 0; f < experiment_.filters.size(); ++f) {
+      const auto& own = experiment_.filters[f].models;
+      for (std::size_t j = 0; j < own.size(); ++j) {
+        const auto weight = [&](std::size_t k) {
+          const std::vector<double> weights = found[f + 1].told_weights(k);
+          return weights.empty() ? nan : weights[j];
+        };
+        const auto model = std::find(models.begin(), models.end(), own[j]) - models.begin();
+        made.curves.push_back({.name = name(f) + " " + own[j],
+                               .group = name(f),
+                               .values = by_sample(weight),
+                               .dash = static_cast<int>(model)});
+      }
+    }
+    return made;
+  }
+
+  /// The track of a run; with an error ellipse of each filter at a few samples.
+  Plan plan(const TracedRun& run, std::size_t number) const {
+    Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m", .traces = {}};
+    const auto add = [&](const std::string& of, PlanTrace::Shape shape, const auto& at) {
+      const auto along = [&](Eigen::Index axis) { return by_sample([&](std::size_t k) { return at(k)(axis); }); };
+      plan.traces.push_back({.name = of, .group = of, .shape = shape, .x = along(0), .y = along(1), .z = along(2)});
+    };
+    const auto seen_by = [&](const Trace& trace) {
+      return [&](std::size_t k) -> Vector<3> { return run.truth[k].head<3>() + Vector<3>(trace.error[k].data()); };
+    };
+    add(measurement_name, PlanTrace::Shape::dots, seen_by(run.measurement));
+    add(truth_name, PlanTrace::Shape::line, [&](std::size_t k) -> Vector<3> { return run.truth[k].head<3>(); });
+    for (std::size_t f = 0; f < experiment_.filters.size(); ++f) {
+      add(name(f), PlanTrace::Shape::line, seen_by(run.filters[f]));
+      for (std::size_t k = 4; !crowded(experiment_) && k < run.truth.size(); k += 5) {
+        const auto& covariance = run.filters[f].covariance[k];
+        if (!std::isnan(covariance(0, 0)))
+          plan.ellipses.push_back(error_ellipse(name(f), seen_by(run.filters[f])(k), covariance));
+      }
+    }
+    // The corners of the target's way from a little before the manoeuvre on.
+    const auto onset = static_cast<std::size_t>(experiment_.scenario.phases[1].first - 1);
+    const std::size_t first = onset < 3 ? 0 : onset - 3, last = std::min(onset + 15, run.truth.size() - 1);
+    for (const Eigen::Index axis : {0, 1}) {
+      const auto [least, greatest] = std::minmax(run.truth[first](axis), run.truth[last](axis));
+      plan.focus.insert(plan.focus.end(), {least, greatest});
+    }
+    plan.note = "It opens at the beginning of the manoeuvre.";
+    if (!plan.ellipses.empty()) plan.note += " Ellipses: 95 % as each filter states it, every 5 samples.";
+    return plan;
+  }
+
+  const Experiment& experiment_;
+  Experiment one_;  // of one run
+  std::vector<Marked> shaded_;
+};
+
+int runs_in_page(const Experiment& experiment) {
+  constexpr std::size_t most_numbers = 42000;                          // some 350 kB
+  const std::size_t per_sample = 12 + experiment.filters.size() * 12;  // coordinates, errors, weights, NEES and NIS
+  const auto fit =
+      static_cast<int>(most_numbers / (per_sample * static_cast<std::size_t>(experiment.scenario.samples)));
+  return crowded(experiment) ? 1 : std::min(std::clamp(fit, 1, 8), experiment.runs);
+}
+
+/// The experiment as the views of a page: curves over the samples of all runs (Figs. 2–11), of the measurement and all
+/// filters, and of the first runs each, up to 8, fewer if many filters would make the page great.
+std::vector<View> views_of(const Experiment& experiment, const std::vector<Performance>& found) {
+  const Views views(experiment);
+  std::vector<View> all;
+  for (int number = 0; number < runs_in_page(experiment); ++number) {
+    const TracedRun run = experiment.traced(static_cast<std::uint64_t>(number));
+    if (number == 0) all.push_back(views.all_runs(found, run));
+    if (!crowded(experiment)) all.push_back(views.one_run(run, static_cast<std::size_t>(number) + 1));
+  }
+  return all;
+}
+
+/// Of the first view what ends the output on a terminal: the RMSE in x, and the weights.
+std::vector<LineChart> charts_of(const View& view) {
+  return {std::get<LineChart>(view.panels[0]), std::get<LineChart>(view.panels[3])};
+}
 
 struct SimulateOptions {
   int scenario = 1;

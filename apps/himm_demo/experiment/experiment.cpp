@@ -1,14 +1,13 @@
-#include "himm_demo/trace.hpp"
+#include "himm_demo/experiment/experiment.hpp"
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <sigmax/estimation/metrics.hpp>
 
-#include "support/missing.hpp"
+#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -65,14 +64,19 @@ void follow(const FilterSettings& filter, double step_s, const Recording& record
     }
 }
 
-TracedRun trace_run(const Scenario& scenario, const Polar& data, std::span<const FilterSettings> filters,
-                    std::uint64_t seed, std::uint64_t number) {
+Errors errors_of(const Recording& recording) {
+  Errors errors;
+  for (std::size_t k = 0; k < recording.truth.size(); ++k)
+    errors.push_back(by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>()));
+  return errors;
+}
+
+TracedRun Experiment::traced(std::uint64_t number) const {
   RandomStream random(seed, number);
-  const Recording recording = simulate(scenario, data, random);
+  const Recording recording = simulate(scenario, group.data, random);
   const std::size_t samples = recording.truth.size();
   TracedRun run{recording.truth, Trace(samples), std::vector<Trace>(filters.size(), Trace(samples))};
-  for (std::size_t k = 0; k < samples; ++k)
-    run.measurement.error[k] = by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
+  run.measurement.error = errors_of(recording);
   try {
     for (std::size_t f = 0; f < filters.size(); ++f)
       follow(filters[f], scenario.step_s, recording,
@@ -100,6 +104,16 @@ double weight_difference(const std::vector<double>& weights, std::size_t model) 
   for (std::size_t j = 0; j < weights.size(); ++j)
     if (j != model) other = std::max(other, weights[j]);
   return weights[model] - other;
+}
+
+std::optional<std::size_t> Experiment::mode_sample(std::size_t sample) const {
+  const int source = static_cast<int>(sample) - mode_sample_shift;
+  return source >= 0 && source < scenario.samples ? std::optional(static_cast<std::size_t>(source)) : std::nullopt;
+}
+
+void add_squares(const Scenario& scenario, const Errors& error, double* sums) {
+  for (std::size_t i = 0; i < squares; ++i)
+    sums[i] += phase_mean(scenario.phases[i / 3], [&](std::size_t k) { return error[k][i % 3] * error[k][i % 3]; });
 }
 
 }  // namespace sigmax::apps
