@@ -1,32 +1,12 @@
 #pragma once
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
-
-using Arguments = std::vector<std::string>;
-
-inline Arguments operator+(Arguments all, const Arguments& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
 
 /// Runs himm_demo with these arguments and results in `out`; it must succeed.
 inline std::string campaign(const std::filesystem::path& out, const Arguments& arguments) {

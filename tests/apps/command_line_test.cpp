@@ -1,17 +1,10 @@
 #include "support/command_line.hpp"
 
-#include <cstdio>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "result/output_options.hpp"
 #include "support/error.hpp"
 #include "support/options.hpp"
+#include "support/test.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 /// What the last run of the program below was given.
@@ -134,4 +127,3 @@ TEST(CommandLine, AFailureOfTheWorkEndsTheProgram) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,19 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 TEST(OptionPages, AreWhatTheProgramsPrint) {
   const std::filesystem::path source = SIGMAX_SOURCE;
   for (const std::filesystem::path program : {SIGMAX_HIMM_DEMO, SIGMAX_RECOGNITION_DEMO}) {
-    const auto page = program::run(source / "scripts" / "option_pages", {"--print", program::chosen(program)});
-    ASSERT_EQ(page.status, 0) << page.output;
+    const auto page = program::succeeds(source / "scripts" / "option_pages", {"--print", program::chosen(program)});
     EXPECT_EQ(contents(source / "docs" / (program.filename().string() + "_options.md")), page.output)
         << "run scripts/option_pages";
   }
@@ -32,4 +25,3 @@ TEST(OptionPages, EverySubcommandHasTwoExamples) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,13 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <ostream>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/query.hpp>
@@ -17,7 +7,6 @@
 
 /// Generated networks against full enumeration of the joint, the variables eliminated in the reverse order of
 /// declaration.
-namespace sigmax::laws {
 namespace {
 
 enum class Kinds { random, fuzzy, mixed };
@@ -211,15 +200,13 @@ TEST(NetworkLaws, TheMarginalsOfMixedVariablesAreEnumerationsInnermostFirst) {
   holds([] { marginals_are_enumerations(Kinds::mixed); });
 }
 
-TEST(NetworkLaws, TheTotalWithoutEvidenceIsOne) {
-  holds([] {
-    const World world = any_world(Kinds::mixed);
-    RC_LOG() << world;
-    const RelationNetwork network = network_of(world);
-    require_near(query(network, {}).total().value(), 1.0);
-    const NetworkAnswer answer = query(network, names_of(world.asked));
-    if (!answer.induced()) require_near(answer.total().value(), 1.0);
-  });
+PROPERTY(NetworkLaws, TheTotalWithoutEvidenceIsOne) {
+  const World world = any_world(Kinds::mixed);
+  RC_LOG() << world;
+  const RelationNetwork network = network_of(world);
+  require_near(query(network, {}).total().value(), 1.0);
+  const NetworkAnswer answer = query(network, names_of(world.asked));
+  if (!answer.induced()) require_near(answer.total().value(), 1.0);
 }
 
 void explanation_is_the_maximum(Kinds kinds) {
@@ -288,4 +275,3 @@ TEST(NetworkLaws, ACompositionOfMixedVariablesIsTheConditional) {
 }
 
 }  // namespace
-}  // namespace sigmax::laws

@@ -4,17 +4,7 @@
 /// the paper leaves open is an option here as it is there, and the tie rules are part of the definition.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+#include "support/test.hpp"
 
 namespace restatement {
 
