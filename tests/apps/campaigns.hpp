@@ -10,8 +10,7 @@ namespace sigmax::apps {
 
 /// Runs himm_demo with these arguments and results in `out`; it must succeed.
 inline std::string campaign(const std::filesystem::path& out, const Arguments& arguments) {
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet", "--out", out});
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeds(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet", "--out", out});
   return ending.output;
 }
 

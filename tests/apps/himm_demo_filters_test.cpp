@@ -93,12 +93,11 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
   const auto points = accelerating_target();
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending =
+  program::succeeded(
       himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
                 {"filters=all", "start=given", "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
                  "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]", "start_time_s=2.5", "sigma_w=[3,4]",
-                 "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+                 "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"}));
   const auto found = rows(contents(out / "estimates.csv"));
   for (const auto& named : named_filters()) expect_restated(named, points, of_filter(found, named.name));
   // The one that the restatement does not know: the estimate of the more likely mode, with the IMM's weights.
@@ -113,11 +112,10 @@ TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
   const auto points = turning_target();
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending =
+  program::succeeded(
       himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
                 {"filters=imm", "models=[dwna,ct]", "member=ukf", "sigma_w=[1,0.5]", "turn_drift_deg_s=0.3",
-                 "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+                 "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"}));
   const auto found = rows(contents(out / "estimates.csv"));
   ASSERT_EQ(found.size(), points.size() - 3);
 
@@ -150,8 +148,7 @@ TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
 std::string estimates_of(const std::string& text, const std::vector<std::string>& sets) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending = himm_demo({"track", directory.write("recording.csv", text), "--quiet", "--out", out}, sets);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(himm_demo({"track", directory.write("recording.csv", text), "--quiet", "--out", out}, sets));
   return contents(out / "estimates.csv");
 }
 
@@ -198,11 +195,10 @@ TEST(HimmDemoFilters, EveryModelWithEveryMemberTracksOnTwoAxesAndThree) {
   const TemporaryDirectory directory;
   for (const auto& points : {turning_target(), accelerating_target()})
     for (const std::string member : {"ekf", "ukf", "ckf"}) {
-      const auto ending =
+      const auto ending = program::succeeded(
           himm_demo({"track", directory.write("recording.csv", csv(points))},
                     {"models=[dwna,dwpa,cwna,cwpa,singer,ou_position,ou_velocity,known_turn,ct]",
-                     "sigma_w=[1,1,1,1,5,1000,100,1,1]", "member=" + member, "filters=[imm,himm,gpb2,viterbi]"});
-      EXPECT_EQ(ending.status, 0) << ending.output;
+                     "sigma_w=[1,1,1,1,5,1000,100,1,1]", "member=" + member, "filters=[imm,himm,gpb2,viterbi]"}));
       EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
     }
 }
@@ -211,9 +207,8 @@ TEST(HimmDemoFilters, ALinearModelIsTheSameWhateverTheMember) {
   const TemporaryDirectory directory;
   const auto input = directory.write("recording.csv", csv(turning_target()));
   const auto estimates = [&](const std::string& member) {
-    const auto ending =
-        himm_demo({"track", input, "--out", directory.path() / member}, {"models=[cwna,singer]", "member=" + member});
-    EXPECT_EQ(ending.status, 0) << ending.output;
+    program::succeeded(
+        himm_demo({"track", input, "--out", directory.path() / member}, {"models=[cwna,singer]", "member=" + member}));
     return contents(directory.path() / member / "estimates.csv");
   };
   const auto kf = estimates("kf");
@@ -234,8 +229,7 @@ TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
       {"filters=[himm]", "radar_measurement=polar", "member=ukf"},
   };
   for (const auto& sets : cases) {
-    const auto first = himm_demo({"simulate", "--print-config"}, sets);
-    ASSERT_EQ(first.status, 0) << first.output;
+    const auto first = program::succeeded(himm_demo({"simulate", "--print-config"}, sets));
     const auto again = himm_demo({"simulate", "--print-config", "--config", directory.write("c.toml", first.output)});
     EXPECT_EQ(again.output, first.output);
   }

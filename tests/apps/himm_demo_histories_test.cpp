@@ -32,9 +32,8 @@ TEST_F(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
   const auto out = directory.path() / "out";
   std::vector<std::string> sets = given;
   sets.push_back("filters=[\"himm_histories\",\"imm_histories\"]");
-  const auto ending =
-      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out}, sets);
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(
+      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out}, sets));
   const auto found = rows(contents(out / "estimates.csv"));
   for (const std::string name : {"himm_histories", "imm_histories"}) {
     const bool fuzzy = name == "himm_histories";
@@ -68,9 +67,9 @@ TEST_F(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
 TEST_F(HimmDemoHistories, TrackTellsWhenTheTargetTurned) {
   const auto points = accelerating_target();
   const auto out = directory.path() / "out";
-  const auto ending = himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
-                                {"filters=himm_histories", "explain=true"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending =
+      program::succeeded(himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
+                                   {"filters=himm_histories", "explain=true"}));
   EXPECT_TRUE(says(ending.output, {"Best history by himm_histories: dwna from "}));
   const auto summary = nlohmann::json::parse(contents(out / "summary.json"));
   const auto& stays = summary.at("histories").at("himm_histories").at("");
@@ -83,9 +82,8 @@ TEST_F(HimmDemoHistories, TrackTellsWhenTheTargetTurned) {
 }
 
 TEST_F(HimmDemoHistories, ThePresetsRunOnTheScenariosAndAreBelowTheHimmWhileTheTargetManoeuvres) {
-  const auto ending = himm_demo({"simulate", "--quiet", "--runs", "10", "--out", directory.path()},
-                                {"filters=[\"himm\",\"himm_histories\",\"himm_histories_fast\",\"imm_histories\"]"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(himm_demo({"simulate", "--quiet", "--runs", "10", "--out", directory.path()},
+                               {"filters=[\"himm\",\"himm_histories\",\"himm_histories_fast\",\"imm_histories\"]"}));
   const auto summary = nlohmann::json::parse(contents(directory.path() / "summary.json"));
   const auto found = rows(contents(directory.path() / "rmse.csv"));
   const auto sum_of_squares = [&](const std::string& filter) {

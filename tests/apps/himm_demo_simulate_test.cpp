@@ -51,9 +51,8 @@ TEST_F(HimmDemoSimulate, EveryPresetGroupAndScenarioRuns) {
   for (const std::string preset : {"paper_text", "released"})
     for (const std::string scenario : {"1", "2"})
       for (const std::string group : {"1", "2", "3", "4"}) {
-        const auto ending =
-            simulate(directory.path(), {"--runs", "2", "--preset", preset, "--scenario", scenario, "--group", group});
-        ASSERT_EQ(ending.status, 0) << ending.output;
+        const auto ending = program::succeeded(
+            simulate(directory.path(), {"--runs", "2", "--preset", preset, "--scenario", scenario, "--group", group}));
         EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
         EXPECT_EQ(ending.output.find("inf"), std::string::npos) << ending.output;
       }
@@ -90,8 +89,7 @@ const std::vector<std::string> all_filters = {
     "himm_envelope", "himm_global", "himm_possibility", "viterbi",         "static_random",      "static_fuzzy"};
 
 TEST_F(HimmDemoSimulate, AllPrintsEveryFilterAsARowOfOneTable) {
-  const auto ending = simulate(directory.path(), {"--runs", "3", "--set", "filters=all", "--wide"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeded(simulate(directory.path(), {"--runs", "3", "--set", "filters=all", "--wide"}));
   for (const auto& filter : all_filters) {
     const auto at = ending.output.find("\n" + filter + " ");
     ASSERT_NE(at, std::string::npos) << filter << "\n" << ending.output;
@@ -141,13 +139,12 @@ TEST_F(HimmDemoSimulate, TheFigureOfAPhaseIsTheDistanceOfItsAxes) {
 }
 
 TEST_F(HimmDemoSimulate, OtherModelsThanThePapersRun) {
-  const auto ending =
-      simulate(directory.path(), {"--runs", "2", "--set", "models=[cwna,singer]", "--set", "sigma_w=[3,30]"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(
+      simulate(directory.path(), {"--runs", "2", "--set", "models=[cwna,singer]", "--set", "sigma_w=[3,30]"}));
   EXPECT_TRUE(contents(directory.path() / "weights.csv").starts_with("sample,filter,weight_cwna,weight_singer\n"));
   // Without a velocity there is nothing to say of its NEES.
-  const auto still = simulate(directory.path(), {"--runs", "2", "--set", "models=ou_position", "--set", "sigma_w=1e5"});
-  ASSERT_EQ(still.status, 0) << still.output;
+  const auto still = program::succeeded(
+      simulate(directory.path(), {"--runs", "2", "--set", "models=ou_position", "--set", "sigma_w=1e5"}));
   EXPECT_EQ(still.output.find("nan"), std::string::npos) << still.output;
 }
 

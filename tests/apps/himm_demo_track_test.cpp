@@ -144,10 +144,9 @@ TEST_F(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
   std::string text = "t,lat,lon,altitude_ft,junk\n";
   for (int k = 0; k < 60; ++k) text += std::to_string(k) + "," + std::to_string(52.0 + 0.001 * k) + ",4.5,1000,x\n";
   const auto out = directory.path() / "out";
-  const auto ending = track(directory, text,
-                            {"--columns", "time_s=t,latitude_deg=lat,longitude_deg=lon", "--origin", "52,4.5,0",
-                             "--out", out, "--set", "sigma_position_m=1"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(track(directory, text,
+                           {"--columns", "time_s=t,latitude_deg=lat,longitude_deg=lon", "--origin", "52,4.5,0", "--out",
+                            out, "--set", "sigma_position_m=1"}));
   const auto found = rows(contents(out / "estimates.csv"));
   ASSERT_EQ(found.size(), 2U * 57U);
   for (const auto& row : found) {
@@ -162,10 +161,9 @@ TEST_F(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
 TEST_F(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
   const auto text = csv(accelerating_target());
   const auto run = [&](const std::string& out, const std::string& seed) {
-    const auto ending =
+    const auto ending = program::succeeded(
         track(directory, text,
-              {"--radar", "10,0.1,0.1", "--radar-at=-5000,-4000,0", "--seed", seed, "--out", directory.path() / out});
-    EXPECT_EQ(ending.status, 0) << ending.output;
+              {"--radar", "10,0.1,0.1", "--radar-at=-5000,-4000,0", "--seed", seed, "--out", directory.path() / out}));
     EXPECT_TRUE(says(ending.output, {"RMSE"}));
     return contents(directory.path() / out / "estimates.csv");
   };
@@ -176,8 +174,7 @@ TEST_F(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes)
 
 TEST_F(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
   const auto out = directory.path() / "out";
-  const auto ending = track(directory, "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,,\n4,4,8\n", {"--out", out});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(track(directory, "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,,\n4,4,8\n", {"--out", out}));
   const auto found = rows(contents(out / "estimates.csv"));
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].at("nis"), "");
@@ -187,9 +184,8 @@ TEST_F(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
 
 TEST_F(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
   const std::string good = "time_s,x_m,y_m\n0,1,2\n";
-  const auto first =
-      track(directory, good, {"--print-config", "--set", "filter.himm.sigma_w=5", "--set", "lift=unbiased"});
-  ASSERT_EQ(first.status, 0) << first.output;
+  const auto first = program::succeeded(
+      track(directory, good, {"--print-config", "--set", "filter.himm.sigma_w=5", "--set", "lift=unbiased"}));
   const auto file = directory.write("settings.toml", first.output);
   const auto second = track(directory, good, {"--print-config", "--config", file});
   EXPECT_EQ(second.output, first.output);

@@ -54,8 +54,7 @@ class Tune : public InDirectory {
 TEST_F(Tune, FindsTheNoisesThatMadeTheRecordingAndTrackTakesThem) {
   const auto file = directory.write("flight.csv", recording(400, false));
   const auto best = (directory.path() / "best.toml").string();
-  const auto ending = tune(quickly(file, {"--out", best}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeded(tune(quickly(file, {"--out", best})));
   EXPECT_TRUE(says(ending.output, {"optimistic sensor"}));
   const std::string after = ending.output.substr(ending.output.find("with the best settings"));
   EXPECT_EQ(after.find("optimistic"), std::string::npos) << ending.output;
@@ -72,9 +71,8 @@ TEST_F(Tune, GivesTheSameSettingsOnAnyNumberOfThreads) {
   std::vector<std::string> found;
   for (const std::string threads : {"1", "3"}) {
     const auto best = (directory.path() / (threads + ".toml")).string();
-    const auto ending = tune({file, "--set", "filters=himm", "--starts", "2", "--folds", "2", "--threads", threads,
-                              "--models", "dwna,dwna+dwpa", "--out", best});
-    ASSERT_EQ(ending.status, 0) << ending.output;
+    program::succeeded(tune({file, "--set", "filters=himm", "--starts", "2", "--folds", "2", "--threads", threads,
+                             "--models", "dwna,dwna+dwpa", "--out", best}));
     found.push_back(contents(best));
   }
   EXPECT_EQ(found[0], found[1]);
@@ -83,21 +81,18 @@ TEST_F(Tune, GivesTheSameSettingsOnAnyNumberOfThreads) {
 TEST_F(Tune, JudgesByTheTruthIfAsked) {
   const auto file = directory.write("flight.csv", recording(300, true));
   const auto best = (directory.path() / "best.toml").string();
-  const auto by_rmse = tune(quickly(file, {"--truth", "--out", best}));
-  ASSERT_EQ(by_rmse.status, 0) << by_rmse.output;
+  const auto by_rmse = program::succeeded(tune(quickly(file, {"--truth", "--out", best})));
   EXPECT_TRUE(says(by_rmse.output, {"RMSE against the truth"}));
   // what the RMSE tells is the ratio of the noises, 1 to 20, and the sensors stay at 10 m
   EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.25) << contents(best);
   EXPECT_EQ(value_in(contents(best), "sigma_position_m"), 10.0);
-  const auto by_density = tune(quickly(file, {"--truth=density", "--out", best}));
-  ASSERT_EQ(by_density.status, 0) << by_density.output;
+  program::succeeded(tune(quickly(file, {"--truth=density", "--out", best})));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 5.0) << contents(best);
 }
 
 TEST_F(Tune, KeepsWhatItIsTold) {
   const auto file = directory.write("flight.csv", recording(120, false));
-  const auto ending = tune(quickly(file, {"--keep", "models,sensors"}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors"})));
   EXPECT_TRUE(says(ending.output, {"No setting changes"}));
 }
 
@@ -152,8 +147,7 @@ TEST_F(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {
   const std::string file = recorded("lidar_radar.csv");
   if (file.empty()) GTEST_SKIP() << "no recordings in " SIGMAX_DATA;
   const auto best = (directory.path() / "best.toml").string();
-  const auto ending = tune(quickly(file, {"--set", "sigma_w=1", "--out", best}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(tune(quickly(file, {"--set", "sigma_w=1", "--out", best})));
   const std::string toml = contents(best);
   const std::string lidar = toml.substr(toml.find("sensor.\"lidar\"")),
                     radar = toml.substr(toml.find("sensor.\"radar\""));
@@ -177,11 +171,10 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   const auto without = tune(quickly(file));
   EXPECT_EQ(without.status, 3);
   EXPECT_TRUE(says(without.output, {"its start may want positions"}));
-  const auto given =
+  const auto given = program::succeeded(
       tune(quickly(file, {"--set", "start=given", "--set", "start_mean=[1000,5000,0,50,-20,0,0,0,0]", "--set",
                           "start_covariance_diagonal=[10000,10000,1,25,25,1,1,1,1]", "--set", "start_time_s=-1",
-                          "--set", "sigma_azimuth_deg=0.5", "--out", directory.path() / "best.toml"}));
-  EXPECT_EQ(given.status, 0) << given.output;
+                          "--set", "sigma_azimuth_deg=0.5", "--out", directory.path() / "best.toml"})));
   EXPECT_EQ(given.output.find("nan"), std::string::npos) << given.output;
   EXPECT_NEAR(value_in(contents(directory.path() / "best.toml"), "sigma_azimuth_deg"), 0.1, 0.03);
 }

@@ -70,8 +70,7 @@ class Esm : public testing::TestWithParam<std::string> {};
 
 TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
   const TemporaryDirectory directory;
-  const auto ending = esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"}));
   std::map<std::string, Numbers> accuracy;
   const auto runs = rows_of(directory.path() / "runs.csv");
   ASSERT_EQ(runs.size(), 60U);

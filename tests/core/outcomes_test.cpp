@@ -26,7 +26,7 @@ TEST(Outcomes, UnlabelledOutcomesAreTheirNumbers) {
 TEST(Outcomes, AnUnlabelledOutcomeHasOneSpelling) {
   const Outcomes cell{"cell", 100};
   for (const char* wrong : {"100", "-1", "+1", "07", " 7", "7 ", "7.0", "0x7", "", "99999999999999999999999"})
-    EXPECT_INVALID(("'cell'", wrong, "0, 1, 2", "100 in all"), cell.index_of(wrong)) << wrong;
+    EXPECT_INVALID(("'cell'", wrong, "0, 1, 2", "7, … (100 in all)"), cell.index_of(wrong)) << wrong;
 }
 
 TEST(Outcomes, AWrongLabelIsRefusedWithTheOutcomesThatThereAre) {

@@ -66,11 +66,13 @@ inline Ending run(const std::string& path, const std::vector<std::string>& argum
   return ending;
 }
 
-/// The same, and it must end well.
-inline Ending succeeds(const std::string& path, const std::vector<std::string>& arguments) {
-  Ending ending = run(path, arguments);
+/// The ending, which must be a good one.
+inline Ending succeeded(Ending ending) {
   EXPECT_EQ(ending.status, 0) << ending.output;
   return ending;
+}
+inline Ending succeeds(const std::string& path, const std::vector<std::string>& arguments) {
+  return succeeded(run(path, arguments));
 }
 
 }  // namespace program
