@@ -1,5 +1,5 @@
 // What `track` takes beside positions: velocities, speeds with a course, range rates, bearings; against an extended
-// Kalman filter of one model, written out in plain loops with a numerical Jacobian.
+// Kalman filter of one model, restated, with a numerical Jacobian.
 
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
@@ -9,68 +9,35 @@ namespace {
 
 constexpr double knot = 1852.0 / 3600.0;
 
-/// One measured quantity of the state x, y, vx, vy; several of one row are taken one after the other, which is the same
-/// while they are linear, or the estimate at which they are linearised stays that of the prediction.
+/// One measured quantity of the state x, y, vx, vy.
 struct Quantity {
   double value;
   double sigma;
-  std::function<double(const std::array<double, 4>&)> of;
+  std::function<double(const Numbers&)> of;
   bool angle = false;
 };
 
-/// A target of nearly constant velocity (σ_w = 2 m/s²) on two axes.
-class PlainFilter {
- public:
-  PlainFilter(std::array<double, 4> mean, double position_variance, double velocity_variance) : m_(mean) {
-    for (std::size_t i = 0; i < 4; ++i) P_[i][i] = i < 2 ? position_variance : velocity_variance;
-  }
-
-  void step(double T, const std::vector<Quantity>& row) {
-    m_ = {m_[0] + T * m_[2], m_[1] + T * m_[3], m_[2], m_[3]};
-    Matrix F{{{1, 0, T, 0}, {0, 1, 0, T}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-    Matrix predicted{};
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t a = 0; a < 4; ++a)
-          for (std::size_t b = 0; b < 4; ++b) predicted[i][j] += F[i][a] * P_[a][b] * F[j][b];
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < 4; ++j)
-        if (i % 2 == j % 2) predicted[i][j] += 4.0 * (i < 2 ? 0.5 * T * T : T) * (j < 2 ? 0.5 * T * T : T);
-    P_ = predicted;
-    const std::array<double, 4> at = m_;
-    for (const Quantity& quantity : row) take(quantity, at);
-  }
-
-  const std::array<double, 4>& mean() const { return m_; }
-  double sigma(std::size_t i) const { return std::sqrt(P_[i][i]); }
-
- private:
-  using Matrix = std::array<std::array<double, 4>, 4>;
-
-  void take(const Quantity& quantity, const std::array<double, 4>& at) {
-    std::array<double, 4> h{}, PH{};
-    double residual = quantity.value - quantity.of(at);
-    if (quantity.angle) residual = std::remainder(residual, 2.0 * std::numbers::pi);
+/// A step of a target of nearly constant velocity (σ_w = 2 m/s²) on two axes, whose measurements are linearised at the
+/// prediction.
+restatement::State stepped(const restatement::State& state, double T, const std::vector<Quantity>& row) {
+  const auto prior = restatement::predicted(restatement::dwna(2, 2.0), state, T);
+  if (row.empty()) return prior;
+  restatement::Seen seen{Numbers(row.size()), restatement::Matrix(row.size(), 4)};
+  restatement::Matrix R(row.size(), row.size());
+  for (std::size_t q = 0; q < row.size(); ++q) {
+    const Quantity& quantity = row[q];
+    seen.nu[q] = quantity.value - quantity.of(prior.mean);
+    if (quantity.angle) seen.nu[q] = std::remainder(seen.nu[q], 2.0 * std::numbers::pi);
+    R(q, q) = quantity.sigma * quantity.sigma;
     for (std::size_t i = 0; i < 4; ++i) {
-      auto up = at, down = at;
+      Numbers up = prior.mean, down = prior.mean;
       up[i] += 1e-3;
       down[i] -= 1e-3;
-      h[i] = (quantity.of(up) - quantity.of(down)) / 2e-3;
-      residual -= h[i] * (m_[i] - at[i]);
-    }
-    double S = quantity.sigma * quantity.sigma;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < 4; ++j) PH[i] += P_[i][j] * h[j];
-    for (std::size_t i = 0; i < 4; ++i) S += h[i] * PH[i];
-    for (std::size_t i = 0; i < 4; ++i) {
-      m_[i] += PH[i] / S * residual;
-      for (std::size_t j = 0; j < 4; ++j) P_[i][j] -= PH[i] * PH[j] / S;
+      seen.H(q, i) = (quantity.of(up) - quantity.of(down)) / 2e-3;
     }
   }
-
-  std::array<double, 4> m_;
-  Matrix P_{};
-};
+  return restatement::sighted(prior, seen, R).posterior;
+}
 
 /// Rows of a target at constant velocity: their text, and what each measures.
 struct Recording {
@@ -98,14 +65,16 @@ void expect_filtered(const Recording& recording, std::vector<std::string> more, 
                                           setting(known) + setting(more) + options);
   const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
   ASSERT_EQ(found.size(), recording.rows.size());
-  PlainFilter filter({5000.0, -3000.0, -60.0, 80.0}, 400.0, 25.0);
+  restatement::State expected{{5000.0, -3000.0, -60.0, 80.0},
+                              restatement::Matrix(4, 4, {400, 0, 0, 0, 0, 400, 0, 0, 0, 0, 25, 0, 0, 0, 0, 25})};
   for (std::size_t k = 0; k < found.size(); ++k) {
     SCOPED_TRACE("row " + std::to_string(k));
-    filter.step(1.0, recording.rows[k]);
+    expected = stepped(expected, 1.0, recording.rows[k]);
     const std::array<std::string, 4> names = {"x_m", "y_m", "vx_mps", "vy_mps"};
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_NEAR(number(found[k].at(names[i])), filter.mean()[i], tolerance * filter.sigma(i));
-      EXPECT_NEAR(number(found[k].at("sigma_" + names[i])), filter.sigma(i), tolerance * filter.sigma(i));
+      const double sigma = std::sqrt(expected.covariance(i, i));
+      EXPECT_NEAR(number(found[k].at(names[i])), expected.mean[i], tolerance * sigma);
+      EXPECT_NEAR(number(found[k].at("sigma_" + names[i])), sigma, tolerance * sigma);
     }
   }
 }

@@ -1,89 +1,38 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
+#include "support/restatement.hpp"
 
 namespace {
 
 constexpr std::size_t modes = 5;
-constexpr double T = 2.0, R = 2500.0, Q = 25.0;
-constexpr std::array<double, modes> inputs = {0.0, 3 * 9.80665, -3 * 9.80665, 5 * 9.80665, -5 * 9.80665};
+constexpr double T = 2.0, g = 9.80665;
+const restatement::Matrix R(1, 1, {2500.0});
 
-/// Position and velocity: mean, and covariance pxx, pxv, pvv.
-struct Estimate {
-  double x, v, xx, xv, vv;
-};
-
-/// One Kalman step with a known acceleration; returns the likelihood of the measurement.
-double step(Estimate& e, double acceleration, double z) {
-  e.x += T * e.v + 0.5 * T * T * acceleration;
-  e.v += T * acceleration;
-  const double xx = e.xx + 2.0 * T * e.xv + T * T * e.vv, xv = e.xv + T * e.vv, vv = e.vv;
-  const double g = 0.5 * T * T, h = T;
-  e.xx = xx + g * g * Q;
-  e.xv = xv + g * h * Q;
-  e.vv = vv + h * h * Q;
-  const double S = e.xx + R, nu = z - e.x, kx = e.xx / S, kv = e.xv / S;
-  e.x += kx * nu;
-  e.v += kv * nu;
-  e = {e.x, e.v, e.xx - kx * kx * S, e.xv - kx * kv * S, e.vv - kv * kv * S};
-  return std::exp(-0.5 * nu * nu / S) / std::sqrt(2.0 * std::numbers::pi * S);
+/// The IMM or the HIMM of five known accelerations, from two measured positions on.
+restatement::Filter filter_of(bool fuzzy, double z1, double z2) {
+  std::vector<restatement::Model> models;
+  for (const double a : {0.0, 3 * g, -3 * g, 5 * g, -5 * g}) {
+    models.push_back(restatement::dwna(1, 5.0));
+    models.back().input = [a](double dt) { return Numbers{0.5 * dt * dt * a, dt * a}; };
+  }
+  restatement::Matrix transition(modes, modes, Numbers(modes * modes, fuzzy ? 0.025 / 0.9 : 0.025));
+  for (std::size_t j = 0; j < modes; ++j) transition(j, j) = fuzzy ? 1.0 : 0.9;
+  const auto start = restatement::two_point_start({{z1}, R}, {{z2}, R}, T);
+  return {models,
+          transition,
+          std::vector(modes, start),
+          Numbers(modes, 1.0),
+          {.kind = fuzzy ? restatement::Kind::himm : restatement::Kind::imm,
+           .mixed_covariance = restatement::MixedCovariance::own_recentred}};
 }
 
-/// IMM and HIMM in plain loops, without logarithms; the weights after every sample from the third on.
-class Filter {
- public:
-  Filter(bool fuzzy, double z1, double z2) : fuzzy_(fuzzy) {
-    estimates_.fill({z2, (z2 - z1) / T, R, R / T, 2.0 * R / (T * T)});
-    weights_ = Numbers(modes, fuzzy ? 1.0 : 1.0 / modes);
-  }
-
-  const Numbers& take(double z) {
-    Numbers prior(modes, 0.0);
-    std::array<Estimate, modes> mixed;
-    for (std::size_t j = 0; j < modes; ++j) {
-      Numbers in(modes);
-      for (std::size_t l = 0; l < modes; ++l) {
-        in[l] = weights_[l] * (l == j ? 0.9 : 0.025) / (fuzzy_ ? 0.9 : 1.0);
-        prior[j] = fuzzy_ ? std::max(prior[j], in[l]) : prior[j] + in[l];
-      }
-      mixed[j] = fuzzy_ ? selected(in, j) : matched(divided(in, prior[j]));
-    }
-    for (std::size_t j = 0; j < modes; ++j) {
-      estimates_[j] = mixed[j];
-      prior[j] *= step(estimates_[j], inputs[j], z);
-    }
-    return weights_ = divided(prior, fuzzy_ ? greatest(prior) : sum(prior));
-  }
-
- private:
-  Estimate matched(const Numbers& in) const {
-    Estimate m{0, 0, 0, 0, 0};
-    for (std::size_t l = 0; l < modes; ++l) {
-      m.x += in[l] * estimates_[l].x;
-      m.v += in[l] * estimates_[l].v;
-    }
-    for (std::size_t l = 0; l < modes; ++l) {
-      const Estimate& e = estimates_[l];
-      m.xx += in[l] * (e.xx + (e.x - m.x) * (e.x - m.x));
-      m.xv += in[l] * (e.xv + (e.x - m.x) * (e.v - m.v));
-      m.vv += in[l] * (e.vv + (e.v - m.v) * (e.v - m.v));
-    }
-    return m;
-  }
-
-  /// The reading `own_recentred` of (57), and ties stay with j.
-  Estimate selected(const Numbers& in, std::size_t j) const {
-    std::size_t l = j;
-    for (std::size_t i = modes; i-- > 0;)
-      if (in[i] > in[l] * (1.0 + 1e-9)) l = i;
-    const Estimate &best = estimates_[l], &own = estimates_[j];
-    const double dx = best.x - own.x, dv = best.v - own.v;
-    return {best.x, best.v, own.xx + dx * dx, own.xv + dx * dv, own.vv + dv * dv};
-  }
-
-  bool fuzzy_;
-  std::array<Estimate, modes> estimates_;
-  Numbers weights_;
-};
+/// The weights of the modes after one more.
+Numbers take(restatement::Filter& filter, double z) {
+  filter.step(T, {z}, R);
+  Numbers weights;
+  for (const double log : filter.log_weights()) weights.push_back(std::exp(log));
+  return weights;
+}
 
 /// Weak, medium and strong from the modes' weights.
 Numbers manoeuvre(const Numbers& w, bool fuzzy) {
@@ -124,11 +73,11 @@ TEST_F(RecognitionDemoManoeuvre, FiltersAndClassifiersEqualPlainLoopsOnEverySamp
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto sample = [&](std::size_t k) { return samples[30 * r + k - 1]; };
     const auto position = [&](std::size_t k) { return std::stod(sample(k).at("position_m")); };
-    Filter imm(false, position(1), position(2)), himm(true, position(1), position(2));
+    auto imm = filter_of(false, position(1), position(2)), himm = filter_of(true, position(1), position(2));
     Numbers sigma(3, 0.0), max(3, 0.0), sigma_max(3, 0.0), max_sigma(3, 0.0);
     EXPECT_EQ(sample(2).at("imm_cv"), "");
     for (std::size_t k = 3; k <= 30; ++k) {
-      const Numbers p = imm.take(position(k)), pi = himm.take(position(k));
+      const Numbers p = take(imm, position(k)), pi = take(himm, position(k));
       Numbers found_p, found_pi;
       for (const char* label : labels) {
         found_p.push_back(std::stod(sample(k).at(std::string("imm_") + label)));

@@ -120,6 +120,7 @@ TEST(LearnedRelations, MakeNaiveBayes) {
 TEST(Counts, RefuseWhatDoesNotFitAndCountNothingOfIt) {
   Counts counts = farm();
   EXPECT_INVALID(("'animal'", "2"), counts.observe(2, Row{0, 0}));
+  EXPECT_INVALID(("'legs'", "3"), counts.observe(0, Row{3, 0}));
   EXPECT_INVALID(("'milk'", "2"), counts.observe(0, Row{0, 2}));
   EXPECT_INVALID(("'animal'", "2 features", "1 values"), counts.observe(0, Row{0}));
   for (const double times : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
