@@ -49,10 +49,15 @@ inline void expect_row(const TextRow& row, const restatement::State& state, std:
   for (std::size_t i = 0; i < state.mean.size(); ++i) {
     const std::string& name = names[i / axes * 3 + i % axes];
     ASSERT_CLOSE(std::stod(row.at(name)), state.mean[i], tolerance) << name;
-    if (i < 2 * axes) ASSERT_CLOSE(std::stod(row.at("sigma_" + name)), std::sqrt(state.covariance(i, i)), tolerance);
+    if (i < 2 * axes) {
+      ASSERT_CLOSE(std::stod(row.at("sigma_" + name)), std::sqrt(state.covariance(i, i)), tolerance);
+    }
   }
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (k % 3 >= axes) ASSERT_EQ(row.at(names[k]), "");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k % 3 >= axes) {
+      ASSERT_EQ(row.at(names[k]), "");
+    }
+  }
 }
 
 /// A recorded track outside the project, or nothing.

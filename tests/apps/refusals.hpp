@@ -58,7 +58,9 @@ inline void expect_refused(const Refusal& refusal, const std::string& program, b
     EXPECT_NE(ending.output.find(words), std::string::npos) << "no '" << words << "' in: " << ending.output;
   if (refusal.status == 3) {
     EXPECT_TRUE(says(ending.output, {name + ": "}));
-    if (!prints_too) EXPECT_EQ(std::count(ending.output.begin(), ending.output.end(), '\n'), 1) << ending.output;
+    if (!prints_too) {
+      EXPECT_EQ(std::count(ending.output.begin(), ending.output.end(), '\n'), 1) << ending.output;
+    }
   }
   Files left;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory.path()))
