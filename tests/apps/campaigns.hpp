@@ -1,37 +1,16 @@
 #pragma once
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
 
-using Arguments = std::vector<std::string>;
-
-inline Arguments operator+(Arguments all, const Arguments& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 /// Runs himm_demo with these arguments and results in `out`; it must succeed.
 inline std::string campaign(const std::filesystem::path& out, const Arguments& arguments) {
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet", "--out", out});
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeds(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet", "--out", out});
   return ending.output;
 }
 

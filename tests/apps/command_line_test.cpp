@@ -1,16 +1,11 @@
 #include "support/command_line.hpp"
 
 #include <cstdio>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "result/result.hpp"
 #include "support/error.hpp"
+#include "support/test.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 /// What the last run of the program below was given.
@@ -133,4 +128,3 @@ TEST(CommandLine, AFailureOfTheWorkEndsTheProgram) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

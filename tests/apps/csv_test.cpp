@@ -1,17 +1,9 @@
 #include "support/csv.hpp"
 
-#include <cstdint>
-#include <sstream>
 #include <streambuf>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "apps/temporary_directory.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 using Records = std::vector<std::vector<std::string>>;
@@ -291,4 +283,3 @@ TEST(Csv, StreamsAMillionRows) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,20 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <regex>
-#include <string>
-
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 TEST(OptionPages, AreWhatTheProgramsPrint) {
   const std::filesystem::path source = SIGMAX_SOURCE;
   for (const std::filesystem::path program : {SIGMAX_HIMM_DEMO, SIGMAX_RECOGNITION_DEMO}) {
-    const auto page = program::run(source / "scripts" / "option_pages", {"--print", program::chosen(program)});
-    ASSERT_EQ(page.status, 0) << page.output;
+    const auto page = program::succeeds(source / "scripts" / "option_pages", {"--print", program::chosen(program)});
     EXPECT_EQ(contents(source / "docs" / (program.filename().string() + "_options.md")), page.output)
         << "run scripts/option_pages";
   }
@@ -29,4 +21,3 @@ TEST(OptionPages, EverySubcommandHasTwoExamplesThatCanBeCopied) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,16 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
@@ -69,7 +60,7 @@ TEST(Overwriting, NoSubcommandWritesOverItsInput) {
     }
     const auto ending = program::run(command.program, arguments);
     EXPECT_EQ(ending.status, 2) << ending.output;
-    EXPECT_NE(ending.on_one_line().find("would write over the input"), std::string::npos) << ending.output;
+    EXPECT_TRUE(says(ending.on_one_line(), {"would write over the input"}));
     EXPECT_EQ(contents(file), text) << ending.output;
     EXPECT_TRUE(std::filesystem::is_symlink(link)) << ending.output;
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory), {}), 1) << ending.output;
@@ -86,4 +77,3 @@ TEST(Overwriting, TheStandardInputIsKnownByItsFile) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

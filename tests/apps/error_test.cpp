@@ -1,10 +1,6 @@
 #include "support/error.hpp"
+#include "support/test.hpp"
 
-#include <cerrno>
-
-#include <gtest/gtest.h>
-
-namespace sigmax::apps {
 namespace {
 
 TEST(Message, NamesPlaceFindingExpectationAndRemedy) {
@@ -41,4 +37,3 @@ TEST(Errors, AreOfTwoUnrelatedKinds) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

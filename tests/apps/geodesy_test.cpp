@@ -1,13 +1,6 @@
 #include "support/geodesy.hpp"
+#include "support/test.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
-namespace sigmax::apps {
 namespace {
 
 double dms(double degrees, double minutes, double seconds) { return degrees + minutes / 60.0 + seconds / 3600.0; }
@@ -117,13 +110,11 @@ TEST(LocalFrame, LocalAxesAreWhatAStepIsThere) {
 }
 
 TEST(Geodetic, RefusesWhatIsNoPlace) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Geodetic::checked(90.001, 0, 0), std::invalid_argument);
-  EXPECT_THROW(Geodetic::checked(nan, 0, 0), std::invalid_argument);
+  EXPECT_THROW(Geodetic::checked(not_a_number, 0, 0), std::invalid_argument);
   EXPECT_THROW(Geodetic::checked(0, -361, 0), std::invalid_argument);
-  EXPECT_THROW(Geodetic::checked(0, nan, 0), std::invalid_argument);
-  EXPECT_THROW(Geodetic::checked(0, 0, nan), std::invalid_argument);
+  EXPECT_THROW(Geodetic::checked(0, not_a_number, 0), std::invalid_argument);
+  EXPECT_THROW(Geodetic::checked(0, 0, not_a_number), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace sigmax::apps

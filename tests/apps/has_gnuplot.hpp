@@ -1,8 +1,7 @@
 #pragma once
 
-#include <exception>
-
 #include "result/pictures.hpp"
+#include "support/test.hpp"
 
 namespace sigmax::apps {
 

@@ -1,28 +1,16 @@
 // The filters over histories in himm_demo.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include "apps/manoeuvring_targets.hpp"
-#include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/history_restatement.hpp"
-#include "support/near.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-using support::near;
-
-program::Ending himm_demo(std::vector<std::string> arguments, const std::vector<std::string>& sets) {
-  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  return program::run(SIGMAX_HIMM_DEMO, arguments);
+program::Ending himm_demo(const Arguments& arguments, const Arguments& sets) {
+  return program::run(SIGMAX_HIMM_DEMO, arguments + setting(sets));
 }
 
 /// A random number of the kind that nobody would choose twice, so that no two histories tie.
@@ -37,15 +25,15 @@ const std::vector<std::string> given = {"start=given",
                                         "entry_vertical=1",
                                         "histories=11"};
 
-TEST(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
+class HimmDemoHistories : public InDirectory {};
+
+TEST_F(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
   const auto points = accelerating_target();
-  const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
   std::vector<std::string> sets = given;
   sets.push_back("filters=[\"himm_histories\",\"imm_histories\"]");
-  const auto ending =
-      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out}, sets);
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(
+      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out}, sets));
   const auto found = rows(contents(out / "estimates.csv"));
   for (const std::string name : {"himm_histories", "imm_histories"}) {
     const bool fuzzy = name == "himm_histories";
@@ -69,24 +57,20 @@ TEST(HimmDemoHistories, EachNamedOneEqualsThePlainRestatement) {
       time = points[k].time;
       const auto estimate = filter.estimate();
       SCOPED_TRACE(name + ", step " + std::to_string(k));
-      const std::vector<const char*> means = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
-      for (std::size_t i = 0; i < means.size(); ++i)
-        ASSERT_PRED_FORMAT3(near, std::stod(of_it[k].at(means[i])), estimate.mean[i], 1e-8);
-      ASSERT_PRED_FORMAT3(near, std::stod(of_it[k].at("sigma_x_m")), std::sqrt(estimate.covariance(0, 0)), 1e-8);
-      ASSERT_PRED_FORMAT3(near, std::stod(of_it[k].at("nis")), filter.nis(), 1e-8);
+      expect_row(of_it[k], estimate, 3, 1e-8);
+      ASSERT_CLOSE(std::stod(of_it[k].at("nis")), filter.nis(), 1e-8);
     }
   }
 }
 
 /// The best history by all that came has one manoeuvre, where it was.
-TEST(HimmDemoHistories, TrackTellsWhenTheTargetTurned) {
+TEST_F(HimmDemoHistories, TrackTellsWhenTheTargetTurned) {
   const auto points = accelerating_target();
-  const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending = himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
-                                {"filters=himm_histories", "explain=true"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.output.find("Best history by himm_histories: dwna from "), std::string::npos) << ending.output;
+  const auto ending =
+      program::succeeded(himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
+                                   {"filters=himm_histories", "explain=true"}));
+  EXPECT_TRUE(says(ending.output, {"Best history by himm_histories: dwna from "}));
   const auto summary = nlohmann::json::parse(contents(out / "summary.json"));
   const auto& stays = summary.at("histories").at("himm_histories").at("");
   ASSERT_EQ(stays.size(), 3U) << stays.dump();
@@ -97,11 +81,9 @@ TEST(HimmDemoHistories, TrackTellsWhenTheTargetTurned) {
   EXPECT_NEAR(stays[2].at("since_s"), points[130].time, 1.0);
 }
 
-TEST(HimmDemoHistories, ThePresetsRunOnTheScenariosAndAreBelowTheHimmWhileTheTargetManoeuvres) {
-  const TemporaryDirectory directory;
-  const auto ending = himm_demo({"simulate", "--quiet", "--runs", "10", "--out", directory.path()},
-                                {"filters=[\"himm\",\"himm_histories\",\"himm_histories_fast\",\"imm_histories\"]"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+TEST_F(HimmDemoHistories, ThePresetsRunOnTheScenariosAndAreBelowTheHimmWhileTheTargetManoeuvres) {
+  program::succeeded(himm_demo({"simulate", "--quiet", "--runs", "10", "--out", directory.path()},
+                               {"filters=[\"himm\",\"himm_histories\",\"himm_histories_fast\",\"imm_histories\"]"}));
   const auto summary = nlohmann::json::parse(contents(directory.path() / "summary.json"));
   const auto found = rows(contents(directory.path() / "rmse.csv"));
   const auto sum_of_squares = [&](const std::string& filter) {
@@ -115,19 +97,4 @@ TEST(HimmDemoHistories, ThePresetsRunOnTheScenariosAndAreBelowTheHimmWhileTheTar
     EXPECT_LT(sum_of_squares(name), sum_of_squares("himm")) << name;
 }
 
-TEST(HimmDemoHistories, RefusesWhatCannotBe) {
-  const auto refused = [](const std::string& set, std::initializer_list<const char*> words) {
-    const auto ending = himm_demo({"simulate", "--runs", "2"}, {"filters=himm_histories", set});
-    EXPECT_EQ(ending.status, 3) << set << "\n" << ending.output;
-    for (const char* word : words) EXPECT_NE(ending.output.find(word), std::string::npos) << ending.output;
-  };
-  refused("histories=1", {"histories", "2 or more", "one for each model"});
-  refused("histories=2.5", {"histories", "whole number"});
-  refused("entry_scales=[]", {"entry_scales", "one or more"});
-  refused("entry_scales=[0]", {"entry_scales", "positive"});
-  refused("cut=2", {"cut", "from 0 to 1"});
-  refused("tempering=0", {"tempering", "above 0"});
-}
-
 }  // namespace
-}  // namespace sigmax::apps

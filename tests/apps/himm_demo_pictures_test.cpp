@@ -1,35 +1,26 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-TEST(HimmDemoPictures, AskForGnuplotWhereItIsNotInstalled) {
-  const TemporaryDirectory directory;
+class HimmDemoPictures : public InDirectory {};
+
+TEST_F(HimmDemoPictures, AskForGnuplotWhereItIsNotInstalled) {
   const auto plots = directory.path() / "plots";
   const auto ending = program::run("/usr/bin/env", {"PATH=/nowhere", program::chosen(SIGMAX_HIMM_DEMO), "simulate",
                                                     "--quiet", "--runs", "2", "--plots", plots});
   EXPECT_EQ(ending.status, 2);
   for (const char* part : {"gnuplot", "cannot be started", "install it", "gnuplot-nox"})
-    EXPECT_NE(ending.on_one_line().find(part), std::string::npos) << ending.output;
+    EXPECT_TRUE(says(ending.on_one_line(), {part}));
   EXPECT_FALSE(std::filesystem::exists(plots));
 }
 
-TEST(HimmDemoPictures, AreTheChartsOfSimulate) {
+TEST_F(HimmDemoPictures, AreTheChartsOfSimulate) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
-  const TemporaryDirectory directory;
   const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--plots", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.on_one_line().find("charts as SVG and PDF to"), std::string::npos) << ending.output;
+      program::succeeds(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--plots", directory.path()});
+  EXPECT_TRUE(says(ending.on_one_line(), {"charts as SVG and PDF to"}));
   for (const char* name : {"rmse_in_x", "rmse_in_y", "rmse_in_z", "mode_weights", "nees_of_the_position", "nis",
                            "track_of_run_1", "track_of_run_1_in_space"}) {
     EXPECT_TRUE(contents(directory.path() / (std::string(name) + ".svg")).ends_with("</svg>\n\n")) << name;
@@ -39,31 +30,28 @@ TEST(HimmDemoPictures, AreTheChartsOfSimulate) {
   EXPECT_EQ(std::distance(begin(files), end(files)), 16);
 }
 
-TEST(HimmDemoPictures, AreThoseOfOneShardAndOfMergedOnes) {
+TEST_F(HimmDemoPictures, AreThoseOfOneShardAndOfMergedOnes) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
-  const TemporaryDirectory directory;
   const auto whole = directory.path() / "whole", merged = directory.path() / "merged";
   const auto reproduce = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"reproduce", "--quiet", "--runs", "2"});
-    const auto ending = program::run(SIGMAX_HIMM_DEMO, more);
-    ASSERT_EQ(ending.status, 0) << ending.output;
+    program::succeeds(SIGMAX_HIMM_DEMO, Arguments{"reproduce", "--quiet", "--runs", "2"} + more);
   };
   reproduce({"--plots", whole});
   for (const char* part : {"1", "2"})
     reproduce({"--shard", part + std::string("/2"), "--out", directory.path() / part});
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"merge", directory.path() / "1", directory.path() / "2", "--out",
-                                                      directory.path() / "all", "--quiet", "--plots", merged});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending =
+      program::succeeds(SIGMAX_HIMM_DEMO, {"merge", directory.path() / "1", directory.path() / "2", "--out",
+                                           directory.path() / "all", "--quiet", "--plots", merged});
   for (const auto& picture : std::filesystem::directory_iterator(whole))
     if (picture.path().extension() == ".svg")
       EXPECT_EQ(contents(merged / picture.path().filename()), contents(picture.path()));
 }
 
-TEST(HimmDemoPictures, AreNotDrawnWhereTheyCannotBeWritten) {
+TEST_F(HimmDemoPictures, AreNotDrawnWhereTheyCannotBeWritten) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
   const auto ending = program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--plots", "/proc/nowhere"});
   EXPECT_EQ(ending.status, 3);
-  EXPECT_NE(ending.output.find("/proc/nowhere: the directory cannot be created"), std::string::npos) << ending.output;
+  EXPECT_TRUE(says(ending.output, {"/proc/nowhere: the directory cannot be created"}));
 }
 
 /// Runs in a terminal of so many columns, by `script`, which gives the program one.
@@ -75,7 +63,7 @@ program::Ending in_terminal(int columns, const std::string& command) {
 TEST(HimmDemoBraille, EndsTheOutputOfAWideTerminalOnly) {
   if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "no script";
   const std::string command = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " simulate --quiet --runs 2";
-  EXPECT_NE(in_terminal(80, command).output.find("⠉"), std::string::npos);
+  EXPECT_TRUE(says(in_terminal(80, command).output, {"⠉"}));
   EXPECT_EQ(in_terminal(79, command).output.find("Mode weights"), std::string::npos);
   EXPECT_EQ(in_terminal(80, command + " --no-chart").output.find("Mode weights"), std::string::npos);
   EXPECT_EQ(in_terminal(80, "env TERM=dumb " + command).output.find("Mode weights"), std::string::npos);
@@ -83,8 +71,7 @@ TEST(HimmDemoBraille, EndsTheOutputOfAWideTerminalOnly) {
             std::string::npos);
   const std::string track = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " track --quiet " SIGMAX_SOURCE
                                                                                  "/apps/examples/data/drone.csv";
-  EXPECT_NE(in_terminal(120, track).output.find("Mode weights"), std::string::npos);
+  EXPECT_TRUE(says(in_terminal(120, track).output, {"Mode weights"}));
 }
 
 }  // namespace
-}  // namespace sigmax::apps

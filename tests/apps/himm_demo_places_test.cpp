@@ -1,28 +1,17 @@
 // Tracks on the Earth: wherever they are and however far they go, places, speeds and climbs are those there.
 
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double equator = 6378137.0;
 
 std::vector<TextRow> estimates(const std::string& recording, std::vector<std::string> options) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("places.csv", recording);
-  options.insert(options.begin(), {"track", file, "--quiet", "--out", directory.path() / "out"});
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, options);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO, Arguments{"track", file, "--quiet", "--out", directory.path() / "out"} + options);
   return rows(contents(directory.path() / "out" / "estimates.csv"));
 }
 
@@ -81,4 +70,3 @@ TEST(HimmDemoPlaces, LevelFlightClimbsNowhere) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

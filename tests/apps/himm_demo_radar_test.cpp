@@ -1,15 +1,5 @@
 // How a radar's measurements are taken: converted, or in the radar's own space.
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
@@ -22,15 +12,9 @@
 
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
-
-using support::near;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// A row of a recording: measured by the radar, or else by its position.
 struct Row {
@@ -85,16 +69,14 @@ std::string csv(const std::vector<Row>& rows, int axes) {
   return text;
 }
 
-std::vector<TextRow> tracked(const std::string& text, std::vector<std::string> sets) {
+std::vector<TextRow> tracked(const std::string& text, const Arguments& sets) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  sets.insert(sets.end(), {"filters=imm", "sigma_range_m=20", "sigma_azimuth_deg=2", "sigma_elevation_deg=1.5",
-                           "sigma_position_m=15"});
-  std::vector<std::string> arguments = {"track", directory.write("rows.csv", text), "--radar-at=400,-300,10", "--out",
-                                        out};
-  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  const Arguments all = sets + Arguments{"filters=imm", "sigma_range_m=20", "sigma_azimuth_deg=2",
+                                         "sigma_elevation_deg=1.5", "sigma_position_m=15"};
+  program::succeeds(
+      SIGMAX_HIMM_DEMO,
+      Arguments{"track", directory.write("rows.csv", text), "--radar-at=400,-300,10", "--out", out} + setting(all));
   return apps::rows(contents(out / "estimates.csv"));
 }
 
@@ -111,13 +93,8 @@ Gaussian<Axes> converted(const Row& row, Conversion conversion) {
 
 template <int Axes>
 void expect_near(const TextRow& found, const Gaussian<2 * Axes>& expected, double nis) {
-  const std::vector<const char*> names = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
-  for (int i = 0; i < 2 * Axes; ++i) {
-    const std::string name = names[static_cast<std::size_t>(i / Axes * 3 + i % Axes)];
-    ASSERT_PRED_FORMAT3(near, std::stod(found.at(name)), expected.mean(i), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(found.at("sigma_" + name)), std::sqrt(expected.covariance(i, i)), 1e-9);
-  }
-  ASSERT_PRED_FORMAT3(near, std::stod(found.at("nis")), nis, 1e-9);
+  expect_row(found, {entries(expected.mean), dense(expected.covariance)}, Axes);
+  ASSERT_CLOSE(std::stod(found.at("nis")), nis, 1e-9);
 }
 
 /// One model alone is filtered by hand: `take(row, estimate)` updates by a row and gives the NIS.
@@ -201,8 +178,8 @@ TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
     SCOPED_TRACE("row " + std::to_string(k));
     expect_near<2>(row, {estimate.mean.head<4>(), estimate.covariance.topLeftCorner<4, 4>()}, filter.nis());
     if (testing::Test::HasFatalFailure()) return;
-    ASSERT_PRED_FORMAT3(near, std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
+    ASSERT_CLOSE(std::stod(row.at("turn_rate_deg_s")), estimate.mean(4) / degree, 1e-9);
+    ASSERT_CLOSE(std::stod(row.at("weight_ct")), filter.belief()[1], 1e-9);
   }
 }
 
@@ -232,4 +209,3 @@ TEST(HimmDemoRadar, InItsOwnSpaceAMissedRowIsAPredictionAndAfterAGapItStartsAgai
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,18 +1,8 @@
 // `mpirun himm_demo track --track-id`: each rank follows its share of the tracks.
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <random>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "apps/campaigns.hpp"
 #include "apps/recordings.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 /// Rows of seven tracks in turn, all seen to 10 m, some missed; "early" ends before it can start, "late" begins in the
@@ -41,7 +31,7 @@ program::Ending in_ranks(const Arguments& arguments, std::string& skipped) {
   if (!has_mpirun()) return skipped = "there is no mpirun", program::Ending{};
   auto ending = run_in_ranks(arguments);
   if (ending.output.find("this build has no MPI") != std::string::npos) {
-    EXPECT_NE(ending.output.find("; run it without mpirun, or configure with"), std::string::npos) << ending.output;
+    EXPECT_TRUE(says(ending.output, {"; run it without mpirun, or configure with"}));
     EXPECT_EQ(ending.status, 2);
     skipped = "this build has no MPI, and says so";
   }
@@ -56,9 +46,8 @@ TEST_P(TrackInRanks, PrintsAndWritesTheBytesOfOneProcess) {
   const Arguments arguments =
       Arguments{"track", directory.write("seven.csv", seven_tracks()), "--track-id", "id", "--quiet", "--out", out} +
       GetParam();
-  const auto alone = program::run(SIGMAX_HIMM_DEMO, arguments);
-  ASSERT_EQ(alone.status, 0) << alone.output;
-  EXPECT_NE(alone.output.find("7 tracks by id, 1 of them too short"), std::string::npos) << alone.output;
+  const auto alone = program::succeeds(SIGMAX_HIMM_DEMO, arguments);
+  EXPECT_TRUE(says(alone.output, {"7 tracks by id, 1 of them too short"}));
   const auto files = results(out);
   EXPECT_GT(files.at("estimates.csv").size(), 500'000U) << "so that it takes several messages";
   std::filesystem::remove_all(out);
@@ -96,8 +85,9 @@ std::string with_a_failure() {
   return text.str();
 }
 
-TEST(HimmDemoRanks, WhatFailsInOneEndsAllWithTheMessageOfOneProcess) {
-  const TemporaryDirectory directory;
+class HimmDemoRanks : public InDirectory {};
+
+TEST_F(HimmDemoRanks, WhatFailsInOneEndsAllWithTheMessageOfOneProcess) {
   const auto out = directory.path() / "out";
   std::string first_bad = with_a_failure(), later_bad = first_bad;
   first_bad.insert(first_bad.find("\n20,a,") + 1, "20,c,gps,here,0,,\n");
@@ -113,7 +103,7 @@ TEST(HimmDemoRanks, WhatFailsInOneEndsAllWithTheMessageOfOneProcess) {
                                  "--quiet"};
     const auto alone = program::run(SIGMAX_HIMM_DEMO, arguments);
     EXPECT_EQ(alone.status, 3);
-    EXPECT_NE(alone.output.find(complaint), std::string::npos) << alone.output;
+    EXPECT_TRUE(says(alone.output, {complaint}));
     std::string skipped;
     const auto ranks = in_ranks(arguments, skipped);
     if (!skipped.empty()) GTEST_SKIP() << skipped;
@@ -125,18 +115,16 @@ TEST(HimmDemoRanks, WhatFailsInOneEndsAllWithTheMessageOfOneProcess) {
   }
 }
 
-TEST(HimmDemoRanks, WhatTheyCannotShareIsSaid) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoRanks, WhatTheyCannotShareIsSaid) {
   const std::string file = directory.write("seven.csv", seven_tracks());
   std::string skipped;
   const auto one = in_ranks({"track", file, "--select", "id=a"}, skipped);
   if (!skipped.empty()) GTEST_SKIP() << skipped;
   EXPECT_EQ(one.status, 2);
-  EXPECT_NE(one.output.find("name the column that tells tracks apart by --track-id"), std::string::npos) << one.output;
+  EXPECT_TRUE(says(one.output, {"name the column that tells tracks apart by --track-id"}));
   const auto piped = in_ranks({"track", "-", "--track-id", "id"}, skipped);
   EXPECT_EQ(piped.status, 2);
-  EXPECT_NE(piped.output.find("give the name of a file"), std::string::npos) << piped.output;
+  EXPECT_TRUE(says(piped.output, {"give the name of a file"}));
 }
 
 }  // namespace
-}  // namespace sigmax::apps

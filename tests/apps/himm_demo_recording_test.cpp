@@ -1,37 +1,17 @@
 // What `track` reads: radars, several sensors, geodetic tracks on two axes, dates, tracks side by side.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <map>
-#include <numbers>
-#include <optional>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/peak_memory.hpp"
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/geodesy.hpp"
-#include "support/near.hpp"
-#include "support/program.hpp"
 #include "support/restatement.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 using restatement::Index;
 using restatement::Position;
-using sigmax::support::near;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// Where a target is, about 6 km from a radar at the origin: straight, turning, straight, with a gap of a minute.
 struct Flown {
@@ -119,21 +99,12 @@ void expect_restated(const std::string& estimates, const std::vector<Expected>& 
       SCOPED_TRACE("row " + std::to_string(k));
       ASSERT_EQ(std::stod(row.at("time_s")), now);
       const auto estimate = filter.estimate();
-      const std::array<const char*, 6> means = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
-      const std::array<const char*, 6> sigmas = {"sigma_x_m",    "sigma_y_m",    "sigma_z_m",
-                                                 "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps"};
-      for (Index order = 0; order < 2; ++order)
-        for (Index axis = 0; axis < axes; ++axis) {
-          const Index i = order * axes + axis;
-          ASSERT_PRED_FORMAT3(near, std::stod(row.at(means[order * 3 + axis])), estimate.mean[i], 1e-9);
-          ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[order * 3 + axis])), std::sqrt(estimate.covariance(i, i)),
-                              1e-9);
-        }
+      expect_row(row, estimate, axes);
       ASSERT_EQ(row.at("nis").empty(), !z);
       if (z) {
-        ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), *filter.nis(), 1e-9);
+        ASSERT_CLOSE(std::stod(row.at("nis")), *filter.nis(), 1e-9);
       }
-      ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+      ASSERT_CLOSE(std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
     }
   }
 }
@@ -141,10 +112,9 @@ void expect_restated(const std::string& estimates, const std::vector<Expected>& 
 /// Runs `track` on a text and gives back estimates.csv.
 std::string estimates(const std::string& text, std::vector<std::string> more = {}, std::string* output = nullptr) {
   const TemporaryDirectory directory;
-  std::vector<std::string> arguments = {"track", directory.write("input.csv", text), "--out", directory.path() / "out"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeds(
+      SIGMAX_HIMM_DEMO,
+      Arguments{"track", directory.write("input.csv", text), "--out", directory.path() / "out"} + more);
   if (output) *output = ending.output;
   return contents(directory.path() / "out" / "estimates.csv");
 }
@@ -223,7 +193,7 @@ TEST(HimmDemoRecording, ARoundPathAboutARadarEqualsItsConvertedMeasurements) {
       if (name == "filter" || name == "most_likely" || cell.empty()) {
         ASSERT_EQ(other, cell) << name;
       } else {
-        ASSERT_PRED_FORMAT3(near, std::stod(other), std::stod(cell), 1e-9) << name << " of row " << k;
+        ASSERT_CLOSE(std::stod(other), std::stod(cell), 1e-9) << name << " of row " << k;
       }
     }
 }
@@ -267,7 +237,7 @@ TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
                         "[filter.himm.sensor.new]\nsigma_range_m = 15\n");
     std::string output;
     expect_restated(estimates(text, {"--config", settings}, &output), expected, axes);
-    EXPECT_NE(output.find("Rows by sensor: lidar 40, new 40, old radar 40"), std::string::npos) << output;
+    EXPECT_TRUE(says(output, {"Rows by sensor: lidar 40, new 40, old radar 40"}));
 
     const auto printed = program::run(SIGMAX_HIMM_DEMO, {"track", "any", "--print-config", "--config", settings});
     const auto again = directory.write("again.toml", printed.output);
@@ -280,7 +250,7 @@ TEST(HimmDemoRecording, ASensorOfTheSettingsThatIsInNoRowIsWarnedOf) {
   std::string output;
   estimates("time_s,sensor,x_m,y_m,range_m,azimuth_deg\n0,a,1,2,,\n1,a,2,3,,\n2,a,3,4,,\n3,a,4,5,,\n",
             {"--set", "sensor.b.sigma_range_m=1"}, &output);
-  EXPECT_NE(output.find("warning: key 'sensor.b' of filter 'imm': no row of"), std::string::npos) << output;
+  EXPECT_TRUE(says(output, {"warning: key 'sensor.b' of filter 'imm': no row of"}));
 }
 
 TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
@@ -293,8 +263,7 @@ TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
             "," + exact(x[1]) + "\n";
   const TemporaryDirectory directory;
   const auto input = directory.write("input.csv", text);
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", input, "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO, {"track", input, "--out", directory.path()});
   const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results").at("all");
   const auto found = rows(contents(directory.path() / "estimates.csv"));
   const auto measured = rows(text);
@@ -312,11 +281,11 @@ TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
             variance += std::pow(std::stod(row.at("sigma_" + std::string(axis) + "_m")), 2);
             ++count;
           }
-        EXPECT_PRED_FORMAT3(near, results.at(filter).at(std::string("sigma_") + axis + "_m").get<double>(),
-                            std::sqrt(variance / static_cast<double>(count)), 1e-9);
+        EXPECT_CLOSE(results.at(filter).at(std::string("sigma_") + axis + "_m").get<double>(),
+                     std::sqrt(variance / static_cast<double>(count)), 1e-9);
       }
-      EXPECT_PRED_FORMAT3(near, results.at(filter).at(std::string("rmse_") + axis + "_m").get<double>(),
-                          std::sqrt(sum / static_cast<double>(count)), 1e-9);
+      EXPECT_CLOSE(results.at(filter).at(std::string("rmse_") + axis + "_m").get<double>(),
+                   std::sqrt(sum / static_cast<double>(count)), 1e-9);
     }
 }
 
@@ -329,8 +298,7 @@ TEST(HimmDemoRecording, WarnsOnceWhereTheConversionIsOutOfItsValidity) {
   const auto at = output.find("input.csv:4: r σ_α²/σ_r is 0.43 at a range of 1400 m");
   ASSERT_NE(at, std::string::npos) << output;
   EXPECT_EQ(output.find("σ_α²", at + 40), std::string::npos) << "once\n" << output;
-  EXPECT_NE(output.find("in 2 of 5 measurements"), std::string::npos) << output;
-  EXPECT_NE(output.find("set sigma_range_m above 15,"), std::string::npos) << output;  // 10 · 1900/1313 = 14.47
+  EXPECT_TRUE(says(output, {"in 2 of 5 measurements", "set sigma_range_m above 15,"}));  // 10 · 1900/1313 = 14.47
   estimates(text, radar_settings({15.0, sigma_azimuth_deg, 1.0}), &output);
   EXPECT_EQ(output.find("σ_α²"), std::string::npos) << output;
 }
@@ -340,8 +308,7 @@ TEST(HimmDemoRecording, AMeasurementThatNoFilterExpectsIsNamed) {
   for (int k = 0; k < 40; ++k) text += std::to_string(k) + "," + (k == 20 ? "5000" : std::to_string(10 * k)) + ",0\n";
   std::string output;
   estimates(text, {}, &output);
-  EXPECT_NE(output.find("warning: "), std::string::npos) << output;
-  EXPECT_NE(output.find("input.csv:22: no filter expects this measurement"), std::string::npos) << output;
+  EXPECT_TRUE(says(output, {"warning: ", "input.csv:22: no filter expects this measurement"}));
 }
 
 TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
@@ -359,7 +326,7 @@ TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
     for (const char* name : {"x_m", "y_m"})
-      ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(name)), std::stod(expected[k].at(name)), 1e-9);
+      ASSERT_CLOSE(std::stod(found[k].at(name)), std::stod(expected[k].at(name)), 1e-9);
     // Along east there, not along that of the origin: on 10 km at 51° north they differ by 0.1°.
     EXPECT_NEAR(std::stod(found[k].at("vx_mps")), std::stod(expected[k].at("vx_mps")), 0.1);
     EXPECT_EQ(found[k].at("z_m"), "");
@@ -424,7 +391,7 @@ TEST(HimmDemoRecording, TracksOfOneFileEqualEachAlone) {
   const auto [all, alone] = interleaved(2);
   std::string output;
   const std::string together = estimates(all, {"--track-id", "ship"}, &output);
-  EXPECT_NE(output.find("3 tracks by ship\n"), std::string::npos) << output;
+  EXPECT_TRUE(says(output, {"3 tracks by ship\n"}));
   for (const auto& [ship, text] : alone) {
     EXPECT_EQ(lines_of(together, ship), estimates(text)) << ship;
     EXPECT_EQ(lines_of(together, ship), estimates(all, {"--select", "ship=" + ship})) << ship;
@@ -442,14 +409,14 @@ TEST(HimmDemoRecording, ATrackTooShortToStartIsCountedAndTheOthersGoOn) {
   std::string output;
   const std::string found =
       estimates("time_s,id,x_m,y_m\n0,a,0,0\n1,a,1,0\n1,b,5,5\n2,a,2,0\n3,a,3,0\n", {"--track-id", "id"}, &output);
-  EXPECT_NE(output.find("2 tracks by id, 1 of them too short for every filter to start\n"), std::string::npos);
+  EXPECT_TRUE(says(output, {"2 tracks by id, 1 of them too short for every filter to start\n"}));
   EXPECT_EQ(rows(found).size(), 2U);
 }
 
 TEST(HimmDemoRecording, TheNameOfATrackIsQuotedWhereItNeedsIt) {
   const std::string found = estimates("time_s,id,x_m,y_m\n0,\"a,b\",0,0\n1,\"a,b\",1,0\n2,\"a,b\",2,0\n3,\"a,b\",3,0\n",
                                       {"--track-id", "id"});
-  EXPECT_NE(found.find("\n3,\"a,b\",imm,"), std::string::npos) << found;
+  EXPECT_TRUE(says(found, {"\n3,\"a,b\",imm,"}));
 }
 
 TEST(HimmDemoRecording, SelectionsHoldAllAtOnce) {
@@ -469,7 +436,7 @@ TEST(HimmDemoRecording, BadTimesAreSkippedOnRequest) {
   EXPECT_EQ(estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n1,99,99\n2,2,0\n0.5,99,99\n3,3,1\n4,4,1\n",
                       {"--on-bad-time", "skip"}, &output),
             estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n3,3,1\n4,4,1\n"));
-  EXPECT_NE(output.find("Skipped 2 rows"), std::string::npos) << output;
+  EXPECT_TRUE(says(output, {"Skipped 2 rows"}));
 }
 
 TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
@@ -477,9 +444,8 @@ TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
   const TemporaryDirectory directory;
   const std::string input = directory.write("input.csv", text);
   const std::string out = directory.path() / "out";
-  const auto ending = program::run("/bin/sh", {"-c", "exec \"$1\" track - --track-id ship --out \"$2\" < \"$3\"", "sh",
-                                               program::chosen(SIGMAX_HIMM_DEMO), out, input});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeds("/bin/sh", {"-c", "exec \"$1\" track - --track-id ship --out \"$2\" < \"$3\"",
+                                                    "sh", program::chosen(SIGMAX_HIMM_DEMO), out, input});
   EXPECT_TRUE(ending.output.starts_with("standard input: 300 rows")) << ending.output;
   EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), estimates(text, {"--track-id", "ship"}));
 }
@@ -506,23 +472,17 @@ TEST(HimmDemoRecording, RecordedShipsAreTrackedOneByOneAndAllAtOnce) {
   if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
   const TemporaryDirectory directory;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> arguments = {
-        "track",     file,
-        "--columns", "time_s=Time,latitude_deg=Latitude_degrees,longitude_deg=Longitude_degrees",
-        "--origin",  "50.8,-1.1,0",
-        "--set",     "sigma_w=0.05",
-        "--out",     directory.path() / out};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return program::run(SIGMAX_HIMM_DEMO, arguments);
+    return program::run(SIGMAX_HIMM_DEMO,
+                        Arguments{"track", file, "--columns",
+                                  "time_s=Time,latitude_deg=Latitude_degrees,longitude_deg=Longitude_degrees",
+                                  "--origin", "50.8,-1.1,0", "--set", "sigma_w=0.05", "--out", directory.path() / out} +
+                            more);
   };
-  const auto all = run("all", {"--track-id", "MMSI", "--on-bad-time", "skip"});
-  ASSERT_EQ(all.status, 0) << all.output;
+  const auto all = program::succeeded(run("all", {"--track-id", "MMSI", "--on-bad-time", "skip"}));
   const std::string said = all.on_one_line();
-  EXPECT_NE(said.find("18620 rows, 18620 measurements, 2 axes"), std::string::npos) << all.output;
-  EXPECT_NE(said.find("91 tracks by MMSI, 3 of them too short"), std::string::npos) << all.output;
-  EXPECT_NE(said.find("Skipped 3 rows"), std::string::npos) << all.output;
-  const auto one = run("one", {"--select", "MMSI=235013375"});
-  ASSERT_EQ(one.status, 0) << one.output;
+  EXPECT_TRUE(says(
+      said, {"18620 rows, 18620 measurements, 2 axes", "91 tracks by MMSI, 3 of them too short", "Skipped 3 rows"}));
+  const auto one = program::succeeded(run("one", {"--select", "MMSI=235013375"}));
   const std::string alone = contents(directory.path() / "one" / "estimates.csv");
   EXPECT_EQ(rows(alone).size(), 2U * 1135U);
   EXPECT_EQ(lines_of(contents(directory.path() / "all" / "estimates.csv"), "235013375"), alone);
@@ -534,11 +494,10 @@ TEST(HimmDemoRecording, ARecordedLidarAndRadarAreFusedAgainstTheTruth) {
   if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
   const TemporaryDirectory directory;
   const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"track", file, "--set", "sensor.lidar.sigma_position_m=0.15", "--set",
-                                      "sensor.radar.sigma_range_m=0.3", "--set", "sensor.radar.sigma_azimuth_deg=1.72",
-                                      "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.on_one_line().find("Rows by sensor: lidar 250, radar 250"), std::string::npos) << ending.output;
+      program::succeeds(SIGMAX_HIMM_DEMO, {"track", file, "--set", "sensor.lidar.sigma_position_m=0.15", "--set",
+                                           "sensor.radar.sigma_range_m=0.3", "--set",
+                                           "sensor.radar.sigma_azimuth_deg=1.72", "--out", directory.path()});
+  EXPECT_TRUE(says(ending.on_one_line(), {"Rows by sensor: lidar 250, radar 250"}));
   const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results").at("all");
   const auto truth = rows(contents(file));
   const auto found = rows(contents(directory.path() / "estimates.csv"));
@@ -550,10 +509,9 @@ TEST(HimmDemoRecording, ARecordedLidarAndRadarAreFusedAgainstTheTruth) {
         sum += std::pow(
             std::stod(found[2 * (k - 3) + f].at(axis + "_m")) - std::stod(truth[k].at("true_" + axis + "_m")), 2);
       const double rmse = results.at(f == 0 ? "imm" : "himm").at(std::string("rmse_") + axis + "_m").get<double>();
-      EXPECT_PRED_FORMAT3(near, rmse, std::sqrt(sum / 497.0), 1e-9);
+      EXPECT_CLOSE(rmse, std::sqrt(sum / 497.0), 1e-9);
       EXPECT_LT(rmse, results.at("measurement").at(std::string("rmse_") + axis + "_m").get<double>());
     }
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,15 +1,7 @@
 #include "result/report.hpp"
 
-#include <gtest/gtest.h>
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include "apps/report_pages.hpp"
-#include "apps/temporary_directory.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 constexpr const char* nasty = "</script><b>&amp;\u2028\"";
@@ -51,6 +43,13 @@ Report example() {
   return report;
 }
 
+class ReportPage : public InDirectory {
+ protected:
+  void SetUp() override {
+    if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+  }
+};
+
 TEST(Report, IsDataOfWhatItWasGiven) {
   const auto data = data_of(example());
   EXPECT_EQ(data.at("title"), nasty);
@@ -67,51 +66,38 @@ TEST(Report, IsDataOfWhatItWasGiven) {
   EXPECT_TRUE(intervals.at("wanted").at(0).at("from").is_null());
 }
 
-TEST(Report, LetsNoTextOutOfItsPlace) {
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, LetsNoTextOutOfItsPlace) {
   const std::string page = html(example());
   EXPECT_EQ(page.find("</script><b>"), std::string::npos);
   EXPECT_EQ(page.find("</title><b>"), std::string::npos);
-  const TemporaryDirectory directory;
   EXPECT_EQ(data_in(directory.write("report.html", page)), data_of(example()));
 }
 
-TEST(Report, TakesBytesThatAreNoText) {
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
-  EXPECT_NE(html({.title = "a\xFF", .verdict = {"\xC3("}}).find("\uFFFD("), std::string::npos);
+TEST_F(ReportPage, TakesBytesThatAreNoText) {
+  EXPECT_TRUE(says(html({.title = "a\xFF", .verdict = {"\xC3("}}), {"\uFFFD("}));
 }
 
-TEST(Report, AsksForNothingFromElsewhere) {
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, AsksForNothingFromElsewhere) {
   const std::string page = html(example());
   for (const char* outside : {"<script src", "<link", "@import", "url(http"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 }
 
-TEST(Report, IsDrawnWithEveryLabelAsItIs) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, IsDrawnWithEveryLabelAsItIs) {
   std::ofstream(directory.path() / "report.html") << html(example());
   expect_drawn(directory.path() / "report.html");
 }
 
-TEST(Report, OfSimulateIsDrawnAndHoldsTheNumbersOfTheSummary) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfSimulateIsDrawnAndHoldsTheNumbersOfTheSummary) {
   const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "20", "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+      program::succeeds(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "20", "--out", directory.path()});
   EXPECT_LT(std::filesystem::file_size(directory.path() / "report.html"), 1000000U);
   expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
 }
 
-TEST(Report, OfTrackIsDrawnAndHoldsTheNumbersOfTheSummary) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
-  const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
-                                      "sigma_position_m=[3,3,5]", "--set", "sigma_w=1.5", "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+TEST_F(ReportPage, OfTrackIsDrawnAndHoldsTheNumbersOfTheSummary) {
+  program::succeeds(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
+                                       "sigma_position_m=[3,3,5]", "--set", "sigma_w=1.5", "--out", directory.path()});
   expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
 }
 
@@ -135,11 +121,8 @@ std::vector<std::string> lines_with(const std::filesystem::path& file, const std
   return lines;
 }
 
-TEST(Report, OfSimulateDrawsTheCurvesThatRmseCsvHolds) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
-  ASSERT_EQ(program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--out", directory.path()}).status,
-            0);
+TEST_F(ReportPage, OfSimulateDrawsTheCurvesThatRmseCsvHolds) {
+  program::succeeds(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--out", directory.path()});
   const auto data = written(directory.path()).data;
   const auto& chart = data.at("views").at(0).at("panels").at(0);
   ASSERT_EQ(chart.at("title"), "RMSE in x");
@@ -156,12 +139,9 @@ TEST(Report, OfSimulateDrawsTheCurvesThatRmseCsvHolds) {
     }
 }
 
-TEST(Report, OfReproduceShowsEverySentenceAndTheFiguresThatDecide) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfReproduceShowsEverySentenceAndTheFiguresThatDecide) {
   const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"reproduce", "--quiet", "--runs", "3", "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+      program::succeeds(SIGMAX_HIMM_DEMO, {"reproduce", "--quiet", "--runs", "3", "--out", directory.path()});
   EXPECT_LT(std::filesystem::file_size(directory.path() / "report.html"), 1000000U);
   const auto [data, summary] = written(directory.path());
   EXPECT_EQ(data.at("panels").at(0).at("rows").size(), summary.at("sentences").size());
@@ -185,9 +165,7 @@ TEST(Report, OfReproduceShowsEverySentenceAndTheFiguresThatDecide) {
   expect_drawn(directory.path() / "report.html", directory.path() / "summary.json");
 }
 
-TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfSweepIsAMapOfConditionsAndFilters) {
   const std::vector<std::string> small = {
       "sweep",         "--quiet", "--scenario", "2", "--filters", "imm,himm_own", "--probability", "0.05",
       "--possibility", "0.2,0.5", "--sigma-w",  "3", "--lift",    "zero",         "--mismatch",    "1,2",
@@ -197,8 +175,7 @@ TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
     auto arguments = small;
     arguments.push_back(directory.path() / out);
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
-    EXPECT_EQ(ending.status, 0) << ending.output;
+    program::succeeds(SIGMAX_HIMM_DEMO, arguments);
     return directory.path() / out;
   };
   const auto alone = sweep("alone", {}), crossed = sweep("crossed", {"--cross"});
@@ -210,8 +187,7 @@ TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
   ASSERT_EQ(map.at("columns"), nlohmann::ordered_json::parse(R"(["HIMM", "himm_own"])"));
   const auto& tuned = summary.at("conditions").at("2, noise ×2").at("himm_own");
   EXPECT_EQ(map.at("values")[row][1], tuned.at("above_imm").at("mean"));
-  EXPECT_NE(map.at("texts")[row][1].get<std::string>().find("leaving " + tuned.at("leaving").dump()), std::string::npos)
-      << map.at("texts")[row][1];
+  EXPECT_TRUE(says(map.at("texts")[row][1].get<std::string>(), {"leaving " + tuned.at("leaving").dump()}));
   const auto crossing = written(crossed).data;
   EXPECT_EQ(crossing.at("views").size(), 2U);
   EXPECT_EQ(crossing.at("views").at(0).at("panels").at(0).at("columns").size(), 2U);
@@ -219,23 +195,18 @@ TEST(Report, OfSweepIsAMapOfConditionsAndFilters) {
   expect_drawn(crossed / "report.html", crossed / "summary.json");
   const auto merged = directory.path() / "merged.html";
   const auto merge =
-      program::run(SIGMAX_HIMM_DEMO, {"merge", crossed, "--out", directory.path() / "merged", "--report", merged});
-  EXPECT_EQ(merge.status, 0) << merge.output;
-  EXPECT_NE(contents(merged).find("against the tuned IMM"), std::string::npos);
+      program::succeeds(SIGMAX_HIMM_DEMO, {"merge", crossed, "--out", directory.path() / "merged", "--report", merged});
+  EXPECT_TRUE(says(contents(merged), {"against the tuned IMM"}));
 }
 
-TEST(Report, OfAShardIsRefused) {
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
-  const TemporaryDirectory directory;
+TEST_F(ReportPage, OfAShardIsRefused) {
   const auto ending = program::run(SIGMAX_HIMM_DEMO, {"reproduce", "--runs", "2", "--shard", "1/2", "--out",
                                                       directory.path(), "--report", directory.path() / "page.html"});
   EXPECT_EQ(ending.status, 2);
-  EXPECT_NE(ending.output.find("give it to merge"), std::string::npos) << ending.output;
+  EXPECT_TRUE(says(ending.output, {"give it to merge"}));
 }
 
-TEST(Report, OfTuneShowsInnovationsAndFoldsBeforeAndAfter) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfTuneShowsInnovationsAndFoldsBeforeAndAfter) {
   const auto page = directory.path() / "tune.html", found = directory.path() / "tune.json";
   const auto ending =
       program::run(SIGMAX_HIMM_DEMO, {"tune", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
@@ -251,13 +222,11 @@ TEST(Report, OfTuneShowsInnovationsAndFoldsBeforeAndAfter) {
   expect_drawn(page, found);
 }
 
-TEST(Report, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet",
-                                                      "--set", "filters=himm_histories", "--set", "explain=true",
-                                                      "--set", "sigma_position_m=[3,3,5]", "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+TEST_F(ReportPage, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
+  const auto ending =
+      program::succeeds(SIGMAX_HIMM_DEMO, {"track", SIGMAX_SOURCE "/apps/examples/data/drone.csv", "--quiet", "--set",
+                                           "filters=himm_histories", "--set", "explain=true", "--set",
+                                           "sigma_position_m=[3,3,5]", "--out", directory.path()});
   const auto [data, summary] = written(directory.path());
   const auto& told = summary.at("histories").at("himm_histories").at("");
   const auto& panels = data.at("views").at(0).at("panels");
@@ -275,9 +244,7 @@ TEST(Report, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
 }
 
 /// Ships that a gate turns some plots away from, one of them with a name that is no name.
-TEST(Report, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
   std::ofstream file(directory.path() / "ships.csv");
   file << "time_s,latitude_deg,longitude_deg,ship\n";
   for (int k = 0; k < 60; ++k)
@@ -286,32 +253,27 @@ TEST(Report, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
            << '\n';
   file.close();
   const auto page = directory.path() / "ships.html";
-  const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"track", directory.path() / "ships.csv", "--quiet", "--track-id", "ship", "--set",
-                                      "sigma_position_m=30", "--set", "gate_probability=0.999", "--report", page});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO,
+                    {"track", directory.path() / "ships.csv", "--quiet", "--track-id", "ship", "--set",
+                     "sigma_position_m=30", "--set", "gate_probability=0.999", "--report", page});
   const std::string text = contents(page);
   EXPECT_EQ(text.find("</script><b>"), std::string::npos);
   for (const char* part : {"\"name\":\"Anna\"", "\"rejected by himm\"", "59.35° N", "18.1° E"})
-    EXPECT_NE(text.find(part), std::string::npos) << part;
+    EXPECT_TRUE(says(text, {part}));
   expect_drawn(page);
 }
 
-TEST(Report, OfALongRecordingIsThinnedAndSaysSo) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfALongRecordingIsThinnedAndSaysSo) {
   std::ofstream file(directory.path() / "long.csv");
   file << "time_s,x_m,y_m\n";
   for (int k = 0; k < 20000; ++k) file << k << ',' << 10 * k + (k * 37 % 11) + (k == 15432 ? 4000 : 0) << ",0\n";
   file.close();
   const auto page = directory.path() / "long.html";
   const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"track", directory.path() / "long.csv", "--quiet", "--report", page});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+      program::succeeds(SIGMAX_HIMM_DEMO, {"track", directory.path() / "long.csv", "--quiet", "--report", page});
   EXPECT_LT(std::filesystem::file_size(page), 1500000U);
   const std::string text = contents(page);
-  EXPECT_NE(text.find("The charts are thinned"), std::string::npos);
-  EXPECT_NE(text.find("158327"), std::string::npos) << "the outlier is among what is drawn";
+  EXPECT_TRUE(says(text, {"The charts are thinned", "158327"}));
 }
 
 TEST(Report, IsNotWrittenOverItsInput) {
@@ -324,23 +286,18 @@ TEST(Report, IsNotWrittenOverItsInput) {
   EXPECT_TRUE(contents(file).starts_with("time_s,x_m,y_m"));
 }
 
-TEST(Report, OfAllFiltersStaysBelowAMegabyte) {
-  const TemporaryDirectory directory;
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, OfAllFiltersStaysBelowAMegabyte) {
   const auto file = directory.path() / "all.html";
-  const auto ending =
-      program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--set", "filters=all", "--report", file});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.output.find("Wrote " + file.string() + "\n"), std::string::npos) << ending.output;
+  const auto ending = program::succeeds(
+      SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--runs", "3", "--set", "filters=all", "--report", file});
+  EXPECT_TRUE(says(ending.output, {"Wrote " + file.string() + "\n"}));
   EXPECT_LT(std::filesystem::file_size(file), 1000000U);
 }
 
-TEST(Report, IsNotBegunWhereItCannotBeWritten) {
-  if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
+TEST_F(ReportPage, IsNotBegunWhereItCannotBeWritten) {
   const auto ending = program::run(SIGMAX_HIMM_DEMO, {"simulate", "--quiet", "--report", "/nowhere/report.html"});
   EXPECT_EQ(ending.status, 3);
-  EXPECT_NE(ending.output.find("/nowhere/report.html: cannot be written"), std::string::npos) << ending.output;
+  EXPECT_TRUE(says(ending.output, {"/nowhere/report.html: cannot be written"}));
 }
 
 }  // namespace
-}  // namespace sigmax::apps

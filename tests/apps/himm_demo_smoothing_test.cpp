@@ -1,30 +1,14 @@
 // `smooth` and `sojourn_s`: what a whole recording says of each time, and modes that follow the time.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "apps/manoeuvring_targets.hpp"
-#include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 #include "support/program.hpp"
 #include "support/smoother_restatement.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-using support::near;
-
-program::Ending himm_demo(std::vector<std::string> arguments, const std::vector<std::string>& sets) {
-  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  return program::run(SIGMAX_HIMM_DEMO, arguments);
+program::Ending himm_demo(const Arguments& arguments, const Arguments& sets) {
+  return program::run(SIGMAX_HIMM_DEMO, arguments + setting(sets));
 }
 
 /// estimates.csv
@@ -32,10 +16,9 @@ std::string estimates(const std::string& text, const std::vector<std::string>& s
                       const std::vector<std::string>& options = {}) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  std::vector<std::string> arguments = {"track", directory.write("recording.csv", text), "--quiet", "--out", out};
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  const auto ending = himm_demo(arguments, sets);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(
+      SIGMAX_HIMM_DEMO,
+      Arguments{"track", directory.write("recording.csv", text), "--quiet", "--out", out} + options + setting(sets));
   return contents(out / "estimates.csv");
 }
 
@@ -66,16 +49,11 @@ void expect_restated(const restatement::Options& options, const std::vector<Poin
     const auto& moment = moments[k + 1];
     const auto estimate = smoother.estimate(moment);
     ASSERT_EQ(std::stod(found[k].at("time_s")), points[k].time);
-    const std::vector<const char*> means = {"x_m",    "y_m",     "z_m",     "vx_mps", "vy_mps",
-                                            "vz_mps", "ax_mps2", "ay_mps2", "az_mps2"};
-    for (Index i = 0; i < 9; ++i) ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(means[i])), estimate.mean[i], 1e-9);
-    for (Index i = 0; i < 6; ++i)
-      ASSERT_PRED_FORMAT3(near, std::stod(found[k].at(std::string("sigma_") + means[i])),
-                          std::sqrt(estimate.covariance(i, i)), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwna")), std::exp(moment.log_weights[0]), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("weight_dwpa")), std::exp(moment.log_weights[1]), 1e-9);
+    expect_row(found[k], estimate, 3);
+    ASSERT_CLOSE(std::stod(found[k].at("weight_dwna")), std::exp(moment.log_weights[0]), 1e-9);
+    ASSERT_CLOSE(std::stod(found[k].at("weight_dwpa")), std::exp(moment.log_weights[1]), 1e-9);
     ASSERT_EQ(found[k].at("most_likely"), moment.winner == 0 ? "dwna" : "dwpa");
-    ASSERT_PRED_FORMAT3(near, std::stod(found[k].at("nis")), nis[k], 1e-9) << "that of the filter";
+    ASSERT_CLOSE(std::stod(found[k].at("nis")), nis[k], 1e-9) << "that of the filter";
   }
 }
 
@@ -160,10 +138,9 @@ TEST(HimmDemoSmoothing, OfOneTrackIsAsIfItWereAlone) {
 TEST(HimmDemoSmoothing, IsBetterThanTheFilterInEveryPhaseOfThePaper) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending = himm_demo({"simulate", "--runs", "20", "--quiet", "--out", out},
-                                {"filters=[imm,himm,imm_smoothed,himm_smoothed]", "filter.imm_smoothed.smooth=true",
-                                 "filter.himm_smoothed.smooth=true", "lift=borrowed_variance"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(himm_demo({"simulate", "--runs", "20", "--quiet", "--out", out},
+                               {"filters=[imm,himm,imm_smoothed,himm_smoothed]", "filter.imm_smoothed.smooth=true",
+                                "filter.himm_smoothed.smooth=true", "lift=borrowed_variance"}));
   const auto found = rows(contents(out / "filters.csv"));
   for (const std::string name : {"imm", "himm"})
     for (const char* phase : {"rmse_before_m", "rmse_during_m", "rmse_after_m"})
@@ -195,7 +172,7 @@ TEST(HimmDemoSojourn, OfEvenStepsIsTheTransitionOverOne) {
     ASSERT_EQ(by_time.size(), by_scan.size());
     for (std::size_t k = 0; k < by_time.size(); ++k)
       for (const char* name : {"x_m", "vy_mps", "sigma_vx_mps", "weight_dwna", "weight_dwpa"})
-        ASSERT_PRED_FORMAT3(near, std::stod(by_time[k].at(name)), std::stod(by_scan[k].at(name)), 1e-9)
+        ASSERT_CLOSE(std::stod(by_time[k].at(name)), std::stod(by_scan[k].at(name)), 1e-9)
             << name << " of row " << k << " at steps of " << T;
   }
 }
@@ -210,9 +187,8 @@ TEST(HimmDemoSojourn, FollowsEachStep) {
   for (const auto& row : found) {
     const double a = 0.05, b = 0.2, t = std::stod(row.at("time_s"));
     const double first = b / (a + b) + (0.5 - b / (a + b)) * std::exp(-(a + b) * t);  // from equal weights
-    EXPECT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), first, 1e-12);
+    EXPECT_CLOSE(std::stod(row.at("weight_dwna")), first, 1e-12);
   }
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "apps/campaigns.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 /// Nine conditions, two filters, four settings each.
@@ -34,10 +27,8 @@ std::vector<std::string> row_of(const std::filesystem::path& out, const std::str
 }
 
 nlohmann::json simulated(const std::filesystem::path& out, const Arguments& sets) {
-  Arguments arguments = {"simulate", "--scenario", "2", "--quiet", "--out", out};
-  for (const auto& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--runs", "10"});
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO,
+                    Arguments{"simulate", "--scenario", "2", "--quiet", "--runs", "10", "--out", out} + setting(sets));
   return nlohmann::json::parse(contents(out / "summary.json")).at("results");
 }
 
@@ -51,8 +42,9 @@ double score_of(const nlohmann::json& results, const std::string& filter) {
   return sum / 9.0;
 }
 
-TEST(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
-  const TemporaryDirectory directory;
+class HimmDemoSweep : public InDirectory {};
+
+TEST_F(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
   campaign(directory.path() / "sweep", {"sweep",
                                         "--scenario",
                                         "2",
@@ -110,8 +102,7 @@ const Arguments off_diagonals = {"sweep",      "--scenario", "1",
                                  "--sigma-w",  "3",          "--lift",
                                  "zero",       "--filters",  "imm,himm_own_recentred"};
 
-TEST(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
   const auto far = directory.path() / "far", longer = directory.path() / "longer";
   const auto said = campaign(far, off_diagonals + Arguments{"--probability", "0.16,0.32", "--possibility", "0.4,0.8"});
   EXPECT_EQ(said.find("tuned filters stopped"), std::string::npos) << said;
@@ -127,18 +118,16 @@ TEST(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
   }
 }
 
-TEST(HimmDemoSweep, ItStopsAtTheLimitAndSaysSo) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, ItStopsAtTheLimitAndSaysSo) {
   const Arguments far = {"--probability", "0.16,0.32", "--possibility", "0.4,0.8"};
   const auto said = campaign(directory.path(), off_diagonals + far + Arguments{"--beyond", "2"});
-  EXPECT_NE(said.find("2 of 2 tuned filters stopped at the limit beyond a list"), std::string::npos) << said;
+  EXPECT_TRUE(says(said, {"2 of 2 tuned filters stopped at the limit beyond a list"}));
   const auto row = row_of(directory.path(), "1,1,1,1,1,imm,");
   EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 8), (std::vector<std::string>{"0.04", "0.04"}));
   EXPECT_EQ(row.at(11), "1");
 }
 
-TEST(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
   const Arguments one = {"sweep",    "--scenario", "2",          "--filters", "imm",      "--mismatch", "1",
                          "--period", "1",          "--strength", "1",         "--length", "1",          "--probability",
                          "0.05",     "--sigma-w",  "3",          "--lift",    "zero"};
@@ -153,36 +142,31 @@ TEST(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
   EXPECT_NEAR(score("all", 13), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
 }
 
-TEST(HimmDemoSweep, TheNumberOfThreadsChangesNoByte) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, TheNumberOfThreadsChangesNoByte) {
   for (const std::string threads : {"1", "3"})
     campaign(directory.path() / threads, small + Arguments{"--threads", threads});
   EXPECT_EQ(results(directory.path() / "1"), results(directory.path() / "3"));
 }
 
-TEST(HimmDemoSweep, KilledAndStartedAgainItEndsWithTheSameBytes) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, KilledAndStartedAgainItEndsWithTheSameBytes) {
   campaign(directory.path() / "whole", small);
   campaign_with_kills(directory.path() / "killed", small);
   EXPECT_EQ(results(directory.path() / "killed"), results(directory.path() / "whole"));
 }
 
-TEST(HimmDemoSweep, ShardsMergeIntoTheSameBytes) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, ShardsMergeIntoTheSameBytes) {
   campaign(directory.path() / "whole", small);
   Arguments merge = {"merge", "--out", directory.path() / "merged"};
   for (const std::string shard : {"1", "2", "3"}) {
     campaign(directory.path() / shard, small + Arguments{"--shard", shard + "/3"});
     merge.push_back(directory.path() / shard);
   }
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, merge);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO, merge);
   EXPECT_EQ(results(directory.path() / "merged"), results(directory.path() / "whole"));
 }
 
-TEST(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
+TEST_F(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
   if (!has_mpirun()) GTEST_SKIP() << "there is no mpirun";
-  const TemporaryDirectory directory;
   const auto out = directory.path() / "ranks";
   const auto words = mpirun(small + Arguments{"--quiet", "--out", out});
   campaign(directory.path() / "whole", small);
@@ -197,13 +181,11 @@ TEST(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
   ::kill(ranks.back(), SIGKILL);
   EXPECT_NE(running.end(), 0);
   EXPECT_LT(lines_of(out / "cells.journal"), lines_of(directory.path() / "whole" / "cells.journal"));
-  const auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(words.front(), {words.begin() + 1, words.end()});
   EXPECT_EQ(results(out), results(directory.path() / "whole"));
 }
 
-TEST(HimmDemoSweep, WhatCannotBeIsSaid) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoSweep, WhatCannotBeIsSaid) {
   const auto run = [&](const Arguments& arguments) {
     return program::run(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet"});
   };
@@ -211,24 +193,17 @@ TEST(HimmDemoSweep, WhatCannotBeIsSaid) {
   campaign(out, small);
   const auto other = run(small + Arguments{"--seed", "2", "--out", out});
   EXPECT_EQ(other.status, 3);
-  EXPECT_NE(other.output.find("the directory holds another campaign"), std::string::npos) << other.output;
+  EXPECT_TRUE(says(other.output, {"the directory holds another campaign"}));
 
   std::ofstream(out / "cells.journal", std::ios::app) << "5,not a number\n";
   const auto broken = run(small + Arguments{"--out", out});
   EXPECT_EQ(broken.status, 3);
-  EXPECT_NE(broken.output.find("cells.journal:"), std::string::npos) << broken.output;
-  EXPECT_NE(broken.output.find("'5,not a number'"), std::string::npos) << broken.output;
+  EXPECT_TRUE(says(broken.output, {"cells.journal:", "'5,not a number'"}));
 
-  EXPECT_EQ(run({"sweep", "--shard", "3/2"}).status, 2);
-  EXPECT_NE(run({"sweep", "--shard", "3/2"}).output.find("expected I/N with I from 1 to N"), std::string::npos);
   EXPECT_EQ(run(small + Arguments{"--shard", "1/2"}).status, 2) << "there is no --out";
-  EXPECT_EQ(run({"sweep", "--probability", "0"}).status, 2);
-  EXPECT_EQ(run({"sweep", "--beyond", "-1"}).status, 2);
-  EXPECT_EQ(run({"sweep", "--beyond", "far"}).status, 2);
   EXPECT_EQ(run(small + Arguments{"--beyond", "1", "--out", out}).status, 3) << "another campaign";
   EXPECT_EQ(run({"sweep", "--filters", "nobody"}).status, 3);
   EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,21 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "apps/manoeuvring_targets.hpp"
-#include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 #include "support/program.hpp"
-#include "support/restatement.hpp"
 
-namespace sigmax::apps {
 namespace {
-
-using support::near;
 
 struct Case {
   std::string name;
@@ -96,13 +83,7 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
       "transition_probability=[[0.95,0.05],[0.1,0.9]]",
       "transition_possibility=[[1,0.5],[0.25,1]]",
   };
-  sets.insert(sets.end(), c.sets.begin(), c.sets.end());
-  for (const auto& set : sets) {
-    arguments.push_back("--set");
-    arguments.push_back(set);
-  }
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeds(SIGMAX_HIMM_DEMO, arguments + setting(sets) + setting(c.sets));
   const auto found = rows(contents(out / "estimates.csv"));
 
   using restatement::Index;
@@ -134,10 +115,6 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
       {1.0, 1.0}, c.options);
 
   ASSERT_EQ(found.size(), points.size() - first);
-  const std::vector<std::string> means = {"x_m",    "y_m",     "z_m",     "vx_mps", "vy_mps",
-                                          "vz_mps", "ax_mps2", "ay_mps2", "az_mps2"};
-  const std::vector<std::string> sigmas = {"sigma_x_m",    "sigma_y_m",    "sigma_z_m",
-                                           "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps"};
   for (std::size_t k = first; k < points.size(); ++k) {
     filter.step(points[k].time - time, points[k].z, R);
     time = points[k].time;
@@ -145,23 +122,10 @@ TEST_P(Track, EqualsThePlainRestatementAtEveryStep) {
     const auto estimate = filter.estimate();
     SCOPED_TRACE("step " + std::to_string(k));
     ASSERT_EQ(std::stod(row.at("time_s")), points[k].time);
-    for (Index order = 0; order < 3; ++order)
-      for (Index axis = 0; axis < 3; ++axis) {
-        const auto& cell = row.at(means[order * 3 + axis]);
-        if (axis >= c.axes) {
-          ASSERT_EQ(cell, "");
-          continue;
-        }
-        const Index i = order * c.axes + axis;
-        ASSERT_PRED_FORMAT3(near, std::stod(cell), estimate.mean[i], 1e-9);
-        if (order < 2) {
-          ASSERT_PRED_FORMAT3(near, std::stod(row.at(sigmas[order * 3 + axis])), std::sqrt(estimate.covariance(i, i)),
-                              1e-9);
-        }
-      }
-    ASSERT_PRED_FORMAT3(near, std::stod(row.at("nis")), *filter.nis(), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
-    ASSERT_PRED_FORMAT3(near, std::stod(row.at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
+    expect_row(row, estimate, c.axes);
+    ASSERT_CLOSE(std::stod(row.at("nis")), *filter.nis(), 1e-9);
+    ASSERT_CLOSE(std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
+    ASSERT_CLOSE(std::stod(row.at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
     ASSERT_EQ(row.at("most_likely"), filter.winner() == 0 ? "dwna" : "dwpa");
   }
 }
@@ -170,21 +134,19 @@ INSTANTIATE_TEST_SUITE_P(HimmDemo, Track, testing::ValuesIn(cases()), [](const a
 
 /// Runs `track` on a file of that text.
 program::Ending track(const TemporaryDirectory& directory, std::string_view text, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments = {"track", directory.write("input.csv", text)};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return program::run(SIGMAX_HIMM_DEMO, arguments);
+  return program::run(SIGMAX_HIMM_DEMO, Arguments{"track", directory.write("input.csv", text)} + more);
 }
 
-TEST(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
+class HimmDemoTrack : public InDirectory {};
+
+TEST_F(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
   // Due north along a meridian at constant height: the estimate's latitude follows the input's.
   std::string text = "t,lat,lon,altitude_ft,junk\n";
   for (int k = 0; k < 60; ++k) text += std::to_string(k) + "," + std::to_string(52.0 + 0.001 * k) + ",4.5,1000,x\n";
-  const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
-  const auto ending = track(directory, text,
-                            {"--columns", "time_s=t,latitude_deg=lat,longitude_deg=lon", "--origin", "52,4.5,0",
-                             "--out", out, "--set", "sigma_position_m=1"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(track(directory, text,
+                           {"--columns", "time_s=t,latitude_deg=lat,longitude_deg=lon", "--origin", "52,4.5,0", "--out",
+                            out, "--set", "sigma_position_m=1"}));
   const auto found = rows(contents(out / "estimates.csv"));
   ASSERT_EQ(found.size(), 2U * 57U);
   for (const auto& row : found) {
@@ -196,15 +158,13 @@ TEST(HimmDemoTrack, AGeodeticRecordingIsTrackedAboutItsOrigin) {
   }
 }
 
-TEST(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
+TEST_F(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
   const auto text = csv(accelerating_target());
-  const TemporaryDirectory directory;
   const auto run = [&](const std::string& out, const std::string& seed) {
-    const auto ending =
+    const auto ending = program::succeeded(
         track(directory, text,
-              {"--radar", "10,0.1,0.1", "--radar-at=-5000,-4000,0", "--seed", seed, "--out", directory.path() / out});
-    EXPECT_EQ(ending.status, 0) << ending.output;
-    EXPECT_NE(ending.output.find("RMSE"), std::string::npos) << ending.output;
+              {"--radar", "10,0.1,0.1", "--radar-at=-5000,-4000,0", "--seed", seed, "--out", directory.path() / out}));
+    EXPECT_TRUE(says(ending.output, {"RMSE"}));
     return contents(directory.path() / out / "estimates.csv");
   };
   const auto first = run("a", "3");
@@ -212,11 +172,9 @@ TEST(HimmDemoTrack, ASimulatedRadarMakesErrorsKnownAndTheSameSeedTheSameBytes) {
   EXPECT_NE(first, run("c", "4"));
 }
 
-TEST(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
   const auto out = directory.path() / "out";
-  const auto ending = track(directory, "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,,\n4,4,8\n", {"--out", out});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(track(directory, "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,,\n4,4,8\n", {"--out", out}));
   const auto found = rows(contents(out / "estimates.csv"));
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].at("nis"), "");
@@ -224,27 +182,23 @@ TEST(HimmDemoTrack, AnEmptyPositionIsAMissedMeasurement) {
   EXPECT_NE(found[2].at("nis"), "");
 }
 
-TEST(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
-  const TemporaryDirectory directory;
+TEST_F(HimmDemoTrack, WhatPrintConfigPrintsReadsBackAsTheSame) {
   const std::string good = "time_s,x_m,y_m\n0,1,2\n";
-  const auto first =
-      track(directory, good, {"--print-config", "--set", "filter.himm.sigma_w=5", "--set", "lift=unbiased"});
-  ASSERT_EQ(first.status, 0) << first.output;
+  const auto first = program::succeeded(
+      track(directory, good, {"--print-config", "--set", "filter.himm.sigma_w=5", "--set", "lift=unbiased"}));
   const auto file = directory.write("settings.toml", first.output);
   const auto second = track(directory, good, {"--print-config", "--config", file});
   EXPECT_EQ(second.output, first.output);
-  EXPECT_NE(first.output.find("sigma_w = [5.0, 5.0]"), std::string::npos) << first.output;
+  EXPECT_TRUE(says(first.output, {"sigma_w = [5.0, 5.0]"}));
 }
 
-TEST(HimmDemoTrack, ARecordedJetIsTrackedBetterThanItIsMeasured) {
+TEST_F(HimmDemoTrack, ARecordedJetIsTrackedBetterThanItIsMeasured) {
   const std::string file = recorded("c550_phlab_20170320_08.csv");
   if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
-  const TemporaryDirectory directory;
-  const auto ending = program::run(
+  const auto ending = program::succeeds(
       SIGMAX_HIMM_DEMO,
       {"track", file, "--radar", "50,0.1,0.1", "--radar-at=-20000,-10000,0", "--quiet", "--out", directory.path()});
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.on_one_line().find("|roll| > 15°"), std::string::npos);
+  EXPECT_TRUE(says(ending.on_one_line(), {"|roll| > 15°"}));
   const auto found = rows(contents(directory.path() / "estimates.csv"));
   ASSERT_EQ(found.size(), 2U * (5470U - 3U));
   for (const auto& row : found) {
@@ -254,15 +208,13 @@ TEST(HimmDemoTrack, ARecordedJetIsTrackedBetterThanItIsMeasured) {
   }
 }
 
-TEST(HimmDemoTrack, ARecordedMultirotorIsTrackedThroughMappedColumns) {
+TEST_F(HimmDemoTrack, ARecordedMultirotorIsTrackedThroughMappedColumns) {
   const std::string file = recorded("uav_rot.csv");
   if (file.empty()) GTEST_SKIP() << "no recorded data in " << SIGMAX_DATA;
-  const auto ending = program::run(
+  const auto ending = program::succeeds(
       SIGMAX_HIMM_DEMO, {"track", file, "--columns",
                          "time_s=timestamp,latitude_deg=latitude,longitude_deg=longitude,altitude_m=altitude (m)"});
-  EXPECT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.on_one_line().find("965 measurements"), std::string::npos) << ending.output;
+  EXPECT_TRUE(says(ending.on_one_line(), {"965 measurements"}));
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,20 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "apps/recordings.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 #include "support/text.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 /// A target with noise on its acceleration of 1 m/s² that is seen every second to 20 m; the truth beside it.
@@ -39,20 +27,14 @@ std::string recording(std::size_t rows, bool truth, std::uint64_t seed = 3) {
   return text.str();
 }
 
-program::Ending tune(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "tune");
-  return program::run(SIGMAX_HIMM_DEMO, arguments);
+program::Ending tune(const Arguments& arguments) {
+  return program::run(SIGMAX_HIMM_DEMO, Arguments{"tune"} + arguments);
 }
 
 bool cannot_tune() { return tune({"no.csv"}).output.find("built without an optimiser") != std::string::npos; }
 
-const std::vector<std::string> quick = {"--set", "filters=imm", "--models", "dwna", "--starts", "1", "--folds", "2"};
-std::vector<std::string> quickly(const std::string& file, std::vector<std::string> more = {}) {
-  std::vector<std::string> all = {file};
-  all.insert(all.end(), quick.begin(), quick.end());
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
+const Arguments quick = {"--set", "filters=imm", "--models", "dwna", "--starts", "1", "--folds", "2"};
+Arguments quickly(const std::string& file, const Arguments& more = {}) { return Arguments{file} + quick + more; }
 
 /// The number after "key = " or "key = [".
 double value_in(const std::string& toml, const std::string& key) {
@@ -62,14 +44,18 @@ double value_in(const std::string& toml, const std::string& key) {
   return std::stod(toml.substr(from));
 }
 
-TEST(Tune, FindsTheNoisesThatMadeTheRecordingAndTrackTakesThem) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+class Tune : public InDirectory {
+ protected:
+  void SetUp() override {
+    if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
+  }
+};
+
+TEST_F(Tune, FindsTheNoisesThatMadeTheRecordingAndTrackTakesThem) {
   const auto file = directory.write("flight.csv", recording(400, false));
   const auto best = (directory.path() / "best.toml").string();
-  const auto ending = tune(quickly(file, {"--out", best}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.output.find("optimistic sensor"), std::string::npos) << ending.output;
+  const auto ending = program::succeeded(tune(quickly(file, {"--out", best})));
+  EXPECT_TRUE(says(ending.output, {"optimistic sensor"}));
   const std::string after = ending.output.substr(ending.output.find("with the best settings"));
   EXPECT_EQ(after.find("optimistic"), std::string::npos) << ending.output;
   std::istringstream lines(ending.output.substr(0, ending.output.find("\nWrote ")));
@@ -77,53 +63,40 @@ TEST(Tune, FindsTheNoisesThatMadeTheRecordingAndTrackTakesThem) {
   const std::string toml = contents(best);
   EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 2.0) << toml;
   EXPECT_NEAR(value_in(toml, "sigma_w"), 1.0, 0.3) << toml;
-  const auto tracked = program::run(SIGMAX_HIMM_DEMO, {"track", file, "--config", best});
-  EXPECT_EQ(tracked.status, 0) << tracked.output;
+  program::succeeds(SIGMAX_HIMM_DEMO, {"track", file, "--config", best});
 }
 
-TEST(Tune, GivesTheSameSettingsOnAnyNumberOfThreads) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+TEST_F(Tune, GivesTheSameSettingsOnAnyNumberOfThreads) {
   const auto file = directory.write("flight.csv", recording(120, false));
   std::vector<std::string> found;
   for (const std::string threads : {"1", "3"}) {
     const auto best = (directory.path() / (threads + ".toml")).string();
-    const auto ending = tune({file, "--set", "filters=himm", "--starts", "2", "--folds", "2", "--threads", threads,
-                              "--models", "dwna,dwna+dwpa", "--out", best});
-    ASSERT_EQ(ending.status, 0) << ending.output;
+    program::succeeded(tune({file, "--set", "filters=himm", "--starts", "2", "--folds", "2", "--threads", threads,
+                             "--models", "dwna,dwna+dwpa", "--out", best}));
     found.push_back(contents(best));
   }
   EXPECT_EQ(found[0], found[1]);
 }
 
-TEST(Tune, JudgesByTheTruthIfAsked) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+TEST_F(Tune, JudgesByTheTruthIfAsked) {
   const auto file = directory.write("flight.csv", recording(300, true));
   const auto best = (directory.path() / "best.toml").string();
-  const auto by_rmse = tune(quickly(file, {"--truth", "--out", best}));
-  ASSERT_EQ(by_rmse.status, 0) << by_rmse.output;
-  EXPECT_NE(by_rmse.output.find("RMSE against the truth"), std::string::npos) << by_rmse.output;
+  const auto by_rmse = program::succeeded(tune(quickly(file, {"--truth", "--out", best})));
+  EXPECT_TRUE(says(by_rmse.output, {"RMSE against the truth"}));
   // what the RMSE tells is the ratio of the noises, 1 to 20, and the sensors stay at 10 m
   EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.25) << contents(best);
   EXPECT_EQ(value_in(contents(best), "sigma_position_m"), 10.0);
-  const auto by_density = tune(quickly(file, {"--truth=density", "--out", best}));
-  ASSERT_EQ(by_density.status, 0) << by_density.output;
+  program::succeeded(tune(quickly(file, {"--truth=density", "--out", best})));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 5.0) << contents(best);
 }
 
-TEST(Tune, KeepsWhatItIsTold) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+TEST_F(Tune, KeepsWhatItIsTold) {
   const auto file = directory.write("flight.csv", recording(120, false));
-  const auto ending = tune(quickly(file, {"--keep", "models,sensors"}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
-  EXPECT_NE(ending.output.find("No setting changes"), std::string::npos) << ending.output;
+  const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors"})));
+  EXPECT_TRUE(says(ending.output, {"No setting changes"}));
 }
 
-TEST(Tune, SaysWhichColumnsDoNotCount) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+TEST_F(Tune, SaysWhichColumnsDoNotCount) {
   std::istringstream lines(recording(60, false));
   std::string text;
   for (std::string line; std::getline(lines, line);) text += line + (text.empty() ? ",vx_mps\n" : ",80\n");
@@ -131,8 +104,7 @@ TEST(Tune, SaysWhichColumnsDoNotCount) {
   auto ending = tune(quickly(file, {"--keep", "models,sensors"}));
   ASSERT_EQ(ending.status, 0) << ending.output;
   std::replace(ending.output.begin(), ending.output.end(), '\n', ' ');
-  EXPECT_NE(ending.output.find("flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)"), std::string::npos)
-      << ending.output;
+  EXPECT_TRUE(says(ending.output, {"flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)"}));
 }
 
 struct Refusal {
@@ -141,9 +113,7 @@ struct Refusal {
   std::string words;
 };
 
-TEST(Tune, RefusesWhatCannotBeAndWritesNothing) {
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
+TEST_F(Tune, RefusesWhatCannotBeAndWritesNothing) {
   const auto file = directory.write("flight.csv", recording(60, false));
   const auto three = directory.write("three.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n");
   const auto tiny = directory.write("tiny.csv", recording(12, false));
@@ -165,22 +135,19 @@ TEST(Tune, RefusesWhatCannotBeAndWritesNothing) {
     arguments.insert(arguments.end(), {"--out", out});
     const auto ending = tune(arguments);
     EXPECT_EQ(ending.status, refusal.status) << ending.output;
-    EXPECT_NE(ending.output.find(refusal.words), std::string::npos) << ending.output;
+    EXPECT_TRUE(says(ending.output, {refusal.words}));
     EXPECT_FALSE(std::filesystem::exists(out)) << ending.output;
   }
   const auto over = tune({file, "--out", file});
   EXPECT_EQ(over.status, 2);
-  EXPECT_NE(over.output.find("would write over the input"), std::string::npos) << over.output;
+  EXPECT_TRUE(says(over.output, {"would write over the input"}));
 }
 
-TEST(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {
+TEST_F(Tune, ComesNearTheTrueSigmasOfARecordedLidarAndRadar) {
   const std::string file = recorded("lidar_radar.csv");
   if (file.empty()) GTEST_SKIP() << "no recordings in " SIGMAX_DATA;
-  if (cannot_tune()) GTEST_SKIP() << "built without NLopt";
-  const TemporaryDirectory directory;
   const auto best = (directory.path() / "best.toml").string();
-  const auto ending = tune(quickly(file, {"--set", "sigma_w=1", "--out", best}));
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(tune(quickly(file, {"--set", "sigma_w=1", "--out", best})));
   const std::string toml = contents(best);
   const std::string lidar = toml.substr(toml.find("sensor.\"lidar\"")),
                     radar = toml.substr(toml.find("sensor.\"radar\""));
@@ -203,15 +170,13 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   const std::string file = directory.write("bearings.csv", text.str());
   const auto without = tune(quickly(file));
   EXPECT_EQ(without.status, 3);
-  EXPECT_NE(without.output.find("its start may want positions"), std::string::npos) << without.output;
-  const auto given =
+  EXPECT_TRUE(says(without.output, {"its start may want positions"}));
+  const auto given = program::succeeded(
       tune(quickly(file, {"--set", "start=given", "--set", "start_mean=[1000,5000,0,50,-20,0,0,0,0]", "--set",
                           "start_covariance_diagonal=[10000,10000,1,25,25,1,1,1,1]", "--set", "start_time_s=-1",
-                          "--set", "sigma_azimuth_deg=0.5", "--out", directory.path() / "best.toml"}));
-  EXPECT_EQ(given.status, 0) << given.output;
+                          "--set", "sigma_azimuth_deg=0.5", "--out", directory.path() / "best.toml"})));
   EXPECT_EQ(given.output.find("nan"), std::string::npos) << given.output;
   EXPECT_NEAR(value_in(contents(directory.path() / "best.toml"), "sigma_azimuth_deg"), 0.1, 0.03);
 }
 
 }  // namespace
-}  // namespace sigmax::apps

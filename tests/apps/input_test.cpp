@@ -1,18 +1,8 @@
 #include "support/input.hpp"
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <limits>
-#include <sstream>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 TEST(ParseNumber, TakesDecimalNumbersWithSignAndBlanks) {
@@ -39,8 +29,9 @@ TEST(Trimmed, TakesBlanksOffBothEnds) {
   EXPECT_EQ(trimmed(""), "");
 }
 
-TEST(OpenInput, ReadsBytesAsTheyAre) {
-  const TemporaryDirectory directory;
+class OpenInput : public InDirectory {};
+
+TEST_F(OpenInput, ReadsBytesAsTheyAre) {
   std::ostringstream text;
   text << open_input(directory.write("a", "1\r\n2")).rdbuf();
   EXPECT_EQ(text.str(), "1\r\n2");
@@ -59,8 +50,7 @@ TEST(ReadText, SaysThatReadingFailed) {
             "/proc/self/mem: cannot be read: Input/output error");
 }
 
-TEST(OpenInput, SaysWhyAFileCannotBeRead) {
-  const TemporaryDirectory directory;
+TEST_F(OpenInput, SaysWhyAFileCannotBeRead) {
   const std::string missing = directory.path() / "missing.csv";
   EXPECT_EQ(message_of<InputError>([&] { open_input(missing); }),
             missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
@@ -68,9 +58,8 @@ TEST(OpenInput, SaysWhyAFileCannotBeRead) {
             directory.path().string() + ": found a directory, expected a file; name one of the files in it");
 }
 
-TEST(OpenInput, SaysThatPermissionIsMissing) {
+TEST_F(OpenInput, SaysThatPermissionIsMissing) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read every file";
-  const TemporaryDirectory directory;
   const auto secret = directory.write("secret", "1");
   std::filesystem::permissions(secret, std::filesystem::perms::none);
   EXPECT_EQ(message_of<InputError>([&] { open_input(secret); }),
@@ -78,4 +67,3 @@ TEST(OpenInput, SaysThatPermissionIsMissing) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

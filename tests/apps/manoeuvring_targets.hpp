@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "apps/recordings.hpp"
 #include "support/restatement.hpp"
 

@@ -2,36 +2,20 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-#include <bit>
-#include <csignal>
-#include <cstdint>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <list>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 #include "support/random.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
 auto count_files(const fs::path& directory) { return std::distance(fs::directory_iterator{directory}, {}); }
 
-TEST(AtomicFile, AppearsWholeOnCommit) {
-  const TemporaryDirectory directory;
+class AtomicFiles : public InDirectory {};
+
+TEST_F(AtomicFiles, AppearsWholeOnCommit) {
   const fs::path path = directory.path() / "a.csv";
   const std::string large(200'000, 'x');
   AtomicFile file{path};
@@ -45,8 +29,7 @@ TEST(AtomicFile, AppearsWholeOnCommit) {
   EXPECT_EQ(count_files(directory.path()), 1);
 }
 
-TEST(AtomicFile, LeavesNothingWithoutACommit) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, LeavesNothingWithoutACommit) {
   {
     AtomicFile file{directory.path() / "a.csv"};
     file.write("half");
@@ -55,8 +38,7 @@ TEST(AtomicFile, LeavesNothingWithoutACommit) {
   EXPECT_EQ(count_files(directory.path()), 0);
 }
 
-TEST(AtomicFile, ReplacesAnOlderFileOnlyOnCommit) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, ReplacesAnOlderFileOnlyOnCommit) {
   const fs::path path = directory.write("a.csv", "old");
   { AtomicFile{path}.write("half"); }
   EXPECT_EQ(contents(path), "old");
@@ -66,8 +48,7 @@ TEST(AtomicFile, ReplacesAnOlderFileOnlyOnCommit) {
   EXPECT_EQ(contents(path), "new");
 }
 
-TEST(AtomicFile, TwoWritersOfOneFileDoNotMix) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, TwoWritersOfOneFileDoNotMix) {
   const fs::path path = directory.path() / "a";
   AtomicFile first{path};
   AtomicFile second{path};
@@ -80,24 +61,21 @@ TEST(AtomicFile, TwoWritersOfOneFileDoNotMix) {
   EXPECT_EQ(count_files(directory.path()), 1);
 }
 
-TEST(AtomicFile, HasThePermissionsOfAnyNewFile) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, HasThePermissionsOfAnyNewFile) {
   AtomicFile file{directory.path() / "a"};
   file.commit();
   directory.write("b", "");
   EXPECT_EQ(fs::status(directory.path() / "a").permissions(), fs::status(directory.path() / "b").permissions());
 }
 
-TEST(AtomicFile, IsFinishedByItsCommit) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, IsFinishedByItsCommit) {
   AtomicFile file{directory.path() / "a"};
   file.commit();
   EXPECT_THROW(file.write("more"), std::logic_error);
   EXPECT_THROW(file.commit(), std::logic_error);
 }
 
-TEST(AtomicFile, NamesPathAndReasonOfAFailure) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, NamesPathAndReasonOfAFailure) {
   const std::string lost = directory.path() / "none" / "a.csv";
   EXPECT_EQ(message_of<InputError>([&] { AtomicFile{lost}; }),
             lost + ": cannot be written: No such file or directory; choose another place");
@@ -110,9 +88,8 @@ TEST(AtomicFile, NamesPathAndReasonOfAFailure) {
   EXPECT_EQ(count_files(directory.path()), 1);
 }
 
-TEST(AtomicFile, ReportsAFullDevice) {
+TEST_F(AtomicFiles, ReportsAFullDevice) {
   // A limit on the size of files fails write(2) as a full disk does, half-way through a file.
-  const TemporaryDirectory directory;
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -133,9 +110,8 @@ TEST(AtomicFile, ReportsAFullDevice) {
   EXPECT_EQ(count_files(directory.path()), 0);
 }
 
-TEST(AtomicFile, ReportsMissingPermission) {
+TEST_F(AtomicFiles, ReportsMissingPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-  const TemporaryDirectory directory;
   fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const std::string path = directory.path() / "a";
   EXPECT_EQ(message_of<InputError>([&] { AtomicFile{path}; }),
@@ -154,8 +130,7 @@ TEST(RemoveUnfinishedFiles, RemovesWhatIsNotCommitted) {
   EXPECT_TRUE(fs::exists(directory.path() / "committed"));
 }
 
-TEST(AtomicFile, AtMost16AreWrittenAtATime) {
-  const TemporaryDirectory directory;
+TEST_F(AtomicFiles, AtMost16AreWrittenAtATime) {
   for (int round = 0; round < 3; ++round) {
     std::list<AtomicFile> files;
     for (int i = 0; i < 16; ++i) files.emplace_back(directory.path() / std::to_string(i));
@@ -164,8 +139,9 @@ TEST(AtomicFile, AtMost16AreWrittenAtATime) {
   EXPECT_EQ(count_files(directory.path()), 0);
 }
 
-TEST(OutputDirectory, IsCreatedWithItsParents) {
-  const TemporaryDirectory directory;
+class OutputDirectory : public InDirectory {};
+
+TEST_F(OutputDirectory, IsCreatedWithItsParents) {
   const fs::path path = directory.path() / "a" / "b";
   EXPECT_EQ(output_directory(path), path);
   std::ofstream(path / "c.csv") << "1";
@@ -173,14 +149,12 @@ TEST(OutputDirectory, IsCreatedWithItsParents) {
   EXPECT_EQ(contents(path / "c.csv"), "1");
 }
 
-TEST(OutputDirectory, TakesATrailingSlash) {
-  const TemporaryDirectory directory;
+TEST_F(OutputDirectory, TakesATrailingSlash) {
   output_directory(directory.path() / "a" / "");
   EXPECT_TRUE(fs::is_directory(directory.path() / "a"));
 }
 
-TEST(OutputDirectory, SaysWhyItCannotBe) {
-  const TemporaryDirectory directory;
+TEST_F(OutputDirectory, SaysWhyItCannotBe) {
   const fs::path file = directory.write("file", "");
   for (const fs::path& path : {file, file / "below"})
     EXPECT_EQ(message_of<InputError>([&] { output_directory(path); }),
@@ -212,4 +186,3 @@ TEST(TomlNumber, HasAPointWhereAnIntegerWouldNotFit) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

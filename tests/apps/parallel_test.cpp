@@ -1,12 +1,6 @@
 #include "support/parallel.hpp"
+#include "support/test.hpp"
 
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-namespace sigmax::apps {
 namespace {
 
 /// A result without a default.
@@ -56,4 +50,3 @@ TEST(ThreadsOrAll, TakesWhatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -2,14 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-#include <cstdlib>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "support/program.hpp"
 

@@ -1,16 +1,10 @@
 #include "result/pictures.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "apps/temporary_directory.hpp"
 #include "result/report.hpp"
 #include "support/error.hpp"
 #include "support/program.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 LineChart chart_of(std::string title, std::vector<Curve> curves) {
@@ -110,8 +104,6 @@ TEST(Pictures, AreThoseThatTheReportOpensWith) {
   EXPECT_EQ(names, (std::vector<std::string>{"first", "rmse_in_x", "rmse_in_x_2", "figure", "first_2"}));
 }
 
-using sigmax::support::throws;
-
 /// Tests of gnuplot itself skip, visibly, where it is not installed.
 class InstalledGnuplot : public testing::Test {
  protected:
@@ -142,7 +134,7 @@ TEST_F(InstalledGnuplot, ShowsEachLetterAsItIs) {
   const std::string shown = "<text>" + escaped + "</text>";
   const auto first = svg.find(shown);
   ASSERT_NE(first, std::string::npos) << svg;
-  EXPECT_NE(svg.find(shown, first + 1), std::string::npos) << "as title and in the legend";
+  EXPECT_NE(svg.find(shown, first + 1), std::string::npos) << svg;
   EXPECT_EQ(svg.find("<b>"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(file));
 }
@@ -150,7 +142,7 @@ TEST_F(InstalledGnuplot, ShowsEachLetterAsItIs) {
 TEST_F(InstalledGnuplot, WritesDocumentsWithoutTheTimeOfDay) {
   const Picture picture{"", "plot sin(x)", 8.0, 5.0};
   const std::string svg = svg_of(picture), pdf = pdf_of(picture);
-  EXPECT_NE(svg.find("width=\"336\" height=\"210\""), std::string::npos);
+  EXPECT_TRUE(says(svg, {"width=\"336\" height=\"210\""}));
   EXPECT_TRUE(pdf.starts_with("%PDF-"));
   EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
   EXPECT_EQ(pdf, pdf_of(picture));
@@ -160,7 +152,7 @@ TEST_F(InstalledGnuplot, WritesDocumentsWithoutTheTimeOfDay) {
 }
 
 TEST_F(InstalledGnuplot, HandsOnWhatGnuplotComplainsOf) {
-  EXPECT_TRUE(throws<std::runtime_error>([&] { svg_of({"", "plot nothing\n"}); }, {"gnuplot", "undefined"}));
+  EXPECT_REFUSED(std::runtime_error, ("gnuplot", "undefined"), svg_of({"", "plot nothing\n"}));
 }
 
 /// Every kind of picture with labels that gnuplot, SVG and shells take for their own.
@@ -196,4 +188,3 @@ TEST_F(InstalledGnuplot, TakesAnyText) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -4,18 +4,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
-
+#include "support/test.hpp"
 #include "support/text.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 using namespace std::chrono_literals;
@@ -103,7 +94,7 @@ TEST(Progress, DrawsOnATerminalAndWipesItsLine) {
   progress.advance(4);
   const std::string drawn = terminal.seen();
   EXPECT_TRUE(drawn.starts_with("\rruns [")) << drawn;
-  EXPECT_NE(drawn.find("]  50 %, "), std::string::npos) << drawn;
+  EXPECT_TRUE(says(drawn, {"]  50 %, "}));
   progress.finish();
   EXPECT_EQ(terminal.seen(), "\r" + std::string(drawn.size() - 1, ' ') + "\r");
   std::this_thread::sleep_for(110ms);
@@ -137,4 +128,3 @@ TEST(Progress, CountsTheWorkOfAllThreads) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,16 +1,8 @@
 #include "support/random.hpp"
+#include "support/test.hpp"
 
 #include <Random123/philox.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-namespace sigmax::apps {
 namespace {
 
 constexpr std::size_t draws = 1'000'000;
@@ -162,4 +154,3 @@ TEST(RandomStream, PassesKolmogorovAndSmirnov) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

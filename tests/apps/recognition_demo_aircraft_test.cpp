@@ -1,19 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <boost/math/distributions/normal.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 #include "support/random.hpp"
 
-namespace sigmax::apps {
 namespace {
-
-using support::near;
 
 /// Counts of two classes in two bins of each of the four features.
 const std::map<std::string, Matrix> counts = {{"altitude_layer_ft_agl", {{30, 10}, {5, 35}}},
@@ -39,23 +31,23 @@ std::string counts_csv() {
 /// What a subcommand says of a file, by its name and as the standard input.
 std::pair<std::string, std::string> said_of(const std::string& subcommand, const std::filesystem::path& file) {
   const auto run = [&](const std::string& name) {
-    const auto ending = program::run("/bin/sh", {"-c", "exec \"$0\" \"$1\" \"$2\" --runs 20 --quiet <\"$3\"",
-                                                 program::chosen(SIGMAX_RECOGNITION_DEMO), subcommand, name, file});
-    EXPECT_EQ(ending.status, 0) << ending.output;
+    const auto ending =
+        program::succeeds("/bin/sh", {"-c", "exec \"$0\" \"$1\" \"$2\" --runs 20 --quiet <\"$3\"",
+                                      program::chosen(SIGMAX_RECOGNITION_DEMO), subcommand, name, file});
     const std::string words = ending.on_one_line();
     return words.substr(words.find("seed"));  // the name of the file comes before
   };
   return {run(file), run("-")};
 }
 
-TEST(RecognitionDemoEncounter, ReadsTheStandardInput) {
-  const TemporaryDirectory directory;
+class RecognitionDemoEncounter : public InDirectory {};
+
+TEST_F(RecognitionDemoEncounter, ReadsTheStandardInput) {
   const auto [named, piped] = said_of("encounter", directory.write("counts.csv", counts_csv()));
   EXPECT_EQ(named, piped);
 }
 
-TEST(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoopsDo) {
-  const TemporaryDirectory directory;
+TEST_F(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoopsDo) {
   const auto data = directory.write("counts.csv", counts_csv());
   // On the ground (10 ft above it) at 0 s; 5 s is too soon after 4 s; at 14 s the track turns through north by 20° in 9
   // s; at 40 s nothing is known of climb, and the row before is too long ago for a turn rate.
@@ -64,9 +56,8 @@ TEST(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoops
                       "time_s,altitude_ft,groundspeed_kt,track_deg,vertical_rate_fpm\n"
                       "0,110,20,0,0\n4,200,90,10,300\n5,1150,120,350,-10\n14,1150,99,10,-10\n40,100,400,0,\n"
                       "41,1200,400,0,\n");
-  const auto ending = recognition_demo({"encounter", data, "--track", track, "--ground", "100", "--every", "10",
-                                        "--quiet", "--out", directory.path() / "out"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  recognition_demo_succeeds({"encounter", data, "--track", track, "--ground", "100", "--every", "10", "--quiet",
+                             "--out", directory.path() / "out"});
   const auto reports = rows_of(directory.path() / "out" / "reports.csv");
   const std::vector<NamedRow> expected = {{{"time_s", "4"},
                                            {"altitude_layer_ft_agl", "below 1000"},
@@ -103,9 +94,9 @@ TEST(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoops
     const auto& belief = summary.at(name).at("belief_after_all");
     return Numbers{belief.at("slow").get<double>(), belief.at("fast").get<double>()};
   };
-  EXPECT_PRED_FORMAT3(near, found("sigma"), divided(p, sum(p)), 1e-9);
-  EXPECT_PRED_FORMAT3(near, found("max, ratio scale"), divided(ratio, greatest(ratio)), 1e-9);
-  EXPECT_PRED_FORMAT3(near, found("max, Dubois-Prade"), divided(dubois_prade, greatest(dubois_prade)), 1e-9);
+  EXPECT_CLOSE(found("sigma"), divided(p, sum(p)), 1e-9);
+  EXPECT_CLOSE(found("max, ratio scale"), divided(ratio, greatest(ratio)), 1e-9);
+  EXPECT_CLOSE(found("max, Dubois-Prade"), divided(dubois_prade, greatest(dubois_prade)), 1e-9);
 }
 
 /// Two types and two quantities, normal.
@@ -121,8 +112,9 @@ double triangle(const Type& type, std::size_t q, double x) {
   return (type.maximum[q] - x) / (type.maximum[q] - type.optimum[q]);
 }
 
-TEST(RecognitionDemoPerformance, ReadsTheStandardInput) {
-  const TemporaryDirectory directory;
+class RecognitionDemoPerformance : public InDirectory {};
+
+TEST_F(RecognitionDemoPerformance, ReadsTheStandardInput) {
   const auto file = directory.write("performance.csv",
                                     "type,variable,optimum,minimum,maximum,model,parameters\n"
                                     "a,speed,2,1,3,norm,2|0.5\nb,speed,3,2,4,norm,3|0.5\n");
@@ -130,10 +122,9 @@ TEST(RecognitionDemoPerformance, ReadsTheStandardInput) {
   EXPECT_EQ(named, piped);
 }
 
-TEST(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheSameDraws) {
+TEST_F(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheSameDraws) {
   constexpr std::size_t bins = 12, runs = 150;
   constexpr double least = 0.05;
-  const TemporaryDirectory directory;
   std::ostringstream text;
   text << "type,variable,optimum,minimum,maximum,model,parameters\n";
   for (std::size_t c = 0; c < 2; ++c)
@@ -142,9 +133,8 @@ TEST(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheSam
            << types[c].maximum[q] << ",norm," << types[c].mean[q] << '|' << types[c].deviation[q] << '\n';
   const auto data = directory.write("performance.csv", text.str());
   const auto ending =
-      recognition_demo({"performance", data, "--bins", std::to_string(bins), "--runs", std::to_string(runs), "--seed",
-                        "3", "--least", "0.05", "--quiet", "--out", directory.path() / "out"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+      recognition_demo_succeeds({"performance", data, "--bins", std::to_string(bins), "--runs", std::to_string(runs),
+                                 "--seed", "3", "--least", "0.05", "--quiet", "--out", directory.path() / "out"});
 
   using Normal = boost::math::normal_distribution<>;
   std::array<Numbers, 2> cuts;                  // by quantity
@@ -191,9 +181,8 @@ TEST(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheSam
   std::map<std::string, Numbers> found;
   for (const auto& row : rows_of(directory.path() / "out" / "curves.csv"))
     found[row.at("classifier")].push_back(std::stod(row.at("accuracy")));
-  EXPECT_PRED_FORMAT3(near, found.at("sigma, p of the density"), sigma, 1e-9);
-  EXPECT_PRED_FORMAT3(near, found.at("max, π of the triangle"), max, 1e-9);
+  EXPECT_CLOSE(found.at("sigma, p of the density"), sigma, 1e-9);
+  EXPECT_CLOSE(found.at("max, π of the triangle"), max, 1e-9);
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 struct Shown {
@@ -61,4 +56,3 @@ TEST(RecognitionDemoPage, OfSixTablesShowsWhatTheProgramPrints) { expect_shown("
 TEST(RecognitionDemoPage, OfAircraftShowsWhatTheProgramPrints) { expect_shown("recognition_demo_aircraft.md", 5); }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,17 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 #include "support/text.hpp"
 
-namespace sigmax::apps {
 namespace {
-
-using support::near;
 
 /// The world of docs/recognition_demo.md once more: T1{e1,e2}, T2{e2,e3}, T3{e1,e3,e4}, T4{e2,e4,e5}.
 const Matrix carried = {{1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}, {1, 0, 1, 1, 0}, {0, 1, 0, 1, 1}};
@@ -70,17 +63,14 @@ std::size_t number_after(char letter, const std::string& word) {
 }
 
 program::Ending esm(const std::filesystem::path& out, std::vector<std::string> more) {
-  std::vector<std::string> arguments = {"esm", "--quiet", "--out", out};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return recognition_demo(arguments);
+  return recognition_demo(Arguments{"esm", "--quiet", "--out", out} + more);
 }
 
 class Esm : public testing::TestWithParam<std::string> {};
 
 TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
   const TemporaryDirectory directory;
-  const auto ending = esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"});
-  ASSERT_EQ(ending.status, 0) << ending.output;
+  program::succeeded(esm(directory.path(), {"--usage", GetParam(), "--runs", "60", "--reports", "15"}));
   std::map<std::string, Numbers> accuracy;
   const auto runs = rows_of(directory.path() / "runs.csv");
   ASSERT_EQ(runs.size(), 60U);
@@ -99,12 +89,12 @@ TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
       Numbers found;
       for (const char* platform : {"T1", "T2", "T3", "T4"})
         found.push_back(std::stod(run.at(inference.name + ": " + platform)));
-      EXPECT_PRED_FORMAT3(near, found, belief, 1e-9) << inference.name << ", run " << run.at("run");
+      EXPECT_CLOSE(found, belief, 1e-9) << inference.name << ", run " << run.at("run");
     }
   std::size_t compared = 0;
   for (const auto& row : rows_of(directory.path() / "curves.csv"))
     if (const auto curve = accuracy.find(row.at("classifier")); curve != accuracy.end()) {
-      EXPECT_PRED_FORMAT3(near, std::stod(row.at("accuracy")), curve->second.at(std::stoul(row.at("report")) - 1), 1e-9)
+      EXPECT_CLOSE(std::stod(row.at("accuracy")), curve->second.at(std::stoul(row.at("report")) - 1), 1e-9)
           << row.at("classifier") << ", report " << row.at("report");
       ++compared;
     }
@@ -133,8 +123,7 @@ TEST(RecognitionDemoEsm, TheSeedChoosesTheRuns) {
 }
 
 TEST(RecognitionDemoEsm, IsWhatTheProgramRunsWithoutASubcommand) {
-  const auto plain = recognition_demo({"--runs", "50"});
-  EXPECT_EQ(plain.status, 0);
+  const auto plain = recognition_demo_succeeds({"--runs", "50"});
   EXPECT_EQ(plain.output, recognition_demo({"esm", "--runs", "50"}).output);
   EXPECT_TRUE(plain.output.starts_with("Synthetic emitter world, not recorded data")) << plain.output;
 }
@@ -160,9 +149,8 @@ TEST(RecognitionDemoEsm, TablesFitATerminalUnlessTheyMayBeWide) {
 TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
   const TemporaryDirectory directory;
   ASSERT_EQ(esm(directory.path() / "esm", {"--runs", "20", "--reports", "4", "--seed", "7"}).status, 0);
-  const auto regimes = recognition_demo(
+  const auto regimes = recognition_demo_succeeds(
       {"regimes", "--runs", "20", "--reports", "4", "--seed", "7", "--quiet", "--out", directory.path() / "regimes"});
-  ASSERT_EQ(regimes.status, 0) << regimes.output;
   std::map<std::string, std::string> last;
   for (const auto& row : rows_of(directory.path() / "esm" / "curves.csv"))
     if (row.at("report") == "4") last[row.at("classifier")] = row.at("accuracy");
@@ -178,4 +166,3 @@ TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,24 +1,19 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <numeric>
-#include <string>
-#include <vector>
-
 #include "support/csv.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
 
-using Numbers = std::vector<double>;
 using Matrix = std::vector<Numbers>;
 using NamedRow = std::map<std::string, std::string>;
 
 inline program::Ending recognition_demo(const std::vector<std::string>& arguments) {
   return program::run(SIGMAX_RECOGNITION_DEMO, arguments);
+}
+
+inline program::Ending recognition_demo_succeeds(const std::vector<std::string>& arguments) {
+  return program::succeeds(SIGMAX_RECOGNITION_DEMO, arguments);
 }
 
 /// The rows of a CSV file, each by the names of its columns.

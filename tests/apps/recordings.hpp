@@ -1,12 +1,6 @@
 #pragma once
 
-#include <cstdlib>
-#include <filesystem>
-#include <map>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
+#include "support/matrices.hpp"
 
 namespace sigmax::apps {
 
@@ -46,6 +40,25 @@ inline std::string exact(double value) {
 
 /// The number that a cell holds; unlike std::stod this takes one that is no normal number, too.
 inline double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
+
+/// Fails unless a row of estimates.csv has this mean and these sigmas along so many axes, in the order x, …, vx, …, ax,
+/// of which the acceleration has no sigma; along the other axes its cells are empty.
+inline void expect_row(const TextRow& row, const restatement::State& state, std::size_t axes, double tolerance = 1e-9) {
+  static const std::vector<std::string> names = {"x_m",    "y_m",     "z_m",     "vx_mps", "vy_mps",
+                                                 "vz_mps", "ax_mps2", "ay_mps2", "az_mps2"};
+  for (std::size_t i = 0; i < state.mean.size(); ++i) {
+    const std::string& name = names[i / axes * 3 + i % axes];
+    ASSERT_CLOSE(std::stod(row.at(name)), state.mean[i], tolerance) << name;
+    if (i < 2 * axes) {
+      ASSERT_CLOSE(std::stod(row.at("sigma_" + name)), std::sqrt(state.covariance(i, i)), tolerance);
+    }
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k % 3 >= axes) {
+      ASSERT_EQ(row.at(names[k]), "");
+    }
+  }
+}
 
 /// A recorded track outside the project, or nothing.
 inline std::string recorded(const std::string& name) {

@@ -1,19 +1,17 @@
 #include "result/result.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-TEST(ResultFiles, AppearTogetherAtTheEnd) {
-  const TemporaryDirectory directory;
+class FilesOfResults : public InDirectory {};
+
+TEST_F(FilesOfResults, AppearTogetherAtTheEnd) {
   const std::filesystem::path out = directory.path() / "a" / "b";
   ResultFiles files({.out = out.string()});
   ASSERT_TRUE(files.wanted());
@@ -30,7 +28,7 @@ TEST(ResultFiles, AppearTogetherAtTheEnd) {
   EXPECT_EQ(contents(out / "summary.json"), "{\n  \"runs\": 2\n}\n");
 }
 
-TEST(ResultFiles, AreNoneWithoutADirectory) {
+TEST_F(FilesOfResults, AreNoneWithoutADirectory) {
   ResultFiles files({});
   EXPECT_FALSE(files.wanted());
   EXPECT_EQ(files.open("runs.csv"), nullptr);
@@ -41,8 +39,7 @@ TEST(ResultFiles, AreNoneWithoutADirectory) {
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
-TEST(ResultFiles, LeaveNothingUnlessTheyAreCommitted) {
-  const TemporaryDirectory directory;
+TEST_F(FilesOfResults, LeaveNothingUnlessTheyAreCommitted) {
   {
     ResultFiles files({.out = directory.path().string()});
     files.write("curves.csv", "x\n");
@@ -50,8 +47,7 @@ TEST(ResultFiles, LeaveNothingUnlessTheyAreCommitted) {
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
-TEST(ResultFiles, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
-  const TemporaryDirectory directory;
+TEST_F(FilesOfResults, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
   ResultFiles files({.out = directory.path().string()});
   files.write("small", "1");
   files.write("large", std::string(60'000, 'x'));  // stays in memory until it is stored
@@ -63,7 +59,7 @@ TEST(ResultFiles, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
   const std::string refusal = message_of<InputError>([&] { files.commit(); });
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, handler);
-  EXPECT_NE(refusal.find("large: cannot be written: File too large"), std::string::npos) << refusal;
+  EXPECT_TRUE(says(refusal, {"large: cannot be written: File too large"}));
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "small"));
 }
 
@@ -102,4 +98,3 @@ TEST(Result, IsPrintedAndWrittenFromOneTable) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,25 +1,13 @@
 #include "support/command_line.hpp"
 
 #include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
-#include <iterator>
-#include <stdexcept>
-#include <string>
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 struct Ending {
@@ -44,8 +32,9 @@ Ending run_in_child(const TemporaryDirectory& directory, const std::function<voi
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(complaints)};
 }
 
-TEST(RunProgram, TellsTheKindOfAFailureByItsExitCode) {
-  const TemporaryDirectory directory;
+class RunProgram : public InDirectory {};
+
+TEST_F(RunProgram, TellsTheKindOfAFailureByItsExitCode) {
   EXPECT_EQ(run_in_child(directory, [] {}).code, 0);
   const Ending usage = run_in_child(directory, [] { throw UsageError("what?"); });
   EXPECT_EQ(usage.code, 2);
@@ -73,8 +62,7 @@ std::string on_a_terminal(const std::function<void()>& work) {
   return text;
 }
 
-TEST(RunProgram, BreaksLongComplaintsOnATerminalOnly) {
-  const TemporaryDirectory directory;
+TEST_F(RunProgram, BreaksLongComplaintsOnATerminalOnly) {
   const std::string word(30, 'x');
   const auto work = [&] { throw InputError(word + " " + word + " " + word); };
   EXPECT_EQ(run_in_child(directory, work).complaint, "demo: " + word + " " + word + " " + word + "\n");
@@ -84,8 +72,7 @@ TEST(RunProgram, BreaksLongComplaintsOnATerminalOnly) {
   EXPECT_EQ(on_a_terminal([] { throw InputError("short"); }), "demo: short\r\n");
 }
 
-TEST(RunProgram, OutputThatIsLostIsAFailure) {
-  const TemporaryDirectory directory;
+TEST_F(RunProgram, OutputThatIsLostIsAFailure) {
   const Ending ending = run_in_child(
       directory, [] { std::fputs("text", stdout); }, "/dev/full");
   EXPECT_EQ(ending.code, 3);
@@ -94,7 +81,7 @@ TEST(RunProgram, OutputThatIsLostIsAFailure) {
             "place\n");
 }
 
-TEST(RunProgram, ASignalRemovesUnfinishedFiles) {
+TEST_F(RunProgram, ASignalRemovesUnfinishedFiles) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     const TemporaryDirectory directory;
     const Ending ending = run_in_child(directory, [&] {
@@ -109,8 +96,7 @@ TEST(RunProgram, ASignalRemovesUnfinishedFiles) {
   }
 }
 
-TEST(RunProgram, AnIgnoredSignalStaysIgnored) {
-  const TemporaryDirectory directory;
+TEST_F(RunProgram, AnIgnoredSignalStaysIgnored) {
   const auto before = std::signal(SIGHUP, SIG_IGN);
   std::fflush(stdout);
   const pid_t child = ::fork();
@@ -123,4 +109,3 @@ TEST(RunProgram, AnIgnoredSignalStaysIgnored) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,17 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <random>
-#include <utility>
-#include <vector>
-
+#include "support/scratch.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
-#include "support/scratch.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 constexpr std::size_t more_than_is_held = 700'000;  // of five bytes each
@@ -85,4 +75,3 @@ TEST(Scratch, LeavesNoFileBehindAndSaysWhereNoneCanBe) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,17 +1,10 @@
 #include "support/settings.hpp"
 
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "apps/temporary_directory.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 using Strings = std::vector<std::string>;
-using Numbers = std::vector<double>;
 using Matrix = std::vector<Numbers>;
 
 /// Settings of a file "c.toml" with this text.
@@ -265,4 +258,3 @@ TEST(Settings, LetsTheCallerRefuseAValue) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,13 +1,6 @@
 #include "study/statistic.hpp"
+#include "support/test.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <random>
-#include <vector>
-
-namespace sigmax::apps {
 namespace {
 
 using Columns = std::vector<std::vector<double>>;
@@ -85,4 +78,3 @@ TEST(Statistic, OneBatchHasNoBoundsAndNoCountNoValue) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,21 +1,11 @@
 #include "study/study.hpp"
 
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <chrono>
-#include <stdexcept>
-#include <thread>
-
 #include "apps/temporary_directory.hpp"
 #include "result/result.hpp"
 #include "support/error.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax::apps {
 namespace {
 
-using sigmax::support::throws;
 using Rows = std::vector<std::pair<std::size_t, Study::Row>>;
 
 /// What is added of a study, in the order in which it is.
@@ -48,8 +38,7 @@ TEST(Study, TheFailureOfTheEarliestCellIsRethrown) {
                       return {};
                     }};
   for (const int threads : {1, 4})
-    EXPECT_TRUE(
-        throws<std::runtime_error>([&] { rows_of(study, {.threads = threads}, {.quiet = true}); }, {"twenty-nine"}));
+    EXPECT_REFUSED(std::runtime_error, ("twenty-nine"), rows_of(study, {.threads = threads}, {.quiet = true}));
 }
 
 TEST(Study, WhatAJournalHasIsNotDoneAgain) {
@@ -66,7 +55,7 @@ TEST(Study, WhatAJournalHasIsNotDoneAgain) {
   rows_of(study, {.shard = 1, .shards = 3}, options, false);
   testing::internal::GetCapturedStdout();
   EXPECT_EQ(done, 3);
-  EXPECT_TRUE(throws<InputError>([&] { rows_of(study, {.finished = true}, options); }, {"7 of 10 cells are missing"}));
+  EXPECT_REFUSED(InputError, ("7 of 10 cells are missing"), rows_of(study, {.finished = true}, options));
   const Rows rows = rows_of(study, {}, options);
   EXPECT_EQ(done, 10);
   EXPECT_EQ(rows, rows_of(study, {.finished = true}, options));
@@ -75,4 +64,3 @@ TEST(Study, WhatAJournalHasIsNotDoneAgain) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

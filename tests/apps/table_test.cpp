@@ -1,13 +1,8 @@
 #include "result/table.hpp"
+#include "support/test.hpp"
 
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace sigmax::apps {
 namespace {
 
 ResultTable example() {
@@ -133,8 +128,6 @@ TEST(Table, FitsWhateverItHolds) {
   }
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 ResultTable result_example() {
   ResultTable table{{{.key = "filter", .header = "filter", .align = Align::left},
                      {.key = "rmse_m", .header = "RMSE", .unit = "m"},
@@ -144,7 +137,7 @@ ResultTable result_example() {
                      {.key = "stored_only"}}};
   table.row({"IMM", 12.345, 0.5, {}, "yes", 3});
   table.rule();
-  table.row({"HIMM, fuzzy", nan, std::optional<double>{}, Interval{0.25, 0.125}, "no", 1e-7});
+  table.row({"HIMM, fuzzy", not_a_number, std::optional<double>{}, Interval{0.25, 0.125}, "no", 1e-7});
   table.row({"same", 0.001, 1.0, Interval{}, "", {}});
   return table;
 }
@@ -218,7 +211,7 @@ TEST(NumberText, SuitsTheSizeOfTheNumber) {
   EXPECT_EQ(number_text(-1.797e308, 2, true), "-1.8e+308");
   EXPECT_EQ(number_text(0.0012, 2), "0.00");
   EXPECT_EQ(number_text(std::numeric_limits<double>::infinity(), 2), "∞");
-  EXPECT_EQ(number_text(nan, 2), "–");
+  EXPECT_EQ(number_text(not_a_number, 2), "–");
   EXPECT_EQ(sized_text(0.0012, 2), "0.0012");
   EXPECT_EQ(sized_text(3.44e-7, 2, true), "+3.4e-07");
   EXPECT_EQ(sized_text(0.0, 2), "0.00");
@@ -227,4 +220,3 @@ TEST(NumberText, SuitsTheSizeOfTheNumber) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

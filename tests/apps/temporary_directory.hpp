@@ -2,12 +2,7 @@
 
 #include <unistd.h>
 
-#include <atomic>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <string_view>
+#include "support/test.hpp"
 
 namespace sigmax::apps {
 
@@ -37,6 +32,12 @@ class TemporaryDirectory {
 
  private:
   std::filesystem::path path_;
+};
+
+/// A test in a directory of its own.
+class InDirectory : public testing::Test {
+ protected:
+  const TemporaryDirectory directory;
 };
 
 inline std::string contents(const std::filesystem::path& path) {

@@ -1,8 +1,6 @@
 #include "support/text.hpp"
+#include "support/test.hpp"
 
-#include <gtest/gtest.h>
-
-namespace sigmax::apps {
 namespace {
 
 TEST(Wrapped, BreaksAtBlanksAndKeepsIndents) {
@@ -26,4 +24,3 @@ TEST(DisplayWidth, CountsColumnsNotBytes) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,12 +1,6 @@
 #include "support/thinned.hpp"
+#include "support/test.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-namespace sigmax::apps {
 namespace {
 
 TEST(Thinned, KeepsAllWhileItCan) {
@@ -74,4 +68,3 @@ TEST(Thinned, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

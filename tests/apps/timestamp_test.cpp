@@ -1,16 +1,10 @@
 #include "support/timestamp.hpp"
-
-#include <stdexcept>
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 #include <rapidcheck/gtest.h>
-#include <ctime>
-#include <string>
 
 #include <fmt/format.h>
 
-namespace sigmax::apps {
 namespace {
 
 TEST(Timestamp, APlainNumberIsSeconds) {
@@ -121,4 +115,3 @@ RC_GTEST_PROP(Timestamp, AgreesWithTheCalendarOfTheCLibrary, ()) {
 }
 
 }  // namespace
-}  // namespace sigmax::apps

@@ -1,17 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
 
 #include "support/allocations.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::allocations_of;
 
 /// The verbs that write into an existing result, for tables stored inline and on the heap.
 class InPlace : public testing::TestWithParam<std::size_t> {};
@@ -51,4 +44,3 @@ TEST(Allocations, AChainThatIsUnderWayAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace sigmax

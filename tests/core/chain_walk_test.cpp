@@ -1,23 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <concepts>
-#include <utility>
-#include <vector>
-
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/forward_backward.hpp>
 #include <sigmax/core/route.hpp>
 #include <sigmax/core/update.hpp>
 #include <sigmax/core/witness.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
 /// The worked examples of docs/chains.md.
-namespace sigmax {
 namespace {
-
-using support::near;
 
 TEST(ChainWalk, OfSparseAndBandedRelationsIsWhatTheDocumentSays) {
   const RandomVariable cell{"cell", 100000};
@@ -35,10 +25,10 @@ TEST(ChainWalk, OfSparseAndBandedRelationsIsWhatTheDocumentSays) {
   double sum = 0.0;
   both.for_each(17, [&](std::size_t, double p) { sum += p; });
 
-  EXPECT_PRED_FORMAT3(near, there[3], 1.5e-5, 1e-15);
-  EXPECT_PRED_FORMAT3(near, back.relation(3, 6), 0.5, 1e-12);
-  EXPECT_PRED_FORMAT3(near, sum, 1.0, 1e-15);
-  EXPECT_PRED_FORMAT3(near, both(17, 8), 0.75 * 0.75, 1e-15);  // 16 and 17 jump to 8
+  EXPECT_CLOSE(there[3], 1.5e-5, 1e-15);
+  EXPECT_CLOSE(back.relation(3, 6), 0.5, 1e-12);
+  EXPECT_CLOSE(sum, 1.0, 1e-15);
+  EXPECT_CLOSE(both(17, 8), 0.75 * 0.75, 1e-15);  // 16 and 17 jump to 8
 }
 
 TEST(ChainWalk, OfChainsIsWhatTheDocumentSays) {
@@ -55,14 +45,14 @@ TEST(ChainWalk, OfChainsIsWhatTheDocumentSays) {
   EXPECT_EQ(most_likely(chain), "dry");
   const double root = std::sqrt(17.0) / 16.0, greater = 9.0 / 32.0 + root / 2.0, lesser = 9.0 / 32.0 - root / 2.0;
   const double expected = std::log((0.375 - lesser) / (greater - lesser)) + 100000.0 * std::log(greater);
-  EXPECT_PRED_FORMAT3(near, chain.log_total(), expected, 1e-13);
+  EXPECT_CLOSE(chain.log_total(), expected, 1e-13);
 
   const auto all = forward_backward(prior, next, reports);
   all.at(0);        // the start, given everything
   all.at(17);       // after the 17th report, and those that follow
   all.log_total();  // the log evidence, again
-  EXPECT_PRED_FORMAT3(near, all.log_total(), chain.log_total(), 1e-13);
-  EXPECT_PRED_FORMAT3(near, all.at(100000).values(), chain.normalized().values(), 1e-12);
+  EXPECT_CLOSE(all.log_total(), chain.log_total(), 1e-13);
+  EXPECT_CLOSE(all.at(100000).values(), chain.normalized().values(), 1e-12);
   EXPECT_GT(all.at(17)[0], all.at(0)[0]);  // no report is about the start itself
 
   const FuzzyVariable mood{"mood", {"calm", "wild"}};
@@ -82,7 +72,7 @@ TEST(ChainWalk, OfChainsIsWhatTheDocumentSays) {
     const long double scale = dry + wet;
     log += std::log(scale), dry /= scale, wet /= scale;
   }
-  EXPECT_PRED_FORMAT3(near, log_beta, static_cast<double>(log), 1e-12);
+  EXPECT_CLOSE(log_beta, static_cast<double>(log), 1e-12);
 }
 
 TEST(ChainWalk, OfWitnessesAndRoutesIsWhatTheDocumentSays) {
@@ -104,7 +94,7 @@ TEST(ChainWalk, OfWitnessesAndRoutesIsWhatTheDocumentSays) {
       best_route(Distribution{name, {0.5, 1.0}}, age_given_name, mood_given_age, seen);  // ann, young, wild: ½
 
   EXPECT_EQ(route.outcomes, (std::vector<std::size_t>{0, 0, 1}));
-  EXPECT_PRED_FORMAT3(near, route.log_value, std::log(0.5), 1e-15);
+  EXPECT_CLOSE(route.log_value, std::log(0.5), 1e-15);
 }
 
 TEST(ChainWalk, OfOrdinalVariablesIsWhatTheDocumentSays) {
@@ -116,10 +106,8 @@ TEST(ChainWalk, OfOrdinalVariablesIsWhatTheDocumentSays) {
   compose(risk_given_age, prior);                    // low 1, high 0.6: max-min
   update(prior, risk_given_age.likelihood("high"));  // 0.5, 1, 0.2: minimum, then residuum
 
-  EXPECT_PRED_FORMAT3(near, compose(risk_given_age, prior).values(), (std::vector{1.0, 0.6}), 0.0);
-  EXPECT_PRED_FORMAT3(near, update(prior, risk_given_age.likelihood("high")).values(), (std::vector{0.5, 1.0, 0.2}),
-                      0.0);
+  EXPECT_CLOSE(compose(risk_given_age, prior).values(), (std::vector{1.0, 0.6}), 0.0);
+  EXPECT_CLOSE(update(prior, risk_given_age.likelihood("high")).values(), (std::vector{0.5, 1.0, 0.2}), 0.0);
 }
 
 }  // namespace
-}  // namespace sigmax

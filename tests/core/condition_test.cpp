@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
-
 #include <sigmax/core/condition.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
 
 template <Algebra A>
 std::vector<double> conditioned(std::vector<double> joint) {
@@ -19,21 +11,21 @@ std::vector<double> conditioned(std::vector<double> joint) {
 }
 
 TEST(Condition, DividesByTheSumOrTheMaximumWhatScales) {
-  EXPECT_PRED_FORMAT3(near, conditioned<Sigma>({0.25, 0.5, 0.0, 0.25}), (std::vector{0.25, 0.5, 0.0, 0.25}), 0.0);
-  EXPECT_PRED_FORMAT3(near, conditioned<Sigma>({1.0, 3.0}), (std::vector{0.25, 0.75}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, conditioned<Max>({0.25, 0.5}), (std::vector{0.5, 1.0}), 0.0);
+  EXPECT_CLOSE(conditioned<Sigma>({0.25, 0.5, 0.0, 0.25}), (std::vector{0.25, 0.5, 0.0, 0.25}), 0.0);
+  EXPECT_CLOSE(conditioned<Sigma>({1.0, 3.0}), (std::vector{0.25, 0.75}), 1e-15);
+  EXPECT_CLOSE(conditioned<Max>({0.25, 0.5}), (std::vector{0.5, 1.0}), 0.0);
 }
 
 TEST(Condition, IsAResiduumWhereMinCombines) {
-  EXPECT_PRED_FORMAT3(near, conditioned<MaxMin>({0.25, 0.5, 0.5, 0.0}), (std::vector{0.25, 1.0, 1.0, 0.0}), 0.0);
+  EXPECT_CLOSE(conditioned<MaxMin>({0.25, 0.5, 0.5, 0.0}), (std::vector{0.25, 1.0, 1.0, 0.0}), 0.0);
 }
 
 TEST(Condition, NeitherOverflowsNorLosesALoneNumber) {
   const double huge = std::numeric_limits<double>::max(), subnormal = std::numeric_limits<double>::denorm_min();
-  EXPECT_PRED_FORMAT3(near, conditioned<Sigma>({huge, huge}), (std::vector{0.5, 0.5}), 0.0);
-  EXPECT_PRED_FORMAT3(near, conditioned<Sigma>({0.0, subnormal}), (std::vector{0.0, 1.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, conditioned<Max>({2 * subnormal, subnormal}), (std::vector{1.0, 0.5}), 0.0);
-  EXPECT_PRED_FORMAT3(near, conditioned<MaxMin>({subnormal, 0.0}), (std::vector{1.0, 0.0}), 0.0);
+  EXPECT_CLOSE(conditioned<Sigma>({huge, huge}), (std::vector{0.5, 0.5}), 0.0);
+  EXPECT_CLOSE(conditioned<Sigma>({0.0, subnormal}), (std::vector{0.0, 1.0}), 0.0);
+  EXPECT_CLOSE(conditioned<Max>({2 * subnormal, subnormal}), (std::vector{1.0, 0.5}), 0.0);
+  EXPECT_CLOSE(conditioned<MaxMin>({subnormal, 0.0}), (std::vector{1.0, 0.0}), 0.0);
 }
 
 TEST(EqualShare, IsWhatEqualNumbersAreConditionedTo) {
@@ -43,4 +35,3 @@ TEST(EqualShare, IsWhatEqualNumbersAreConditionedTo) {
 }
 
 }  // namespace
-}  // namespace sigmax

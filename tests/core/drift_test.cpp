@@ -1,14 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/witness.hpp>
 
+#include "support/test.hpp"
+
 /// What is normalised by law stays so along any chain of compositions, though rows are one only to within 1e-9.
-namespace sigmax {
 namespace {
 
 constexpr double third = 0.3333333333;  // three of them are accepted as one
@@ -68,4 +63,3 @@ TEST(Drift, LeavesWhatIsNormalisedToRoundingUnchanged) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,17 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
-
 #include <sigmax/core/kernels/compose.hpp>
 
-#include "support/near.hpp"
 #include "support/plain.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
 
 Table table(std::size_t rows, std::size_t columns, const std::vector<double>& values) {
   Table result(rows, columns);
@@ -23,9 +14,9 @@ TEST(DenseCompose, IsSumProductOrMaxProduct) {
   const Table left = table(2, 2, {0.9, 0.1, 0.3, 0.7}), right = table(1, 2, {0.5, 1.0});
   Table result(1, 1, 42.0);  // what was there does not matter
   kernels::compose<Sigma>(left, right, result);
-  EXPECT_PRED_FORMAT3(near, result.values(), (std::vector{0.75, 0.75}), 1e-15);
+  EXPECT_CLOSE(result.values(), (std::vector{0.75, 0.75}), 1e-15);
   kernels::compose<Max>(left, right, result);
-  EXPECT_PRED_FORMAT3(near, result.values(), (std::vector{0.45, 0.7}), 1e-15);
+  EXPECT_CLOSE(result.values(), (std::vector{0.45, 0.7}), 1e-15);
 }
 
 TEST(DenseCompose, GivesTheResultItsShape) {
@@ -52,12 +43,11 @@ TEST(DenseCompose, IsThePlainTripleLoopForAnyShape) {
     Table result(0, 0);
     kernels::compose<Sigma>(left_table, right_table, result);
     const plain::Rows sum = plain::compose(plain::By::sum, left, right);
-    for (std::size_t i = 0; i <= n; ++i) EXPECT_PRED_FORMAT3(near, result.row(i), sum[i], 1e-13);
+    for (std::size_t i = 0; i <= n; ++i) EXPECT_CLOSE(result.row(i), sum[i], 1e-13);
     kernels::compose<Max>(left_table, right_table, result);
     const plain::Rows max = plain::compose(plain::By::max, left, right);
-    for (std::size_t i = 0; i <= n; ++i) EXPECT_PRED_FORMAT3(near, result.row(i), max[i], 1e-15);
+    for (std::size_t i = 0; i <= n; ++i) EXPECT_CLOSE(result.row(i), max[i], 1e-15);
   }
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,28 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <iterator>
-#include <random>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include <sigmax/core/kernels/compose.hpp>
 
 #include "kernels/sparse.hpp"
 #include "support/drawn_tables.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
 
 using namespace drawn_tables;
-using support::throws;
 
 /// A table of which most numbers are zero; how many of them are not differs from row to row.
 Table thinned(std::size_t rows, std::size_t columns, Draw draw, std::uint64_t seed) {
@@ -159,12 +142,7 @@ TEST(Sparse, RowsOfNoneAndOfVeryDifferentSizesAreComposed) {
 
 TEST(Sparse, ColumnsBeyond32BitsAreRefusedByTheirNumber) {
   SparseRows rows;
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        rows.append({{std::size_t{1} << 32, 1.0}});
-      },
-      {"2^32", "4294967296"}));
+  EXPECT_INVALID(("2^32", "4294967296"), rows.append({{std::size_t{1} << 32, 1.0}}));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,15 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 #ifdef SIGMAX_WITH_HIGHWAY
 #include "kernels/targets.hpp"  // before it: which of them the kernels are compiled for
 
@@ -23,7 +11,6 @@
 #include "kernels/tiled.hpp"
 #include "support/drawn_tables.hpp"
 
-namespace sigmax {
 namespace {
 
 using namespace drawn_tables;
@@ -187,4 +174,3 @@ TEST_P(Tiled, TheArithmeticOfTheCallerStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,26 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
 #include "kernels/unbounded_row.hpp"
-#include "support/near.hpp"
+#include "support/test.hpp"
 
 namespace sigmax::kernels {
 namespace {
 
-using support::near;
-
 using sigmax::detail::any_algebra;
 
-constexpr double subnormal = std::numeric_limits<double>::denorm_min();
 constexpr double least = std::numeric_limits<double>::min();
 
 TEST(Raised, IsTheNumberTimesAPowerOfTwo) {
   for (const double value : {0.0, 1.0, 0.1, 1e-300, least}) EXPECT_EQ(raised(value), value * 0x1p512);
-  EXPECT_EQ(raised(subnormal), 0x1p-562);
-  EXPECT_EQ(raised(least - subnormal), std::ldexp(0x1p52 - 1.0, -562));
+  EXPECT_EQ(raised(least_subnormal), 0x1p-562);
+  EXPECT_EQ(raised(least - least_subnormal), std::ldexp(0x1p52 - 1.0, -562));
   EXPECT_EQ(raised(-0.0), 0.0);
   EXPECT_FALSE(std::signbit(raised(-0.0)));
 }
@@ -28,7 +19,7 @@ TEST(Raised, IsTheNumberTimesAPowerOfTwo) {
 /// Numbers so far apart that no double holds them together, through a table of ones, subnormals and zeros.
 TEST(UnboundedRow, ComposesInBandsWhatDoublesCannotHoldTogether) {
   Table table(3, 4);
-  const std::vector<double> rows{1.0, 0.0, 0.0, subnormal, 1.0, 1.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+  const std::vector<double> rows{1.0, 0.0, 0.0, least_subnormal, 1.0, 1.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
   std::copy(rows.begin(), rows.end(), table.data());
   UnboundedRow row(std::vector{1.0, 0.5, 0.25});
   row[1] = row[1] * ScaledNumber(1.0, -1000);
@@ -60,14 +51,14 @@ TEST(UnboundedRow, TakesTheFirstOfWinnersInTwoBands) {
 
 TEST(UnboundedRow, CarriesEvidenceBackInBands) {
   Table table(2, 3);
-  const std::vector<double> rows{0.5, subnormal, 0.0, 0.0, 0.25, 0.75};
+  const std::vector<double> rows{0.5, least_subnormal, 0.0, 0.0, 0.25, 0.75};
   std::copy(rows.begin(), rows.end(), table.data());
   UnboundedRow after(std::vector{0.0, 1.0, 0.5}), sum, max;
   after[2] = after[2] * ScaledNumber(1.0, -3000);
   sum.assign_carried_back(table, after, any_algebra<Sigma>());
   max.assign_carried_back(table, after, any_algebra<Max>());
   for (const UnboundedRow* const result : {&sum, &max}) {
-    EXPECT_EQ((*result)[0], ScaledNumber(subnormal));
+    EXPECT_EQ((*result)[0], ScaledNumber(least_subnormal));
     EXPECT_EQ((*result)[1], ScaledNumber(0.25));
   }
 }

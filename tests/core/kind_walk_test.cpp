@@ -1,14 +1,10 @@
 // The code of docs/extending.md, "A kind of variable": a kind that the library does not have works in all of core.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string_view>
-#include <type_traits>
 
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/update.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// Between Sigma (p = 1) and Max (p = ∞): alternatives add up as the sides of a right angle.
@@ -45,4 +41,3 @@ TEST(KindWalk, ANewKindIsTwoStructs) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,16 +1,8 @@
 #include <sigmax/core/mean_interval.hpp>
 
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <vector>
+#include "support/test.hpp"
 
-#include <gtest/gtest.h>
-
-namespace sigmax {
 namespace {
-
-using Numbers = std::vector<double>;
 
 // 97.5 % quantiles of Student's t from a printed table, by degrees of freedom.
 TEST(MeanInterval, IsStudentsInterval) {
@@ -77,4 +69,3 @@ TEST(RunningMean, KeepsItsDigitsFarFromZero) {
 }
 
 }  // namespace
-}  // namespace sigmax

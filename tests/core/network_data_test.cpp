@@ -1,30 +1,14 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdio>
-#include <filesystem>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>
 
-#include "support/near.hpp"
 #include "support/plain_network.hpp"
 
 /// Published networks against a plain computation that eliminates strictly in the reverse order of declaration.
-namespace sigmax {
 namespace {
 
 using plain::By;
-using support::near;
 
 std::string path_of(const std::string& name) { return std::string(SIGMAX_DATA) + "/relations/" + name + ".bif.gz"; }
 
@@ -113,8 +97,8 @@ void expect_posteriors(const RelationNetwork& network, std::size_t evidence) {
     const NetworkAnswer answer = query(network, {network[v].variable.name()}, given.evidence);
     std::vector<double> normalized;
     for (const auto value : expected) normalized.push_back(static_cast<double>(value / total));
-    EXPECT_PRED_FORMAT3(near, answer.normalized(), normalized, 1e-12);
-    EXPECT_PRED_FORMAT3(near, answer.total().log(), static_cast<double>(std::log(total)), 1e-12);
+    EXPECT_CLOSE(answer.normalized(), normalized, 1e-12);
+    EXPECT_CLOSE(answer.total().log(), static_cast<double>(std::log(total)), 1e-12);
   }
 }
 
@@ -123,9 +107,9 @@ void expect_explanation(const RelationNetwork& network, std::size_t evidence) {
   const plain::Network by_max = plain_of(network, true);
   const auto greatest = std::log(plain::eliminate_in_reverse(by_max, given.weights, {}).front());
   const Explanation found = most_likely_explanation(network, given.evidence);
-  EXPECT_PRED_FORMAT3(near, found.log_value, static_cast<double>(greatest), 1e-12);
+  EXPECT_CLOSE(found.log_value, static_cast<double>(greatest), 1e-12);
   const auto route = std::log(plain::joint(by_max, given.weights, found.outcomes));
-  EXPECT_PRED_FORMAT3(near, static_cast<double>(route), static_cast<double>(greatest), 1e-12);
+  EXPECT_CLOSE(static_cast<double>(route), static_cast<double>(greatest), 1e-12);
 }
 
 /// All at once against one after the other.
@@ -136,8 +120,8 @@ void expect_marginals(const RelationNetwork& network, std::size_t evidence) {
   for (std::size_t v = 0; v < network.size(); ++v) {
     SCOPED_TRACE(network[v].variable.name());
     const NetworkAnswer single = query(network, {network[v].variable.name()}, given.evidence);
-    EXPECT_PRED_FORMAT3(near, all[v].normalized(), single.normalized(), 1e-12);
-    EXPECT_PRED_FORMAT3(near, all[v].total().log(), single.total().log(), 1e-12);
+    EXPECT_CLOSE(all[v].normalized(), single.normalized(), 1e-12);
+    EXPECT_CLOSE(all[v].total().log(), single.total().log(), 1e-12);
     EXPECT_EQ(all[v].induced(), single.induced());
   }
 }
@@ -178,7 +162,7 @@ using LargeNetwork = PublishedNetwork;
 TEST_P(LargeNetwork, HasTheTotalOneInEveryMarginal) {
   for (const auto& vertex : network.vertices()) {
     const NetworkAnswer answer = query(network, {vertex.variable.name()});
-    EXPECT_PRED_FORMAT3(near, answer.total().value(), 1.0, 1e-12) << vertex.variable.name();
+    EXPECT_CLOSE(answer.total().value(), 1.0, 1e-12) << vertex.variable.name();
     EXPECT_FALSE(answer.induced());
   }
 }
@@ -190,7 +174,7 @@ TEST_P(LargeNetwork, GivesTheSameEvidenceWhateverIsAsked) {
     EXPECT_LT(evidence, 0.0);
     for (std::size_t v = 0; v < each.size(); v += 5) {
       const NetworkAnswer answer = query(each, {each[v].variable.name()}, own.evidence);
-      EXPECT_PRED_FORMAT3(near, answer.total().log(), evidence, 1e-12) << each[v].variable.name();
+      EXPECT_CLOSE(answer.total().log(), evidence, 1e-12) << each[v].variable.name();
       EXPECT_FALSE(answer.elimination().forced);
     }
   }
@@ -202,10 +186,10 @@ TEST_P(LargeNetwork, IsExplainedByARouteOfTheValueGiven) {
   const Case given = symptoms(network, 10);
   const Explanation found = most_likely_explanation(network, given.evidence);
   const auto route = std::log(plain::joint(plain_of(network), given.weights, found.outcomes));
-  EXPECT_PRED_FORMAT3(near, found.log_value, static_cast<double>(route), 1e-12);
+  EXPECT_CLOSE(found.log_value, static_cast<double>(route), 1e-12);
   // Of normalised fuzzy tables alone, a route of possibility one always exists.
   const RelationNetwork fuzzy = as_fuzzy(network, RatioScale{});
-  EXPECT_PRED_FORMAT3(near, most_likely_explanation(fuzzy, {}).log_value, 0.0, 1e-12);
+  EXPECT_CLOSE(most_likely_explanation(fuzzy, {}).log_value, 0.0, 1e-12);
 }
 INSTANTIATE_TEST_SUITE_P(Bif, LargeNetwork, testing::Values("hailfinder", "win95pts", "pathfinder"),
                          [](const auto& test) { return std::string(test.param); });
@@ -240,9 +224,7 @@ TEST(PublishedNetworks, OfAlarmHaveTheNumbersOfTheFile) {
   const RelationNetwork network = read("alarm");
   const auto& cvp = network[network.index_of("CVP")];
   EXPECT_EQ(network[cvp.parents.front()].variable.name(), "LVEDVOLUME");
-  EXPECT_PRED_FORMAT3(near, cvp.table().values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}),
-                      1e-15);
+  EXPECT_CLOSE(cvp.table().values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}), 1e-15);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,14 +1,20 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/network/query.hpp>
+
+#include "support/test.hpp"
 
 namespace sigmax::support {
 
 inline std::string name(std::size_t k) { return "x" + std::to_string(k); }
+
+/// A network of these tables, in their order.
+template <class... Tables>
+RelationNetwork network_of(const Tables&... tables) {
+  RelationNetwork network;
+  (network.declare(tables), ...);
+  return network;
+}
 
 /// A square grid of binary random variables, each given the ones to its left and above.
 inline RelationNetwork grid(std::size_t side) {

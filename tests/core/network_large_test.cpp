@@ -1,43 +1,22 @@
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/graphviz.hpp>
-#include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>
 #include <sigmax/core/sample.hpp>
 
 #include "core/network_grid.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::grid;
-using support::name;
-using support::near;
-using support::throws;
 
 TEST(NetworkLimit, RefusesATableThatIsTooLargeBeforeItIsMade) {
   const RelationNetwork network = grid(40);
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_TRUE(
-      throws<std::length_error>([&] { query(network, {name(1599)}); }, {"GiB", "above the limit of 1 GiB", "'x"}));
-  EXPECT_TRUE(throws<std::length_error>([&] { marginals(network); }, {"above the limit of 1 GiB", "'x"}));
-  EXPECT_TRUE(throws<std::length_error>([&] { most_likely_explanation(network); }, {"above the limit", "'x"}));
-  EXPECT_TRUE(throws<std::length_error>([&] { compose(network, name(0), name(1599)); }, {"above the limit", "'x"}));
+  EXPECT_REFUSED(std::length_error, ("GiB", "above the limit of 1 GiB", "'x"), query(network, {name(1599)}));
+  EXPECT_REFUSED(std::length_error, ("above the limit of 1 GiB", "'x"), marginals(network));
+  EXPECT_REFUSED(std::length_error, ("above the limit", "'x"), most_likely_explanation(network));
+  EXPECT_REFUSED(std::length_error, ("above the limit", "'x"), most_likely_outcomes(network, std::vector{name(1599)}));
+  EXPECT_REFUSED(std::length_error, ("above the limit", "'x"), compose(network, name(0), name(1599)));
   EXPECT_GT(cost(network, {name(1599)}).greatest_table, 0x1p30);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
@@ -48,11 +27,10 @@ TEST(NetworkLimit, IsSetByTheCaller) {
   EXPECT_EQ(numbers, query(network, {name(15)}).elimination().greatest_table);
   const auto bytes = static_cast<std::size_t>(numbers) * sizeof(ScaledNumber);
   EXPECT_NO_THROW(query(network, {name(15)}, {}, bytes));
-  EXPECT_TRUE(throws<std::length_error>([&] { query(network, {name(15)}, {}, bytes - 1); }, {"'x"}));
+  EXPECT_REFUSED(std::length_error, ("'x"), query(network, {name(15)}, {}, bytes - 1));
   std::vector<std::string> all;
   for (std::size_t k = 0; k < 16; ++k) all.push_back(name(k));
-  EXPECT_TRUE(throws<std::length_error>([&] { query(network, all, {}, 1 << 16); },
-                                        {"6.55e+04 numbers", "'x0'", "16 variables"}));
+  EXPECT_REFUSED(std::length_error, ("6.55e+04 numbers", "'x0'", "16 variables"), query(network, all, {}, 1 << 16));
 }
 
 TEST(NetworkOrder, OfALongChainOfOneKindIsFast) {
@@ -65,10 +43,10 @@ TEST(NetworkOrder, OfALongChainOfOneKindIsFast) {
   const auto answer = query(network, {name(length - 1)});
   const auto all = marginals(network);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));  // a second, without optimisation
-  EXPECT_PRED_FORMAT3(near, answer.values()[0].value(), 0.5, 1e-12);
+  EXPECT_CLOSE(answer.values()[0].value(), 0.5, 1e-12);
   EXPECT_EQ(answer.elimination().greatest_table, 4.0);
   for (const std::size_t k : {std::size_t{1}, std::size_t{3}, length - 1})
-    EXPECT_PRED_FORMAT3(near, all[k].values()[0].value(), 0.5 + std::pow(0.5, static_cast<double>(k) + 1.0), 1e-12);
+    EXPECT_CLOSE(all[k].values()[0].value(), 0.5 + std::pow(0.5, static_cast<double>(k) + 1.0), 1e-12);
 }
 
 TEST(NetworkOrder, OfALongChainOfAlternatingKindsIsFast) {
@@ -98,31 +76,22 @@ TEST(Network, OfAMillionOutcomesIsNeverATable) {
   network.declare(uninformative(now));
   network.declare(Relation<Random, Random>{next, now, std::move(rows)});
   const auto answer = query(network, {"now"}, {{"next", "7"}});
-  EXPECT_PRED_FORMAT3(near, answer.normalized()[14], 0.5, 1e-12);
-  EXPECT_PRED_FORMAT3(near, answer.normalized()[15], 0.5, 1e-12);
-  EXPECT_PRED_FORMAT3(near, query(network, {"next"}, {{"now", "14"}}).normalized()[500007], 0.25, 1e-12);
-  EXPECT_TRUE(throws<std::length_error>([&] { query(network, {"next"}); }, {"1e+12 numbers", "'next', 'now'"}));
+  EXPECT_CLOSE(answer.normalized()[14], 0.5, 1e-12);
+  EXPECT_CLOSE(answer.normalized()[15], 0.5, 1e-12);
+  EXPECT_CLOSE(query(network, {"next"}, {{"now", "14"}}).normalized()[500007], 0.25, 1e-12);
+  EXPECT_REFUSED(std::length_error, ("1e+12 numbers", "'next', 'now'"), query(network, {"next"}));
   const RelationNetwork fuzzy = as_fuzzy(network, DuboisPrade{});
   EXPECT_EQ(query(fuzzy, {"next"}, {{"now", "14"}}).normalized()[500007], 0.25);
 }
 
 TEST(Network, TakesSparseRowsOfSeveralParents) {
   const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 3};
-  RelationNetwork network;
-  network.declare(uninformative(a));
-  network.declare(uninformative(b));
+  RelationNetwork network = network_of(uninformative(a), uninformative(b));
   network.declare(c, {a, b}, SparseRows{{{0, 1.0}}, {{1, 1.0}}, {{1, 1.0}}, {{2, 1.0}}});
   EXPECT_EQ(query(network, {"c"}).values()[1].value(), 0.5);
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        network.declare(c, {a}, SparseRows{{{0, 1.0}}});
-      },
-      {"'c'", "2 rows", "1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        network.declare(RandomVariable{"d", 3}, {a}, SparseRows{{{0, 1.0}}, {{1, 0.5}}});
-      },
-      {"sum", "'d'", "a = '1'", "0.5"}));
+  EXPECT_INVALID(("'c'", "2 rows", "1"), network.declare(c, {a}, SparseRows{{{0, 1.0}}}));
+  EXPECT_INVALID(("sum", "'d'", "a = '1'", "0.5"),
+                 network.declare(RandomVariable{"d", 3}, {a}, SparseRows{{{0, 1.0}}, {{1, 0.5}}}));
 }
 
 TEST(Network, GivesItsVariablesByNameAndKind) {
@@ -130,15 +99,14 @@ TEST(Network, GivesItsVariablesByNameAndKind) {
   const FuzzyVariable age{"age", {"young", "old"}};
   network.declare(uninformative(age));
   EXPECT_EQ(network.variable<Fuzzy>("age"), age);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.variable<Random>("age"); }, {"'age'", "fuzzy", "random"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { network.variable<Fuzzy>("aeg"); }, {"'aeg'"}));
+  EXPECT_INVALID(("'age'", "fuzzy", "random"), network.variable<Random>("age"));
+  EXPECT_INVALID(("'aeg'"), network.variable<Fuzzy>("aeg"));
 }
 
 TEST(NetworkEvidence, MayBeAnEvent) {
   const RandomVariable a{"a", {"low", "middle", "high"}}, b{"b", 2};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.25, 0.25, 0.5}});
-  network.declare(Relation{b, a, {{1.0, 0.0}, {0.5, 0.5}, {0.0, 1.0}}});
+  const RelationNetwork network =
+      network_of(Distribution{a, {0.25, 0.25, 0.5}}, Relation{b, a, {{1.0, 0.0}, {0.5, 0.5}, {0.0, 1.0}}});
   const auto answer = query(network, {"b"}, Evidence{}.observe(Event{a, {"middle", "high"}}));
   EXPECT_EQ(answer.total().value(), 0.75);
   EXPECT_EQ(answer.values()[0].value(), 0.125);
@@ -161,14 +129,13 @@ TEST(NetworkQuery, LeavesOutWhatBearsOnNothing) {  // a barren child of many out
 TEST(MarginalExplanation, EliminatesTheOthersByTheirKinds) {
   // The most likely outcome of a alone is 1, though the most likely pair has a = 0.
   const RandomVariable a{"a", 2}, b{"b", 3};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.4, 0.6}});
-  network.declare(Relation{b, a, {{1.0, 0.0, 0.0}, {0.25, 0.375, 0.375}}});
+  const RelationNetwork network =
+      network_of(Distribution{a, {0.4, 0.6}}, Relation{b, a, {{1.0, 0.0, 0.0}, {0.25, 0.375, 0.375}}});
   EXPECT_EQ(most_likely_explanation(network)["a"], "0");
   const Explanation marginal = most_likely_outcomes(network, std::vector<std::string>{"a"});
   EXPECT_EQ(marginal["a"], "1");
   EXPECT_EQ(marginal.variables.size(), 1U);
-  EXPECT_PRED_FORMAT3(near, marginal.log_value, std::log(0.6), 1e-14);
+  EXPECT_CLOSE(marginal.log_value, std::log(0.6), 1e-14);
 }
 
 TEST(MarginalExplanation, IsTheGreatestNumberOfTheQuery) {
@@ -181,12 +148,8 @@ TEST(MarginalExplanation, IsTheGreatestNumberOfTheQuery) {
   for (std::size_t i = 0; i < answer.values().size(); ++i)
     if (answer.values()[greatest] < answer.values()[i]) greatest = i;
   EXPECT_EQ(best.outcomes, (std::vector<std::size_t>{greatest / 4, greatest / 2 % 2, greatest % 2}));
-  EXPECT_PRED_FORMAT3(near, best.log_value, answer.values()[greatest].log(), 1e-12);
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        most_likely_outcomes(network, std::vector{name(1), name(1)});
-      },
-      {"'x1'", "twice"}));
+  EXPECT_CLOSE(best.log_value, answer.values()[greatest].log(), 1e-12);
+  EXPECT_INVALID(("'x1'", "twice"), most_likely_outcomes(network, std::vector{name(1), name(1)}));
 }
 
 TEST(Sample, HasTheFrequenciesOfTheNetwork) {
@@ -209,7 +172,7 @@ TEST(Sample, NeverDrawsWhatIsImpossible) {
   for (int k = 0; k < 100; ++k) EXPECT_EQ(sample(sure, generator), 1U);
   RelationNetwork fuzzy;
   fuzzy.declare(uninformative(FuzzyVariable{"y", 2}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { sample(fuzzy, generator); }, {"'y'", "fuzzy"}));
+  EXPECT_INVALID(("'y'", "fuzzy"), sample(fuzzy, generator));
 }
 
 TEST(Sample, DrawsItsNumberAsTheStandardLibraryDoes) {
@@ -245,7 +208,7 @@ TEST(Bif, WritesWhatItReads) {
   RelationNetwork fuzzy;
   fuzzy.declare(uninformative(FuzzyVariable{"y", 2}));
   std::ostringstream nothing;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { write_bif(nothing, fuzzy, "n"); }, {"'y'", "fuzzy"}));
+  EXPECT_INVALID(("'y'", "fuzzy"), write_bif(nothing, fuzzy, "n"));
   EXPECT_EQ(nothing.str(), "");
 }
 
@@ -262,9 +225,7 @@ TEST(Bif, SkipsAByteOrderMarkAndRefusesANetworkOfNothing) {
       "\xEF\xBB\xBFnetwork n { }\nvariable a { type discrete [ 1 ] { yes }; }\nprobability ( a ) { table 1; }\n");
   EXPECT_EQ(read_bif(marked, "marked.bif").size(), 1U);
   std::istringstream cut_off("network n { }\n");
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { read_bif(cut_off, "cut.bif"); },
-                                            {"cut.bif:2", "'variable'", "end of the file"}));
+  EXPECT_INVALID(("cut.bif:2", "'variable'", "end of the file"), read_bif(cut_off, "cut.bif"));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,28 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/measure.hpp>
-#include <sigmax/core/network/query.hpp>
 #include <sigmax/core/update.hpp>
 
-#include "support/near.hpp"
-#include "support/throws.hpp"
+#include "core/network_grid.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::throws;
 
 const FuzzyVariable age{"age", {"young", "middle", "old"}};
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
@@ -31,10 +15,7 @@ const Relation<Fuzzy, Fuzzy> mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, 
 const Relation<Random, Fuzzy> speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
 
 RelationNetwork chain() {
-  RelationNetwork network;
-  network.declare(Distribution{age, {1.0, 1.0, 0.5}});
-  network.declare(mood_given_age);
-  network.declare(speed_given_mood);
+  RelationNetwork network = network_of(Distribution{age, {1.0, 1.0, 0.5}}, mood_given_age, speed_given_mood);
   return network;
 }
 
@@ -46,10 +27,10 @@ std::vector<double> numbers(const NetworkAnswer& answer) {
 
 TEST(NetworkQuery, OfEverythingIsTheProductOfTheTables) {
   const NetworkAnswer answer = query(chain(), {"age", "mood", "speed"});
-  EXPECT_PRED_FORMAT3(near, numbers(answer),
-                      (std::vector{0.27, 0.03, 0.3, 0.7, 0.9, 0.1, 0.18, 0.42, 0.45, 0.05, 0.03, 0.07}), 1e-15);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.27, 0.03, 0.3, 0.7, 0.9, 0.1, 0.18, 0.42, 0.45, 0.05, 0.03, 0.07}),
+               1e-15);
   EXPECT_EQ((answer[{"middle", "wild", "fast"}].value()), 0.6 * 0.7);
-  EXPECT_PRED_FORMAT3(near, answer.total().value(), 1.0, 1e-15);
+  EXPECT_CLOSE(answer.total().value(), 1.0, 1e-15);
   EXPECT_FALSE(answer.induced());
 }
 
@@ -63,7 +44,7 @@ TEST(NetworkQuery, AnswersInTheOrderAskedFor) {
 TEST(NetworkQuery, OfNothingIsTheEvidenceAndOneWithoutAny) {
   EXPECT_EQ(query(chain(), {}).total().value(), 1.0);
   const auto fast = query(chain(), {}, {{"speed", "fast"}});
-  EXPECT_PRED_FORMAT3(near, fast.total().value(), 0.7, 1e-15);  // the young are wild, and the wild fast
+  EXPECT_CLOSE(fast.total().value(), 0.7, 1e-15);  // the young are wild, and the wild fast
   EXPECT_EQ(fast.values().size(), 1U);
   EXPECT_FALSE(fast.induced());
 }
@@ -71,40 +52,37 @@ TEST(NetworkQuery, OfNothingIsTheEvidenceAndOneWithoutAny) {
 TEST(NetworkQuery, OfAnInnerVariableOfAnotherKindIsInduced) {  // (15), the small world of the readings
   const FuzzyVariable y{"y", 2};
   const RandomVariable x{"x", 3};
-  RelationNetwork network;
-  network.declare(Distribution{y, {1.0, 0.5}});
-  network.declare(Relation{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}});
+  const RelationNetwork network =
+      network_of(Distribution{y, {1.0, 0.5}}, Relation{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}});
   const NetworkAnswer answer = query(network, {"x"});
   EXPECT_TRUE(answer.induced());
-  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.6, 0.3, 0.3}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, answer.total().value(), 1.2, 1e-15);  // β
-  EXPECT_PRED_FORMAT3(near, answer.normalized<Random>().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, answer.likelihood<Random>()["1"], 0.3, 1e-15);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.6, 0.3, 0.3}), 1e-15);
+  EXPECT_CLOSE(answer.total().value(), 1.2, 1e-15);  // β
+  EXPECT_CLOSE(answer.normalized<Random>().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
+  EXPECT_CLOSE(answer.likelihood<Random>()["1"], 0.3, 1e-15);
 
   const NetworkAnswer outer = query(network, {"y"});
   EXPECT_FALSE(outer.induced());
-  EXPECT_PRED_FORMAT3(near, numbers(outer), (std::vector{1.0, 0.5}), 1e-15);
+  EXPECT_CLOSE(numbers(outer), (std::vector{1.0, 0.5}), 1e-15);
   // π(y|x) of (14): the evidence is the induced number, and dividing by it is the normalisation.
   const NetworkAnswer given = query(network, {"y"}, {{"x", "2"}});
   EXPECT_FALSE(given.induced());
-  EXPECT_PRED_FORMAT3(near, given.total().value(), 0.3, 1e-15);
-  EXPECT_PRED_FORMAT3(near, given.normalized<Fuzzy>().values(), (std::vector{1.0 / 3.0, 1.0}), 1e-15);
+  EXPECT_CLOSE(given.total().value(), 0.3, 1e-15);
+  EXPECT_CLOSE(given.normalized<Fuzzy>().values(), (std::vector{1.0 / 3.0, 1.0}), 1e-15);
 }
 
 TEST(NetworkQuery, EliminatesInnermostFirstWhereTheOrderMatters) {
   // max over y of Σ over x, never the other way about: 0.6 · 1 + 0.1 · 0.5 and so on would add the induced numbers.
   const FuzzyVariable y{"y", 2};
   const RandomVariable x{"x", 2}, z{"z", 2};
-  RelationNetwork network;
-  network.declare(Distribution{y, {1.0, 0.75}});
-  network.declare(Relation{x, y, {{0.5, 0.5}, {0.25, 0.75}}});
+  RelationNetwork network = network_of(Distribution{y, {1.0, 0.75}}, Relation{x, y, {{0.5, 0.5}, {0.25, 0.75}}});
   network.declare(z, {y, x}, {{0.1, 0.9}, {0.2, 0.8}, {0.8, 0.2}, {0.4, 0.6}});
   // max(0.5·0.9 + 0.5·0.8, 0.75 (0.25·0.2 + 0.75·0.6)) against Σ_x max_y = 0.5·0.9 + max(0.4, 0.3375)
-  EXPECT_PRED_FORMAT3(near, query(network, {}, {{"z", "1"}}).total().value(), 0.85, 1e-15);
+  EXPECT_CLOSE(query(network, {}, {{"z", "1"}}).total().value(), 0.85, 1e-15);
   // max(0.5·0.1 + 0.5·0.2, 0.75 (0.25·0.8 + 0.75·0.4)) = 0.375; the other order has max(0.05, 0.15) + max(0.1, 0.225)
-  EXPECT_PRED_FORMAT3(near, query(network, {}, {{"z", "0"}}).total().value(), 0.375, 1e-15);
+  EXPECT_CLOSE(query(network, {}, {{"z", "0"}}).total().value(), 0.375, 1e-15);
   const NetworkAnswer answer = query(network, {"z"});
-  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.375, 0.85}), 1e-15);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.375, 0.85}), 1e-15);
   EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"x", "y"}));
   EXPECT_TRUE(answer.induced());
 }
@@ -112,46 +90,33 @@ TEST(NetworkQuery, EliminatesInnermostFirstWhereTheOrderMatters) {
 TEST(NetworkQuery, TakesLikelihoodsAsEvidenceAndMultipliesThoseOfOneVariable) {
   const Likelihood twice{mood, {0.2, 0.8}};
   const auto answer = query(chain(), {"mood"}, Evidence{}.observe(twice).observe(twice));
-  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.04, 0.64}), 1e-15);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.04, 0.64}), 1e-15);
   const auto both = query(chain(), {"age"}, Evidence{{"speed", "fast"}}.observe(twice));
-  EXPECT_PRED_FORMAT3(near, numbers(both), (std::vector{0.56, 0.336, 0.056}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, both.normalized(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
+  EXPECT_CLOSE(numbers(both), (std::vector{0.56, 0.336, 0.056}), 1e-15);
+  EXPECT_CLOSE(both.normalized(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
 }
 
 TEST(NetworkQuery, OfAVariableWithEvidenceLeavesOnlyWhatWasSeen) {
   const auto answer = query(chain(), {"mood"}, {{"mood", "wild"}});
-  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.0, 1.0}), 0.0);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.0, 1.0}), 0.0);
 }
 
 TEST(NetworkQuery, OfWhatIsKnownIsNotInduced) {  // speed is random within fuzzy variables, but nothing is left to sum
   const auto answer = query(chain(), {"speed"}, {{"speed", "fast"}});
   EXPECT_FALSE(answer.induced());
-  EXPECT_PRED_FORMAT3(near, numbers(answer), (std::vector{0.0, 0.7}), 1e-15);
+  EXPECT_CLOSE(numbers(answer), (std::vector{0.0, 0.7}), 1e-15);
   EXPECT_EQ(answer.total(), query(chain(), {}, {{"speed", "fast"}}).total());
   EXPECT_TRUE(query(chain(), {"speed"}, {{"age", "old"}}).induced());
 }
 
 TEST(NetworkQuery, NamesTheEvidenceThatExcludesEverything) {
   const FuzzyVariable a{"a", 2}, b{"b", 2};
-  RelationNetwork network;
-  network.declare(uninformative(a));
-  network.declare(Relation{b, a, {{1.0, 0.0}, {0.0, 1.0}}});
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        query(network, {"a"}, {{"a", "0"}, {"b", "1"}});
-      },
-      {"a = '0'", "b = '1'"}));
-  EXPECT_TRUE(throws<std::domain_error>([&] { query(network, {}, {{"a", "0"}, {"a", "1"}}); }, {"a = '0'", "a = '1'"}));
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        query(network, {}, Evidence{}.observe(Likelihood{b, {0.0, 0.0}}));
-      },
-      {"likelihood of b"}));
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        most_likely_explanation(network, {{"a", "0"}, {"b", "1"}});
-      },
-      {"a = '0'", "b = '1'"}));
+  const RelationNetwork network = network_of(uninformative(a), Relation{b, a, {{1.0, 0.0}, {0.0, 1.0}}});
+  EXPECT_REFUSED(std::domain_error, ("a = '0'", "b = '1'"), query(network, {"a"}, {{"a", "0"}, {"b", "1"}}));
+  EXPECT_REFUSED(std::domain_error, ("a = '0'", "a = '1'"), query(network, {}, {{"a", "0"}, {"a", "1"}}));
+  EXPECT_REFUSED(std::domain_error, ("likelihood of b"),
+                 query(network, {}, Evidence{}.observe(Likelihood{b, {0.0, 0.0}})));
+  EXPECT_REFUSED(std::domain_error, ("a = '0'", "b = '1'"), most_likely_explanation(network, {{"a", "0"}, {"b", "1"}}));
 }
 
 TEST(NetworkQuery, DoesNotTakeWhatIsTooSmallForADoubleForExcluded) {
@@ -166,27 +131,23 @@ TEST(NetworkQuery, DoesNotTakeWhatIsTooSmallForADoubleForExcluded) {
     evidence.observe(b.name(), "1");
   }
   const auto answer = query(network, {"a"}, evidence);
-  EXPECT_PRED_FORMAT3(near, answer.normalized(), (std::vector{1.0, 1.0 / 32.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, answer.total().log(), 5 * -1073 * std::log(2.0), 1e-14);
+  EXPECT_CLOSE(answer.normalized(), (std::vector{1.0, 1.0 / 32.0}), 0.0);
+  EXPECT_CLOSE(answer.total().log(), 5 * -1073 * std::log(2.0), 1e-14);
 }
 
 TEST(NetworkQuery, RefusesWhatTheNetworkDoesNotHave) {
   const auto network = chain();
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"sped"}); }, {"'sped'"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"age", "mood", "age"}); }, {"'age'", "twice"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {}, {{"sped", "fast"}}); }, {"'sped'"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {}, {{"speed", "fats"}}); }, {"'speed'", "'fats'"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        query(network, {}, Evidence{}.observe(Likelihood{RandomVariable{"mood", {"calm", "wild"}}}));
-      },
-      {"'mood'", "fuzzy", "random"}));
+  EXPECT_INVALID(("'sped'"), query(network, {"sped"}));
+  EXPECT_INVALID(("'age'", "twice"), query(network, {"age", "mood", "age"}));
+  EXPECT_INVALID(("'sped'"), query(network, {}, {{"sped", "fast"}}));
+  EXPECT_INVALID(("'speed'", "'fats'"), query(network, {}, {{"speed", "fats"}}));
+  EXPECT_INVALID(("'mood'", "fuzzy", "random"),
+                 query(network, {}, Evidence{}.observe(Likelihood{RandomVariable{"mood", {"calm", "wild"}}})));
   const auto answer = query(network, {"age", "speed"});
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { answer[{"old"}]; }, {"2 variables", "1 outcomes"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { (answer[{"old", "fats"}]); }, {"'speed'", "'fats'"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { answer.normalized<Fuzzy>(); }, {"2 variables"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { query(network, {"age"}).normalized<Random>(); },
-                                            {"'age'", "fuzzy", "random"}));
+  EXPECT_INVALID(("2 variables", "1 outcomes"), answer[{"old"}]);
+  EXPECT_INVALID(("'speed'", "'fats'"), (answer[{"old", "fats"}]));
+  EXPECT_INVALID(("2 variables"), answer.normalized<Fuzzy>());
+  EXPECT_INVALID(("'age'", "fuzzy", "random"), query(network, {"age"}).normalized<Random>());
 }
 
 /// Leaves p, q and r, a separate fuzzy variable, and a hub that a sensor each joins to the leaves. All sensors were
@@ -214,7 +175,7 @@ NetworkAnswer read_sensors_of_hub(const NetworkVariable& hub) {
 TEST(NetworkQuery, SaysWhatItsKindsCost) {
   const auto answer = read_sensors_of_hub(FuzzyVariable{"hub", 2});
   const Elimination& elimination = answer.elimination();
-  EXPECT_PRED_FORMAT3(near, answer.total().value(), 0.25 * 0.125, 1e-15);
+  EXPECT_CLOSE(answer.total().value(), 0.25 * 0.125, 1e-15);
   // The leaves were declared outside the hub and are of another kind: it has to go first, and joins them all.
   EXPECT_TRUE(elimination.forced);
   EXPECT_LT(std::find(elimination.order.begin(), elimination.order.end(), "hub"),
@@ -226,7 +187,7 @@ TEST(NetworkQuery, SaysWhatItsKindsCost) {
 TEST(NetworkQuery, ExchangesEliminationsOfOneKindAndPassesWhatNothingJoins) {
   const auto answer = read_sensors_of_hub(RandomVariable{"hub", 2});
   const Elimination& elimination = answer.elimination();
-  EXPECT_PRED_FORMAT3(near, answer.total().value(), 0.25 * 0.125, 1e-15);
+  EXPECT_CLOSE(answer.total().value(), 0.25 * 0.125, 1e-15);
   EXPECT_FALSE(elimination.forced);
   EXPECT_EQ(elimination.greatest_table, 4.0 * 2.0);  // each leaf alone with the hub, past `apart`
   EXPECT_EQ(elimination.greatest_table_if_one_kind, 4.0 * 2.0);
@@ -237,10 +198,7 @@ TEST(NetworkQuery, DoesNotPassAVariableThatIsJoinedOnlyFromWithin) {
   const FuzzyVariable b{"b", 2}, d{"d", 2};
   const RandomVariable c{"c", 2};
   const double bd[2][2] = {{1.0, 0.25}, {0.25, 1.0}}, cd[2][2] = {{0.75, 0.125}, {0.125, 0.75}};
-  RelationNetwork network;
-  network.declare(uninformative(b));
-  network.declare(uninformative(c));
-  network.declare(uninformative(d));
+  RelationNetwork network = network_of(uninformative(b), uninformative(c), uninformative(d));
   const FuzzyVariable seen_b{"seen b", 2}, seen_c{"seen c", 2};
   network.declare(seen_b, {b, d}, {{1.0, bd[0][0]}, {1.0, bd[0][1]}, {1.0, bd[1][0]}, {1.0, bd[1][1]}});
   network.declare(seen_c, {c, d}, {{1.0, cd[0][0]}, {1.0, cd[0][1]}, {1.0, cd[1][0]}, {1.0, cd[1][1]}});
@@ -251,36 +209,35 @@ TEST(NetworkQuery, DoesNotPassAVariableThatIsJoinedOnlyFromWithin) {
     expected = std::max(expected, sum);
   }
   const auto answer = query(network, {}, {{"seen b", "1"}, {"seen c", "1"}});
-  EXPECT_PRED_FORMAT3(near, answer.total().value(), expected, 1e-15);  // with b before c it would be 0.75
+  EXPECT_CLOSE(answer.total().value(), expected, 1e-15);  // with b before c it would be 0.75
   EXPECT_EQ(answer.elimination().order, (std::vector<std::string>{"d", "c", "b"}));
 }
 
 TEST(NetworkMeasure, OfAnEventOfOneVariable) {
   const Evidence fast{{"speed", "fast"}};
   // π(age | fast) in proportion to (0.7, 0.42, 0.07)
-  EXPECT_PRED_FORMAT3(near, possibility(chain(), Event{age, {"middle", "old"}}, fast), 0.6, 1e-15);
-  EXPECT_PRED_FORMAT3(near, necessity(chain(), Event{age, {"young"}}, fast), 0.4, 1e-15);
+  EXPECT_CLOSE(possibility(chain(), Event{age, {"middle", "old"}}, fast), 0.6, 1e-15);
+  EXPECT_CLOSE(necessity(chain(), Event{age, {"young"}}, fast), 0.4, 1e-15);
   EXPECT_EQ(necessity(chain(), Event{age, {"middle", "old"}}, fast), 0.0);
-  EXPECT_PRED_FORMAT3(near, probability(chain(), Event{speed, {"fast"}}, {{"mood", "wild"}}), 0.7, 1e-15);
+  EXPECT_CLOSE(probability(chain(), Event{speed, {"fast"}}, {{"mood", "wild"}}), 0.7, 1e-15);
 }
 
 TEST(NetworkMeasure, OfAnEventOfVariablesTogether) {
   const auto wild_or_old = [](std::span<const std::size_t> at) { return at[0] == 2 || at[1] == 1; };
   const NetworkAnswer answer = query(chain(), {"age", "mood"}, {{"speed", "slow"}});
   // joint in proportion to young (0.27, 0.3), middle (0.9, 0.18), old (0.45, 0.03)
-  EXPECT_PRED_FORMAT3(near, possibility(answer, wild_or_old), 0.5, 1e-15);
+  EXPECT_CLOSE(possibility(answer, wild_or_old), 0.5, 1e-15);
   EXPECT_EQ(necessity(answer, wild_or_old), 0.0);
-  EXPECT_PRED_FORMAT3(near, necessity(answer, [](auto at) { return at[0] == 1; }), 0.5, 1e-15);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { probability(answer, wild_or_old); }, {"'age'", "fuzzy", "random"}));
+  EXPECT_CLOSE(necessity(answer, [](auto at) { return at[0] == 1; }), 0.5, 1e-15);
+  EXPECT_INVALID(("'age'", "fuzzy", "random"), probability(answer, wild_or_old));
   const NetworkAnswer both = query(chain(), {"age", "speed"});
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { possibility(both, wild_or_old); }, {"'speed'", "random", "fuzzy"}));
+  EXPECT_INVALID(("'speed'", "random", "fuzzy"), possibility(both, wild_or_old));
 
   const RandomVariable a{"a", 2}, b{"b", 2};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.25, 0.75}});
-  network.declare(Relation{b, a, {{0.5, 0.5}, {0.125, 0.875}}});
+  const RelationNetwork network =
+      network_of(Distribution{a, {0.25, 0.75}}, Relation{b, a, {{0.5, 0.5}, {0.125, 0.875}}});
   const auto same = [](std::span<const std::size_t> at) { return at[0] == at[1]; };
-  EXPECT_PRED_FORMAT3(near, probability(query(network, {"a", "b"}), same), 0.125 + 0.75 * 0.875, 1e-15);
+  EXPECT_CLOSE(probability(query(network, {"a", "b"}), same), 0.125 + 0.75 * 0.875, 1e-15);
 }
 
 TEST(NetworkCompose, AlongAPathIsTheCompositionOfItsRelations) {  // (17)
@@ -290,8 +247,8 @@ TEST(NetworkCompose, AlongAPathIsTheCompositionOfItsRelations) {  // (17)
   ASSERT_TRUE((std::holds_alternative<Induced<Relation<Random, Fuzzy>>>(relation)));
   const auto expected = compose(speed_given_mood, mood_given_age);
   const auto& induced = std::get<Induced<Relation<Random, Fuzzy>>>(relation);
-  EXPECT_PRED_FORMAT3(near, induced.table().values(), expected.table().values(), 1e-15);
-  EXPECT_PRED_FORMAT3(near, induced.betas(), expected.betas(), 1e-15);
+  EXPECT_CLOSE(induced.table().values(), expected.table().values(), 1e-15);
+  EXPECT_CLOSE(induced.betas(), expected.betas(), 1e-15);
   EXPECT_EQ(induced.from(), age);
   EXPECT_EQ(induced.to(), speed);
 }
@@ -299,56 +256,49 @@ TEST(NetworkCompose, AlongAPathIsTheCompositionOfItsRelations) {  // (17)
 TEST(NetworkCompose, OfOneKindIsARelation) {
   const ComposedRelation itself = compose(chain(), "age", "mood");
   EXPECT_FALSE(itself.induced());
-  EXPECT_PRED_FORMAT3(near, itself.table().values(), mood_given_age.table().values(), 0.0);
+  EXPECT_CLOSE(itself.table().values(), mood_given_age.table().values(), 0.0);
   EXPECT_TRUE((std::holds_alternative<Relation<Fuzzy, Fuzzy>>(itself.relation<Fuzzy, Fuzzy>())));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { itself.relation<Random, Fuzzy>(); }, {"'mood'", "fuzzy", "random"}));
+  EXPECT_INVALID(("'mood'", "fuzzy", "random"), itself.relation<Random, Fuzzy>());
 }
 
 TEST(NetworkCompose, DoesNotAskThePriorAlongAPath) {
   const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
-  RelationNetwork network;
-  network.declare(Distribution{a, {1.0, 0.0}});
-  network.declare(Relation{b, a, {{0.5, 0.5}, {0.25, 0.75}}});
-  network.declare(Relation{c, b, {{1.0, 0.0}, {0.5, 0.5}}});
+  const RelationNetwork network = network_of(Distribution{a, {1.0, 0.0}}, Relation{b, a, {{0.5, 0.5}, {0.25, 0.75}}},
+                                             Relation{c, b, {{1.0, 0.0}, {0.5, 0.5}}});
   const auto relation = compose(network, "a", "c");
   EXPECT_FALSE(relation.induced());
   EXPECT_TRUE(relation.unreachable().empty());
-  EXPECT_PRED_FORMAT3(near, relation.table().values(), (std::vector{0.75, 0.25, 0.625, 0.375}), 1e-15);
+  EXPECT_CLOSE(relation.table().values(), (std::vector{0.75, 0.25, 0.625, 0.375}), 1e-15);
 }
 
 TEST(NetworkCompose, BackwardsIsTheInverseUnderTheMarginal) {  // (43)
   const RandomVariable a{"a", 2}, b{"b", 3};
   const Relation b_given_a{b, a, {{0.5, 0.5, 0.0}, {0.25, 0.75, 0.0}}};
   const Distribution prior{a, {0.25, 0.75}};
-  RelationNetwork network;
-  network.declare(prior);
-  network.declare(b_given_a);
+  const RelationNetwork network = network_of(prior, b_given_a);
   const auto found = compose(network, "b", "a");
   const auto expected = invert(b_given_a, prior);
   EXPECT_FALSE(found.induced());
-  EXPECT_PRED_FORMAT3(near, found.table().values(), expected.relation.table().values(), 1e-15);
+  EXPECT_CLOSE(found.table().values(), expected.relation.table().values(), 1e-15);
   EXPECT_EQ(found.unreachable(), expected.unreachable);
 }
 
 TEST(NetworkCompose, ThroughACommonAncestorIsTheConditional) {
   const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.5, 0.5}});
-  network.declare(Relation{b, a, {{0.75, 0.25}, {0.25, 0.75}}});
+  RelationNetwork network = network_of(Distribution{a, {0.5, 0.5}}, Relation{b, a, {{0.75, 0.25}, {0.25, 0.75}}});
   network.declare(c, {a, b}, {{1.0, 0.0}, {0.5, 0.5}, {0.5, 0.5}, {0.0, 1.0}});
   const auto c_given_b = compose(network, "b", "c");
   EXPECT_FALSE(c_given_b.induced());
   // p(a|b₀) = (3/4, 1/4), p(a|b₁) = (1/4, 3/4)
-  EXPECT_PRED_FORMAT3(near, c_given_b.table().values(), (std::vector{0.875, 0.125, 0.125, 0.875}), 1e-15);
+  EXPECT_CLOSE(c_given_b.table().values(), (std::vector{0.875, 0.125, 0.125, 0.875}), 1e-15);
 }
 
 TEST(NetworkCompose, OfWhatHasNothingToDoWithEachOtherRepeatsTheMarginal) {
   RelationNetwork network = chain();
   network.declare(Distribution{FuzzyVariable{"moon", 2}, {1.0, 0.25}});
-  EXPECT_PRED_FORMAT3(near, compose(network, "age", "moon").table().values(),
-                      (std::vector{1.0, 0.25, 1.0, 0.25, 1.0, 0.25}), 0.0);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(network, "age", "age"); }, {"'age'", "twice"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { compose(network, "age", "sun"); }, {"'sun'"}));
+  EXPECT_CLOSE(compose(network, "age", "moon").table().values(), (std::vector{1.0, 0.25, 1.0, 0.25, 1.0, 0.25}), 0.0);
+  EXPECT_INVALID(("'age'", "twice"), compose(network, "age", "age"));
+  EXPECT_INVALID(("'sun'"), compose(network, "age", "sun"));
 }
 
 TEST(Explanation, EliminatesEveryKindByTheMaximum) {
@@ -357,23 +307,21 @@ TEST(Explanation, EliminatesEveryKindByTheMaximum) {
   EXPECT_EQ(best.outcomes, (std::vector<std::size_t>{1, 0, 0}));
   EXPECT_EQ(best["age"], "middle");
   EXPECT_EQ(best["speed"], "slow");
-  EXPECT_PRED_FORMAT3(near, best.log_value, std::log(0.9), 1e-15);
+  EXPECT_CLOSE(best.log_value, std::log(0.9), 1e-15);
   const Explanation fast = most_likely_explanation(chain(), {{"speed", "fast"}});
   EXPECT_EQ(fast.outcomes, (std::vector<std::size_t>{0, 1, 1}));
-  EXPECT_PRED_FORMAT3(near, fast.log_value, std::log(0.7), 1e-15);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { fast["sped"]; }, {"'sped'"}));
+  EXPECT_CLOSE(fast.log_value, std::log(0.7), 1e-15);
+  EXPECT_INVALID(("'sped'"), fast["sped"]);
 }
 
 TEST(Explanation, IsNotMadeOfTheMostLikelyOutcomeOfEachVariable) {
   const RandomVariable a{"a", 2}, b{"b", 3};
-  RelationNetwork network;
-  network.declare(Distribution{a, {0.4, 0.6}});
-  network.declare(Relation{b, a, {{1.0, 0.0, 0.0}, {0.25, 0.375, 0.375}}});
+  const RelationNetwork network =
+      network_of(Distribution{a, {0.4, 0.6}}, Relation{b, a, {{1.0, 0.0, 0.0}, {0.25, 0.375, 0.375}}});
   EXPECT_EQ(query(network, {"a"}).normalized()[1], 0.6);
   const Explanation best = most_likely_explanation(network);
   EXPECT_EQ(best["a"], "0");
-  EXPECT_PRED_FORMAT3(near, best.log_value, std::log(0.4), 1e-15);
+  EXPECT_CLOSE(best.log_value, std::log(0.4), 1e-15);
 }
 
 }  // namespace
-}  // namespace sigmax

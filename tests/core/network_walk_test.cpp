@@ -1,21 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/measure.hpp>
 #include <sigmax/core/network/query.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
 /// The worked example of docs/networks.md.
-namespace sigmax {
 namespace {
-
-using support::near;
 
 TEST(NetworkWalk, IsWhatTheDocumentSays) {
   const FuzzyVariable age{"age", {"young", "middle", "old"}};
@@ -29,29 +20,28 @@ TEST(NetworkWalk, IsWhatTheDocumentSays) {
 
   const NetworkAnswer who = query(network, {"age"}, Evidence{{"speed", "fast"}});
   EXPECT_FALSE(who.induced());
-  EXPECT_PRED_FORMAT3(near, who.total().value(), 0.7, 1e-15);
-  EXPECT_PRED_FORMAT3(near, who.normalized<Fuzzy>().values(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
+  EXPECT_CLOSE(who.total().value(), 0.7, 1e-15);
+  EXPECT_CLOSE(who.normalized<Fuzzy>().values(), (std::vector{1.0, 0.6, 0.1}), 1e-15);
   EXPECT_EQ(who.elimination().order, std::vector<std::string>{"mood"});
   EXPECT_EQ(who.elimination().greatest_table, 6.0);
 
   const NetworkAnswer how_fast = query(network, {"speed"});
   EXPECT_TRUE(how_fast.induced());
-  EXPECT_PRED_FORMAT3(near, how_fast.values()[0].value(), 0.9, 1e-15);
-  EXPECT_PRED_FORMAT3(near, how_fast.values()[1].value(), 0.7, 1e-15);
-  EXPECT_PRED_FORMAT3(near, how_fast.total().value(), 1.6, 1e-15);
-  EXPECT_PRED_FORMAT3(near, how_fast.normalized<Random>().values(), (std::vector{0.5625, 0.4375}), 1e-15);
+  EXPECT_CLOSE(how_fast.values()[0].value(), 0.9, 1e-15);
+  EXPECT_CLOSE(how_fast.values()[1].value(), 0.7, 1e-15);
+  EXPECT_CLOSE(how_fast.total().value(), 1.6, 1e-15);
+  EXPECT_CLOSE(how_fast.normalized<Random>().values(), (std::vector{0.5625, 0.4375}), 1e-15);
 
   const ComposedRelation speed_given_age = compose(network, "age", "speed");
   EXPECT_TRUE(speed_given_age.induced());
-  EXPECT_PRED_FORMAT3(near, speed_given_age.table().values(), (std::vector{0.3, 0.7, 0.9, 0.42, 0.9, 0.14}), 1e-15);
+  EXPECT_CLOSE(speed_given_age.table().values(), (std::vector{0.3, 0.7, 0.9, 0.42, 0.9, 0.14}), 1e-15);
 
   const double certain = necessity(network, Event{age, {"young"}}, Evidence{{"speed", "fast"}});
-  EXPECT_PRED_FORMAT3(near, certain, 0.4, 1e-15);
+  EXPECT_CLOSE(certain, 0.4, 1e-15);
 
   const Explanation best = most_likely_explanation(network, Evidence{{"speed", "fast"}});
   EXPECT_EQ(best["age"] + ", " + best["mood"], "young, wild");
-  EXPECT_PRED_FORMAT3(near, best.log_value, std::log(0.7), 1e-15);
+  EXPECT_CLOSE(best.log_value, std::log(0.7), 1e-15);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,31 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <sigmax/core/route.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
 
 using boost::multiprecision::cpp_rational;
-using plain::Numbers;
-using plain::Rows;
-using support::holds;
-using support::near;
-using support::throws;
 using Way = std::vector<std::size_t>;
 
 template <class Kind>
@@ -47,7 +28,7 @@ TEST(BestRoute, WeighsStartRelationsAndEvidence) {
   const Route route = best_route(Distribution{mood, {1.0, 0.5}}, next, Likelihood{mood, {0.5, 1.0}}, next,
                                  Likelihood{mood, {0.1, 1.0}});
   EXPECT_EQ(route.outcomes, (Way{0, 1, 1}));  // ½, as wild, wild, wild has, which starts later
-  EXPECT_PRED_FORMAT3(near, route.log_value, std::log(0.5), 1e-15);
+  EXPECT_CLOSE(route.log_value, std::log(0.5), 1e-15);
 }
 
 TEST(BestRoute, OnATieTakesTheFirstOutcomeFromTheEndBackwards) {
@@ -167,17 +148,14 @@ TEST(Routes, StayAsTheyWereWhereEvidenceExcludesAll) {
 
 TEST(BestRoute, ThroughEvidenceThatExcludesEveryRouteIsADomainError) {
   const Relation stays{mood, mood, {{1.0, 0.0}, {0.0, 1.0}}};
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        best_route(Distribution{mood, {1.0, 0.0}}, stays, Likelihood{mood, {0.0, 1.0}});
-      },
-      {"evidence", "'mood'"}));
+  EXPECT_REFUSED(std::domain_error, ("evidence", "'mood'"),
+                 best_route(Distribution{mood, {1.0, 0.0}}, stays, Likelihood{mood, {0.0, 1.0}}));
 }
 
 TEST(BestRoute, RefusesARelationFromAnotherVariable) {
   const FuzzyVariable age{"age", {"young", "old"}};
   const Relation other{mood, age, {{1.0, 1.0}, {1.0, 1.0}}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { best_route(uninformative(mood), other); }, {"'age'", "'mood'"}));
+  EXPECT_INVALID(("'age'", "'mood'"), best_route(uninformative(mood), other));
 }
 
 /// A generated chain: numbers drawn by `draw`, in the order start, then relation and evidence in turn.
@@ -271,45 +249,37 @@ Way found_route(const Case<Kind>& c) {
   }
 }
 
-TEST(BestRoute, OfExactProductsIsThatOfBruteForceTiesIncluded) {
-  holds([] {
-    const auto c = any_case<Fuzzy>(true);
-    const auto [route, value] = best_of_all<cpp_rational>(c, product);
-    RC_ASSERT(found_route(c) == route);
-  });
+PROPERTY(BestRoute, OfExactProductsIsThatOfBruteForceTiesIncluded) {
+  const auto c = any_case<Fuzzy>(true);
+  const auto [route, value] = best_of_all<cpp_rational>(c, product);
+  RC_ASSERT(found_route(c) == route);
 }
 
-TEST(BestRoute, OfAnyProductsIsThatOfBruteForceToRounding) {
-  holds([] {
-    const auto c = any_case<Fuzzy>(false);
-    const auto [route, value] = best_of_all<cpp_rational>(c, product);
-    const Way found = found_route(c);
-    RC_ASSERT(found.empty() == route.empty());
-    if (!found.empty()) RC_ASSERT(product(c.along(found)) * cpp_rational(1.0 + 1e-14) >= value);
-  });
+PROPERTY(BestRoute, OfAnyProductsIsThatOfBruteForceToRounding) {
+  const auto c = any_case<Fuzzy>(false);
+  const auto [route, value] = best_of_all<cpp_rational>(c, product);
+  const Way found = found_route(c);
+  RC_ASSERT(found.empty() == route.empty());
+  if (!found.empty()) RC_ASSERT(product(c.along(found)) * cpp_rational(1.0 + 1e-14) >= value);
 }
 
-TEST(BestRoute, OfOrdinalRelationsIsThatOfBruteForce) {
-  holds([] {
-    const auto c = any_case<Ordinal>(false);
-    const auto [route, value] = best_of_all<double>(c, least);
-    const Way found = found_route(c);
-    RC_ASSERT(found.empty() == route.empty());
-    if (found.empty()) return;
-    RC_ASSERT(least(c.along(found)) == value);
-    RC_ASSERT(found.back() == route.back());
-  });
+PROPERTY(BestRoute, OfOrdinalRelationsIsThatOfBruteForce) {
+  const auto c = any_case<Ordinal>(false);
+  const auto [route, value] = best_of_all<double>(c, least);
+  const Way found = found_route(c);
+  RC_ASSERT(found.empty() == route.empty());
+  if (found.empty()) return;
+  RC_ASSERT(least(c.along(found)) == value);
+  RC_ASSERT(found.back() == route.back());
 }
 
-TEST(BestRoute, HasTheLogarithmOfItsProduct) {
-  holds([] {
-    const auto c = any_case<Fuzzy>(false);
-    if (found_route(c).empty()) return;
-    const Route route = best_route(c.routes());
-    double log = 0.0;
-    for (const double factor : c.along(route.outcomes)) log += std::log(factor);
-    support::require_near(route.log_value, log, 1e-13);
-  });
+PROPERTY(BestRoute, HasTheLogarithmOfItsProduct) {
+  const auto c = any_case<Fuzzy>(false);
+  if (found_route(c).empty()) return;
+  const Route route = best_route(c.routes());
+  double log = 0.0;
+  for (const double factor : c.along(route.outcomes)) log += std::log(factor);
+  support::require_near(route.log_value, log, 1e-13);
 }
 
 TEST(BestRoute, ThroughAHundredThousandRelationsDoesNotUnderflow) {
@@ -321,10 +291,9 @@ TEST(BestRoute, ThroughAHundredThousandRelationsDoesNotUnderflow) {
     routes = update(compose(next, std::move(routes)),
                     Likelihood{mood, step % 2 == 1 ? Numbers{0.0, 0.5} : Numbers{0.5, 0.0}});
   const Route route = best_route(routes);
-  EXPECT_PRED_FORMAT3(near, route.log_value, -100000.0 * std::log(2.0), 1e-13);
+  EXPECT_CLOSE(route.log_value, -100000.0 * std::log(2.0), 1e-13);
   ASSERT_EQ(route.outcomes.size(), length + 1);
   for (std::size_t step = 0; step <= length; ++step) ASSERT_EQ(route.outcomes[step], step % 2);
 }
 
 }  // namespace
-}  // namespace sigmax

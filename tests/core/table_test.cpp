@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <utility>
-
 #include <sigmax/core/table.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// Shapes on both sides of what is stored inline, 16 numbers.
@@ -107,4 +103,3 @@ TEST(Table, MayBeEmpty) {
 }
 
 }  // namespace
-}  // namespace sigmax

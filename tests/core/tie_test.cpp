@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include <sigmax/core/logarithm.hpp>
 #include <sigmax/core/tie.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 TEST(Tie, IsWithinTheToleranceOfTheGreatest) {
@@ -30,4 +27,3 @@ TEST(Tie, OfNumbersIsEqualityButForRounding) {
 }
 
 }  // namespace
-}  // namespace sigmax

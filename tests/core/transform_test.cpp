@@ -1,24 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <concepts>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/update.hpp>
 
-#include "support/near.hpp"
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::throws;
 
 static_assert(PossibilityTransform<RatioScale> && ProbabilityTransform<RatioScale>);
 static_assert(PossibilityTransform<DuboisPrade> && !ProbabilityTransform<DuboisPrade>);
@@ -43,24 +29,24 @@ TEST(AsFuzzy, OfAVariableWithoutLabelsHasNone) {
 TEST(RatioScale, DividesByTheGreatestAndByTheSum) {  // (34), (35)
   const Distribution<Fuzzy> possible = to_possibility(forecast, RatioScale{});
   EXPECT_EQ(possible.variable(), as_fuzzy(weather));
-  EXPECT_PRED_FORMAT3(near, possible.values(), (std::vector{1.0, 0.6, 0.4}), 1e-15);
+  EXPECT_CLOSE(possible.values(), (std::vector{1.0, 0.6, 0.4}), 1e-15);
   const Distribution<Random> back = to_probability(possible, RatioScale{});
   EXPECT_EQ(back.variable(), weather);
-  EXPECT_PRED_FORMAT3(near, back.values(), forecast.values(), 1e-15);
+  EXPECT_CLOSE(back.values(), forecast.values(), 1e-15);
 }
 
 TEST(RatioScale, RaisesToItsExponent) {
   const RatioScale root{.exponent = 0.5};
   const Distribution p{weather, {0.64, 0.36, 0.0}};
-  EXPECT_PRED_FORMAT3(near, to_possibility(p, root).values(), (std::vector{1.0, 0.75, 0.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, to_probability(to_possibility(p, root), root).values(), p.values(), 1e-15);
-  EXPECT_PRED_FORMAT3(near, to_possibility(p, RatioScale{2.0}).values(), (std::vector{1.0, 0.31640625, 0.0}), 1e-15);
+  EXPECT_CLOSE(to_possibility(p, root).values(), (std::vector{1.0, 0.75, 0.0}), 1e-15);
+  EXPECT_CLOSE(to_probability(to_possibility(p, root), root).values(), p.values(), 1e-15);
+  EXPECT_CLOSE(to_possibility(p, RatioScale{2.0}).values(), (std::vector{1.0, 0.31640625, 0.0}), 1e-15);
 }
 
 TEST(RatioScale, RefusesAnExponentThatIsNotPositive) {
   for (const double exponent : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { to_possibility(forecast, RatioScale{exponent}); },
-                                              {"RatioScale", "exponent", std::to_string(exponent)}));
+    EXPECT_INVALID(("RatioScale", "exponent", std::to_string(exponent)),
+                   to_possibility(forecast, RatioScale{exponent}));
     EXPECT_THROW(to_probability(uninformative(as_fuzzy(weather)), RatioScale{exponent}), std::invalid_argument);
   }
 }
@@ -73,59 +59,58 @@ TEST(RatioScale, OfALargeExponentDoesNotUnderflow) {
   EXPECT_EQ(possible[1], 1.0);
   EXPECT_EQ(possible[0], std::pow(0.5, 600.0));
   EXPECT_GT(possible[0], 0.0);
-  EXPECT_PRED_FORMAT3(near, to_probability(possible, RatioScale{600.0})[0], 0.25, 1e-12);
+  EXPECT_CLOSE(to_probability(possible, RatioScale{600.0})[0], 0.25, 1e-12);
 }
 
 TEST(RatioScale, DoesNotDominate) {
   const Distribution p{weather, {0.6, 0.2, 0.2}};
   const Distribution possible = to_possibility(p, RatioScale{});
-  EXPECT_PRED_FORMAT3(near, probability(p, Event{weather, {"wet", "snow"}}), 0.4, 1e-15);
-  EXPECT_PRED_FORMAT3(near, possibility(possible, Event{as_fuzzy(weather), {"wet", "snow"}}), 1.0 / 3.0, 1e-15);
+  EXPECT_CLOSE(probability(p, Event{weather, {"wet", "snow"}}), 0.4, 1e-15);
+  EXPECT_CLOSE(possibility(possible, Event{as_fuzzy(weather), {"wet", "snow"}}), 1.0 / 3.0, 1e-15);
 }
 
 TEST(RatioScale, CommutesWithUpdate) {
   const std::vector likelihood{0.1, 0.4, 0.2};
-  EXPECT_PRED_FORMAT3(
-      near, to_possibility(update(forecast, Likelihood{weather, likelihood}), RatioScale{}).values(),
-      update(to_possibility(forecast, RatioScale{}), Likelihood{as_fuzzy(weather), likelihood}).values(), 1e-14);
+  EXPECT_CLOSE(to_possibility(update(forecast, Likelihood{weather, likelihood}), RatioScale{}).values(),
+               update(to_possibility(forecast, RatioScale{}), Likelihood{as_fuzzy(weather), likelihood}).values(),
+               1e-14);
 }
 
 TEST(DuboisPrade, AddsWhatIsAsProbableOrLess) {
-  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, DuboisPrade{}).values(), (std::vector{1.0, 0.5, 0.2}), 1e-15);
+  EXPECT_CLOSE(to_possibility(forecast, DuboisPrade{}).values(), (std::vector{1.0, 0.5, 0.2}), 1e-15);
 }
 
 TEST(DuboisPrade, GivesTiesOnePossibility) {
   const RandomVariable five{"five", 5};
-  EXPECT_PRED_FORMAT3(near, to_possibility(Distribution{five, {0.1, 0.35, 0.1, 0.35, 0.1}}, DuboisPrade{}).values(),
-                      (std::vector{0.3, 1.0, 0.3, 1.0, 0.3}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, to_possibility(uninformative(five), DuboisPrade{}).values(),
-                      (std::vector{1.0, 1.0, 1.0, 1.0, 1.0}), 0.0);
+  EXPECT_CLOSE(to_possibility(Distribution{five, {0.1, 0.35, 0.1, 0.35, 0.1}}, DuboisPrade{}).values(),
+               (std::vector{0.3, 1.0, 0.3, 1.0, 0.3}), 1e-15);
+  EXPECT_CLOSE(to_possibility(uninformative(five), DuboisPrade{}).values(), (std::vector{1.0, 1.0, 1.0, 1.0, 1.0}),
+               0.0);
 }
 
 TEST(DuboisPrade, TakesWhatRoundingAlonePartsForATie) {
   const RandomVariable x{"x", 3};
   for (const std::vector<double>& p : {std::vector{0.1 + 0.2, 0.3, 0.4}, std::vector{0.3, 0.1 + 0.2, 0.4}}) {
     const Distribution possible = to_possibility(Distribution{x, p}, DuboisPrade{});
-    EXPECT_PRED_FORMAT3(near, possible[0], 0.6, 1e-12);
+    EXPECT_CLOSE(possible[0], 0.6, 1e-12);
     EXPECT_EQ(possible[0], possible[1]);
     EXPECT_EQ(possible[2], 1.0);
   }
 }
 
 TEST(DuboisPradeSandri, AddsTheSmallerOfEachPair) {
-  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, DuboisPradeSandri{}).values(), (std::vector{1.0, 0.8, 0.6}),
-                      1e-15);
+  EXPECT_CLOSE(to_possibility(forecast, DuboisPradeSandri{}).values(), (std::vector{1.0, 0.8, 0.6}), 1e-15);
 }
 
 TEST(DuboisPradeSandri, GoesBackByThePignisticProbability) {
   const FuzzyVariable mood{"mood", {"calm", "tense", "wild"}};
   // Cuts: three outcomes share .2, two share the next .4, one takes the last .4.
-  EXPECT_PRED_FORMAT3(near, to_probability(Distribution{mood, {0.6, 1.0, 0.2}}, DuboisPradeSandri{}).values(),
-                      (std::vector{0.2 / 3 + 0.2, 0.2 / 3 + 0.2 + 0.4, 0.2 / 3}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, to_probability(Distribution{mood, {1.0, 1.0, 0.0}}, DuboisPradeSandri{}).values(),
-                      (std::vector{0.5, 0.5, 0.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, to_probability(to_possibility(forecast, DuboisPradeSandri{}), DuboisPradeSandri{}).values(),
-                      forecast.values(), 1e-15);
+  EXPECT_CLOSE(to_probability(Distribution{mood, {0.6, 1.0, 0.2}}, DuboisPradeSandri{}).values(),
+               (std::vector{0.2 / 3 + 0.2, 0.2 / 3 + 0.2 + 0.4, 0.2 / 3}), 1e-15);
+  EXPECT_CLOSE(to_probability(Distribution{mood, {1.0, 1.0, 0.0}}, DuboisPradeSandri{}).values(),
+               (std::vector{0.5, 0.5, 0.0}), 0.0);
+  EXPECT_CLOSE(to_probability(to_possibility(forecast, DuboisPradeSandri{}), DuboisPradeSandri{}).values(),
+               forecast.values(), 1e-15);
 }
 
 TEST(Transform, OfASingleOutcomeIsCertain) {
@@ -139,8 +124,7 @@ TEST(Transform, OfASingleOutcomeIsCertain) {
 TEST(Transform, KeepsSubnormalProbabilitiesApart) {
   const double subnormal = std::numeric_limits<double>::denorm_min();
   const Distribution rare{weather, {1.0, subnormal, 3 * subnormal}};
-  EXPECT_PRED_FORMAT3(near, to_possibility(rare, DuboisPrade{}).values(), (std::vector{1.0, subnormal, 4 * subnormal}),
-                      0.0);
+  EXPECT_CLOSE(to_possibility(rare, DuboisPrade{}).values(), (std::vector{1.0, subnormal, 4 * subnormal}), 0.0);
   EXPECT_EQ(to_possibility(rare, DuboisPrade{})[2], 4 * subnormal);
   EXPECT_EQ(to_possibility(rare, RatioScale{})[1], subnormal);
   EXPECT_EQ(to_possibility(rare, DuboisPradeSandri{})[1], 3 * subnormal);
@@ -152,10 +136,10 @@ TEST(Transform, OfARelationIsThatOfItsRows) {
   const Relation<Fuzzy, Fuzzy> possible = to_possibility(weather_given_season, DuboisPrade{});
   EXPECT_EQ(possible.to(), as_fuzzy(weather));
   EXPECT_EQ(possible.from(), season);
-  EXPECT_PRED_FORMAT3(near, possible.table().values(), (std::vector{1.0, 1.0, 0.0, 0.2, 0.5, 1.0}), 1e-15);
+  EXPECT_CLOSE(possible.table().values(), (std::vector{1.0, 1.0, 0.0, 0.2, 0.5, 1.0}), 1e-15);
   const Relation<Random, Fuzzy> pignistic = to_probability(possible, DuboisPradeSandri{});
   EXPECT_EQ(pignistic.to(), weather);
-  EXPECT_PRED_FORMAT3(near, pignistic.row(1), (std::vector{0.2 / 3, 0.2 / 3 + 0.15, 0.2 / 3 + 0.65}), 1e-15);
+  EXPECT_CLOSE(pignistic.row(1), (std::vector{0.2 / 3, 0.2 / 3 + 0.15, 0.2 / 3 + 0.65}), 1e-15);
 }
 
 TEST(Transform, OfATransitionTakesItsConditionAlong) {  // (49) as (50)
@@ -163,10 +147,10 @@ TEST(Transform, OfATransitionTakesItsConditionAlong) {  // (49) as (50)
   const Relation transition{mode, mode, {{0.95, 0.05}, {0.05, 0.95}}};
   const Relation<Fuzzy, Fuzzy> possible = with_fuzzy_condition(to_possibility(transition, RatioScale{}));
   EXPECT_EQ(possible.to(), possible.from());
-  EXPECT_PRED_FORMAT3(near, possible.table().values(), (std::vector{1.0, 1.0 / 19.0, 1.0 / 19.0, 1.0}), 1e-15);
+  EXPECT_CLOSE(possible.table().values(), (std::vector{1.0, 1.0 / 19.0, 1.0 / 19.0, 1.0}), 1e-15);
   const Relation<Random, Random> back = with_random_condition(to_probability(possible, RatioScale{}));
   EXPECT_EQ(back.from(), mode);
-  EXPECT_PRED_FORMAT3(near, back.table().values(), transition.table().values(), 1e-15);
+  EXPECT_CLOSE(back.table().values(), transition.table().values(), 1e-15);
 }
 
 /// A transform of one's own: only the most probable outcomes are possible.
@@ -179,8 +163,7 @@ struct Winners {
 };
 
 TEST(Transform, MayBeOnesOwn) {
-  EXPECT_PRED_FORMAT3(near, to_possibility(forecast, Winners{}).values(), (std::vector{1.0, 0.0, 0.0}), 0.0);
+  EXPECT_CLOSE(to_possibility(forecast, Winners{}).values(), (std::vector{1.0, 0.0, 0.0}), 0.0);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <concepts>
-#include <type_traits>
-
 #include <sigmax/core/uncertainty.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 // Kind chooses the algebra: the compiler states these facts.
@@ -27,4 +23,3 @@ TEST(Uncertainty, KindsAreCalledByTheirNames) {
 }
 
 }  // namespace
-}  // namespace sigmax

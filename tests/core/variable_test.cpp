@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <concepts>
-#include <type_traits>
-
 #include <sigmax/core/variable.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 static_assert(std::same_as<RandomVariable::kind, Random> && std::same_as<FuzzyVariable::kind, Fuzzy>);
@@ -25,4 +21,3 @@ TEST(Variable, IsWrittenWithItsLabelsOrTheirNumber) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,25 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <concepts>
-#include <limits>
-#include <stdexcept>
-#include <variant>
-#include <vector>
-
 #include <sigmax/core/witness.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using laws::rows_of;
-using plain::Rows;
-using support::holds;
-using support::near;
-using support::throws;
 
 template <class Left, class Right>
 concept Witnesses = requires(const Left& left, const Right& right) {
@@ -38,7 +21,7 @@ const Relation age_given_name{age, name, {{1.0, 0.5, 0.5}, {0.5, 1.0, 1.0}}};
 
 TEST(Witness, SaysWhichIntermediateValueWon) {
   const auto composed = compose_with_witness(mood_given_age, age_given_name);
-  EXPECT_PRED_FORMAT3(near, composed.relation().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 0.0);
+  EXPECT_CLOSE(composed.relation().table().values(), (std::vector{0.5, 1.0, 1.0, 0.5}), 0.0);
   EXPECT_EQ(composed.winner(0, 1), 0U);  // Ann may be wild because she may be young
   EXPECT_EQ(composed.winner(1, 0), 1U);  // middle and old tie: the first
   EXPECT_EQ(composed.winner(0, 0), 0U);  // all three tie
@@ -58,15 +41,13 @@ TEST(Witness, ThroughAFuzzyVariableBetweenRandomOnesIsOfWhatIsInduced) {  // (17
   const Relation speed_given_mood{speed, mood, {{0.75, 0.25}, {0.25, 0.75}}};
   const auto composed = compose_with_witness(speed_given_mood, mood_given_age);
   static_assert(std::same_as<decltype(composed.relation()), const Induced<Relation<Random, Fuzzy>>&>);
-  EXPECT_PRED_FORMAT3(near, composed.relation().table().values(),
-                      compose(speed_given_mood, mood_given_age).table().values(), 0.0);
+  EXPECT_CLOSE(composed.relation().table().values(), compose(speed_given_mood, mood_given_age).table().values(), 0.0);
   EXPECT_EQ(composed.winner(0, 1), 1U);  // the young are fast when wild
   EXPECT_EQ(composed.winner(2, 0), 0U);
 }
 
 TEST(Witness, RefusesVariablesThatDoNotMeet) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { compose_with_witness(mood_given_age, mood_given_age); },
-                                            {"compose_with_witness", "'age'", "'mood'"}));
+  EXPECT_INVALID(("compose_with_witness", "'age'", "'mood'"), compose_with_witness(mood_given_age, mood_given_age));
 }
 
 /// The winner by brute force: the first value that attains the maximum of all terms.
@@ -105,19 +86,16 @@ SparseRows any_sparse_rows(std::size_t rows, std::size_t columns) {
   return result;
 }
 
-TEST(Witness, OfSparseRelationsIsThatOfDenseOnes) {
-  holds([] {
-    const auto x = laws::any_variable<Fuzzy>("x"), m = laws::any_variable<Fuzzy>("m"),
-               y = laws::any_variable<Fuzzy>("y");
-    const Relation left{x, m, any_sparse_rows<Fuzzy>(m.size(), x.size())};
-    const Relation right{m, y, any_sparse_rows<Fuzzy>(y.size(), m.size())};
-    const auto sparse = compose_with_witness(left, right), dense = compose_with_witness(left.dense(), right.dense());
-    for (std::size_t i = 0; i < y.size(); ++i)
-      for (std::size_t k = 0; k < x.size(); ++k) {
-        RC_ASSERT(sparse.relation()(i, k) == dense.relation()(i, k));
-        RC_ASSERT(sparse.winner(i, k) == dense.winner(i, k));
-      }
-  });
+PROPERTY(Witness, OfSparseRelationsIsThatOfDenseOnes) {
+  const auto x = laws::any_variable<Fuzzy>("x"), m = laws::any_variable<Fuzzy>("m"), y = laws::any_variable<Fuzzy>("y");
+  const Relation left{x, m, any_sparse_rows<Fuzzy>(m.size(), x.size())};
+  const Relation right{m, y, any_sparse_rows<Fuzzy>(y.size(), m.size())};
+  const auto sparse = compose_with_witness(left, right), dense = compose_with_witness(left.dense(), right.dense());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      RC_ASSERT(sparse.relation()(i, k) == dense.relation()(i, k));
+      RC_ASSERT(sparse.winner(i, k) == dense.winner(i, k));
+    }
 }
 
 TEST(Witness, OfAnImpossiblePairInsideABandIsTheFirst) {
@@ -135,4 +113,3 @@ TEST(Witness, OfAnImpossiblePairInsideABandIsTheFirst) {
 }
 
 }  // namespace
-}  // namespace sigmax

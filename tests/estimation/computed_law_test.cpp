@@ -1,13 +1,12 @@
 #include <sigmax/estimation/computed_law.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/known_turn.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// Shows numbers that tell where they came from.
@@ -58,4 +57,3 @@ TEST(ComputedLaw, ADerivedOneIsAskedByItsOwnFunctions) {
 }
 
 }  // namespace
-}  // namespace sigmax

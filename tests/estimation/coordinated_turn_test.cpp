@@ -1,22 +1,12 @@
 #include <sigmax/estimation/coordinated_turn.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include <sigmax/estimation/known_turn.hpp>
 #include <sigmax/estimation/nonlinear_motion.hpp>
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 static_assert(NonlinearMotion<CoordinatedTurn<2>> && axes_of<CoordinatedTurn<2>> == 2);
 static_assert(NonlinearMotion<CoordinatedTurn<3>> && axes_of<CoordinatedTurn<3>> == 3);
@@ -32,14 +22,12 @@ Vector<2 * Axes + 1> generated_state() {
   return x;
 }
 
-TEST(CoordinatedTurn, GivenItsRateItIsTheKnownTurn) {
-  holds([] {
-    const auto x = generated_state<3>();
-    const double dt = number_between(0.0, 3.0);
-    Vector<7> expected = x;
-    expected.head<6>() = KnownTurn<3>{x(6), 1.0}.transition(dt) * x.head<6>();
-    require_near_matrix((CoordinatedTurn<3>{1.0, 1.0}.propagate(x, dt)), expected, 1e-13);
-  });
+PROPERTY(CoordinatedTurn, GivenItsRateItIsTheKnownTurn) {
+  const auto x = generated_state<3>();
+  const double dt = number_between(0.0, 3.0);
+  Vector<7> expected = x;
+  expected.head<6>() = KnownTurn<3>{x(6), 1.0}.transition(dt) * x.head<6>();
+  require_near_matrix((CoordinatedTurn<3>{1.0, 1.0}.propagate(x, dt)), expected, 1e-13);
 }
 
 TEST(CoordinatedTurn, FliesACircle) {
@@ -95,10 +83,8 @@ TEST(CoordinatedTurn, ShowsItsParameters) {
 }
 
 TEST(CoordinatedTurn, RefusesANoiseThatIsNone) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { CoordinatedTurn<2>(-1.0, 1.0); }, {"q", "coordinated_turn", "-1"}));
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([] { CoordinatedTurn<2>(1.0, -2.0); }, {"q_omega", "coordinated_turn", "-2"}));
+  EXPECT_INVALID(("q", "coordinated_turn", "-1"), CoordinatedTurn<2>(-1.0, 1.0));
+  EXPECT_INVALID(("q_omega", "coordinated_turn", "-2"), CoordinatedTurn<2>(1.0, -2.0));
 }
 
 }  // namespace
-}  // namespace sigmax

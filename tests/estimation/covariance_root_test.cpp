@@ -1,16 +1,8 @@
 #include <sigmax/estimation/covariance_root.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 using Matrix = Eigen::MatrixXd;
 
@@ -28,16 +20,14 @@ TEST(CovarianceRoot, IsCholeskys) {
   EXPECT_EQ(root_of(Matrix::Zero(3, 3)), Matrix::Zero(3, 3));
 }
 
-TEST(CovarianceRoot, ItsSquareIsTheCovarianceAndSolvesWithIt) {
-  holds([] {
-    const Matrix P = matrix_of(generated_covariance(5)), L = root_of(P);
-    require_near_matrix(L, Matrix(L.triangularView<Eigen::Lower>()), 0.0);
-    require_near_matrix(L * L.transpose(), P, 1e-13);
-    const Eigen::VectorXd z = matrix_of(generated(5, 1));
-    Eigen::VectorXd x = z;
-    detail::solve_by_root(L.data(), 5, x.data());
-    require_near_matrix(P * x, z, 1e-11);
-  });
+PROPERTY(CovarianceRoot, ItsSquareIsTheCovarianceAndSolvesWithIt) {
+  const Matrix P = matrix_of(generated_covariance(5)), L = root_of(P);
+  require_near_matrix(L, Matrix(L.triangularView<Eigen::Lower>()), 0.0);
+  require_near_matrix(L * L.transpose(), P, 1e-13);
+  const Eigen::VectorXd z = matrix_of(generated(5, 1));
+  Eigen::VectorXd x = z;
+  detail::solve_by_root(L.data(), 5, x.data());
+  require_near_matrix(P * x, z, 1e-11);
 }
 
 /// What does not vary does not take part: of rank 2 of 4, a solution of P x = z for z in the range of P.
@@ -78,9 +68,8 @@ TEST(CovarianceRoot, KnowsRoundingFromWhatIsNoCovariance) {
 }
 
 TEST(CovarianceRoot, IsRefusedByName) {
-  EXPECT_TRUE(throws<std::domain_error>([] { detail::refuse_covariance("dwna", 2); },
-                                        {"covariance", "'dwna'", "not positive semi-definite", "component 2"}));
+  EXPECT_REFUSED(std::domain_error, ("covariance", "'dwna'", "not positive semi-definite", "component 2"),
+                 detail::refuse_covariance("dwna", 2));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,13 +1,8 @@
 #include <sigmax/estimation/cubature.hpp>
 
-#include <gtest/gtest.h>
-
 #include "estimation/quadratic.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(Cubature, OfAQuadraticHasTheExactMeanAndItsOwnVariance) {
   expect_quadratics([](const OwnMotion& model) { return Cubature{model}; },
@@ -39,4 +34,3 @@ TEST(Cubature, ItsPointsLieAlongTheColumnsOfTheRoot) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,10 @@
 #include <sigmax/estimation/discrete_white_noise.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include <sigmax/estimation/kalman.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(DiscreteWhiteNoise, IsThatOfThePaperAtFiveHertz) {
   EXPECT_PRED_FORMAT3(near_matrix, dwna<1>(3.0).transition(0.2), (SquareMatrix<2>{{1, 0.2}, {0, 1}}), 1e-15);
@@ -46,11 +38,9 @@ TEST(DiscreteWhiteNoise, AKnownAccelerationEntersAsTheNoiseDoes) {
 TEST(DiscreteWhiteNoise, ShowsItsParameters) { EXPECT_EQ(dwna<3>(2.5).law().sigma_w(), 2.5); }
 
 TEST(DiscreteWhiteNoise, RefusesANoiseThatIsNone) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { dwna<3>(-1.0); }, {"sigma_w", "dwna", "-1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { dwpa<3>(std::numeric_limits<double>::infinity()); },
-                                            {"sigma_w", "dwpa", "inf"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { dwpa<3>(std::nan("")); }, {"sigma_w", "dwpa", "nan"}));
+  EXPECT_INVALID(("sigma_w", "dwna", "-1"), dwna<3>(-1.0));
+  EXPECT_INVALID(("sigma_w", "dwpa", "inf"), dwpa<3>(std::numeric_limits<double>::infinity()));
+  EXPECT_INVALID(("sigma_w", "dwpa", "nan"), dwpa<3>(std::nan("")));
 }
 
 }  // namespace
-}  // namespace sigmax

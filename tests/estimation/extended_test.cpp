@@ -1,13 +1,8 @@
 #include <sigmax/estimation/extended.hpp>
 
-#include <gtest/gtest.h>
-
 #include "estimation/quadratic.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(Extended, OfAQuadraticKnowsNothingOfItsCurvature) {
   expect_quadratics([](const OwnMotion& model) { return Extended{model}; },
@@ -16,9 +11,8 @@ TEST(Extended, OfAQuadraticKnowsNothingOfItsCurvature) {
 
 TEST(Extended, PredictsByTheTangent) {
   const auto x = predict(AnyModel{Extended{square}}, one_number(-3.0, 0.5), 1.0);
-  EXPECT_PRED_FORMAT3(near, x.mean(0), 9.0, 1e-13);
-  EXPECT_PRED_FORMAT3(near, x.covariance(0), 4.0 * 9.0 * 0.5 + 1.0, 1e-13);
+  EXPECT_CLOSE(x.mean(0), 9.0, 1e-13);
+  EXPECT_CLOSE(x.covariance(0), 4.0 * 9.0 * 0.5 + 1.0, 1e-13);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -2,22 +2,11 @@
 // states on there is no room on the stack.
 #include <sigmax/estimation/filtering.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <sigmax/estimation/extended.hpp>
-
 #include "estimation/restated.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
 
 using restatement::State;
-using namespace support;
 
 using Dense = restatement::Matrix;
 using Restated = restatement::NonlinearModel;
@@ -79,10 +68,10 @@ void expect_prediction(const detail::ModelRef& model, const Restated& restated, 
                                                     : prior.covariance * transposed(restated.F(prior.mean, dt)));
   Estimate found = smoothed, in_place = start;
   detail::predict(model, detail::view(start), dt, detail::view(found));
-  EXPECT_PRED_FORMAT3(near, found, expected, 1e-9);
+  EXPECT_CLOSE(found, expected, 1e-9);
   EXPECT_EQ(found.covariance, found.covariance.transpose());
   detail::predict(model, detail::view(in_place), dt, detail::view(in_place));
-  EXPECT_PRED_FORMAT3(near, in_place, found, 0.0);
+  EXPECT_CLOSE(in_place, found, 0.0);
   Columns with_state(n, n), F(n, n), Q(n, n);
   detail::prediction_covariance(model, detail::view(start), dt, with_state.data());
   EXPECT_PRED_FORMAT3(near_matrix, with_state, cross, 1e-9);
@@ -91,7 +80,7 @@ void expect_prediction(const detail::ModelRef& model, const Restated& restated, 
   Estimate step = start;
   detail::linearised_step(model, detail::view(start), dt, step.mean.data(), F.data(), Q.data());
   step.covariance = F * start.covariance * F.transpose() + Q;
-  EXPECT_PRED_FORMAT3(near, step, expected, 1e-8);
+  EXPECT_CLOSE(step, expected, 1e-8);
   EXPECT_PRED_FORMAT3(near_matrix, start.covariance * F.transpose(), cross, 1e-9);
 
   const Columns A = cross * found.covariance.inverse();
@@ -99,11 +88,11 @@ void expect_prediction(const detail::ModelRef& model, const Restated& restated, 
                       start.covariance + A * (smoothed.covariance - found.covariance) * A.transpose()};
   Estimate over_start = start, over_next = smoothed;
   detail::smooth_step(model, detail::view(start), dt, detail::view(smoothed), detail::view(found));
-  EXPECT_PRED_FORMAT3(near, found, back, 1e-8);
+  EXPECT_CLOSE(found, back, 1e-8);
   detail::smooth_step(model, detail::view(over_start), dt, detail::view(smoothed), detail::view(over_start));
-  EXPECT_PRED_FORMAT3(near, over_start, found, 0.0);
+  EXPECT_CLOSE(over_start, found, 0.0);
   detail::smooth_step(model, detail::view(start), dt, detail::view(over_next), detail::view(over_next));
-  EXPECT_PRED_FORMAT3(near, over_next, found, 0.0);
+  EXPECT_CLOSE(over_next, found, 0.0);
 }
 
 TEST(Filtering, EveryPredictionIsItsRestatement) {
@@ -143,13 +132,13 @@ void expect_update(const detail::ModelRef& model, const detail::SensorTable& tab
   detail::update(model, detail::view(start), detail::view(z), sensor, detail::view(found.posterior), found.innovation);
   ASSERT_PRED_FORMAT3(near_matrix, found.residual, vector_of(expected.nu), 1e-9);
   ASSERT_PRED_FORMAT3(near_matrix, found.S, matrix_of(expected.S), 1e-9);
-  ASSERT_PRED_FORMAT3(near, found.innovation.squared_distance, expected.squared, 1e-8);
-  ASSERT_PRED_FORMAT3(near, found.innovation.log_likelihood, expected.log_likelihood, 1e-8);
-  ASSERT_PRED_FORMAT3(near, found.posterior, expected.posterior, 1e-8);
+  ASSERT_CLOSE(found.innovation.squared_distance, expected.squared, 1e-8);
+  ASSERT_CLOSE(found.innovation.log_likelihood, expected.log_likelihood, 1e-8);
+  ASSERT_CLOSE(found.posterior, expected.posterior, 1e-8);
   ASSERT_EQ(found.posterior.covariance, found.posterior.covariance.transpose());
   detail::update(model, detail::view(in_place.posterior), detail::view(z), sensor, detail::view(in_place.posterior),
                  in_place.innovation);
-  ASSERT_PRED_FORMAT3(near, in_place.posterior, found.posterior, 0.0);
+  ASSERT_CLOSE(in_place.posterior, found.posterior, 0.0);
 
   // As a linear measurement it has the same residual, S and correction.
   Columns residual(m, 1), H(m, start.size()), R(m, m);
@@ -210,9 +199,9 @@ TEST(Filtering, ALawAlongIndependentAxesMovesEachAxisByItself) {
       Estimate found = estimate_of(draws.state(n)), in_place = start;
       detail::predict(law, axes, detail::view(start), detail::view(found));
       detail::predict(law, axes, detail::view(in_place), detail::view(in_place));
-      EXPECT_PRED_FORMAT3(near, found, extended_prediction(restated, prior, dt), 1e-12) << order << ", " << axes;
+      EXPECT_CLOSE(found, extended_prediction(restated, prior, dt), 1e-12) << order << ", " << axes;
       EXPECT_EQ(found.covariance, found.covariance.transpose());
-      EXPECT_PRED_FORMAT3(near, in_place, found, 0.0);
+      EXPECT_CLOSE(in_place, found, 0.0);
     }
 }
 
@@ -232,7 +221,7 @@ TEST(Filtering, ATransformationMovesThePositionAndItsDerivatives) {
       for (std::size_t i = 0; i < axes; ++i) expected.mean[i] += b[i];
       Estimate found = estimate_of(before);
       detail::transform(by_columns.data(), b.data(), static_cast<int>(axes), detail::view(found));
-      EXPECT_PRED_FORMAT3(near, found, expected, 1e-12) << n << " states, " << axes << " axes";
+      EXPECT_CLOSE(found, expected, 1e-12) << n << " states, " << axes << " axes";
       EXPECT_EQ(found.covariance, found.covariance.transpose());
     }
 }
@@ -284,4 +273,3 @@ TEST(Filtering, AnEstimateIsAsItWasIfSomethingIsThrown) {
 }
 
 }  // namespace
-}  // namespace sigmax

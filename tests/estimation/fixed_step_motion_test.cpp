@@ -1,13 +1,9 @@
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
 
-using namespace support;
 using Glider = FixedStepMotion<2>;
 
 const SquareMatrix<2> F{{1.0, 0.5}, {0.0, 1.0}};
@@ -31,15 +27,14 @@ TEST(FixedStepMotion, HasNoKnownInputUnlessItIsGiven) {
 TEST(FixedStepMotion, RefusesAnyOtherStepButForgivesRounding) {
   const Glider model{"glider", {"x", "vx"}, 0.3, F, Q};
   EXPECT_EQ(model.transition(0.1 + 0.2), F);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { model.transition(0.31); }, {"glider", "0.3", "0.31"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { model.process_covariance(0.0); }, {"glider"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { model.known_input(0.6); }, {"glider"}));
+  EXPECT_INVALID(("glider", "0.3", "0.31"), model.transition(0.31));
+  EXPECT_INVALID(("glider"), model.process_covariance(0.0));
+  EXPECT_INVALID(("glider"), model.known_input(0.6));
 }
 
 TEST(FixedStepMotion, NeedsAComponentForEachStateAndAPositiveStep) {
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { Glider("glider", {"x"}, 0.5, F, Q); }, {"glider", "2", "1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { Glider("glider", {"x", "vx"}, 0.0, F, Q); }, {"glider", "positive"}));
+  EXPECT_INVALID(("glider", "2", "1"), Glider("glider", {"x"}, 0.5, F, Q));
+  EXPECT_INVALID(("glider", "positive"), Glider("glider", {"x", "vx"}, 0.0, F, Q));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,24 +1,12 @@
 #include <sigmax/estimation/gaussian_possibility.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <optional>
-
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
 #include "support/matrices.hpp"
-#include "support/restatement.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
 
 using restatement::transposed;
-using namespace support;
 
 /// Σ = A Aᵀ of any rank: at m + A y the distance is that of the least such y, which of independent columns is y itself.
 /// What A does not reach is impossible.
@@ -58,18 +46,16 @@ TEST(GaussianPossibility, TakesOnlyRoundingForNothing) {
 }
 
 /// π = p / sup p, (34), and p = π / ∫ π, (35), with the density written out.
-TEST(GaussianPossibility, IsTheDensityOnTheRatioScale) {
-  holds([] {
-    const auto gaussian = generated_gaussian<3>();
-    const auto [inverse, log_determinant] = restatement::inverse(dense(gaussian.covariance));
-    const auto offset = generated(3, 1);
-    const double greatest = std::exp(-0.5 * log_determinant) / std::pow(2.0 * std::numbers::pi, 1.5);
-    const double p = greatest * std::exp(-0.5 * (transposed(offset) * inverse * offset)(0, 0));
-    const GaussianPossibility<3> pi{gaussian};
-    RC_ASSERT(pi(gaussian.mean) == 1.0);
-    require_near(pi(gaussian.mean + fixed<3, 1>(offset)), p / greatest, 1e-12);
-    require_near_matrix(pi.density().covariance, gaussian.covariance, 0.0);
-  });
+PROPERTY(GaussianPossibility, IsTheDensityOnTheRatioScale) {
+  const auto gaussian = generated_gaussian<3>();
+  const auto [inverse, log_determinant] = restatement::inverse(dense(gaussian.covariance));
+  const auto offset = generated(3, 1);
+  const double greatest = std::exp(-0.5 * log_determinant) / std::pow(2.0 * std::numbers::pi, 1.5);
+  const double p = greatest * std::exp(-0.5 * (transposed(offset) * inverse * offset)(0, 0));
+  const GaussianPossibility<3> pi{gaussian};
+  RC_ASSERT(pi(gaussian.mean) == 1.0);
+  require_near(pi(gaussian.mean + fixed<3, 1>(offset)), p / greatest, 1e-12);
+  require_near_matrix(pi.density().covariance, gaussian.covariance, 0.0);
 }
 
 TEST(GaussianPossibility, WithoutUncertaintyIsPossibleOnlyAtItsMean) {
@@ -82,8 +68,8 @@ TEST(GaussianPossibility, RefusesWhatIsNoCovariance) {
   const auto make = [](double variance) {
     return GaussianPossibility<2>{{Vector<2>::Zero(), SquareMatrix<2>{{1.0, 0.0}, {0.0, variance}}}};
   };
-  EXPECT_TRUE(throws<std::domain_error>([&] { make(-1e-3); }, {"positive semi-definite"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { make(NAN); }, {"finite"}));
+  EXPECT_REFUSED(std::domain_error, ("positive semi-definite"), make(-1e-3));
+  EXPECT_INVALID(("finite"), make(NAN));
 }
 
 /// log π on 181 nodes.
@@ -139,32 +125,29 @@ TEST(GaussianPossibility, SupremaOnAGridAreTheKalmanFilter) {
       for (double& log : grid) log -= supremum;
       const Gaussian<1> measured{Vector<1>{*at.z}, SquareMatrix<1>{at.R}};
       Gaussian<1> unused;
-      EXPECT_PRED_FORMAT3(near, log_possibility(update(model, pi.density(), measured, sensor, unused)), supremum, 1e-9);
+      EXPECT_CLOSE(log_possibility(update(model, pi.density(), measured, sensor, unused)), supremum, 1e-9);
       pi = update(model, pi, measured, sensor);
     }
     const Vertex peak(grid);
-    EXPECT_PRED_FORMAT3(near, pi.mean()(0), peak.at, 1e-9);
-    EXPECT_PRED_FORMAT3(near, pi.covariance()(0, 0), -1.0 / peak.curvature, 1e-9);
-    EXPECT_PRED_FORMAT3(near, peak.value, 0.0, 1e-9);
-    for (std::size_t i = 40; i < 140; ++i) EXPECT_PRED_FORMAT3(near, pi.log(Vector<1>{node(i)}), grid[i], 1e-9);
+    EXPECT_CLOSE(pi.mean()(0), peak.at, 1e-9);
+    EXPECT_CLOSE(pi.covariance()(0, 0), -1.0 / peak.curvature, 1e-9);
+    EXPECT_CLOSE(peak.value, 0.0, 1e-9);
+    for (std::size_t i = 40; i < 140; ++i) EXPECT_CLOSE(pi.log(Vector<1>{node(i)}), grid[i], 1e-9);
   }
 }
 
-TEST(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
-  holds([] {
-    const FixedStepMotion<3> model("still", {"a", "b", "c"}, 1.0, SquareMatrix<3>::Identity(), SquareMatrix<3>::Zero());
-    const LinearSensor<2, 3> sensor{generated_matrix<2, 3>()};
-    Gaussian<3> posterior;
-    const auto prior = generated_gaussian<3>();
-    const auto z = generated_gaussian<2>();
-    const auto innovation = update(model, prior, z, sensor, posterior);
-    const auto H = dense(sensor.measurement_matrix());
-    const auto S = H * dense(prior.covariance) * transposed(H) + dense(z.covariance);
-    const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
-    require_near(log_possibility(innovation) - innovation.log_likelihood,
-                 0.5 * std::log(std::pow(2.0 * std::numbers::pi, 2.0) * determinant), 1e-9);
-  });
+PROPERTY(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
+  const FixedStepMotion<3> model("still", {"a", "b", "c"}, 1.0, SquareMatrix<3>::Identity(), SquareMatrix<3>::Zero());
+  const LinearSensor<2, 3> sensor{generated_matrix<2, 3>()};
+  Gaussian<3> posterior;
+  const auto prior = generated_gaussian<3>();
+  const auto z = generated_gaussian<2>();
+  const auto innovation = update(model, prior, z, sensor, posterior);
+  const auto H = dense(sensor.measurement_matrix());
+  const auto S = H * dense(prior.covariance) * transposed(H) + dense(z.covariance);
+  const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
+  require_near(log_possibility(innovation) - innovation.log_likelihood,
+               0.5 * std::log(std::pow(2.0 * std::numbers::pi, 2.0) * determinant), 1e-9);
 }
 
 }  // namespace
-}  // namespace sigmax

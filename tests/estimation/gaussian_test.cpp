@@ -1,8 +1,7 @@
 #include <sigmax/estimation/gaussian.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
 TEST(Gaussian, IsAsLargeAsItsMean) {
@@ -14,4 +13,3 @@ TEST(Gaussian, IsAsLargeAsItsMean) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,19 +1,12 @@
 // The grid filter of more than one dimension, which takes long to compile.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 
 #include <sigmax/estimation/fixed_step_motion.hpp>
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/estimation/kalman.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 // Functions are of one type for each dimension, so that a filter is compiled once.
 template <int N>
@@ -40,9 +33,8 @@ void expect_to_follow(double tolerance) {
     EXPECT_LT(filter.grid().size(), 10000U);
     const Gaussian<2> found = filter.moments();
     for (const int i : {0, 1}) {
-      EXPECT_PRED_FORMAT3(near, found.mean(i), kalman.mean(i), tolerance);
-      for (const int j : {0, 1})
-        EXPECT_PRED_FORMAT3(near, found.covariance(i, j), kalman.covariance(i, j), 10.0 * tolerance);
+      EXPECT_CLOSE(found.mean(i), kalman.mean(i), tolerance);
+      for (const int j : {0, 1}) EXPECT_CLOSE(found.covariance(i, j), kalman.covariance(i, j), 10.0 * tolerance);
     }
   }
 }
@@ -77,9 +69,9 @@ void expect_independent_axes() {
   for (const int axis : {0, 1, 2}) {
     const auto plane = walked<Kind, 2>({axis, (axis + 1) % 3});
     EXPECT_EQ(space.grid().step()(axis), plane.grid().step()(0));
-    EXPECT_PRED_FORMAT3(near, space.moments().mean(axis), plane.moments().mean(0), 2e-3);
-    EXPECT_PRED_FORMAT3(near, space.moments().covariance(axis, axis), plane.moments().covariance(0, 0), 2e-2);
-    EXPECT_PRED_FORMAT3(near, space.most_likely()(axis), plane.most_likely()(0), 1e-12);
+    EXPECT_CLOSE(space.moments().mean(axis), plane.moments().mean(0), 2e-3);
+    EXPECT_CLOSE(space.moments().covariance(axis, axis), plane.moments().covariance(0, 0), 2e-2);
+    EXPECT_CLOSE(space.most_likely()(axis), plane.most_likely()(0), 1e-12);
   }
 }
 
@@ -89,4 +81,3 @@ TEST(GridFilter, WorksInSpace) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,16 +1,8 @@
 #include <sigmax/estimation/grid_transition.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 const SquareMatrix<2> Q{{2.0, -0.6}, {-0.6, 0.5}};
 const Grid<2> grid{{-4.0, -3.0}, {5.0, 3.0}, {0.5, 0.25}};
@@ -37,7 +29,7 @@ void expect_row(double negligible, bool divided_by_sum) {
   for (double& value : expected) value /= divided_by_sum ? sum : greatest;
   std::vector<double> found(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) found[i] = relation(0, i);
-  EXPECT_PRED_FORMAT3(near, found, expected, 1e-14);
+  EXPECT_CLOSE(found, expected, 1e-14);
 }
 
 TEST(GridTransition, IsTheNoiseNormalisedByTheStatesOwnSum) {
@@ -57,15 +49,14 @@ TEST(GridTransition, OfNoiseNarrowerThanACellGoesToTheNearest) {
 
 TEST(GridNoise, IsAsWideAlongAnAxisAsTheOtherComponentLeavesIt) {
   const GridNoise<2> noise(Q, std::exp(-0.5 * 9.0));
-  EXPECT_PRED_FORMAT3(near, noise.widths()(0), std::sqrt(2.0 - 0.6 * 0.6 / 0.5), 1e-15);
-  EXPECT_PRED_FORMAT3(near, noise.widths()(1), std::sqrt(0.5 - 0.6 * 0.6 / 2.0), 1e-15);
-  EXPECT_PRED_FORMAT3(near, noise.reach()(0), 3.0 * std::sqrt(2.0), 1e-14);
+  EXPECT_CLOSE(noise.widths()(0), std::sqrt(2.0 - 0.6 * 0.6 / 0.5), 1e-15);
+  EXPECT_CLOSE(noise.widths()(1), std::sqrt(0.5 - 0.6 * 0.6 / 2.0), 1e-15);
+  EXPECT_CLOSE(noise.reach()(0), 3.0 * std::sqrt(2.0), 1e-14);
 }
 
 TEST(GridNoise, NeedsAPositiveDefiniteCovariance) {
-  EXPECT_TRUE(throws<std::domain_error>([] { GridNoise<2>(SquareMatrix<2>::Ones(), 1e-12); },
-                                        {"process covariance", "not positive definite"}));
+  EXPECT_REFUSED(std::domain_error, ("process covariance", "not positive definite"),
+                 GridNoise<2>(SquareMatrix<2>::Ones(), 1e-12));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,14 @@
 #include <sigmax/estimation/independent_axes.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/kalman.hpp>
 
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
 using restatement::kronecker;
 using restatement::transposed;
-using namespace support;
 
 /// A law of one's own: any upper triangular matrix.
 struct Law {
@@ -32,22 +28,20 @@ struct OtherSize : Law {
 };
 static_assert(!MotionLaw<OtherSize>);
 
-TEST(IndependentAxes, EveryAxisFollowsTheLaw) {
-  holds([] {
-    const Law law{fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(), fixed<3, 3>(generated_covariance(3))};
-    const IndependentAxes<2, Law> model{law, Vector<2>(3.0, -5.0)};
-    const auto identity = restatement::identity(2);
-    const auto F = kronecker(dense(law.F), identity), Q = kronecker(dense(law.Q), identity);
-    require_near_matrix(model.transition(1.0), F, 0.0);
-    require_near_matrix(model.process_covariance(1.0), Q, 0.0);
-    const Vector<6> input(6, -10, 9, -15, 3, -5);
-    RC_ASSERT(model.known_input(2.0) == input);
+PROPERTY(IndependentAxes, EveryAxisFollowsTheLaw) {
+  const Law law{fixed<3, 3>(generated(3, 3)).triangularView<Eigen::Upper>(), fixed<3, 3>(generated_covariance(3))};
+  const IndependentAxes<2, Law> model{law, Vector<2>(3.0, -5.0)};
+  const auto identity = restatement::identity(2);
+  const auto F = kronecker(dense(law.F), identity), Q = kronecker(dense(law.Q), identity);
+  require_near_matrix(model.transition(1.0), F, 0.0);
+  require_near_matrix(model.process_covariance(1.0), Q, 0.0);
+  const Vector<6> input(6, -10, 9, -15, 3, -5);
+  RC_ASSERT(model.known_input(2.0) == input);
 
-    const auto prior = generated_gaussian<6>();
-    const auto predicted = predict(model, prior, 2.0);
-    require_near_matrix(predicted.mean, F * dense(prior.mean) + dense(input), 1e-12);
-    require_near_matrix(predicted.covariance, F * dense(prior.covariance) * transposed(F) + Q, 1e-12);
-  });
+  const auto prior = generated_gaussian<6>();
+  const auto predicted = predict(model, prior, 2.0);
+  require_near_matrix(predicted.mean, F * dense(prior.mean) + dense(input), 1e-12);
+  require_near_matrix(predicted.covariance, F * dense(prior.covariance) * transposed(F) + Q, 1e-12);
 }
 
 TEST(IndependentAxes, OrdersItsStatesByDerivative) {
@@ -60,4 +54,3 @@ TEST(IndependentAxes, OrdersItsStatesByDerivative) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,12 +1,9 @@
 #include <sigmax/estimation/kalman.hpp>
 
-#include <gtest/gtest.h>
-
-#include <type_traits>
-
 #include <sigmax/estimation/sensors.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 static_assert(std::is_same_v<InnovationOf<PolarSensor<3>>, Innovation<3>>);
@@ -15,4 +12,3 @@ static_assert(std::is_same_v<InnovationOf<ComponentSensor<4>>, Innovation<Eigen:
 TEST(Innovation, IsOfNothingAtFirst) { EXPECT_EQ((Innovation<Eigen::Dynamic, 4>{}.log_likelihood), 0.0); }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,28 +1,21 @@
 #include <sigmax/estimation/jacobian.hpp>
 
-#include <gtest/gtest.h>
-
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
-using namespace support;
+PROPERTY(Jacobian, IsThatOfTheFormula) {
+  const Vector<3> x = generated_matrix<3, 1>();
+  const auto f = [](const auto& v) {
+    using Scalar = typename std::remove_cvref_t<decltype(v)>::Scalar;
+    return Eigen::Matrix<Scalar, 2, 1>(Scalar(v(0) * v(1) + exp(v(2))), Scalar(sqrt(1.0 + v(0) * v(0))));
+  };
+  RectangularMatrix<2, 3> expected;
+  expected << x(1), x(0), std::exp(x(2)), x(0) / std::sqrt(1.0 + x(0) * x(0)), 0.0, 0.0;
+  require_near_matrix(jacobian<2, 2, 3, 3>(f, x), expected, 1e-14);
 
-TEST(Jacobian, IsThatOfTheFormula) {
-  holds([] {
-    const Vector<3> x = generated_matrix<3, 1>();
-    const auto f = [](const auto& v) {
-      using Scalar = typename std::remove_cvref_t<decltype(v)>::Scalar;
-      return Eigen::Matrix<Scalar, 2, 1>(Scalar(v(0) * v(1) + exp(v(2))), Scalar(sqrt(1.0 + v(0) * v(0))));
-    };
-    RectangularMatrix<2, 3> expected;
-    expected << x(1), x(0), std::exp(x(2)), x(0) / std::sqrt(1.0 + x(0) * x(0)), 0.0, 0.0;
-    require_near_matrix(jacobian<2, 2, 3, 3>(f, x), expected, 1e-14);
-
-    const Vector<Eigen::Dynamic, 5> run_time = x;
-    require_near_matrix(jacobian<2, 2, Eigen::Dynamic, 5>(f, run_time), expected, 1e-14);
-  });
+  const Vector<Eigen::Dynamic, 5> run_time = x;
+  require_near_matrix(jacobian<2, 2, Eigen::Dynamic, 5>(f, run_time), expected, 1e-14);
 }
 
 TEST(Jacobian, OfAConstantIsZero) {
@@ -37,4 +30,3 @@ TEST(Jacobian, OfAConstantIsZero) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,51 +1,36 @@
 #include <sigmax/estimation/known_turn.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
 static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
 
-TEST(KnownTurn, IsTheIntegral) {
-  holds([] {
-    const double w = number_between(-2.0, 2.0), q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    restatement::Matrix A(6, 6), D(6, 6);
-    for (std::size_t i = 0; i < 3; ++i) A(i, 3 + i) = 1.0;
-    for (std::size_t i = 3; i < 6; ++i) D(i, i) = q;
-    A(3, 4) = -w;
-    A(4, 3) = w;
-    require_integral(A, D, KnownTurn<3>{w, q}, dt);
-  });
+PROPERTY(KnownTurn, IsTheIntegral) {
+  const double w = number_between(-2.0, 2.0), q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+  restatement::Matrix A(6, 6), D(6, 6);
+  for (std::size_t i = 0; i < 3; ++i) A(i, 3 + i) = 1.0;
+  for (std::size_t i = 3; i < 6; ++i) D(i, i) = q;
+  A(3, 4) = -w;
+  A(4, 3) = w;
+  require_integral(A, D, KnownTurn<3>{w, q}, dt);
 }
 
-TEST(KnownTurn, StepsAddUpForAnyRate) {
-  holds([] {
-    const double w = std::pow(10.0, number_between(-9.0, 0.5));
-    require_steps_to_add_up(KnownTurn<2>{w, 2.0}, generated_step(), generated_step());
-    require_steps_to_add_up(KnownTurn<3>{-w, 2.0}, generated_step(), generated_step());
-  });
+PROPERTY(KnownTurn, StepsAddUpForAnyRate) {
+  const double w = std::pow(10.0, number_between(-9.0, 0.5));
+  require_steps_to_add_up(KnownTurn<2>{w, 2.0}, generated_step(), generated_step());
+  require_steps_to_add_up(KnownTurn<3>{-w, 2.0}, generated_step(), generated_step());
 }
 
-TEST(KnownTurn, WithoutARateItIsWhiteNoiseAcceleration) {
-  holds([] {
-    const double q = number_between(0.1, 5.0), dt = number_between(0.0, 3.0);
-    for (const double w : {0.0, 1e-14}) {
-      require_near_matrix(KnownTurn<3>(w, q).transition(dt), cwna<3>(q).transition(dt), 1e-12);
-      require_near_matrix(KnownTurn<3>(w, q).process_covariance(dt), cwna<3>(q).process_covariance(dt), 1e-12);
-    }
-  });
+PROPERTY(KnownTurn, WithoutARateItIsWhiteNoiseAcceleration) {
+  const double q = number_between(0.1, 5.0), dt = number_between(0.0, 3.0);
+  for (const double w : {0.0, 1e-14}) {
+    require_near_matrix(KnownTurn<3>(w, q).transition(dt), cwna<3>(q).transition(dt), 1e-12);
+    require_near_matrix(KnownTurn<3>(w, q).process_covariance(dt), cwna<3>(q).process_covariance(dt), 1e-12);
+  }
 }
 
 TEST(KnownTurn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
@@ -61,9 +46,8 @@ TEST(KnownTurn, ShowsItsParameters) {
 }
 
 TEST(KnownTurn, RefusesParametersThatAreNone) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { KnownTurn<2>(std::nan(""), 1.0); }, {"rate", "known_turn", "nan"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { KnownTurn<2>(0.1, -1.0); }, {"q", "known_turn", "-1"}));
+  EXPECT_INVALID(("rate", "known_turn", "nan"), KnownTurn<2>(std::nan(""), 1.0));
+  EXPECT_INVALID(("q", "known_turn", "-1"), KnownTurn<2>(0.1, -1.0));
 }
 
 }  // namespace
-}  // namespace sigmax

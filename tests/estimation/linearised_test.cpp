@@ -1,16 +1,11 @@
 #include <sigmax/estimation/linearised.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/quadratic.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 const CoordinatedTurn<2> turn{2.0, 1e-3};
 const PolarSensor<2> radar{Vector<2>{-3e3, 500.0}};
@@ -51,14 +46,14 @@ TEST(Linearised, OfTheExtendedFilterHasTheSlopesAtTheMean) {
 TEST(Linearised, WhatPointsLeaveUnexplainedIsNoise) {
   const AnyModel filter = Unscented{square};
   const auto step = linearised_step(filter, one_number(3.0, 0.5), 1.0);
-  EXPECT_PRED_FORMAT3(near, step.mean(0), 9.5, 1e-14);
-  EXPECT_PRED_FORMAT3(near, step.F(0), 6.0, 1e-14);
-  EXPECT_PRED_FORMAT3(near, step.Q(0), 1.5, 1e-14);
+  EXPECT_CLOSE(step.mean(0), 9.5, 1e-14);
+  EXPECT_CLOSE(step.F(0), 6.0, 1e-14);
+  EXPECT_CLOSE(step.Q(0), 1.5, 1e-14);
   const auto seen =
       linearised_measurement(filter, one_number(3.0, 0.5), measured_number(5.0, 7.0), OwnSensor{square.model});
-  EXPECT_PRED_FORMAT3(near, seen.residual(0), -4.5, 1e-14);
-  EXPECT_PRED_FORMAT3(near, seen.H(0), 6.0, 1e-14);
-  EXPECT_PRED_FORMAT3(near, seen.R(0), 7.5, 1e-14);
+  EXPECT_CLOSE(seen.residual(0), -4.5, 1e-14);
+  EXPECT_CLOSE(seen.H(0), 6.0, 1e-14);
+  EXPECT_CLOSE(seen.R(0), 7.5, 1e-14);
 }
 
 /// A component that is known for certain has no slope, and the others theirs as before.
@@ -72,4 +67,3 @@ TEST(Linearised, NothingIsRegressedOnWhatDoesNotVary) {
 }
 
 }  // namespace
-}  // namespace sigmax

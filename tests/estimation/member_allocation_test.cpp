@@ -1,5 +1,4 @@
 // Prediction and update of every member allocate nothing.
-#include <gtest/gtest.h>
 
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
@@ -11,10 +10,7 @@
 
 #include "support/allocations.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 template <class Filter, class Sensor>
 void expect_none(const Filter& filter, const EstimateOf<Filter>& start, const MeasurementOf<Sensor>& z,
@@ -78,4 +74,3 @@ TEST(MemberAllocation, OfTheKalmanFilterIsNone) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,8 +1,4 @@
 // Over 1,000 runs matched to their model, mean NEES and NIS of every member lie inside their 95 % band.
-#include <gtest/gtest.h>
-
-#include <numbers>
-#include <random>
 
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/chi_square.hpp>
@@ -16,12 +12,12 @@
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 #include <sigmax/estimation/unscented.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 constexpr int runs = 1000;
 constexpr int steps = 20;
-constexpr double degree = std::numbers::pi / 180.0;
 
 using State = StateOf<AnyModel>;
 using Covariance = StateMatrixOf<AnyModel>;
@@ -97,4 +93,3 @@ TEST(MemberConsistency, OfATurnSeenByARadar) {
 }
 
 }  // namespace
-}  // namespace sigmax

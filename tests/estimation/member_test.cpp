@@ -1,20 +1,12 @@
 // What every member of the family has in common: Extended, Unscented, Cubature.
 #include <sigmax/estimation/member.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/restated.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// A member is of a motion: an AnyModel has its member already.
 template <class Model>
@@ -35,8 +27,8 @@ TEST(Member, OfALinearModelIsTheKalmanFilter) {
     const auto of_kalman = update(kalman, predict(kalman, start, 1.0), z, OwnSensor{hidden.model}, expected);
     for (const AnyModel& member : every_member(hidden)) {
       const auto innovation = update(member, predict(member, start, 1.0), z, OwnSensor{hidden.model}, found);
-      EXPECT_PRED_FORMAT3(near, found, expected, 1e-9);
-      EXPECT_PRED_FORMAT3(near, innovation.log_likelihood, of_kalman.log_likelihood, 1e-9);
+      EXPECT_CLOSE(found, expected, 1e-9);
+      EXPECT_CLOSE(innovation.log_likelihood, of_kalman.log_likelihood, 1e-9);
       EXPECT_PRED_FORMAT3(near_matrix, prediction_covariance(member, start, 1.0),
                           prediction_covariance(kalman, start, 1.0), 1e-9);
     }
@@ -70,7 +62,7 @@ TEST(Member, AnAzimuthAcrossHalfATurnIsAnAzimuthLikeAnother) {
         EXPECT_PRED_FORMAT3(near_matrix, there.mean, -here.mean, 1e-12);
         EXPECT_PRED_FORMAT3(near_matrix, there.covariance, here.covariance, 1e-12);
         EXPECT_PRED_FORMAT3(near_matrix, behind.residual, ahead.residual, 1e-12);
-        EXPECT_PRED_FORMAT3(near, behind.log_likelihood, ahead.log_likelihood, 1e-12);
+        EXPECT_CLOSE(behind.log_likelihood, ahead.log_likelihood, 1e-12);
       }
 }
 
@@ -84,4 +76,3 @@ TEST(Member, ShowsItsMotion) {
 }
 
 }  // namespace
-}  // namespace sigmax

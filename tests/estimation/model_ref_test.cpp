@@ -1,7 +1,5 @@
 #include <sigmax/estimation/model_ref.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -9,7 +7,8 @@
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/known_turn.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// A turn by functions that nobody can differentiate.
@@ -49,4 +48,3 @@ TEST(ModelRef, PointsNeedNoJacobian) {
 }
 
 }  // namespace
-}  // namespace sigmax

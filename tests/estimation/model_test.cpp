@@ -1,14 +1,11 @@
 #include <sigmax/estimation/model.hpp>
 
-#include <gtest/gtest.h>
-
-#include <type_traits>
-
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// A motion of one's own needs these expressions and no base class.
@@ -58,4 +55,3 @@ TEST(Model, SaysAlongHowManyAxesItKnowsItsPositionOrNothing) {
 }
 
 }  // namespace
-}  // namespace sigmax

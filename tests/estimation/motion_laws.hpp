@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/linearised.hpp>
 

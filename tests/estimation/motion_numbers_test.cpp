@@ -1,16 +1,8 @@
 #include <sigmax/estimation/motion_numbers.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(MotionNumbers, ComponentsAreOrderedByDerivative) {
   EXPECT_EQ(detail::motion_components(1, 1), (std::vector<std::string>{"x"}));
@@ -23,14 +15,13 @@ TEST(MotionNumbers, AParameterIsFiniteWithItsSquareAndNotNegative) {
   EXPECT_EQ(detail::motion_parameter(0.0, "q", "cwna"), 0.0);
   EXPECT_EQ(detail::motion_parameter(1e150, "q", "cwna"), 1e150);
   for (const double bad : {-1.0, 1.1e150, std::numeric_limits<double>::infinity(), std::nan("")})
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { detail::motion_parameter(bad, "q", "cwna"); },
-                                              {"q of model 'cwna'", std::to_string(bad), "at least", "0"}));
+    EXPECT_INVALID(("q of model 'cwna'", std::to_string(bad), "at least", "0"),
+                   detail::motion_parameter(bad, "q", "cwna"));
 }
 
 TEST(MotionNumbers, ARateIsFinite) {
   EXPECT_EQ(detail::finite_rate(-2.0), -2.0);
-  EXPECT_TRUE(throws<std::invalid_argument>([] { detail::finite_rate(std::nan("")); }, {"rate", "known_turn", "nan"}));
+  EXPECT_INVALID(("rate", "known_turn", "nan"), detail::finite_rate(std::nan("")));
 }
 
 }  // namespace
-}  // namespace sigmax

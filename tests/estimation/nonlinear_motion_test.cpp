@@ -1,19 +1,11 @@
 #include <sigmax/estimation/nonlinear_motion.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/linearised.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// A motion of one's own needs these expressions and no base class.
 struct Pendulum {
@@ -70,4 +62,3 @@ TEST(NonlinearMotion, AGivenJacobianIsTaken) {
 }
 
 }  // namespace
-}  // namespace sigmax

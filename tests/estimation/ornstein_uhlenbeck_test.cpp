@@ -1,18 +1,10 @@
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
 double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
@@ -34,37 +26,31 @@ TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
                       (SquareMatrix<3>{{q11, q12, q13}, {q12, q22, q23}, {q13, q23, q33}}), 1e-13);
 }
 
-TEST(OrnsteinUhlenbeck, IsTheIntegral) {
-  holds([] {
-    const double theta = number_between(0.01, 2.0), sigma = number_between(0.5, 3.0), dt = number_between(0.1, 2.0);
-    const double q = 2.0 * theta * sigma * sigma;
-    require_integral({1, 1, {-theta}}, {1, 1, {q}}, ou_position<1>(theta, sigma), dt);
-    require_integral({2, 2, {0, 1, 0, -theta}}, {2, 2, {0, 0, 0, q}}, ou_velocity<1>(theta, sigma), dt);
-    require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, -theta}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}},
-                     singer<1>(theta, sigma), dt);
-  });
+PROPERTY(OrnsteinUhlenbeck, IsTheIntegral) {
+  const double theta = number_between(0.01, 2.0), sigma = number_between(0.5, 3.0), dt = number_between(0.1, 2.0);
+  const double q = 2.0 * theta * sigma * sigma;
+  require_integral({1, 1, {-theta}}, {1, 1, {q}}, ou_position<1>(theta, sigma), dt);
+  require_integral({2, 2, {0, 1, 0, -theta}}, {2, 2, {0, 0, 0, q}}, ou_velocity<1>(theta, sigma), dt);
+  require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, -theta}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}},
+                   singer<1>(theta, sigma), dt);
 }
 
-TEST(OrnsteinUhlenbeck, StepsAddUpForAnyRate) {
-  holds([] {
-    const double theta = generated_rate(), sigma = number_between(0.5, 3.0);
-    const double s = generated_step(), t = generated_step();
-    const Vector<2> level(2.0, -1.0);
-    require_steps_to_add_up(ou_position<2>(theta, sigma, level), s, t);
-    require_steps_to_add_up(ou_velocity<2>(theta, sigma, level), s, t);
-    require_steps_to_add_up(IndependentAxes<2, OrnsteinUhlenbeck<3>>{OrnsteinUhlenbeck<3>{theta, sigma}, level}, s, t);
-  });
+PROPERTY(OrnsteinUhlenbeck, StepsAddUpForAnyRate) {
+  const double theta = generated_rate(), sigma = number_between(0.5, 3.0);
+  const double s = generated_step(), t = generated_step();
+  const Vector<2> level(2.0, -1.0);
+  require_steps_to_add_up(ou_position<2>(theta, sigma, level), s, t);
+  require_steps_to_add_up(ou_velocity<2>(theta, sigma, level), s, t);
+  require_steps_to_add_up(IndependentAxes<2, OrnsteinUhlenbeck<3>>{OrnsteinUhlenbeck<3>{theta, sigma}, level}, s, t);
 }
 
-TEST(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
-  holds([] {
-    const double theta = 1e-14, q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    const double sigma = std::sqrt(0.5 * q / theta);
-    require_near_matrix(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
-    require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(q).process_covariance(dt), 1e-12);
-    require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt), cwna<2>(q).process_covariance(dt),
-                            1e-12);
-  });
+PROPERTY(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
+  const double theta = 1e-14, q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+  const double sigma = std::sqrt(0.5 * q / theta);
+  require_near_matrix(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
+  require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(q).process_covariance(dt), 1e-12);
+  require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt), cwna<2>(q).process_covariance(dt),
+                          1e-12);
 }
 
 TEST(OrnsteinUhlenbeck, InTheLongRunItForgetsAndKeepsItsDeviation) {
@@ -86,10 +72,9 @@ TEST(OrnsteinUhlenbeck, ShowsItsParameters) {
 }
 
 TEST(OrnsteinUhlenbeck, RefusesParametersThatAreNone) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { singer<3>(-1.0, 1.0); }, {"rate", "singer", "-1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { ou_position<1>(-1.0, 1.0); }, {"the rate", "ou_position", "-1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { ou_velocity<3>(1.0, -2.0); }, {"sigma", "ou_velocity", "-2"}));
+  EXPECT_INVALID(("rate", "singer", "-1"), singer<3>(-1.0, 1.0));
+  EXPECT_INVALID(("the rate", "ou_position", "-1"), ou_position<1>(-1.0, 1.0));
+  EXPECT_INVALID(("sigma", "ou_velocity", "-2"), ou_velocity<3>(1.0, -2.0));
 }
 
 }  // namespace
-}  // namespace sigmax

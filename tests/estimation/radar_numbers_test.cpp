@@ -1,23 +1,16 @@
 #include <sigmax/estimation/radar_numbers.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <numbers>
-
-#include "support/near.hpp"
-
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(RadarNumbers, AnAngleIsWrapped) {
   constexpr double pi = std::numbers::pi;
-  EXPECT_PRED_FORMAT3(near, wrapped(3.5), 3.5 - 2.0 * pi, 1e-15);
-  EXPECT_PRED_FORMAT3(near, wrapped(-3.5), 2.0 * pi - 3.5, 1e-15);
+  EXPECT_CLOSE(wrapped(3.5), 3.5 - 2.0 * pi, 1e-15);
+  EXPECT_CLOSE(wrapped(-3.5), 2.0 * pi - 3.5, 1e-15);
   EXPECT_EQ(wrapped(-1.0), -1.0);
   EXPECT_EQ(wrapped(pi), pi);
-  EXPECT_PRED_FORMAT3(near, wrapped(1.0 + 20.0 * pi), 1.0, 1e-13);
+  EXPECT_CLOSE(wrapped(1.0 + 20.0 * pi), 1.0, 1e-13);
 }
 
 /// Either result may be left out.
@@ -35,4 +28,3 @@ TEST(RadarNumbers, OnlyWhatIsAskedForIsWritten) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,8 +1,7 @@
 #include <sigmax/estimation/refs.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
 TEST(Refs, AModelIsWhatItsTableSays) {
@@ -22,4 +21,3 @@ TEST(Refs, AModelIsWhatItsTableSays) {
 }
 
 }  // namespace
-}  // namespace sigmax

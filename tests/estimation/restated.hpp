@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <string_view>
-#include <vector>
-
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/extended.hpp>
@@ -160,7 +153,7 @@ void expect_the_same(const Found& found, const Expected& expected) {
   EstimateOf<Expected> start{StateOf<Expected>::LinSpaced(n, 40.0, 1.0), StateMatrixOf<Expected>::Constant(n, n, 0.5)};
   start.covariance.diagonal().setLinSpaced(n, 1.0, 2.0);
   const EstimateOf<Found> same{start.mean, start.covariance};
-  EXPECT_PRED_FORMAT3(near, predict(found, same, 0.7), predict(expected, start, 0.7), 0.0);
+  EXPECT_CLOSE(predict(found, same, 0.7), predict(expected, start, 0.7), 0.0);
   EXPECT_EQ(prediction_covariance(found, same, 0.7), prediction_covariance(expected, start, 0.7));
   const auto step = linearised_step(found, same, 0.7);
   const auto expected_step = linearised_step(expected, start, 0.7);
@@ -169,7 +162,7 @@ void expect_the_same(const Found& found, const Expected& expected) {
   EXPECT_EQ(step.Q, expected_step.Q);
 }
 
-/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance).
+/// EXPECT_CLOSE(found, expected, tolerance).
 inline testing::AssertionResult near(const char* a, const char* b, const char* t, const Estimate& found,
                                      const restatement::State& expected, double tolerance) {
   return near(a, b, t, found, estimate_of(expected), tolerance);

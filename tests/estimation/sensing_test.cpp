@@ -1,10 +1,5 @@
 #include <sigmax/estimation/sensing.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <sigmax/estimation/any_model.hpp>
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
@@ -12,12 +7,8 @@
 #include <sigmax/estimation/unscented.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
 using Dwpa = IndependentAxes<3, DiscreteWhiteNoise<3>>;
@@ -158,7 +149,7 @@ struct WithJacobian : Sideways {
 };
 
 TEST(Sensing, JacobiansAreDifferentiatedWhereTheyAreNotGiven) {
-  EXPECT_PRED_FORMAT3(near, seen(dwna_now, Sideways{}, 0.3 * Vector<6>::Ones()).H(0), std::cos(0.3), 1e-15);
+  EXPECT_CLOSE(seen(dwna_now, Sideways{}, 0.3 * Vector<6>::Ones()).H(0), std::cos(0.3), 1e-15);
   EXPECT_EQ(seen(AnyModel{dwna_now}, SquaredLast{}, Vector<6>::Constant(2.0)).H(5), 4.0);
   EXPECT_EQ(seen(dwna_now, WithJacobian{}, Vector<6>::Ones()).H(0), 7.0);
 }
@@ -190,9 +181,8 @@ TEST(Sensing, DifferencesAndMeansAreItsOwn) {
     return update(filter, prior, z, sensor, x).residual(0);
   };
   const double turn = 2.0 * std::numbers::pi;
-  EXPECT_PRED_FORMAT3(near, residual(Angle{}), turn - 6.2, 1e-14);
-  EXPECT_PRED_FORMAT3(near, residual(OneAlways{}), turn - 4.1, 1e-14);
+  EXPECT_CLOSE(residual(Angle{}), turn - 6.2, 1e-14);
+  EXPECT_CLOSE(residual(OneAlways{}), turn - 4.1, 1e-14);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,12 +1,11 @@
 #include <sigmax/estimation/sensor_ref.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 const Extended filter{dwna<2>(1.0)};
@@ -36,4 +35,3 @@ TEST(SensorRef, OfAnySensorIsThatOfTheSensorThatItIs) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,8 +1,7 @@
 #include <sigmax/estimation/view.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
 TEST(View, IsOfTheNumbersWhereTheyLie) {
@@ -18,4 +17,3 @@ TEST(View, IsOfTheNumbersWhereTheyLie) {
 }
 
 }  // namespace
-}  // namespace sigmax

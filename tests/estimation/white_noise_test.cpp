@@ -1,16 +1,10 @@
 #include <sigmax/estimation/white_noise.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/motion_laws.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(WhiteNoise, AccelerationIsThatOfTheBook) {
   const auto model = cwna<1>(3.0);
@@ -25,20 +19,16 @@ TEST(WhiteNoise, JerkIsThatOfTheBook) {
                       (SquareMatrix<3>{{96, 120, 80}, {120, 160, 120}, {80, 120, 120}}), 1e-15);
 }
 
-TEST(WhiteNoise, IsTheIntegral) {
-  holds([] {
-    const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
-    require_integral({2, 2, {0, 1, 0, 0}}, {2, 2, {0, 0, 0, q}}, cwna<1>(q), dt);
-    require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}}, cwpa<1>(q), dt);
-  });
+PROPERTY(WhiteNoise, IsTheIntegral) {
+  const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
+  require_integral({2, 2, {0, 1, 0, 0}}, {2, 2, {0, 0, 0, q}}, cwna<1>(q), dt);
+  require_integral({3, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0}}, {3, 3, {0, 0, 0, 0, 0, 0, 0, 0, q}}, cwpa<1>(q), dt);
 }
 
-TEST(WhiteNoise, StepsAddUp) {
-  holds([] {
-    const double q = number_between(0.1, 5.0), s = generated_step(), t = generated_step();
-    require_steps_to_add_up(cwna<2>(q, Vector<2>(3.0, -1.0)), s, t);
-    require_steps_to_add_up(IndependentAxes<2, WhiteNoise<3>>{WhiteNoise<3>{q}, Vector<2>(3.0, -1.0)}, s, t);
-  });
+PROPERTY(WhiteNoise, StepsAddUp) {
+  const double q = number_between(0.1, 5.0), s = generated_step(), t = generated_step();
+  require_steps_to_add_up(cwna<2>(q, Vector<2>(3.0, -1.0)), s, t);
+  require_steps_to_add_up(IndependentAxes<2, WhiteNoise<3>>{WhiteNoise<3>{q}, Vector<2>(3.0, -1.0)}, s, t);
 }
 
 TEST(WhiteNoise, AStepOfNoTimeIsNone) {
@@ -54,9 +44,8 @@ TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
 TEST(WhiteNoise, ShowsItsParameters) { EXPECT_EQ(cwpa<2>(1.5).law().q(), 1.5); }
 
 TEST(WhiteNoise, RefusesANoiseThatIsNone) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { cwna<3>(-1.0); }, {"q", "cwna", "-1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { cwpa<3>(std::nan("")); }, {"q", "cwpa", "nan"}));
+  EXPECT_INVALID(("q", "cwna", "-1"), cwna<3>(-1.0));
+  EXPECT_INVALID(("q", "cwpa", "nan"), cwpa<3>(std::nan("")));
 }
 
 }  // namespace
-}  // namespace sigmax

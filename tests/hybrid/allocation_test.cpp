@@ -1,10 +1,4 @@
 // `step` allocates nothing: every operator new of this program is counted.
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <memory>
-#include <tuple>
-#include <vector>
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/extended.hpp>
@@ -12,10 +6,7 @@
 #include "hybrid/targets.hpp"
 #include "support/allocations.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(Allocation, TheCounterCounts) {
   struct alignas(64) Aligned {
@@ -143,4 +134,3 @@ TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,8 @@
 #include <sigmax/hybrid/any_plot.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <array>
-#include <stdexcept>
-#include <vector>
-
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
-
-using support::throws;
-using Numbers = std::vector<double>;
 
 TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovarianceOrItsVariancesAlone) {
   const AnyPlot two = AnyPlot::position(0.5, Numbers{1.0, 2.0}, Numbers{4.0, 1.0, 1.0, 9.0});
@@ -75,4 +65,3 @@ TEST(AnyPlot, RefusesWhatNoSensorMeasures) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,8 @@
 #include <sigmax/hybrid/any_target.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <algorithm>
-#include <array>
-
-#include "support/near.hpp"
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::throws;
 
 TargetChoice choice(bool fuzzy, Scheme scheme, int axes = 3) {
   TargetChoice result;
@@ -133,7 +123,7 @@ TEST(AnyTarget, TakesWhatSeveralSensorsSee) {
   AnyPlot bearing = AnyPlot::bearing(6.0, 0.0, 1e-6);
   EXPECT_EQ(target.take(bearing), Verdict::accepted);
   bearing.size = 2;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(bearing); }, {"2 measured quantities", "1"}));
+  EXPECT_INVALID(("2 measured quantities", "1"), target.take(bearing));
 }
 
 TEST(AnyTarget, ATurnedWorldGivesTheTurnedTrack) {
@@ -156,13 +146,13 @@ TEST(AnyTarget, ATurnedWorldGivesTheTurnedTrack) {
       if (t == 30) EXPECT_TRUE(moved.transform(A, std::span(b).first(static_cast<std::size_t>(axes))));
       moved.take(seen(t, t >= 30));
     }
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { moved.transform(b, b); }, {std::to_string(axes) + " axes"}));
+    EXPECT_INVALID((std::to_string(axes) + " axes"), moved.transform(b, b));
     std::vector<TargetPoint> expected;
     whole.smoothed([&](const TargetPoint& point) { expected.push_back(point); });
     std::size_t k = 0;
     moved.smoothed([&](const TargetPoint& point) {
       ASSERT_LT(k, expected.size());
-      EXPECT_PRED_FORMAT3(near, point.mean, expected[k].mean, 1e-6);
+      EXPECT_CLOSE(point.mean, expected[k].mean, 1e-6);
       ++k;
     });
     EXPECT_EQ(k, expected.size());
@@ -173,7 +163,7 @@ TEST(AnyTarget, RefusesAChoiceThatMakesNoSense) {
   const auto refuses = [](const auto& spoil, std::string_view word) {
     TargetChoice bad = choice(false, Scheme::interacting);
     spoil(bad);
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{bad}; }, {word}));
+    EXPECT_INVALID((word), AnyTarget{bad});
   };
   refuses([](TargetChoice& bad) { bad.motions[1].name = "warp"; }, "warp");
   refuses([](TargetChoice& bad) { bad.axes = 0; }, "0 axes");
@@ -197,12 +187,11 @@ TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
                 Verdict::accepted);
       AnyPlot range = on_line(7.0, 70.0);
       range.sensor = AnyPlot::Sensor::polar;
-      EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(range); }, {"one axis", "plane"}));
+      EXPECT_INVALID(("one axis", "plane"), target.take(range));
     }
   TargetChoice turning = choice(false, Scheme::interacting, 1);
   turning.motions[1].name = "ct";
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { AnyTarget{turning}; }, {"ct", "one axis"}));
+  EXPECT_INVALID(("ct", "one axis"), AnyTarget{turning});
 }
 
 }  // namespace
-}  // namespace sigmax

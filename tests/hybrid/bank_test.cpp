@@ -1,17 +1,12 @@
 #include <sigmax/hybrid/bank.hpp>
 
-#include <gtest/gtest.h>
-
-#include <string_view>
-
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
 using Dwna = IndependentAxes<2, DiscreteWhiteNoise<2>>;
@@ -54,4 +49,3 @@ TEST(Bank, HoldsModelsOf32StatesAndNoMore) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,16 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <random>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
@@ -21,7 +10,6 @@
 
 #include "support/enveloped.hpp"
 #include "support/matrices.hpp"
-#include "support/restatement.hpp"
 
 /// The flights and the filters of these tests. Which filter it is, over which models and by which rules, is a value: a
 /// TargetChoice. So what is asked of all of them is written once, and compiled once.
@@ -29,7 +17,6 @@ namespace sigmax::support {
 
 using Models = std::vector<AnyModel>;
 using State = EstimateOf<AnyModel>;
-using Rows = std::vector<std::vector<double>>;
 
 /// One scan: seconds since the last, and what was measured, if anything.
 struct Scan {

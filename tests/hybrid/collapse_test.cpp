@@ -1,13 +1,9 @@
 #include <sigmax/hybrid/collapse.hpp>
 
-#include <gtest/gtest.h>
-
-#include <type_traits>
-#include <vector>
-
 #include <sigmax/core/logarithm.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 static_assert(std::is_same_v<Collapse<Random>, MomentMatching>);
@@ -45,4 +41,3 @@ TEST(Select, WeightsWithinTheToleranceOfTheGreatestAreEqual) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,19 +1,12 @@
 // The code of docs/coming_from.md. The expected numbers are those of a plain Python restatement of what the other
 // libraries compute.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <tuple>
 
 #include <sigmax/estimation/white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
 
 TEST(ComingFrom, FilterPy) {
   const RandomVariable mode{"mode", {"quiet", "lively"}};
@@ -24,11 +17,11 @@ TEST(ComingFrom, FilterPy) {
   const auto estimate = imm.estimate();   // imm.x is estimate.mean, imm.P is estimate.covariance
   const double lively = imm.belief()[1];  // imm.mu[1]
 
-  EXPECT_PRED_FORMAT3(near, estimate.mean(0), 66.06985757636292, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.mean(1), 16.878838001983162, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.covariance(0, 0), 18.54416175174824, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.covariance(1, 1), 19.8059510995619, 1e-9);
-  EXPECT_PRED_FORMAT3(near, lively, 0.5758700783268191, 1e-9);
+  EXPECT_CLOSE(estimate.mean(0), 66.06985757636292, 1e-9);
+  EXPECT_CLOSE(estimate.mean(1), 16.878838001983162, 1e-9);
+  EXPECT_CLOSE(estimate.covariance(0, 0), 18.54416175174824, 1e-9);
+  EXPECT_CLOSE(estimate.covariance(1, 1), 19.8059510995619, 1e-9);
+  EXPECT_CLOSE(lively, 0.5758700783268191, 1e-9);
 }
 
 TEST(ComingFrom, StoneSoup) {
@@ -39,14 +32,14 @@ TEST(ComingFrom, StoneSoup) {
   predict(motion, track, 1.0, track);                               // predictor.predict(prior, timestamp)
   const auto innovation = update(motion, track, detection, track);  // updater.update(hypothesis)
 
-  EXPECT_PRED_FORMAT3(near, track.mean(0), 1.057482185273159, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.mean(1), 0.9712589073634205, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.mean(2), 1.0149643705463183, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.mean(3), 0.9925178147268409, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.covariance(0, 0), 1.4370546318289785, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.covariance(0, 2), 0.37410926365795727, 1e-9);
-  EXPECT_PRED_FORMAT3(near, track.covariance(2, 2), 0.5107185273159145, 1e-9);
-  EXPECT_PRED_FORMAT3(near, std::exp(innovation.log_likelihood), 0.150178149655791 * 0.1504995389868124, 1e-9);
+  EXPECT_CLOSE(track.mean(0), 1.057482185273159, 1e-9);
+  EXPECT_CLOSE(track.mean(1), 0.9712589073634205, 1e-9);
+  EXPECT_CLOSE(track.mean(2), 1.0149643705463183, 1e-9);
+  EXPECT_CLOSE(track.mean(3), 0.9925178147268409, 1e-9);
+  EXPECT_CLOSE(track.covariance(0, 0), 1.4370546318289785, 1e-9);
+  EXPECT_CLOSE(track.covariance(0, 2), 0.37410926365795727, 1e-9);
+  EXPECT_CLOSE(track.covariance(2, 2), 0.5107185273159145, 1e-9);
+  EXPECT_CLOSE(std::exp(innovation.log_likelihood), 0.150178149655791 * 0.1504995389868124, 1e-9);
 }
 
 TEST(ComingFrom, Matlab) {
@@ -61,12 +54,11 @@ TEST(ComingFrom, Matlab) {
   const auto constvel = imm.estimates()[0];  // TrackingFilters{1}.State has two components
 
   EXPECT_EQ(constvel.size(), 2);
-  EXPECT_PRED_FORMAT3(near, estimate.mean(0), 66.5647979770865, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.mean(1), 17.655919252778695, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.mean(2), 1.366032270246131, 1e-9);
-  EXPECT_PRED_FORMAT3(near, estimate.covariance(2, 2), 3.965376629289377, 1e-9);
-  EXPECT_PRED_FORMAT3(near, imm.belief()[1], 0.49937164364545467, 1e-9);
+  EXPECT_CLOSE(estimate.mean(0), 66.5647979770865, 1e-9);
+  EXPECT_CLOSE(estimate.mean(1), 17.655919252778695, 1e-9);
+  EXPECT_CLOSE(estimate.mean(2), 1.366032270246131, 1e-9);
+  EXPECT_CLOSE(estimate.covariance(2, 2), 3.965376629289377, 1e-9);
+  EXPECT_CLOSE(imm.belief()[1], 0.49937164364545467, 1e-9);
 }
 
 }  // namespace
-}  // namespace sigmax

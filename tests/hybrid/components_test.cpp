@@ -1,15 +1,10 @@
 #include <sigmax/hybrid/components.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::throws;
 
 using Names = std::vector<std::string>;
 
@@ -38,7 +33,7 @@ TEST(Components, EveryModelTakesItsShareOfAStart) {
   EXPECT_EQ(shares[2].mean, (Vector<3>(4, 1, 2)));
   EXPECT_EQ(shares[2].covariance, (SquareMatrix<3>{{40, 3, 5}, {3, 10, 1}, {5, 1, 20}}));
   const Gaussian<2> few{Vector<2>::Zero(), SquareMatrix<2>::Identity()};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { detail::shares_of(models, detail::view(few)); }, {"2", "4"}));
+  EXPECT_INVALID(("2", "4"), detail::shares_of(models, detail::view(few)));
 }
 
 TEST(Components, EachIsCarriedByTheModelThatWasChosenForIt) {
@@ -62,4 +57,3 @@ TEST(Components, OfAPriorHaveItsVariancesByTheirNames) {
 }
 
 }  // namespace
-}  // namespace sigmax

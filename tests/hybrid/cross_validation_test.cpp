@@ -1,18 +1,8 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
-
-using support::throws;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,9 +57,8 @@ TEST(CrossValidation, SelectsTheBestAndTheSimplestThatIsAsGood) {
   EXPECT_EQ(selected.best, 2U);
   EXPECT_EQ(selected.simple, 1U);
   EXPECT_EQ(select_settings(all, std::array<std::size_t, 4>{0, 8, 7, 7}).simple, 2U);
-  EXPECT_TRUE(throws<std::invalid_argument>([] { select_settings({}, {}); }, {"0 settings"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { select_settings(all, std::array<std::size_t, 1>{3}); }, {"1", "4"}));
+  EXPECT_INVALID(("0 settings"), select_settings({}, {}));
+  EXPECT_INVALID(("1", "4"), select_settings(all, std::array<std::size_t, 1>{3}));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,19 +1,8 @@
 #include <sigmax/hybrid/envelope.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-#include <vector>
-
 #include "hybrid/banks.hpp"
-#include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 struct Moments {
   double beta;
@@ -199,4 +188,3 @@ TEST(Envelope, OfTheModesIsTheOutputOfAFilterAndGivesItsBeta) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,12 +1,7 @@
 #include <sigmax/hybrid/estimates.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <type_traits>
-
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
 
 const Gaussian<2> narrow{Vector<2>(1.0, 2.0), SquareMatrix<2>{{3.0, 0.5}, {0.5, 4.0}}};
@@ -45,10 +40,8 @@ TEST(Estimates, BecomeTypedOnesOfTheirSizeOnly) {
   const Gaussian<Eigen::Dynamic, 6> bounded = estimates[0];
   EXPECT_EQ(bounded.mean, wide.mean);
   using support::throws;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { return Gaussian<4>(estimates[0]); }, {"3 components", "expected 4"}));
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { return Gaussian<Eigen::Dynamic, 2>(estimates[0]); }, {"3 components", "2"}));
+  EXPECT_INVALID(("3 components", "expected 4"), return Gaussian<4>(estimates[0]));
+  EXPECT_INVALID(("3 components", "2"), return Gaussian<Eigen::Dynamic, 2>(estimates[0]));
 }
 
 }  // namespace
-}  // namespace sigmax

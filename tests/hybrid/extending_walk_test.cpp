@@ -1,12 +1,4 @@
 // The code of docs/extending.md that needs filters, and the values that it claims.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 #include <sigmax/estimation/any_sensor.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
@@ -19,7 +11,6 @@
 #include "known_motions.hpp"
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
 struct Drift {
@@ -127,4 +118,3 @@ TEST(ExtendingWalk, ABankChosenAtRunTime) {
 }
 
 }  // namespace
-}  // namespace sigmax

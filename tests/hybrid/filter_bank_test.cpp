@@ -1,26 +1,11 @@
 #include <sigmax/hybrid/filter_bank.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <optional>
-#include <span>
-#include <tuple>
-#include <vector>
-
 #include <sigmax/estimation/ornstein_uhlenbeck.hpp>
 
 #include "hybrid/instruction_sets.hpp"
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::near_matrix;
-using support::throws;
-using support::under_each_instruction_set;
 
 template <Uncertainty Kind>
 Relation<Kind, Kind> transition() {
@@ -87,7 +72,7 @@ void expect_as_single(const Bank<Kind>& bank, std::size_t track, const Single<Ki
     const auto units =
         P.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();  // those of each covariance: an outlier's is great
     EXPECT_PRED_FORMAT3(near_matrix, (units * found * units).eval(), (units * P * units).eval(), 1e-9);
-    EXPECT_PRED_FORMAT3(near, state.belief[j], single.belief()[j], 1e-9);
+    EXPECT_CLOSE(state.belief[j], single.belief()[j], 1e-9);
   }
   EXPECT_PRED_FORMAT3(near_matrix, bank.estimate(track).mean, single.estimate().mean, 1e-9);
 }
@@ -186,13 +171,13 @@ TEST(FilterBank, WhatSinglePrecisionCannotHoldIsRefused) {
   Bank<Random, float> bank{models(), transition<Random>()};
   Gaussian<6> far = start(0);
   far.mean(0) = 1e39;
-  EXPECT_TRUE(throws<std::domain_error>([&] { bank.add(far); }, {"track 0", "too far or too uncertain"}));
+  EXPECT_REFUSED(std::domain_error, ("track 0", "too far or too uncertain"), bank.add(far));
   EXPECT_EQ(bank.size(), 0U);
   EXPECT_EQ(bank.add(start(0)), 0U);
   Gaussian<2> z = *measured(0, 1);
   z.mean(1) = -1e39;
   auto scan = bank.scan();
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { scan.set(0, z); }, {"track 0", "too great"}));
+  EXPECT_INVALID(("track 0", "too great"), scan.set(0, z));
 }
 
 TEST(FilterBank, WrongTracksAndScansAreNamed) {
@@ -201,19 +186,18 @@ TEST(FilterBank, WrongTracksAndScansAreNamed) {
   bank.add(start(0));
   auto scan = bank.scan();
   const Gaussian<2> z = *measured(1, 1);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { scan.set(999, z); }, {"no number 999"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { bank.remove(1); }, {"no track 1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { bank.estimate(77); }, {"no track 77"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { bank.step(-1.0, scan); }, {"-1", "not negative"}));
+  EXPECT_INVALID(("no number 999"), scan.set(999, z));
+  EXPECT_INVALID(("no track 1"), bank.remove(1));
+  EXPECT_INVALID(("no track 77"), bank.estimate(77));
+  EXPECT_INVALID(("-1", "not negative"), bank.step(-1.0, scan));
   for (int t = 0; t < 64; ++t) bank.add(start(1));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { bank.step(1.0, scan); }, {"has room for", "new one"}));
+  EXPECT_INVALID(("has room for", "new one"), bank.step(1.0, scan));
   scan = bank.scan();
   Gaussian<2> impossible = z;
   impossible.covariance = -1e9 * SquareMatrix<2>::Identity();
   scan.set(5, impossible);
-  EXPECT_TRUE(throws<std::domain_error>([&] { bank.step(1.0, scan); }, {"track 5", "not positive definite"}));
-  EXPECT_TRUE(throws<std::domain_error>([&] { bank.run(1.0, std::span(&scan, 1), 2); }, {"track 5"}));
+  EXPECT_REFUSED(std::domain_error, ("track 5", "not positive definite"), bank.step(1.0, scan));
+  EXPECT_REFUSED(std::domain_error, ("track 5"), bank.run(1.0, std::span(&scan, 1), 2));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,8 @@
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-
 #include "hybrid/two_speeds.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 TEST(LogScores, AreThoseOfTheTargetStepByStep) {
   const TargetChoice choice = two_speeds(true);
@@ -34,10 +24,10 @@ TEST(LogScores, AreThoseOfTheTargetStepByStep) {
     EXPECT_GE(*point.log_evidence, *point.log_score);  // the weights of a fuzzy mode sum to one or more
     double squares = 0.0;
     for (const double number : point.normalized_innovation) squares += number * number;
-    EXPECT_PRED_FORMAT3(near, squares, *point.nis, 1e-12);
+    EXPECT_CLOSE(squares, *point.nis, 1e-12);
   }
   target.plots[3].tag = 30;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { log_scores(choice, target.plots); }, {"tag 30", "30"}));
+  EXPECT_INVALID(("tag 30", "30"), log_scores(choice, target.plots));
 }
 
 TEST(LogScores, OfAMeasurementThatTheGateRejectedAreKnown) {
@@ -67,10 +57,9 @@ TEST(TransitionCounts, OfARandomModeAddUpTheSmoothedPairs) {
     ASSERT_EQ(pairs.tag, --last);  // backwards
     ASSERT_EQ(pairs.is_last, pairs.tag == 59);
     for (std::size_t i = 0; i < 2; ++i) {  // the pairs' margins are the smoothed modes before and after
-      EXPECT_PRED_FORMAT3(near, std::exp(pairs.log_weights[2 * i]) + std::exp(pairs.log_weights[2 * i + 1]),
-                          weights[pairs.tag - 1][i], 1e-9);
-      EXPECT_PRED_FORMAT3(near, std::exp(pairs.log_weights[i]) + std::exp(pairs.log_weights[2 + i]),
-                          weights[pairs.tag][i], 1e-9);
+      EXPECT_CLOSE(std::exp(pairs.log_weights[2 * i]) + std::exp(pairs.log_weights[2 * i + 1]),
+                   weights[pairs.tag - 1][i], 1e-9);
+      EXPECT_CLOSE(std::exp(pairs.log_weights[i]) + std::exp(pairs.log_weights[2 + i]), weights[pairs.tag][i], 1e-9);
     }
     counts.add(pairs, pairs.tag != 30);
     ++steps;
@@ -79,14 +68,14 @@ TEST(TransitionCounts, OfARandomModeAddUpTheSmoothedPairs) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j) sum += counts(i, j);
-  EXPECT_PRED_FORMAT3(near, sum, 56.0, 1e-9);
+  EXPECT_CLOSE(sum, 56.0, 1e-9);
   TransitionCounts same(2, false);
   count_transitions(
       choice, target.plots, [](std::size_t tag) { return tag != 30; }, same);
   EXPECT_EQ(same(0, 1), counts(0, 1));
   const auto rows = counts.transition(choice.transition);
-  EXPECT_PRED_FORMAT3(near, rows[0][1], counts(0, 1) / (counts(0, 0) + counts(0, 1)), 1e-12);
-  EXPECT_PRED_FORMAT3(near, counts.sojourns({1.0, 1.0})[0], (counts(0, 0) + counts(0, 1)) / counts(0, 1), 1e-12);
+  EXPECT_CLOSE(rows[0][1], counts(0, 1) / (counts(0, 0) + counts(0, 1)), 1e-12);
+  EXPECT_CLOSE(counts.sojourns({1.0, 1.0})[0], (counts(0, 0) + counts(0, 1)) / counts(0, 1), 1e-12);
 }
 
 /// Pairs of three steps, told backwards, whose best path is known by going through all of them.
@@ -108,8 +97,7 @@ TEST(TransitionCounts, OfAFuzzyModeCountTheBestPath) {
   EXPECT_EQ(twice.transition(otherwise)[0], otherwise[0]);
   EXPECT_EQ(twice.transition(otherwise)[1], (std::vector<double>{1.0, 0.5 / 4.5}));
   EXPECT_EQ(twice.sojourns({9.0, 9.0}), (std::vector<double>{9.0, 8.0 / 4.5}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.add({.log_weights = {}}); }, {"0 weights", "4"}));
+  EXPECT_INVALID(("0 weights", "4"), counts.add({.log_weights = {}}));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,9 @@
 #include <sigmax/hybrid/fit.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/two_speeds.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::by_compass;
-using support::throws;
 
 TEST(Fit, FindsTheLeastLossInEveryScale) {
   const std::vector<FitParameter> parameters = {{.name = "any", .start = -2.0, .scale = Scale::linear},
@@ -66,10 +57,8 @@ TEST(Fit, IsNeverWorseThanItsStartAndPassesOverWhatFails) {
 
 TEST(Fit, RefusesAParameterThatCannotStart) {
   const auto loss = [](const std::vector<double>&) { return 0.0; };
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { fit({{.name = "sigma_w", .start = 0.0}}, loss, by_compass); },
-                                            {"'sigma_w'", "start at 0"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] { fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass); }, {"'p'", "1.5"}));
+  EXPECT_INVALID(("'sigma_w'", "start at 0"), fit({{.name = "sigma_w", .start = 0.0}}, loss, by_compass));
+  EXPECT_INVALID(("'p'", "1.5"), fit({{.name = "p", .start = 1.5, .scale = Scale::logistic}}, loss, by_compass));
 }
 
 /// The integral over the position of exp(value(filter after a step with that position)), by rectangles, after some
@@ -116,4 +105,3 @@ TEST(LogEvidence, OfAFuzzyModeNeverBlamesAPossibleChange) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,16 +1,8 @@
 #include <sigmax/hybrid/fixed_lag_smoother.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
-
 #include "hybrid/banks.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// Every state that a lag gives is that of smoothing the interval from the start to `lag` steps later.
 template <class Filter>
@@ -53,4 +45,3 @@ TEST(FixedLagSmoother, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace sigmax

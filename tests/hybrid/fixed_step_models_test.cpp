@@ -1,20 +1,13 @@
 // The filters over models that are nothing but matrices: components that are not nested, states without memory, and
 // what is known of all histories of the mode together.
-#include <gtest/gtest.h>
-
-#include <random>
 
 #include <sigmax/estimation/fixed_step_motion.hpp>
 
 #include "hybrid/banks.hpp"
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 template <int N>
 using Fixed = FixedStepMotion<N>;
@@ -195,8 +188,7 @@ TEST(FixedStepModels, AStepForWhichAModelIsNotGivenIsRefused) {
   const FuzzyVariable mode{"mode", 1};
   InteractingMultipleModel filter{std::tuple{accelerating}, Relation{mode, mode, {{1.0}}},
                                   Gaussian<3>{Vector<3>::Zero(), SquareMatrix<3>::Identity()}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { filter.step(0.5); }, {"accelerating", "1.0", "0.5"}));
+  EXPECT_INVALID(("accelerating", "1.0", "0.5"), filter.step(0.5));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <vector>
-
 #include "hybrid/banks.hpp"
 #include "support/smoother_restatement.hpp"
 

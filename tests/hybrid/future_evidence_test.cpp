@@ -1,18 +1,9 @@
 #include <sigmax/hybrid/future_evidence.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include <Eigen/Cholesky>
-
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
-using namespace support;
 using Matrix = Eigen::MatrixXd;
 using Column = Eigen::VectorXd;
 
@@ -60,19 +51,17 @@ TEST(FutureEvidence, KnowsNothingWithoutARow) {
   EXPECT_EQ(before.size(), 2);
 }
 
-TEST(FutureEvidence, AddsUpAsInformationDoesInNoMoreRowsThanComponents) {
-  holds([] {
-    const Matrix A = any(2, 3), B = any(3, 3);
-    const Column a = any(2, 1), b = any(3, 1);
-    auto sum = evidence(A, a);
-    require_near_matrix(Y_of(sum), A.transpose() * A, 1e-12);
-    sum.add(evidence(B, b));
-    RC_ASSERT(sum.rows() == 3);
-    require_near_matrix(Y_of(sum), A.transpose() * A + B.transpose() * B, 1e-12);
-    require_near_matrix(y_of(sum), A.transpose() * a + B.transpose() * b, 1e-12);
-    const Matrix R = R_of(sum);
-    RC_ASSERT(R(1, 0) == 0.0 && R(2, 0) == 0.0 && R(2, 1) == 0.0);
-  });
+PROPERTY(FutureEvidence, AddsUpAsInformationDoesInNoMoreRowsThanComponents) {
+  const Matrix A = any(2, 3), B = any(3, 3);
+  const Column a = any(2, 1), b = any(3, 1);
+  auto sum = evidence(A, a);
+  require_near_matrix(Y_of(sum), A.transpose() * A, 1e-12);
+  sum.add(evidence(B, b));
+  RC_ASSERT(sum.rows() == 3);
+  require_near_matrix(Y_of(sum), A.transpose() * A + B.transpose() * B, 1e-12);
+  require_near_matrix(y_of(sum), A.transpose() * a + B.transpose() * b, 1e-12);
+  const Matrix R = R_of(sum);
+  RC_ASSERT(R(1, 0) == 0.0 && R(2, 0) == 0.0 && R(2, 1) == 0.0);
 }
 
 TEST(FutureEvidence, InOtherCoordinatesSaysTheSameOfTheSameState) {
@@ -89,58 +78,52 @@ TEST(FutureEvidence, InOtherCoordinatesSaysTheSameOfTheSameState) {
 }
 
 /// u = offset + B x + A η: the mean of the likelihood over η.
-TEST(FutureEvidence, CarriedBackIsAveragedOverTheNoise) {
-  holds([] {
-    const Matrix R = any(3, 3), B = any(3, 2), A = any(3, 2);
-    const Column r = any(3, 1), offset = any(3, 1);
-    const auto told = evidence(R, r);
-    FutureEvidence before;
-    const double log = told.carry_back(offset.data(), B.data(), 2, A.data(), 2, before);
-    const Matrix S = Matrix::Identity(3, 3) + R * A * A.transpose() * R.transpose();
-    require_near_matrix(Y_of(before), B.transpose() * R.transpose() * S.llt().solve(R * B), 1e-10);
-    require_near_matrix(y_of(before), B.transpose() * R.transpose() * S.llt().solve(r - R * offset), 1e-10);
-    require_near(log, -0.5 * std::log(S.determinant()), 1e-10);
-  });
+PROPERTY(FutureEvidence, CarriedBackIsAveragedOverTheNoise) {
+  const Matrix R = any(3, 3), B = any(3, 2), A = any(3, 2);
+  const Column r = any(3, 1), offset = any(3, 1);
+  const auto told = evidence(R, r);
+  FutureEvidence before;
+  const double log = told.carry_back(offset.data(), B.data(), 2, A.data(), 2, before);
+  const Matrix S = Matrix::Identity(3, 3) + R * A * A.transpose() * R.transpose();
+  require_near_matrix(Y_of(before), B.transpose() * R.transpose() * S.llt().solve(R * B), 1e-10);
+  require_near_matrix(y_of(before), B.transpose() * R.transpose() * S.llt().solve(r - R * offset), 1e-10);
+  require_near(log, -0.5 * std::log(S.determinant()), 1e-10);
 }
 
-TEST(FutureEvidence, MeetsAnEstimateAsAMeasurementDoes) {
-  holds([] {
-    const Matrix R = any(2, 3), L = any(3, 3).triangularView<Eigen::Lower>();
-    const Column r = any(2, 1);
-    const Met found = met(evidence(R, r), L);
-    const Matrix P = L * L.transpose(), S = R * P * R.transpose() + Matrix::Identity(2, 2);
-    const Matrix W = P * R.transpose() * S.inverse();
-    require_near_matrix(found.mean, W * r, 1e-10);
-    require_near_matrix(found.covariance, P - W * S * W.transpose(), 1e-10);
-    require_near(found.log, -0.5 * (std::log(S.determinant()) + r.dot(S.inverse() * r)), 1e-10);
-  });
+PROPERTY(FutureEvidence, MeetsAnEstimateAsAMeasurementDoes) {
+  const Matrix R = any(2, 3), L = any(3, 3).triangularView<Eigen::Lower>();
+  const Column r = any(2, 1);
+  const Met found = met(evidence(R, r), L);
+  const Matrix P = L * L.transpose(), S = R * P * R.transpose() + Matrix::Identity(2, 2);
+  const Matrix W = P * R.transpose() * S.inverse();
+  require_near_matrix(found.mean, W * r, 1e-10);
+  require_near_matrix(found.covariance, P - W * S * W.transpose(), 1e-10);
+  require_near(found.log, -0.5 * (std::log(S.determinant()) + r.dot(S.inverse() * r)), 1e-10);
 }
 
 /// Of parts that nowhere make a wider mixture than the estimate: what their collapse makes of it has its moments.
-TEST(FutureEvidence, CollapsedGivesTheEstimateTheMomentsOfTheMixture) {
-  holds([] {
-    const Matrix L = any(3, 3).triangularView<Eigen::Lower>();
-    std::vector<FutureEvidence> parts;
-    std::vector<double> weights{0.5, 0.0, 0.3, 0.2};
-    for (int j = 0; j < 4; ++j) parts.push_back(evidence(Matrix::Identity(3, 3) + 0.3 * any(3, 3), 0.2 * any(3, 1)));
-    Column mean = Column::Zero(3);
-    Matrix square = Matrix::Zero(3, 3);
-    for (std::size_t j = 0; j < 4; ++j) {
-      const Met each = met(parts[j], L);
-      mean += weights[j] * each.mean;
-      square += weights[j] * (each.covariance + each.mean * each.mean.transpose());
-    }
-    FutureEvidence one, with_more;
-    detail::collapse(parts, weights, L.data(), FutureEvidence(3), one);
-    const Met found = met(one, L);
-    require_near_matrix(found.mean, mean, 1e-9);
-    require_near_matrix(found.covariance, square - mean * mean.transpose(), 1e-9);
+PROPERTY(FutureEvidence, CollapsedGivesTheEstimateTheMomentsOfTheMixture) {
+  const Matrix L = any(3, 3).triangularView<Eigen::Lower>();
+  std::vector<FutureEvidence> parts;
+  std::vector<double> weights{0.5, 0.0, 0.3, 0.2};
+  for (int j = 0; j < 4; ++j) parts.push_back(evidence(Matrix::Identity(3, 3) + 0.3 * any(3, 3), 0.2 * any(3, 1)));
+  Column mean = Column::Zero(3);
+  Matrix square = Matrix::Zero(3, 3);
+  for (std::size_t j = 0; j < 4; ++j) {
+    const Met each = met(parts[j], L);
+    mean += weights[j] * each.mean;
+    square += weights[j] * (each.covariance + each.mean * each.mean.transpose());
+  }
+  FutureEvidence one, with_more;
+  detail::collapse(parts, weights, L.data(), FutureEvidence(3), one);
+  const Met found = met(one, L);
+  require_near_matrix(found.mean, mean, 1e-9);
+  require_near_matrix(found.covariance, square - mean * mean.transpose(), 1e-9);
 
-    const auto seen = evidence(any(2, 3), any(2, 1));
-    detail::collapse(parts, weights, L.data(), seen, with_more);
-    require_near_matrix(Y_of(with_more), Y_of(one) + Y_of(seen), 1e-9);
-    require_near_matrix(y_of(with_more), y_of(one) + y_of(seen), 1e-9);
-  });
+  const auto seen = evidence(any(2, 3), any(2, 1));
+  detail::collapse(parts, weights, L.data(), seen, with_more);
+  require_near_matrix(Y_of(with_more), Y_of(one) + Y_of(seen), 1e-9);
+  require_near_matrix(y_of(with_more), y_of(one) + y_of(seen), 1e-9);
 }
 
 TEST(FutureEvidence, SaysNothingAlongADirectionInWhichTheMixtureIsWider) {
@@ -157,4 +140,3 @@ TEST(FutureEvidence, SaysNothingAlongADirectionInWhichTheMixtureIsWider) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,18 +1,11 @@
 // A gate does not starve a filter of a hard turn, and no number is too far off for one.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/start.hpp>
 
 #include "hybrid/targets.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// A target that flies straight for 40 s, turns by so many m/s² for 15 s and flies straight again, seen every second
 /// without an error.
@@ -103,4 +96,3 @@ TEST(Gate, RejectsWhatIsBeyondAllNumbers) {
 }
 
 }  // namespace
-}  // namespace sigmax

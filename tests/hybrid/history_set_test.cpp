@@ -1,8 +1,7 @@
 #include <sigmax/hybrid/history_set.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
 Estimates one_and_two() {
@@ -53,4 +52,3 @@ TEST(HistorySet, IsCopiedAsFarAsItIsFilled) {
 }
 
 }  // namespace
-}  // namespace sigmax

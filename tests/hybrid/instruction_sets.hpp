@@ -1,8 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "kinematic/kernels.hpp"
+#include "support/test.hpp"
 
 namespace sigmax::support {
 

@@ -1,16 +1,8 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <bit>
-
 #include "hybrid/banks.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// The paper's own pair: equal σ_w and ε = ½, where a reset DWPA predicts what DWNA predicts, and so ties with it.
 TEST(InteractingMultipleModel, TheExactTiesOfThePapersPairAreBrokenAsTheRestatementBreaksThem) {
@@ -104,4 +96,3 @@ TEST(InteractingMultipleModel, OneStartServesAllModels) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,13 +1,10 @@
 #include <sigmax/hybrid/interaction.hpp>
 
-#include <gtest/gtest.h>
-
-#include <tuple>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 /// The readings that docs/readings.md argues for.
@@ -42,4 +39,3 @@ TEST(Interaction, ACommonStartIsCollapsedBeforeTheFirstStepToo) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,22 +1,14 @@
 #include <sigmax/hybrid/jump_markov_system.hpp>
 
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <tuple>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/history_filter.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::throws;
 
 const FuzzyVariable mode_now{"mode", {"straight", "turn"}};
 const Relation persistent{mode_now, mode_now, {{1.0, 0.5}, {0.5, 1.0}}};
@@ -42,19 +34,15 @@ TEST(JumpMarkovSystem, HoldsModelsAndTheTransitionOfTheirMode) {
 }
 
 TEST(JumpMarkovSystem, NeedsOneOutcomeForEachModel) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent); },
-                                            {"'mode'", "2 outcomes", "1 models"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { JumpMarkovSystem(std::vector<AnyModel>{}, persistent); },
-                                            {"'mode'", "2 outcomes", "0 models"}));
+  EXPECT_INVALID(("'mode'", "2 outcomes", "1 models"), JumpMarkovSystem(std::tuple{dwna<3>(1.0)}, persistent));
+  EXPECT_INVALID(("'mode'", "2 outcomes", "0 models"), JumpMarkovSystem(std::vector<AnyModel>{}, persistent));
 }
 
 TEST(JumpMarkovSystem, NeedsATransitionFromTheModeToItself) {
   const FuzzyVariable weather{"weather", {"fair", "foul"}};
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        JumpMarkovSystem(std::tuple{dwna<3>(1.0), dwpa<3>(1.0)}, Relation{mode_now, weather, {{1.0, 0.5}, {0.5, 1.0}}});
-      },
-      {"JumpMarkovSystem", "weather", "mode"}));
+  EXPECT_REFUSED(
+      std::invalid_argument, ("JumpMarkovSystem", "weather", "mode"),
+      JumpMarkovSystem(std::tuple{dwna<3>(1.0), dwpa<3>(1.0)}, Relation{mode_now, weather, {{1.0, 0.5}, {0.5, 1.0}}}));
 }
 
 /// Gives the same row whatever it was asked before, and counts how often it is.
@@ -96,4 +84,3 @@ TEST(Identity, IsTheTransitionOfAModeThatNeverChanges) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -2,19 +2,11 @@
 // filter, along one to three axes, by each instruction set.
 #include <sigmax/hybrid/kinematic_step.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <random>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
 
-namespace sigmax {
 namespace {
 
-using namespace support;
 using restatement::Matrix;
 
 /// A motion by its name, and the F_s and Q_s of docs/models.md.
@@ -171,4 +163,3 @@ TEST(KinematicStep, AddsAKnownInput) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,10 +1,6 @@
 // A motion by its name is that of its class.
 #include <sigmax/hybrid/known_model.hpp>
 
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
@@ -15,15 +11,8 @@
 #include <sigmax/estimation/white_noise.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near_matrix;
-using support::throws;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 MotionChoice choice(const char* name) { return {name, {3.0, 8.0, 5.0, 0.25}}; }
 
@@ -42,8 +31,7 @@ void is(const char* name, const Moves& motion) {
     auto b = a;
     predict(found, a, 0.5, a);
     predict(expected, b, 0.5, b);
-    EXPECT_PRED_FORMAT3(near_matrix, a.mean, b.mean, 1e-12);
-    EXPECT_PRED_FORMAT3(near_matrix, a.covariance, b.covariance, 1e-12);
+    EXPECT_CLOSE(a, b, 1e-12);
     if constexpr (Axes > 1) {
       const PolarSensor<Axes> radar;
       const Gaussian<Axes> z{radar.measure(Vector<Axes>::Constant(100.0)), 1e-3 * SquareMatrix<Axes>::Identity()};
@@ -98,4 +86,3 @@ TEST(KnownModel, OfAnotherNameOfBadParametersOrATurnAlongOneAxisIsRefused) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,20 +1,13 @@
 #include <sigmax/hybrid/lift.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include <sigmax/estimation/view.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
 using detail::Correspondence, detail::Mixture;
-using support::generated_gaussian;
-using support::holds;
 using Names = std::vector<std::string>;
 
 constexpr auto lifts = {Lift::zero, Lift::borrowed_variance, Lift::unbiased, Lift::prior};
@@ -114,4 +107,3 @@ TEST(Lift, CovariancesAreAddedByTheirWeight) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,19 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/gaussian_possibility.hpp>
 #include <sigmax/estimation/grid_filter.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
 /// The code of docs/max_inference.md.
-namespace sigmax {
 namespace {
-
-using support::near;
 
 TEST(MaxInference, GaussianPossibilityFunctions) {
   const auto model = dwna<1>(0.5);
@@ -27,7 +20,7 @@ TEST(MaxInference, GaussianPossibilityFunctions) {
   const double P_xx = 6.0 - 36.0 / 6.25, P_xv = 3.0 - 18.0 / 6.25, P_vv = 2.0 - 9.0 / 6.25;
   const double a = 2.4 - x, b = 1.2 - v;
   const double squared = (P_vv * a * a - 2.0 * P_xv * a * b + P_xx * b * b) / (P_xx * P_vv - P_xv * P_xv);
-  EXPECT_PRED_FORMAT3(near, possibility, std::exp(-0.5 * squared), 1e-12);
+  EXPECT_CLOSE(possibility, std::exp(-0.5 * squared), 1e-12);
 }
 
 TEST(MaxInference, TheGridFilter) {
@@ -53,9 +46,9 @@ TEST(MaxInference, TheGridFilter) {
     sum += std::exp(log);
     sum_x += y * std::exp(log);
   }
-  EXPECT_PRED_FORMAT3(near, log_evidence, supremum, 0.05);  // half a cell, and the slope of the likelihood
-  EXPECT_PRED_FORMAT3(near, best(0), at, 0.1);
-  EXPECT_PRED_FORMAT3(near, moments.mean(0), sum_x / sum, 0.01);
+  EXPECT_CLOSE(log_evidence, supremum, 0.05);  // half a cell, and the slope of the likelihood
+  EXPECT_CLOSE(best(0), at, 0.1);
+  EXPECT_CLOSE(moments.mean(0), sum_x / sum, 0.01);
 }
 
 TEST(MaxInference, ModesOverAnyTimeStep) {
@@ -67,9 +60,8 @@ TEST(MaxInference, ModesOverAnyTimeStep) {
   fuzzy_transition(0.2);   // π(r_k | r_{k−1}): each row on the ratio scale, (34)
 
   const double p = 0.2 * -std::expm1(-0.25 * 0.2);
-  EXPECT_PRED_FORMAT3(near, random_transition(0.2)(0, 1), p, 1e-15);
-  EXPECT_PRED_FORMAT3(near, fuzzy_transition(0.2)(0, 1), p / (1.0 - p), 1e-15);
+  EXPECT_CLOSE(random_transition(0.2)(0, 1), p, 1e-15);
+  EXPECT_CLOSE(fuzzy_transition(0.2)(0, 1), p / (1.0 - p), 1e-15);
 }
 
 }  // namespace
-}  // namespace sigmax

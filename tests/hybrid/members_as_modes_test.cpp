@@ -1,9 +1,4 @@
 // Every member of the Kalman family is a mode of a multiple-model filter.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <tuple>
-#include <vector>
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -13,10 +8,7 @@
 
 #include "hybrid/banks.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 Gaussian<2> measurement(int k) {
   const double t = 0.5 * (k + 1);
@@ -39,7 +31,7 @@ TEST(MembersAsModes, OverLinearModelsTheyAreTheKalmanFilter) {
       found.step(0.5, measurement(k), PositionSensor<2>{});
     }
     ASSERT_PRED_FORMAT3(same_state, shown(found), shown(expected), 1e-9);
-    ASSERT_PRED_FORMAT3(near, shown(found).nis, shown(expected).nis, 1e-9);
+    ASSERT_CLOSE(shown(found).nis, shown(expected).nis, 1e-9);
   }
 }
 
@@ -88,4 +80,3 @@ TEST(MembersAsModes, ATurnIsRecognisedAndItsRateIsFound) {
 }
 
 }  // namespace
-}  // namespace sigmax

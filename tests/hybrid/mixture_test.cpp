@@ -1,22 +1,12 @@
 #include <sigmax/hybrid/mixture.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
-
 #include <sigmax/estimation/view.hpp>
 
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
 using detail::Mixture;
-using support::generated_gaussian;
-using support::holds;
-using support::number_between;
-using support::require_near_matrix;
 
 Gaussian<1> scalar(double mean, double variance) { return {Vector<1>{mean}, SquareMatrix<1>{variance}}; }
 
@@ -37,32 +27,31 @@ Gaussian<N> collapsed(const Rule& rule, const std::vector<Gaussian<N>>& parts, c
   });
 }
 
-TEST(Collapse, MatchesTheFirstTwoMoments) {
-  holds([] {
-    std::vector<Gaussian<2>> parts;
-    std::vector<double> weights{0.1, 0.2, 0.3, 0.4};
-    Vector<2> mean = Vector<2>::Zero();
-    SquareMatrix<2> square = SquareMatrix<2>::Zero(), printed = square;
-    for (const double weight : weights) {
-      parts.push_back(generated_gaussian<2>());
-      const auto& [m, P] = parts.back();
-      mean += weight * m;
-      square += weight * (P + m * m.transpose());
-      printed += weight * P;
-    }
-    const auto found = collapsed(MomentMatching{}, parts, weights);
-    require_near_matrix(found.mean, mean, 1e-12);
-    require_near_matrix(found.covariance + found.mean * found.mean.transpose(), square, 1e-12);
-    RC_ASSERT(found.covariance == found.covariance.transpose());
-    const auto without = collapsed(MomentMatching{{}, OutputSpread::omitted}, parts, weights);
-    require_near_matrix(without.mean, mean, 1e-12);
-    require_near_matrix(without.covariance, printed, 1e-12);
-  });
+PROPERTY(Collapse, MatchesTheFirstTwoMoments) {
+  std::vector<Gaussian<2>> parts;
+  std::vector<double> weights{0.1, 0.2, 0.3, 0.4};
+  Vector<2> mean = Vector<2>::Zero();
+  SquareMatrix<2> square = SquareMatrix<2>::Zero(), printed = square;
+  for (const double weight : weights) {
+    parts.push_back(generated_gaussian<2>());
+    const auto& [m, P] = parts.back();
+    mean += weight * m;
+    square += weight * (P + m * m.transpose());
+    printed += weight * P;
+  }
+  const auto found = collapsed(MomentMatching{}, parts, weights);
+  require_near_matrix(found.mean, mean, 1e-12);
+  require_near_matrix(found.covariance + found.mean * found.mean.transpose(), square, 1e-12);
+  RC_ASSERT(found.covariance == found.covariance.transpose());
+  const auto without = collapsed(MomentMatching{{}, OutputSpread::omitted}, parts, weights);
+  require_near_matrix(without.mean, mean, 1e-12);
+  require_near_matrix(without.covariance, printed, 1e-12);
 }
 
 TEST(Collapse, APartWithoutWeightDoesNotCountWhateverItIs) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto found = collapsed(MomentMatching{}, std::vector{scalar(nan, nan), scalar(2.0, 3.0)}, {0.0, 1.0}, 1);
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  const auto found =
+      collapsed(MomentMatching{}, std::vector{scalar(not_a_number, not_a_number), scalar(2.0, 3.0)}, {0.0, 1.0}, 1);
   EXPECT_EQ(found.mean(0), 2.0);
   EXPECT_EQ(found.covariance(0, 0), 3.0);
 }
@@ -133,4 +122,3 @@ TEST(Mixture, OfDifferentModelsIsReadInTheComponentsOfTheReceiver) {
 }
 
 }  // namespace
-}  // namespace sigmax

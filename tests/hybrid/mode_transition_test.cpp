@@ -1,25 +1,12 @@
 #include <sigmax/hybrid/mode_transition.hpp>
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Core>
-#include <cmath>
-#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include <sigmax/core/transform.hpp>
 
 #include "support/matrices.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::holds;
-using support::near;
-using support::number_between;
-using support::require_near;
-using support::throws;
 
 Rates generated_rates(std::size_t n) {
   Rates rates(n, std::vector<double>(n, 0.0));
@@ -41,21 +28,19 @@ Eigen::MatrixXd exponential(const Rates& rates, double dt) {
   return Q.exp();
 }
 
-TEST(TimedTransition, IsTheMatrixExponentialAndOfAFuzzyModeThatOnTheRatioScale) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(2, 7);
-    const auto rates = generated_rates(n);
-    const double dt = std::pow(10.0, number_between(-3.0, 2.0));
-    const auto P = TimedTransition<Random>{{"mode", n}, rates}(dt);
-    const auto pi = TimedTransition<Fuzzy>{{"mode", n}, rates}(dt);
-    const auto expected = exponential(rates, dt);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) {
-        const auto row = expected.row(static_cast<Eigen::Index>(i));
-        require_near(P(i, j), row(static_cast<Eigen::Index>(j)), 1e-12);
-        require_near(pi(i, j), row(static_cast<Eigen::Index>(j)) / row.maxCoeff(), 1e-11);
-      }
-  });
+PROPERTY(TimedTransition, IsTheMatrixExponentialAndOfAFuzzyModeThatOnTheRatioScale) {
+  const auto n = *rc::gen::inRange<std::size_t>(2, 7);
+  const auto rates = generated_rates(n);
+  const double dt = std::pow(10.0, number_between(-3.0, 2.0));
+  const auto P = TimedTransition<Random>{{"mode", n}, rates}(dt);
+  const auto pi = TimedTransition<Fuzzy>{{"mode", n}, rates}(dt);
+  const auto expected = exponential(rates, dt);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto row = expected.row(static_cast<Eigen::Index>(i));
+      require_near(P(i, j), row(static_cast<Eigen::Index>(j)), 1e-12);
+      require_near(pi(i, j), row(static_cast<Eigen::Index>(j)) / row.maxCoeff(), 1e-11);
+    }
 }
 
 TEST(TimedTransition, OfTwoModesIsTheClosedForm) {
@@ -64,23 +49,23 @@ TEST(TimedTransition, OfTwoModesIsTheClosedForm) {
   const double p = leave / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
   const double q = come_back / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
   const auto P = TimedTransition<Random>{{"mode", 2}, rates}(dt);
-  EXPECT_PRED_FORMAT3(near, P(0, 1), p, 1e-15);
-  EXPECT_PRED_FORMAT3(near, P(0, 0), 1.0 - p, 1e-15);
-  EXPECT_PRED_FORMAT3(near, P(1, 0), q, 1e-15);
+  EXPECT_CLOSE(P(0, 1), p, 1e-15);
+  EXPECT_CLOSE(P(0, 0), 1.0 - p, 1e-15);
+  EXPECT_CLOSE(P(1, 0), q, 1e-15);
   const auto pi = TimedTransition<Fuzzy>{{"mode", 2}, rates}(dt);
-  EXPECT_PRED_FORMAT3(near, pi(0, 1), p / (1.0 - p), 1e-15);
+  EXPECT_CLOSE(pi(0, 1), p / (1.0 - p), 1e-15);
   EXPECT_EQ(pi(0, 0), 1.0);
-  EXPECT_PRED_FORMAT3(near, pi(1, 0), q / (1.0 - q), 1e-15);
+  EXPECT_CLOSE(pi(1, 0), q / (1.0 - q), 1e-15);
 }
 
 TEST(TimedTransition, ForgetsTheModeInALongTime) {
   const Rates rates{{-0.3, 0.3}, {0.1, -0.1}};
   for (const double dt : {1e3, 1e300}) {
     const auto P = TimedTransition<Random>{{"mode", 2}, rates}(dt);
-    EXPECT_PRED_FORMAT3(near, P(0, 0), 0.25, 1e-12);
-    EXPECT_PRED_FORMAT3(near, P(1, 1), 0.75, 1e-12);
+    EXPECT_CLOSE(P(0, 0), 0.25, 1e-12);
+    EXPECT_CLOSE(P(1, 1), 0.75, 1e-12);
     const auto pi = TimedTransition<Fuzzy>{{"mode", 2}, rates}(dt);
-    EXPECT_PRED_FORMAT3(near, pi(0, 0), 1.0 / 3.0, 1e-12);
+    EXPECT_CLOSE(pi(0, 0), 1.0 / 3.0, 1e-12);
     EXPECT_EQ(pi(1, 1), 1.0);
   }
 }
@@ -97,8 +82,7 @@ TEST(TimedTransition, KnowsHowUnlikelyALongChainOfJumpsIs) {
     const auto P = TimedTransition<Random>{{"mode", n}, rates}(dt);
     for (std::size_t k = 0; k + 1 < n; ++k) {
       const double count = static_cast<double>(k);
-      EXPECT_PRED_FORMAT3(near, std::log(P(0, k)), count * std::log(2.0 * dt) - 2.0 * dt - std::lgamma(count + 1.0),
-                          1e-12);
+      EXPECT_CLOSE(std::log(P(0, k)), count * std::log(2.0 * dt) - 2.0 * dt - std::lgamma(count + 1.0), 1e-12);
     }
     for (std::size_t k = 1; k < n; ++k) EXPECT_EQ(P(k, k - 1), 0.0);
   }
@@ -114,8 +98,8 @@ TEST(TimedTransition, OfARandomModeComposesOverTimeAndOfAFuzzyModeDoesNot) {
     require_near(in_two.table().values(), in_one.table().values(), 1e-12);
   });
   const TimedTransition<Fuzzy> transition{{"mode", 2}, {{-0.4, 0.4}, {0.4, -0.4}}};
-  EXPECT_PRED_FORMAT3(near, compose(transition(2.0), transition(1.0))(0, 1), std::tanh(0.8), 1e-15);
-  EXPECT_PRED_FORMAT3(near, transition(3.0)(0, 1), std::tanh(1.2), 1e-15);
+  EXPECT_CLOSE(compose(transition(2.0), transition(1.0))(0, 1), std::tanh(0.8), 1e-15);
+  EXPECT_CLOSE(transition(3.0)(0, 1), std::tanh(1.2), 1e-15);
 }
 
 TEST(TimedTransition, OverNoTimeIsTheIdentity) {
@@ -136,7 +120,7 @@ TEST(TimedTransition, WritesIntoARelationHoweverItIsStored) {
   Relation<Random, Random> result{mode, mode, SparseRows{{{0, 1.0}}, {{1, 1.0}}}};
   transition(0.5, result);
   const auto expected = transition(0.5);
-  EXPECT_PRED_FORMAT3(near, result.table().values(), expected.table().values(), 0.0);
+  EXPECT_CLOSE(result.table().values(), expected.table().values(), 0.0);
 }
 
 TEST(TimedTransition, RefusesWhatAreNoRatesAndNoTime) {
@@ -144,21 +128,21 @@ TEST(TimedTransition, RefusesWhatAreNoRatesAndNoTime) {
   const auto make = [&](const Rates& rates) { return TimedTransition<Random>{mode, rates}; };
   const auto good = make({{-1.0, 1.0}, {2.0, -2.0}});
   using Bad = std::invalid_argument;
-  EXPECT_TRUE(throws<Bad>([&] { make({{-1.0, 1.0}}); }, {"mode"}));
-  EXPECT_TRUE(throws<Bad>([&] { make({{-1.0}, {2.0}}); }, {"mode"}));
-  EXPECT_TRUE(throws<Bad>([&] { make({{1.0, -1.0}, {2.0, -2.0}}); }, {"mode", "steady", "manoeuvring", "-1.0"}));
-  EXPECT_TRUE(throws<Bad>([&] { make({{-1.0, 1.0}, {2.0, -1.0}}); }, {"mode", "manoeuvring", "-1.0"}));
-  EXPECT_TRUE(throws<Bad>([&] { make({{-1.0, NAN}, {2.0, -2.0}}); }, {"mode", "manoeuvring", "nan"}));
-  EXPECT_TRUE(throws<Bad>([&] { good(-0.5); }, {"-0.5"}));
-  EXPECT_TRUE(throws<Bad>([&] { good(NAN); }, {"nan"}));
+  EXPECT_REFUSED(Bad, ("mode"), make({{-1.0, 1.0}}));
+  EXPECT_REFUSED(Bad, ("mode"), make({{-1.0}, {2.0}}));
+  EXPECT_REFUSED(Bad, ("mode", "steady", "manoeuvring", "-1.0"), make({{1.0, -1.0}, {2.0, -2.0}}));
+  EXPECT_REFUSED(Bad, ("mode", "manoeuvring", "-1.0"), make({{-1.0, 1.0}, {2.0, -1.0}}));
+  EXPECT_REFUSED(Bad, ("mode", "manoeuvring", "nan"), make({{-1.0, NAN}, {2.0, -2.0}}));
+  EXPECT_REFUSED(Bad, ("-0.5"), good(-0.5));
+  EXPECT_REFUSED(Bad, ("nan"), good(NAN));
   Relation<Random, Random> other{{"weather", 2}, {"weather", 2}, {{1.0, 0.0}, {0.0, 1.0}}};
-  EXPECT_TRUE(throws<Bad>([&] { good(1.0, other); }, {"mode", "weather"}));
+  EXPECT_REFUSED(Bad, ("mode", "weather"), good(1.0, other));
 }
 
 TEST(RatesOfSojourns, LeaveForEveryOtherModeAlike) {
   EXPECT_EQ(rates_of_sojourns({4.0, 2.0, 0.5}), (Rates{{-0.25, 0.125, 0.125}, {0.25, -0.5, 0.25}, {1.0, 1.0, -2.0}}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { rates_of_sojourns({4.0}); }, {"two modes"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { rates_of_sojourns({4.0, 0.0}); }, {"mode 1", "0.0"}));
+  EXPECT_INVALID(("two modes"), rates_of_sojourns({4.0}));
+  EXPECT_INVALID(("mode 1", "0.0"), rates_of_sojourns({4.0, 0.0}));
 }
 
 Relation<Fuzzy, Fuzzy> generated_possibilities(std::size_t n) {
@@ -178,25 +162,22 @@ double best_way(const Relation<Fuzzy, Fuzzy>& transition, std::size_t from, std:
   return best;
 }
 
-TEST(Closure, IsTheBestChainOfJumpsAndStaysUnderComposition) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(1, 6);
-    const auto once = generated_possibilities(n);
-    const auto all = closure(once);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) require_near(all(i, j), best_way(once, i, j, n), 1e-15);
-    const auto again = compose(all, all);
-    require_near(again.table().values(), all.table().values(), 1e-15);
-  });
+PROPERTY(Closure, IsTheBestChainOfJumpsAndStaysUnderComposition) {
+  const auto n = *rc::gen::inRange<std::size_t>(1, 6);
+  const auto once = generated_possibilities(n);
+  const auto all = closure(once);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) require_near(all(i, j), best_way(once, i, j, n), 1e-15);
+  const auto again = compose(all, all);
+  require_near(again.table().values(), all.table().values(), 1e-15);
 }
 
 TEST(Closure, NeedsThatStayingIsPossibleAndOfTwoModesIsThenTheTransitionItself) {
   const FuzzyVariable mode{"mode", {"steady", "manoeuvring"}};
   const Relation<Fuzzy, Fuzzy> transition{mode, mode, {{1.0, 0.5}, {0.2, 1.0}}};
-  EXPECT_PRED_FORMAT3(near, closure(transition).table().values(), transition.table().values(), 0.0);
+  EXPECT_CLOSE(closure(transition).table().values(), transition.table().values(), 0.0);
   const Relation<Fuzzy, Fuzzy> restless{mode, mode, {{0.5, 1.0}, {0.2, 1.0}}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { closure(restless); }, {"mode", "steady", "0.5"}));
+  EXPECT_INVALID(("mode", "steady", "0.5"), closure(restless));
 }
 
 }  // namespace
-}  // namespace sigmax

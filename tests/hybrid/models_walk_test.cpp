@@ -1,11 +1,4 @@
 // The code of docs/models.md, and the values that it claims.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <string_view>
-#include <tuple>
-#include <vector>
 
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
@@ -22,11 +15,7 @@
 
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::near_matrix;
 
 TEST(ModelsWalk, AStep) {
   const Unscented filter{CoordinatedTurn<3>{1.0, 1e-4}};
@@ -47,7 +36,7 @@ TEST(ModelsWalk, ModesOfAMultipleModelFilter) {
   InteractingMultipleModel filter{std::tuple{dwna<3>(3.0), Extended{CoordinatedTurn<3>{1.0, 1e-4}}}, transition, start};
   filter.step(0.2, {Vector<3>(7990.0, 6016.0, 1000.0), 25.0 * SquareMatrix<3>::Identity()});
   EXPECT_EQ(filter.components(), (std::vector<std::string>{"x", "y", "z", "vx", "vy", "vz", "omega"}));
-  EXPECT_PRED_FORMAT3(near, filter.belief()[filter.most_likely_mode()], 1.0, 1e-15);
+  EXPECT_CLOSE(filter.belief()[filter.most_likely_mode()], 1.0, 1e-15);
 }
 
 /// A pendulum.
@@ -98,7 +87,7 @@ struct Altimeter {
 TEST(ModelsWalk, ASensorOfOnesOwn) {
   Gaussian<6> x{Vector<6>::Zero(), SquareMatrix<6>::Identity()};
   EXPECT_EQ(update(dwna<3>(3.0), x, {Vector<1>(5.0), SquareMatrix<1>(1.0)}, Altimeter{}, x).residual(0), 5.0);
-  EXPECT_PRED_FORMAT3(near, x.mean(2), 2.5, 1e-15);
+  EXPECT_CLOSE(x.mean(2), 2.5, 1e-15);
 }
 
 TEST(ModelsWalk, Conversion) {
@@ -107,4 +96,3 @@ TEST(ModelsWalk, Conversion) {
 }
 
 }  // namespace
-}  // namespace sigmax

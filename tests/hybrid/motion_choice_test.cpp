@@ -1,12 +1,7 @@
 #include <sigmax/hybrid/motion_choice.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <set>
-
-#include "support/throws.hpp"
-
-namespace sigmax {
 namespace {
 
 TEST(MotionChoice, EveryMotionHasANameOfItsOwn) {
@@ -59,4 +54,3 @@ TEST(MotionChoice, IsWhatItsNameSays) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,23 +1,10 @@
 // What is asked of every multiple-model filter.
 #include <sigmax/hybrid/multiple_model_filter.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numeric>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// H = [I 0] by another sensor than that of the position: such a step has no short form.
 const LinearSensor<2, 2> both{SquareMatrix<2>::Identity()};
@@ -46,32 +33,30 @@ TEST(MultipleModelFilter, EqualsItsRestatementByEachInstructionSet) {
 }
 
 /// One to four generated models with a generated transition, whose equal entries make ties, over a few scans.
-TEST(MultipleModelFilter, OfAnyModelsEqualsItsRestatement) {
-  holds([] {
-    TargetChoice choice = *rc::gen::elementOf(every_rule());
-    const auto modes = *rc::gen::inRange<std::size_t>(1, 5);
-    std::vector<MotionChoice> motions;
-    Rows rows(modes, std::vector<double>(modes));
-    for (std::size_t i = 0; i < modes; ++i) {
-      const double sigma_w = *rc::gen::element(0.5, 3.0);
-      motions.push_back(*rc::gen::arbitrary<bool>() ? calm(sigma_w) : turning(sigma_w));
-      for (double& value : rows[i]) value = *rc::gen::element(0.0, 0.25, 0.5, 1.0);
-      rows[i][i] = 1.0;
-      const double sum = choice.fuzzy ? 1.0 : std::accumulate(rows[i].begin(), rows[i].end(), 0.0);
-      for (double& value : rows[i]) value /= sum;
-    }
-    choice = with(choice, motions, rows);
-    auto start = starts(choice);
-    for (State& each : start)
-      each = {each.mean.array() + number_between(-20.0, 20.0), number_between(0.1, 9.0) * each.covariance};
-    AnyFilter filter(choice, start);
-    auto expected = restated(choice, start);
-    for (const Scan& scan : manoeuvring_target(6)) {
-      filter.step(scan);
-      step(expected, scan);
-      if (const auto result = agrees(filter, expected); !result) RC_FAIL(std::string(result.message()));
-    }
-  });
+PROPERTY(MultipleModelFilter, OfAnyModelsEqualsItsRestatement) {
+  TargetChoice choice = *rc::gen::elementOf(every_rule());
+  const auto modes = *rc::gen::inRange<std::size_t>(1, 5);
+  std::vector<MotionChoice> motions;
+  Rows rows(modes, std::vector<double>(modes));
+  for (std::size_t i = 0; i < modes; ++i) {
+    const double sigma_w = *rc::gen::element(0.5, 3.0);
+    motions.push_back(*rc::gen::arbitrary<bool>() ? calm(sigma_w) : turning(sigma_w));
+    for (double& value : rows[i]) value = *rc::gen::element(0.0, 0.25, 0.5, 1.0);
+    rows[i][i] = 1.0;
+    const double sum = choice.fuzzy ? 1.0 : std::accumulate(rows[i].begin(), rows[i].end(), 0.0);
+    for (double& value : rows[i]) value /= sum;
+  }
+  choice = with(choice, motions, rows);
+  auto start = starts(choice);
+  for (State& each : start)
+    each = {each.mean.array() + number_between(-20.0, 20.0), number_between(0.1, 9.0) * each.covariance};
+  AnyFilter filter(choice, start);
+  auto expected = restated(choice, start);
+  for (const Scan& scan : manoeuvring_target(6)) {
+    filter.step(scan);
+    step(expected, scan);
+    if (const auto result = agrees(filter, expected); !result) RC_FAIL(std::string(result.message()));
+  }
 }
 
 /// Equal rows for so many modes.
@@ -89,8 +74,7 @@ TEST(MultipleModelFilter, OfOneModelOrOfEqualModelsIsTheKalmanFilter) {
       for (const Scan& scan : manoeuvring_target(40)) {
         filter.step(scan);
         expected.step(scan);
-        ASSERT_PRED_FORMAT3(near_matrix, filter.estimate.mean, expected.estimate.mean, 1e-9);
-        ASSERT_PRED_FORMAT3(near_matrix, filter.estimate.covariance, expected.estimate.covariance, 1e-9);
+        ASSERT_CLOSE(filter.estimate, expected.estimate, 1e-9);
       }
     });
 }
@@ -104,11 +88,10 @@ TEST(MultipleModelFilter, OfAModeThatNeverChangesRunsItsModelsAlone) {
       filter.step(scan);
       for (std::size_t j = 0; j < 2; ++j) {
         each[j].step(scan);
-        ASSERT_PRED_FORMAT3(near_matrix, filter.estimates[j].mean, each[j].estimate.mean, 1e-9);
-        ASSERT_PRED_FORMAT3(near_matrix, filter.estimates[j].covariance, each[j].estimate.covariance, 1e-9);
+        ASSERT_CLOSE(filter.estimates[j], each[j].estimate, 1e-9);
       }
       if (scan.z) evidence += each[0].log_evidence - each[1].log_evidence;
-      ASSERT_PRED_FORMAT3(near, filter.logs[0] - filter.logs[1], evidence, 1e-9);
+      ASSERT_CLOSE(filter.logs[0] - filter.logs[1], evidence, 1e-9);
     }
   });
 }
@@ -131,13 +114,12 @@ TEST(MultipleModelFilter, RelabellingTheModelsChangesNothing) {
       filter.step(scan);
       other.step(scan);
       for (std::size_t i = 0; i < 3; ++i) {
-        ASSERT_PRED_FORMAT3(near, other.logs[i], filter.logs[order[i]], 1e-9);
+        ASSERT_CLOSE(other.logs[i], filter.logs[order[i]], 1e-9);
         ASSERT_PRED_FORMAT3(near_matrix, other.estimates[i].mean, filter.estimates[order[i]].mean, 1e-9);
       }
       if (!scan.z) continue;  // the weights before a measurement may tie, and ties go by the label
       ASSERT_EQ(order[other.winner], filter.winner);
-      ASSERT_PRED_FORMAT3(near_matrix, other.estimate.mean, filter.estimate.mean, 1e-9);
-      ASSERT_PRED_FORMAT3(near_matrix, other.estimate.covariance, filter.estimate.covariance, 1e-9);
+      ASSERT_CLOSE(other.estimate, filter.estimate, 1e-9);
     }
   });
 }
@@ -157,7 +139,7 @@ TEST(MultipleModelFilter, AtEveryStepIsNormalizedAndPositiveAndItsMostLikelyEsti
       const double greatest = *std::max_element(filter.logs.begin(), filter.logs.end());
       double sum = 0.0;
       for (const double log : filter.logs) sum += std::exp(log);
-      ASSERT_PRED_FORMAT3(near, choice.fuzzy ? std::exp(greatest) : sum, 1.0, choice.fuzzy ? 0.0 : 1e-14);
+      ASSERT_CLOSE(choice.fuzzy ? std::exp(greatest) : sum, 1.0, choice.fuzzy ? 0.0 : 1e-14);
       ASSERT_EQ(filter.logs[filter.winner], greatest);
 
       for (std::size_t j = 0; j < 3; ++j) ASSERT_TRUE(positive(filter.estimates[j].covariance));
@@ -233,8 +215,7 @@ TEST(MultipleModelFilter, LeavesAModeThatNothingReachesItsOwnStateWithTheWeightZ
       ASSERT_TRUE(agrees(filter, expected));
       ASSERT_EQ(filter.logs[0], 0.0);
       ASSERT_EQ(filter.logs[1], log_zero);
-      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates[1].mean, unreached.estimate.mean, 1e-11);
-      ASSERT_PRED_FORMAT3(near_matrix, filter.estimates[1].covariance, unreached.estimate.covariance, 1e-11);
+      ASSERT_CLOSE(filter.estimates[1], unreached.estimate, 1e-11);
     }
   });
 }
@@ -261,7 +242,7 @@ TEST(MultipleModelFilter, SaysWhichStepFailedAndOfWhichModelAndIsThenUnchanged) 
                              std::initializer_list<std::string_view> words) {
       EXPECT_TRUE(throws<std::invalid_argument>([&] { filter.step({dt, z}); }, words));
     };
-    for (const double bad : {nan, infinity, -infinity}) {
+    for (const double bad : {not_a_number, infinity, -infinity}) {
       refuses(0.2, Gaussian<2>{Vector<2>(0.0, bad), good.covariance}, {"step 5", "0.2", "measurement", "not finite"});
       refuses(0.2, Gaussian<2>{good.mean, bad * good.covariance}, {"step 5", "0.2", "covariance", "not finite"});
       refuses(bad, good, {"step 5", "finite"});
@@ -271,15 +252,10 @@ TEST(MultipleModelFilter, SaysWhichStepFailedAndOfWhichModelAndIsThenUnchanged) 
     refuses(-0.25, std::nullopt, {"step 5", "-0.25", "not negative"});
     for (int calls = 0; calls < 3; ++calls) {
       int left = calls;
-      EXPECT_TRUE(throws<std::domain_error>([&] { filter.step(0.25, good, Failing{&left}); },
-                                            {"step 5", "0.25", "sensor failed"}));
+      EXPECT_REFUSED(std::domain_error, ("step 5", "0.25", "sensor failed"), filter.step(0.25, good, Failing{&left}));
     }
     const Gaussian<2> indefinite{good.mean, -1e6 * good.covariance};
-    EXPECT_TRUE(throws<std::domain_error>(
-        [&] {
-          filter.step({0.25, indefinite});
-        },
-        {"step 5", "0.25", "model 'dw", "not positive"}));
+    EXPECT_REFUSED(std::domain_error, ("step 5", "0.25", "model 'dw", "not positive"), filter.step({0.25, indefinite}));
     for (const Scan& scan : manoeuvring_target(4)) {  // and goes on as if nothing had been
       filter.step(scan);
       before.step(scan);
@@ -297,11 +273,8 @@ TEST(MultipleModelFilter, ThatLostDefinitenessIsRefused) {
       one.restore(lost);
     }
   });
-  EXPECT_TRUE(throws<std::domain_error>(
-      [&] {
-        filter.step({0.0, manoeuvring_target(1)[0].z});
-      },
-      {"step 1", "model", "not positive"}));
+  EXPECT_REFUSED(std::domain_error, ("step 1", "model", "not positive"),
+                 filter.step({0.0, manoeuvring_target(1)[0].z}));
 }
 
 TEST(MultipleModelFilter, AGateMakesAMissOfAMeasurementOutsideIt) {
@@ -370,18 +343,13 @@ TEST(MultipleModelFilter, RefusesAStateOrAStartThatDoesNotFitAndIsThenUnchanged)
   refuses(std::vector{all[0], all[2], all[2]}, {"start of model 'dwna'", "6", "expected 4"});
   refuses(all[0], {"start has 4", "6"});
   auto bad = all;
-  bad[1].covariance(2, 2) = nan;
+  bad[1].covariance(2, 2) = not_a_number;
   refuses(bad, {"start of model 'dwna'", "not finite"});
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        bad[2].mean(3) = nan;
-        filter.restart(bad[2]);
-      },
-      {"not finite"}));
+  EXPECT_INVALID(("not finite"), bad[2].mean(3) = not_a_number; filter.restart(bad[2]));
   InteractingMultipleModel one{models_of(chosen(false)), transition_of<Random>(chosen(false)), all};
   auto misfit = one.state();
   misfit.estimates = std::vector{all[2], all[1], all[2]};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { one.restore(misfit); }, {"model 'dwna'", "6", "expected 4"}));
+  EXPECT_INVALID(("model 'dwna'", "6", "expected 4"), one.restore(misfit));
   EXPECT_PRED_FORMAT3(same_state, filter, before, 0.0);
 }
 
@@ -423,7 +391,7 @@ TEST(MultipleModelFilter, ScalingTheLikelihoodChangesNothing) {
       metres.step(scan);
       scan.z ? millimetres.step(scan.dt, {1e3 * scan.z->mean, 1e6 * scan.z->covariance}, Millimetres{})
              : millimetres.step(scan.dt);
-      ASSERT_PRED_FORMAT3(near, millimetres.logs, metres.logs, 1e-8);
+      ASSERT_CLOSE(millimetres.logs, metres.logs, 1e-8);
       ASSERT_PRED_FORMAT3(near_matrix, millimetres.estimate.mean, metres.estimate.mean, 1e-9);
     }
   });
@@ -465,7 +433,7 @@ TEST(MultipleModelFilter, InOtherCoordinatesIsTheFilterOfMeasurementsInThem) {
         ASSERT_PRED_FORMAT3(near_matrix, now.mean, expected.estimates[j].mean, 1e-9);
         ASSERT_PRED_FORMAT3(near_matrix, now.covariance, expected.estimates[j].covariance, 1e-7);
       }
-      ASSERT_PRED_FORMAT3(near, filter.logs, expected.logs, 1e-7);
+      ASSERT_CLOSE(filter.logs, expected.logs, 1e-7);
     }
     EXPECT_TRUE(there);
   });
@@ -473,14 +441,13 @@ TEST(MultipleModelFilter, InOtherCoordinatesIsTheFilterOfMeasurementsInThem) {
 
 TEST(MultipleModelFilter, ThereIsNoNisWithoutAMeasurement) {
   with_every_filter([](auto& filter) {
-    EXPECT_TRUE(throws<std::logic_error>([&] { filter.nis(); }, {"without a measurement"}));
+    EXPECT_REFUSED(std::logic_error, ("without a measurement"), filter.nis());
     filter.step(0.2, *manoeuvring_target(1)[0].z, PositionSensor<2>{});
-    EXPECT_PRED_FORMAT3(near, filter.normalized_innovation().squaredNorm(), filter.nis(), 1e-12);
+    EXPECT_CLOSE(filter.normalized_innovation().squaredNorm(), filter.nis(), 1e-12);
     filter.step(0.2);
     EXPECT_FALSE(filter.measured());
-    EXPECT_TRUE(throws<std::logic_error>([&] { filter.normalized_innovation(); }, {"without a measurement"}));
+    EXPECT_REFUSED(std::logic_error, ("without a measurement"), filter.normalized_innovation());
   });
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,10 +1,4 @@
 // The code of docs/multiple_models.md.
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 #include <sigmax/hybrid/filter_bank.hpp>
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
@@ -12,7 +6,8 @@
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/target.hpp>
 
-namespace sigmax {
+#include "support/test.hpp"
+
 namespace {
 
 template <Uncertainty Kind>
@@ -78,4 +73,3 @@ TEST(MultipleModelsWalk, StepsManyTracksAtOnce) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-
 #include <sigmax/estimation/sensing.hpp>
 
 #include "support/restatement.hpp"

@@ -1,12 +1,9 @@
 #include <sigmax/hybrid/plot.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/sensors.hpp>
 
 #include "support/matrices.hpp"
 
-namespace sigmax {
 namespace {
 
 const Gaussian<2> z{Vector<2>(1000.0, 0.5), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-4}}};
@@ -48,4 +45,3 @@ TEST(Plot, TellsAPositionAlongAsManyAxesAsItWasMeasured) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,13 +1,8 @@
 #include <sigmax/hybrid/second_order_multiple_model.hpp>
 
-#include <gtest/gtest.h>
-
 #include "hybrid/banks.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// What HIMM does before the measurement, the Viterbi filter does after it.
 TEST(SecondOrderMultipleModel, WithoutMeasurementsTheViterbiFilterIsHimmWithTheSelectedCovariance) {
@@ -22,4 +17,3 @@ TEST(SecondOrderMultipleModel, WithoutMeasurementsTheViterbiFilterIsHimmWithTheS
 }
 
 }  // namespace
-}  // namespace sigmax

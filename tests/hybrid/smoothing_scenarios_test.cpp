@@ -1,10 +1,4 @@
 // Smoothing on the paper's scenarios: below the filter's error in every phase, whatever the filter.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <numbers>
-#include <random>
-#include <vector>
 
 #include <sigmax/estimation/metrics.hpp>
 #include <sigmax/estimation/radar.hpp>
@@ -12,10 +6,7 @@
 
 #include "hybrid/flights.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// A scenario of section VI.A, group 1: samples are counted from one, the target accelerates from `first` to `last`.
 struct Scenario {
@@ -24,7 +15,6 @@ struct Scenario {
   Vector<3> position;
   double sigma_r, sigma_a;
 };
-const double degree = std::numbers::pi / 180.0;
 const Scenario scenario_1{0.2, 200, 10, 81, 130, {12e3, 8e3, 1e3}, 10.0, 0.1 * degree};
 const Scenario scenario_2{2.0, 80, 10, 31, 40, {120e3, 80e3, 20e3}, 100.0, 0.9 * degree};
 
@@ -93,4 +83,3 @@ TEST(SmoothingScenarios, IsBetterThanFilteringInEveryPhaseWhateverTheFilter) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,12 +1,8 @@
 // The soak of bench/hybrid/soak.cpp in a small size, and whether its judge of covariances can tell good from bad.
 #include "support/soak.hpp"
+#include "support/test.hpp"
 
-#include <gtest/gtest.h>
-
-namespace sigmax {
 namespace {
-
-using support::symmetric_and_semi_definite;
 
 TEST(Soak, ACovarianceIsJudgedWhateverItsUnits) {
   const Eigen::Matrix3d singular{{1.0, 1.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
@@ -37,4 +33,3 @@ TEST(Soak, AnImmStaysSound) { soaks<Random>(); }
 TEST(Soak, AHimmStaysSound) { soaks<Fuzzy>(); }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,34 +1,26 @@
 #include <sigmax/hybrid/sound.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/hybrid/components.hpp>
 
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::throws;
 
 const AnyModel model = dwna<1>(1.0);
 
 TEST(Sound, AnEstimateIsFiniteAndItsVariancesAreNotNegative) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto sound = [](double x, double a, double b) {
     const Gaussian<2> estimate{Vector<2>(x, 0.0), SquareMatrix<2>{{a, 0.0}, {0.0, b}}};
     check::sound(model, detail::view(estimate));
   };
   EXPECT_NO_THROW(sound(1.0, 4.0, 0.0));
   EXPECT_NO_THROW(sound(1.0, 4.0, -1e-12)) << "that is rounding";
-  EXPECT_TRUE(throws<std::domain_error>([&] { sound(1.0, 4.0, -1e-10); }, {"dwna", "not positive semi-definite"}));
-  EXPECT_TRUE(throws<std::domain_error>([&] { sound(nan, 4.0, 1.0); }, {"dwna", "not finite"}));
-  EXPECT_TRUE(throws<std::domain_error>([&] { sound(1.0, nan, 1.0); }, {"dwna", "not finite"}));
-  EXPECT_TRUE(
-      throws<std::domain_error>([&] { sound(1.0, std::numeric_limits<double>::infinity(), 1.0); }, {"not finite"}));
+  EXPECT_REFUSED(std::domain_error, ("dwna", "not positive semi-definite"), sound(1.0, 4.0, -1e-10));
+  EXPECT_REFUSED(std::domain_error, ("dwna", "not finite"), sound(not_a_number, 4.0, 1.0));
+  EXPECT_REFUSED(std::domain_error, ("dwna", "not finite"), sound(1.0, not_a_number, 1.0));
+  EXPECT_REFUSED(std::domain_error, ("not finite"), sound(1.0, std::numeric_limits<double>::infinity(), 1.0));
 }
 
 TEST(Sound, ThereIsAStartForEachModelOfItsSize) {
@@ -36,9 +28,9 @@ TEST(Sound, ThereIsAStartForEachModelOfItsSize) {
   Estimates starts = detail::estimates_of(models);
   EXPECT_NO_THROW(check::starts(models, starts));
   starts[1].covariance(2, 2) = std::numeric_limits<double>::infinity();
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { check::starts(models, starts); }, {"dwpa", "not finite"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { check::starts({model, model, model}, starts); }, {"3", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { check::starts({model, model}, starts); }, {"dwna", "3", "2"}));
+  EXPECT_INVALID(("dwpa", "not finite"), check::starts(models, starts));
+  EXPECT_INVALID(("3", "2"), check::starts({model, model, model}, starts));
+  EXPECT_INVALID(("dwna", "3", "2"), check::starts({model, model}, starts));
 }
 
 TEST(Sound, TheNumbersOfAnEntryPriorArePositive) {
@@ -53,4 +45,3 @@ TEST(Sound, TheNumbersOfAnEntryPriorArePositive) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,15 +1,9 @@
 // What a target keeps of its life: tags, the record that is smoothed, and both in other coordinates.
 #include <sigmax/hybrid/target_life.hpp>
 
-#include <gtest/gtest.h>
-
 #include "hybrid/targets.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 template <class Filter>
 Target<Filter> recording(const Filter& filter, std::size_t buffer = 0) {
@@ -21,9 +15,8 @@ Target<Filter> recording(const Filter& filter, std::size_t buffer = 0) {
 template <class State>
 void require_same_state(const State& found, const State& expected, double tolerance) {
   for (std::size_t j = 0; j < expected.estimates.size(); ++j) {
-    ASSERT_PRED_FORMAT3(near_matrix, found.estimates[j].mean, expected.estimates[j].mean, tolerance);
-    ASSERT_PRED_FORMAT3(near_matrix, found.estimates[j].covariance, expected.estimates[j].covariance, tolerance);
-    ASSERT_PRED_FORMAT3(near, found.belief.log(j), expected.belief.log(j), tolerance);
+    ASSERT_CLOSE(found.estimates[j], expected.estimates[j], tolerance);
+    ASSERT_CLOSE(found.belief.log(j), expected.belief.log(j), tolerance);
   }
   ASSERT_EQ(found.most_likely_mode, expected.most_likely_mode);
 }
@@ -111,7 +104,7 @@ TEST(TargetLife, AFailedPlotLeavesItAsItWas) {
   };
   const auto before = tags_of(target);
   for (const double time : {all[10].time, all[13].time})
-    EXPECT_TRUE(throws<std::domain_error>([&] { target.take(Plot(time, at(12e3, 8e3, -1e6))); }, {"not positive"}));
+    EXPECT_REFUSED(std::domain_error, ("not positive"), target.take(Plot(time, at(12e3, 8e3, -1e6))));
   EXPECT_EQ(tags_of(target), before);
 }
 
@@ -185,4 +178,3 @@ TEST(TargetLife, OfWhatWaitsOrIsBufferedStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,10 +1,7 @@
 #include <sigmax/hybrid/target_rules.hpp>
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <cmath>
-
-namespace sigmax {
 namespace {
 
 TEST(TargetRules, ByDefaultATargetHasAGateAndIsFoundAgain) {
@@ -18,4 +15,3 @@ TEST(TargetRules, ByDefaultATargetHasAGateAndIsFoundAgain) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,15 +1,10 @@
 // How a target starts: from one position or several plots, and what waits meanwhile.
-#include <gtest/gtest.h>
 
 #include <sigmax/estimation/start.hpp>
 
 #include "hybrid/targets.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 using Plots = std::span<const Plot>;
 using Starts = std::vector<State>;
@@ -117,7 +112,7 @@ TEST(TargetStart, WhereThereIsNoRoomAMissGoesFirstAndThenTheOldest) {
 TEST(TargetStart, PlotsThatWaitComeInTheOrderOfTheirTimes) {
   auto strict = waiting_target({});
   strict.take(Plot(2.0, at(200, 0)));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { strict.take(Plot(1.0, at(100, 0))); }, {"1.0", "2.0"}));
+  EXPECT_INVALID(("1.0", "2.0"), strict.take(Plot(1.0, at(100, 0))));
 
   TargetRules rules;
   rules.buffer = 3;
@@ -198,4 +193,3 @@ TEST(TargetStart, AGateIsAsWideAsItsSensorAsks) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,16 +1,10 @@
 #include <sigmax/hybrid/target.hpp>
 
-#include <gtest/gtest.h>
-
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "hybrid/targets.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 auto target_with(const TargetRules& rules) { return Target{imm(), 0.0, one_point_start, rules}; }
 
@@ -136,14 +130,14 @@ TEST(Target, WhatIsOlderThanTheBufferIsRefusedWithBothTimes) {
   auto target = target_with({0.999, 3, 1e9, 2});
   for (const double time : {1.0, 2.0, 3.0, 4.0}) target.take(Plot(time, near_by));
   const auto before = target;
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { target.take(Plot(1.5, near_by)); }, {"1.5", "4.0", "2.0"}));
+  EXPECT_INVALID(("1.5", "4.0", "2.0"), target.take(Plot(1.5, near_by)));
   EXPECT_PRED_FORMAT2(same_filter, target.filter(), before.filter());
   EXPECT_NO_THROW(target.take(Plot(2.0, near_by))) << "it goes behind the other of that time";
 
   auto strict = target_with({});
   strict.take(Plot(1.0, near_by));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { strict.take(Plot(0.5, near_by)); }, {"0.5", "1.0"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { strict.take(std::nan("")); }, {"not finite"}));
+  EXPECT_INVALID(("0.5", "1.0"), strict.take(Plot(0.5, near_by)));
+  EXPECT_INVALID(("not finite"), strict.take(std::nan("")));
 }
 
 TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
@@ -152,7 +146,7 @@ TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
   for (std::size_t k = 0; k < 6; ++k) target.take(all[k]);
   auto before = target;
   for (const double time : {all[4].time, all[7].time}) {
-    EXPECT_TRUE(throws<std::domain_error>([&] { target.take(Plot(time, at(12000, 7990, -1e6))); }, {"not positive"}));
+    EXPECT_REFUSED(std::domain_error, ("not positive"), target.take(Plot(time, at(12000, 7990, -1e6))));
     EXPECT_PRED_FORMAT2(same_filter, target.filter(), before.filter());
     EXPECT_EQ(target.time(), before.time());
   }
@@ -165,7 +159,7 @@ TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
 
 TEST(Target, RefusesRulesThatMakeNoSense) {
   const auto refuses = [](double time, const TargetRules& rules, std::string_view word) {
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { Target{imm(), time, one_point_start, rules}; }, {word}));
+    EXPECT_INVALID((word), Target{imm(), time, one_point_start, rules});
   };
   refuses(0.0, {1.5}, "probability");
   refuses(0.0, {std::nan("")}, "probability");
@@ -190,4 +184,3 @@ TEST(Target, OfATupleStartsFromAPositionAlongItsAxes) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include <sigmax/hybrid/target.hpp>
 
 #include "hybrid/banks.hpp"

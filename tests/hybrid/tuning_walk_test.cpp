@@ -1,17 +1,10 @@
 // The code of docs/tuning.md, and what it claims of simulated targets.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include <sigmax/hybrid/fit_target.hpp>
 
 #include "hybrid/two_speeds.hpp"
 
-namespace sigmax {
 namespace {
-
-using namespace support;
 
 /// 20 targets of known settings, each fitted alone: search, EM, search. The estimates lie about the truth.
 TEST(Fit, FindsTheSettingsThatMadeTheData) {
@@ -64,4 +57,3 @@ TEST(Fit, FindsTheSettingsThatMadeTheData) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,15 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <vector>
-
 #include <sigmax/hybrid/any_target.hpp>
 #include <sigmax/hybrid/fit.hpp>
+
+#include "support/test.hpp"
 
 namespace sigmax::support {
 

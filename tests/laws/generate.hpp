@@ -1,31 +1,15 @@
 #pragma once
 
-#include <rapidcheck.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <span>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include <sigmax/core/likelihood.hpp>
 #include <sigmax/core/relation.hpp>
 
 #include "support/plain.hpp"
-#include "support/property.hpp"
 
 /// Generated cases for the laws. Zeros, ones, repeated maxima and subnormal numbers are as frequent as the rest, and
 /// the first cases of every property have a single outcome.
 namespace sigmax::laws {
 
 using plain::By;
-using plain::Numbers;
-using plain::Rows;
-using support::holds;
 using support::require_near;
 
 /// How the plain restatements eliminate a variable of this kind.
@@ -115,6 +99,23 @@ template <Uncertainty To, Uncertainty From>
 Relation<To, From> any_relation(const Variable<To>& to, const Variable<From>& from) {
   return {to, from, any_normalized_rows(by_kind<To>, from.size(), to.size())};
 }
+
+template <Uncertainty To, Uncertainty From>
+struct AnyJoint {
+  Variable<To> x = any_variable<To>("x");
+  Variable<From> y = any_variable<From>("y");
+  Relation<To, From> relation = any_relation(x, y);
+  Distribution<From> prior = any_distribution(y);
+};
+/// Two relations that can be composed.
+template <Uncertainty To, Uncertainty Middle, Uncertainty From>
+struct AnyRelations {
+  Variable<To> x = any_variable<To>("x");
+  Variable<Middle> m = any_variable<Middle>("m");
+  Variable<From> y = any_variable<From>("y");
+  Relation<To, Middle> left = any_relation(x, m);
+  Relation<Middle, From> right = any_relation(m, y);
+};
 
 inline Numbers numbers_of(std::span<const double> values) { return {values.begin(), values.end()}; }
 

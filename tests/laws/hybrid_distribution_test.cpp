@@ -1,17 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <tuple>
-#include <type_traits>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/hybrid_distribution.hpp>
 
 #include "laws/generate.hpp"
-#include "support/type_names.hpp"
 
-namespace sigmax::laws {
 namespace {
 
 /// The laws of joint distributions, (4), (5), (9)–(16), (19), (20), for every pair of kinds.
@@ -59,119 +50,104 @@ Rows transposed(const Rows& rows) {
   return result;
 }
 
-TYPED_TEST(JointLaws, ConditionalTimesMarginalIsNormalizedInItsOwnOrder) {  // (10) or (11)
+TYPED_PROPERTY(JointLaws, ConditionalTimesMarginalIsNormalizedInItsOwnOrder) {  // (10) or (11)
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  holds([] {
-    const auto outer = any_variable<Outer>("outer");
-    const auto inner = any_variable<Inner>("inner");
-    const HybridDistribution joint{any_relation(inner, outer), any_distribution(outer)};
-    const Rows rows = rows_of(joint.table());
-    require_near(joint.total(), 1.0);
-    require_near(joint.total(), total_by(by_kind<Outer>, by_kind<Inner>, rows));
-    require_near(joint.beta(), total_by(by_kind<Inner>, by_kind<Outer>, transposed(rows)));
-    const HybridDistribution proven{outer, inner, rows};  // or this would throw
-    RC_ASSERT(rows_of(proven.table()) == rows);
-  });
+  const auto outer = any_variable<Outer>("outer");
+  const auto inner = any_variable<Inner>("inner");
+  const HybridDistribution joint{any_relation(inner, outer), any_distribution(outer)};
+  const Rows rows = rows_of(joint.table());
+  require_near(joint.total(), 1.0);
+  require_near(joint.total(), total_by(by_kind<Outer>, by_kind<Inner>, rows));
+  require_near(joint.beta(), total_by(by_kind<Inner>, by_kind<Outer>, transposed(rows)));
+  const HybridDistribution proven{outer, inner, rows};  // or this would throw
+  RC_ASSERT(rows_of(proven.table()) == rows);
 }
 
-TYPED_TEST(JointLaws, TheFactorsComeBackToAFewUlp) {
+TYPED_PROPERTY(JointLaws, TheFactorsComeBackToAFewUlp) {
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  holds([] {
-    const auto outer = any_variable<Outer>("outer");
-    const auto inner = any_variable<Inner>("inner");
-    const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
-    const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
-    const HybridDistribution joint{conditional, marginal};
-    const auto again = joint.inner_given_outer();
-    std::vector<std::size_t> without_mass;
-    for (std::size_t o = 0; o < outer.size(); ++o) {
-      require_ulps(joint.outer_marginal()[o], marginal[o]);
-      if (marginal[o] == 0.0) {
-        without_mass.push_back(o);
-        RC_ASSERT(numbers_of(again.relation.row(o)) == numbers_of(uninformative(inner).values()));
-      } else {
-        for (std::size_t i = 0; i < inner.size(); ++i) require_ulps(again.relation(o, i), conditional(o, i));
-      }
+  const auto outer = any_variable<Outer>("outer");
+  const auto inner = any_variable<Inner>("inner");
+  const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
+  const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
+  const HybridDistribution joint{conditional, marginal};
+  const auto again = joint.inner_given_outer();
+  std::vector<std::size_t> without_mass;
+  for (std::size_t o = 0; o < outer.size(); ++o) {
+    require_ulps(joint.outer_marginal()[o], marginal[o]);
+    if (marginal[o] == 0.0) {
+      without_mass.push_back(o);
+      RC_ASSERT(numbers_of(again.relation.row(o)) == numbers_of(uninformative(inner).values()));
+    } else {
+      for (std::size_t i = 0; i < inner.size(); ++i) require_ulps(again.relation(o, i), conditional(o, i));
     }
-    RC_ASSERT(again.unreachable == without_mass);
-  });
+  }
+  RC_ASSERT(again.unreachable == without_mass);
 }
 
-TYPED_TEST(JointLaws, TheReexpansionIsTheJointToAFewUlp) {  // (12) ↔ (14), (13) ↔ its counterpart, (4) both ways
+TYPED_PROPERTY(JointLaws, TheReexpansionIsTheJointToAFewUlp) {  // (12) ↔ (14), (13) ↔ its counterpart, (4) both ways
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  holds([] {
-    const auto outer = any_variable<Outer>("outer");
-    const auto inner = any_variable<Inner>("inner");
-    const HybridDistribution joint{
-        Relation<Inner, Outer>{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())},
-        Distribution<Outer>{outer, normal_numbers(by_kind<Outer>, outer.size())}};
-    const HybridDistribution again{joint.outer_given_inner().relation, joint.inner_marginal()};
-    for (std::size_t o = 0; o < outer.size(); ++o)
-      for (std::size_t i = 0; i < inner.size(); ++i)
-        require_ulps(std::is_same_v<Outer, Inner> ? again(i, o) : again(o, i), joint(o, i));
-  });
+  const auto outer = any_variable<Outer>("outer");
+  const auto inner = any_variable<Inner>("inner");
+  const HybridDistribution joint{
+      Relation<Inner, Outer>{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())},
+      Distribution<Outer>{outer, normal_numbers(by_kind<Outer>, outer.size())}};
+  const HybridDistribution again{joint.outer_given_inner().relation, joint.inner_marginal()};
+  for (std::size_t o = 0; o < outer.size(); ++o)
+    for (std::size_t i = 0; i < inner.size(); ++i)
+      require_ulps(std::is_same_v<Outer, Inner> ? again(i, o) : again(o, i), joint(o, i));
 }
 
-TYPED_TEST(JointLaws, MarginalAndConditionalAreTheirRestatements) {  // (5), (15), (19), (20)
+TYPED_PROPERTY(JointLaws, MarginalAndConditionalAreTheirRestatements) {  // (5), (15), (19), (20)
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  holds([] {
-    const auto outer = any_variable<Outer>("outer");
-    const auto inner = any_variable<Inner>("inner");
-    const auto conditional = any_relation(inner, outer);
-    const auto marginal = any_distribution(outer);
-    const HybridDistribution joint{conditional, marginal};
-    const Rows rows = rows_of(conditional.table());
-    const Numbers numbers = numbers_of(marginal.values());
-    require_near(joint.inner_marginal().values(), plain::compose(by_kind<Outer>, rows, numbers));
-    const auto back = joint.outer_given_inner();
-    const Rows expected = plain::invert(by_kind<Outer>, rows, numbers);
-    for (std::size_t i = 0; i < inner.size(); ++i) {
-      // Products below the normal numbers are rounded before they are compared.
-      if (joint.inner_marginal()[i] > 1e-290) require_near(back.relation.row(i), expected[i]);
-      const bool listed = std::count(back.unreachable.begin(), back.unreachable.end(), i) == 1;
-      RC_ASSERT(listed == (joint.inner_marginal()[i] == 0.0));
-      require_near(total<Outer>(back.relation.row(i)), 1.0);
-    }
-  });
+  const auto outer = any_variable<Outer>("outer");
+  const auto inner = any_variable<Inner>("inner");
+  const auto conditional = any_relation(inner, outer);
+  const auto marginal = any_distribution(outer);
+  const HybridDistribution joint{conditional, marginal};
+  const Rows rows = rows_of(conditional.table());
+  const Numbers numbers = numbers_of(marginal.values());
+  require_near(joint.inner_marginal().values(), plain::compose(by_kind<Outer>, rows, numbers));
+  const auto back = joint.outer_given_inner();
+  const Rows expected = plain::invert(by_kind<Outer>, rows, numbers);
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    // Products below the normal numbers are rounded before they are compared.
+    if (joint.inner_marginal()[i] > 1e-290) require_near(back.relation.row(i), expected[i]);
+    const bool listed = std::count(back.unreachable.begin(), back.unreachable.end(), i) == 1;
+    RC_ASSERT(listed == (joint.inner_marginal()[i] == 0.0));
+    require_near(total<Outer>(back.relation.row(i)), 1.0);
+  }
 }
 
-TYPED_TEST(JointLaws, TheOtherUpdateRecoversWhatTheJointWasBuiltFrom) {  // (12) → (19) → (20): β cancels
+TYPED_PROPERTY(JointLaws, TheOtherUpdateRecoversWhatTheJointWasBuiltFrom) {  // (12) → (19) → (20): β cancels
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  holds([] {
-    const auto outer = any_variable<Outer>("outer");
-    const auto inner = any_variable<Inner>("inner");
-    const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
-    const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
-    const HybridDistribution joint{conditional, marginal};
-    const auto p_or_pi = normalized(inner, joint.inner_marginal().values());  // (16)
-    const HybridDistribution other{joint.outer_given_inner().relation, p_or_pi};
-    const auto again = other.outer_given_inner().relation;
-    for (std::size_t o = 0; o < outer.size(); ++o)
-      for (std::size_t i = 0; i < inner.size(); ++i)
-        if (marginal[o] > 0.0) require_ulps(again(o, i), conditional(o, i));
-  });
+  const auto outer = any_variable<Outer>("outer");
+  const auto inner = any_variable<Inner>("inner");
+  const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
+  const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
+  const HybridDistribution joint{conditional, marginal};
+  const auto p_or_pi = normalized(inner, joint.inner_marginal().values());  // (16)
+  const HybridDistribution other{joint.outer_given_inner().relation, p_or_pi};
+  const auto again = other.outer_given_inner().relation;
+  for (std::size_t o = 0; o < outer.size(); ++o)
+    for (std::size_t i = 0; i < inner.size(); ++i)
+      if (marginal[o] > 0.0) require_ulps(again(o, i), conditional(o, i));
 }
 
-template <class Kind>
-class OneKindLaws : public testing::Test {};
-using BothKinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(OneKindLaws, BothKinds, support::TypeNames);
+TYPED_SUITE(OneKindLaws, Random, Fuzzy);
 
-TYPED_TEST(OneKindLaws, BothOrdersAgreeAndTheJointIsItsTranspose) {  // (4)
-  holds([] {
-    const auto x = any_variable<TypeParam>("x"), y = any_variable<TypeParam>("y");
-    const HybridDistribution joint{any_relation(x, y), any_distribution(y)};
-    require_near(joint.beta(), 1.0);
-    const HybridDistribution exchanged{joint.outer_given_inner().relation, joint.inner_marginal()};
-    RC_ASSERT(exchanged.outer() == x);
-    require_near(rows_of(exchanged.table()), transposed(rows_of(joint.table())));
-    require_near(exchanged.inner_marginal().values(), joint.outer_marginal().values());
-  });
+TYPED_PROPERTY(OneKindLaws, BothOrdersAgreeAndTheJointIsItsTranspose) {  // (4)
+  const auto x = any_variable<TypeParam>("x"), y = any_variable<TypeParam>("y");
+  const HybridDistribution joint{any_relation(x, y), any_distribution(y)};
+  require_near(joint.beta(), 1.0);
+  const HybridDistribution exchanged{joint.outer_given_inner().relation, joint.inner_marginal()};
+  RC_ASSERT(exchanged.outer() == x);
+  require_near(rows_of(exchanged.table()), transposed(rows_of(joint.table())));
+  require_near(exchanged.inner_marginal().values(), joint.outer_marginal().values());
 }
 
 TEST(HybridLaws, MaximumOfSumsSumOfMaximaAndTheSmallerSizeTimesTheFirstAreOrdered) {
@@ -188,20 +164,18 @@ TEST(HybridLaws, MaximumOfSumsSumOfMaximaAndTheSmallerSizeTimesTheFirstAreOrdere
   });
 }
 
-TEST(HybridLaws, BetaIsInItsRange) {
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    double sum = 0.0;
-    for (const double value : pi.values()) sum += value;
-    const double beta = HybridDistribution{any_relation(x, y), pi}.beta();
-    RC_ASSERT(beta >= 1.0 - 1e-12 && beta <= std::min(static_cast<double>(x.size()), sum) + 1e-12);
-    const auto p = any_distribution(x);
-    const double other = HybridDistribution{any_relation(y, x), p}.beta();
-    const double least = std::max(1.0 / static_cast<double>(y.size()), p[index_of_greatest(p.values())]);
-    RC_ASSERT(other >= least - 1e-12 && other <= 1.0 + 1e-12);
-  });
+PROPERTY(HybridLaws, BetaIsInItsRange) {
+  const auto x = any_variable<Random>("x");
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  double sum = 0.0;
+  for (const double value : pi.values()) sum += value;
+  const double beta = HybridDistribution{any_relation(x, y), pi}.beta();
+  RC_ASSERT(beta >= 1.0 - 1e-12 && beta <= std::min(static_cast<double>(x.size()), sum) + 1e-12);
+  const auto p = any_distribution(x);
+  const double other = HybridDistribution{any_relation(y, x), p}.beta();
+  const double least = std::max(1.0 / static_cast<double>(y.size()), p[index_of_greatest(p.values())]);
+  RC_ASSERT(other >= least - 1e-12 && other <= 1.0 + 1e-12);
 }
 
 Rows deltas(const std::vector<std::size_t>& images, std::size_t columns) {
@@ -214,73 +188,62 @@ std::vector<std::size_t> first(std::size_t n, std::vector<std::size_t> order) {
   return order;
 }
 
-TEST(HybridLaws, BetaIsOneIfTheConditionSaysNothing) {  // the lower bound of (12), the upper one of (13)
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const auto y = any_variable<Fuzzy>("y");
-    const Relation<Random, Fuzzy> same_p{x, y, Rows(y.size(), any_normalized_numbers(By::sum, x.size()))};
-    require_near(HybridDistribution{same_p, any_distribution(y)}.beta(), 1.0);
-    const Relation<Fuzzy, Random> same_pi{y, x, Rows(x.size(), any_normalized_numbers(By::max, y.size()))};
-    require_near(HybridDistribution{same_pi, any_distribution(x)}.beta(), 1.0);
-  });
+PROPERTY(HybridLaws, BetaIsOneIfTheConditionSaysNothing) {  // the lower bound of (12), the upper one of (13)
+  const auto x = any_variable<Random>("x");
+  const auto y = any_variable<Fuzzy>("y");
+  const Relation<Random, Fuzzy> same_p{x, y, Rows(y.size(), any_normalized_numbers(By::sum, x.size()))};
+  require_near(HybridDistribution{same_p, any_distribution(y)}.beta(), 1.0);
+  const Relation<Fuzzy, Random> same_pi{y, x, Rows(x.size(), any_normalized_numbers(By::max, y.size()))};
+  require_near(HybridDistribution{same_pi, any_distribution(x)}.beta(), 1.0);
 }
 
-TEST(HybridLaws, BetaIsTheSumOfPossibilitiesIfEachMeansAnotherValue) {  // Σ π, and |X| if all are possible
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const RandomVariable x{"x", y.size() + *rc::gen::inRange<std::size_t>(0, 3)};
-    const Relation<Random, Fuzzy> disjoint{x, y, deltas(first(y.size(), any_order(x.size())), x.size())};
-    const auto pi = any_distribution(y);
-    double sum = 0.0;
-    for (const double value : pi.values()) sum += value;
-    require_near(HybridDistribution{disjoint, pi}.beta(), sum);
-    if (x.size() == y.size())
-      require_near(HybridDistribution{disjoint, uninformative(y)}.beta(), static_cast<double>(x.size()));
-  });
+PROPERTY(HybridLaws, BetaIsTheSumOfPossibilitiesIfEachMeansAnotherValue) {  // Σ π, and |X| if all are possible
+  const auto y = any_variable<Fuzzy>("y");
+  const RandomVariable x{"x", y.size() + *rc::gen::inRange<std::size_t>(0, 3)};
+  const Relation<Random, Fuzzy> disjoint{x, y, deltas(first(y.size(), any_order(x.size())), x.size())};
+  const auto pi = any_distribution(y);
+  double sum = 0.0;
+  for (const double value : pi.values()) sum += value;
+  require_near(HybridDistribution{disjoint, pi}.beta(), sum);
+  if (x.size() == y.size())
+    require_near(HybridDistribution{disjoint, uninformative(y)}.beta(), static_cast<double>(x.size()));
 }
 
-TEST(HybridLaws, BetaIsTheGreatestProbabilityIfEachMeansAnotherValue) {  // max p, and 1/|Y| if all are as probable
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const FuzzyVariable y{"y", x.size() + *rc::gen::inRange<std::size_t>(0, 3)};
-    const Relation<Fuzzy, Random> disjoint{y, x, deltas(first(x.size(), any_order(y.size())), y.size())};
-    const auto p = any_distribution(x);
-    require_near(HybridDistribution{disjoint, p}.beta(), p[index_of_greatest(p.values())]);
-    if (x.size() == y.size())
-      require_near(HybridDistribution{disjoint, uninformative(x)}.beta(), 1.0 / static_cast<double>(y.size()));
-  });
+PROPERTY(HybridLaws, BetaIsTheGreatestProbabilityIfEachMeansAnotherValue) {  // max p, and 1/|Y| if all are as probable
+  const auto x = any_variable<Random>("x");
+  const FuzzyVariable y{"y", x.size() + *rc::gen::inRange<std::size_t>(0, 3)};
+  const Relation<Fuzzy, Random> disjoint{y, x, deltas(first(x.size(), any_order(y.size())), y.size())};
+  const auto p = any_distribution(x);
+  require_near(HybridDistribution{disjoint, p}.beta(), p[index_of_greatest(p.values())]);
+  if (x.size() == y.size())
+    require_near(HybridDistribution{disjoint, uninformative(x)}.beta(), 1.0 / static_cast<double>(y.size()));
 }
 
-TEST(HybridLaws, TheConditionalsDoNotDependOnBeta) {  // (19), (20): the same from p⁺ and from p
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const auto y = any_variable<Fuzzy>("y");
-    const HybridDistribution joint{Relation<Random, Fuzzy>{x, y, normal_rows(By::sum, y.size(), x.size())},
-                                   Distribution<Fuzzy>{y, normal_numbers(By::max, y.size())}};
-    const auto back = joint.outer_given_inner();
-    const HybridDistribution scaled{back.relation, joint.inner_marginal().normalized()};
-    const HybridDistribution unscaled{back.relation, joint.inner_marginal()};
-    for (std::size_t i = 0; i < x.size(); ++i)
-      for (std::size_t j = 0; j < y.size(); ++j) {
-        require_ulps(joint.beta() * scaled(i, j), unscaled(j, i));
-        if (joint.inner_marginal()[i] > 0.0)
-          require_ulps(scaled.inner_given_outer().relation(i, j), unscaled.outer_given_inner().relation(i, j));
-      }
-  });
-}
-
-TEST(HybridLaws, WhatIsInducedIsAtMostTheSumProductOfTheSameNumbers) {  // p⁺
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const auto y = any_variable<Fuzzy>("y");
-    const HybridDistribution joint{any_relation(x, y), any_distribution(y)};
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j < y.size(); ++j) sum += joint(j, i);
-      RC_ASSERT(joint.inner_marginal()[i] <= sum);
+PROPERTY(HybridLaws, TheConditionalsDoNotDependOnBeta) {  // (19), (20): the same from p⁺ and from p
+  const auto x = any_variable<Random>("x");
+  const auto y = any_variable<Fuzzy>("y");
+  const HybridDistribution joint{Relation<Random, Fuzzy>{x, y, normal_rows(By::sum, y.size(), x.size())},
+                                 Distribution<Fuzzy>{y, normal_numbers(By::max, y.size())}};
+  const auto back = joint.outer_given_inner();
+  const HybridDistribution scaled{back.relation, joint.inner_marginal().normalized()};
+  const HybridDistribution unscaled{back.relation, joint.inner_marginal()};
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      require_ulps(joint.beta() * scaled(i, j), unscaled(j, i));
+      if (joint.inner_marginal()[i] > 0.0)
+        require_ulps(scaled.inner_given_outer().relation(i, j), unscaled.outer_given_inner().relation(i, j));
     }
-  });
+}
+
+PROPERTY(HybridLaws, WhatIsInducedIsAtMostTheSumProductOfTheSameNumbers) {  // p⁺
+  const auto x = any_variable<Random>("x");
+  const auto y = any_variable<Fuzzy>("y");
+  const HybridDistribution joint{any_relation(x, y), any_distribution(y)};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < y.size(); ++j) sum += joint(j, i);
+    RC_ASSERT(joint.inner_marginal()[i] <= sum);
+  }
 }
 
 }  // namespace
-}  // namespace sigmax::laws

@@ -1,22 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
-
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
-#include "support/type_names.hpp"
 
-namespace sigmax::laws {
 namespace {
 
 /// The laws of measures of events, Definition 2.4: of a probability and a possibility alike.
-template <class Kind>
-class MeasureLaws : public testing::Test {};
-using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(MeasureLaws, Kinds, support::TypeNames);
+TYPED_SUITE(MeasureLaws, Random, Fuzzy);
 
 template <Uncertainty Kind>
 Event<Kind> any_event(const Variable<Kind>& variable) {
@@ -35,160 +25,131 @@ Numbers members(const Distribution<Kind>& distribution, const Event<Kind>& event
   return result;
 }
 
-TYPED_TEST(MeasureLaws, AMeasureIsItsRestatement) {
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    const auto a = any_event(x);
-    require_near(measure(distribution, a), static_cast<double>(plain::evidence(
-                                               by_kind<TypeParam>, members(distribution, a), Numbers(x.size(), 1.0))));
-  });
+TYPED_PROPERTY(MeasureLaws, AMeasureIsItsRestatement) {
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  const auto a = any_event(x);
+  require_near(measure(distribution, a), static_cast<double>(plain::evidence(
+                                             by_kind<TypeParam>, members(distribution, a), Numbers(x.size(), 1.0))));
 }
 
-TYPED_TEST(MeasureLaws, NothingHasMeasureZeroAndEverythingOne) {  // Axioms 1 and 2
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    RC_ASSERT(measure(distribution, empty_event(x)) == 0.0);
-    require_near(measure(distribution, whole_event(x)), 1.0);
-  });
+TYPED_PROPERTY(MeasureLaws, NothingHasMeasureZeroAndEverythingOne) {  // Axioms 1 and 2
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  RC_ASSERT(measure(distribution, empty_event(x)) == 0.0);
+  require_near(measure(distribution, whole_event(x)), 1.0);
 }
 
-TYPED_TEST(MeasureLaws, AUnionOfDisjointEventsIsTheirCombination) {
-  holds([] {
-    using Algebra = AlgebraOf<TypeParam>;
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    const auto a = any_event(x), b = any_event(x);
-    require_near(measure(distribution, a | b), Algebra::plus(measure(distribution, a), measure(distribution, b & ~a)));
-  });
+TYPED_PROPERTY(MeasureLaws, AUnionOfDisjointEventsIsTheirCombination) {
+  using Algebra = AlgebraOf<TypeParam>;
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  const auto a = any_event(x), b = any_event(x);
+  require_near(measure(distribution, a | b), Algebra::plus(measure(distribution, a), measure(distribution, b & ~a)));
 }
 
-TYPED_TEST(MeasureLaws, APartIsNoGreaterThanTheWhole) {
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    const auto a = any_event(x), b = any_event(x);
-    RC_ASSERT(measure(distribution, a & b) <= measure(distribution, a));
-    RC_ASSERT(measure(distribution, a) <= measure(distribution, a | b));
-  });
+TYPED_PROPERTY(MeasureLaws, APartIsNoGreaterThanTheWhole) {
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  const auto a = any_event(x), b = any_event(x);
+  RC_ASSERT(measure(distribution, a & b) <= measure(distribution, a));
+  RC_ASSERT(measure(distribution, a) <= measure(distribution, a | b));
 }
 
-TYPED_TEST(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeasureOfBoth) {
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    const auto a = any_event(x), b = any_event(x);
-    if (measure(distribution, b) > 0.0)
-      require_near(measure(given(distribution, b), a) * measure(distribution, b), measure(distribution, a & b));
-    else
-      RC_ASSERT_THROWS_AS(given(distribution, b), std::domain_error);
-  });
+TYPED_PROPERTY(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeasureOfBoth) {
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  const auto a = any_event(x), b = any_event(x);
+  if (measure(distribution, b) > 0.0)
+    require_near(measure(given(distribution, b), a) * measure(distribution, b), measure(distribution, a & b));
+  else
+    RC_ASSERT_THROWS_AS(given(distribution, b), std::domain_error);
 }
 
-TYPED_TEST(MeasureLaws, ConditioningIsTheUpdateByCrispEvidence) {
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto distribution = any_distribution(x);
-    const auto b = any_event(x);
-    RC_PRE(measure(distribution, b) > 0.0);
-    Numbers crisp(x.size());
-    for (std::size_t i = 0; i < crisp.size(); ++i) crisp[i] = b.contains(i) ? 1.0 : 0.0;
-    require_near(numbers_of(given(distribution, b).values()),
-                 plain::update(by_kind<TypeParam>, numbers_of(distribution.values()), crisp));
-  });
+TYPED_PROPERTY(MeasureLaws, ConditioningIsTheUpdateByCrispEvidence) {
+  const auto x = any_variable<TypeParam>("x");
+  const auto distribution = any_distribution(x);
+  const auto b = any_event(x);
+  RC_PRE(measure(distribution, b) > 0.0);
+  Numbers crisp(x.size());
+  for (std::size_t i = 0; i < crisp.size(); ++i) crisp[i] = b.contains(i) ? 1.0 : 0.0;
+  require_near(given(distribution, b).values(),
+               plain::update(by_kind<TypeParam>, numbers_of(distribution.values()), crisp));
 }
 
-TYPED_TEST(MeasureLaws, EventsAreABooleanAlgebra) {
-  holds([] {
-    const auto x = any_variable<TypeParam>("x");
-    const auto a = any_event(x), b = any_event(x), c = any_event(x);
-    RC_ASSERT(~(a | b) == (~a & ~b));
-    RC_ASSERT((a & (b | c)) == ((a & b) | (a & c)));
-    RC_ASSERT((a | (a & b)) == a);
-    RC_ASSERT((a & ~a) == empty_event(x));
-    RC_ASSERT((a | ~a) == whole_event(x));
-  });
+TYPED_PROPERTY(MeasureLaws, EventsAreABooleanAlgebra) {
+  const auto x = any_variable<TypeParam>("x");
+  const auto a = any_event(x), b = any_event(x), c = any_event(x);
+  RC_ASSERT(~(a | b) == (~a & ~b));
+  RC_ASSERT((a & (b | c)) == ((a & b) | (a & c)));
+  RC_ASSERT((a | (a & b)) == a);
+  RC_ASSERT((a & ~a) == empty_event(x));
+  RC_ASSERT((a | ~a) == whole_event(x));
 }
 
-TEST(ProbabilityLaws, InclusionAndExclusion) {
-  holds([] {
-    const auto x = any_variable<Random>("x");
-    const auto p = any_distribution(x);
-    const auto a = any_event(x), b = any_event(x);
-    require_near(probability(p, a | b) + probability(p, a & b), probability(p, a) + probability(p, b));
-    require_near(probability(p, ~a), 1.0 - probability(p, a));
-  });
+PROPERTY(ProbabilityLaws, InclusionAndExclusion) {
+  const auto x = any_variable<Random>("x");
+  const auto p = any_distribution(x);
+  const auto a = any_event(x), b = any_event(x);
+  require_near(probability(p, a | b) + probability(p, a & b), probability(p, a) + probability(p, b));
+  require_near(probability(p, ~a), 1.0 - probability(p, a));
 }
 
-TEST(PossibilityLaws, AUnionIsAsPossibleAsTheMorePossible) {  // Axiom 3: Π(A ∪ B) = max, also where they overlap
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    const auto a = any_event(y), b = any_event(y);
-    RC_ASSERT(possibility(pi, a | b) == std::max(possibility(pi, a), possibility(pi, b)));
-  });
+PROPERTY(PossibilityLaws, AUnionIsAsPossibleAsTheMorePossible) {  // Axiom 3: Π(A ∪ B) = max, also where they overlap
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  const auto a = any_event(y), b = any_event(y);
+  RC_ASSERT(possibility(pi, a | b) == std::max(possibility(pi, a), possibility(pi, b)));
 }
 
-TEST(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  // N(A) = 1 − Π(Aᶜ) = min over Aᶜ of 1 − π
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    const auto a = any_event(y), b = any_event(y);
-    double least = 1.0;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      if (!a.contains(i)) least = std::min(least, 1.0 - pi[i]);
-    RC_ASSERT(necessity(pi, a) == least);
-    RC_ASSERT(necessity(pi, a) == 1.0 - possibility(pi, ~a));
-    RC_ASSERT(necessity(pi, a & b) == std::min(necessity(pi, a), necessity(pi, b)));
-  });
+PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  // N(A) = 1 − Π(Aᶜ) = min over Aᶜ of 1 − π
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  const auto a = any_event(y), b = any_event(y);
+  double least = 1.0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (!a.contains(i)) least = std::min(least, 1.0 - pi[i]);
+  RC_ASSERT(necessity(pi, a) == least);
+  RC_ASSERT(necessity(pi, a) == 1.0 - possibility(pi, ~a));
+  RC_ASSERT(necessity(pi, a & b) == std::min(necessity(pi, a), necessity(pi, b)));
 }
 
-TEST(PossibilityLaws, AnEventOrItsComplementIsFullyPossible) {  // max(Π(A), Π(Aᶜ)) = 1
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    const auto a = any_event(y);
-    RC_ASSERT(std::max(possibility(pi, a), possibility(pi, ~a)) == 1.0);
-  });
+PROPERTY(PossibilityLaws, AnEventOrItsComplementIsFullyPossible) {  // max(Π(A), Π(Aᶜ)) = 1
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  const auto a = any_event(y);
+  RC_ASSERT(std::max(possibility(pi, a), possibility(pi, ~a)) == 1.0);
 }
 
-TEST(PossibilityLaws, WhatIsAtAllNecessaryIsFullyPossible) {  // N(A) > 0 ⇒ Π(A) = 1
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    const auto a = any_event(y);
-    if (necessity(pi, a) > 0.0) RC_ASSERT(possibility(pi, a) == 1.0);
-    if (possibility(pi, a) < 1.0) RC_ASSERT(necessity(pi, a) == 0.0);
-  });
+PROPERTY(PossibilityLaws, WhatIsAtAllNecessaryIsFullyPossible) {  // N(A) > 0 ⇒ Π(A) = 1
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  const auto a = any_event(y);
+  if (necessity(pi, a) > 0.0) RC_ASSERT(possibility(pi, a) == 1.0);
+  if (possibility(pi, a) < 1.0) RC_ASSERT(necessity(pi, a) == 0.0);
 }
 
-TEST(PossibilityLaws, ConditionalNecessityIsOneLessTheConditionalPossibilityOfTheComplement) {
-  holds([] {
-    const auto y = any_variable<Fuzzy>("y");
-    const auto pi = any_distribution(y);
-    const auto a = any_event(y), b = any_event(y);
-    RC_PRE(possibility(pi, b) > 0.0);
-    require_near(necessity(given(pi, b), a), 1.0 - possibility(pi, ~a & b) / possibility(pi, b));
-    RC_ASSERT(necessity(given(pi, b), b) == 1.0);
-  });
+PROPERTY(PossibilityLaws, ConditionalNecessityIsOneLessTheConditionalPossibilityOfTheComplement) {
+  const auto y = any_variable<Fuzzy>("y");
+  const auto pi = any_distribution(y);
+  const auto a = any_event(y), b = any_event(y);
+  RC_PRE(possibility(pi, b) > 0.0);
+  require_near(necessity(given(pi, b), a), 1.0 - possibility(pi, ~a & b) / possibility(pi, b));
+  RC_ASSERT(necessity(given(pi, b), b) == 1.0);
 }
 
-TEST(CompatibilityLaws, IsTheShareOfTheObjectsMeasure) {  // (1)
-  holds([] {
-    const std::size_t n = any_size();
-    const Numbers object = any_unit_numbers(n), outcome = any_unit_numbers(n), weights = any_unit_numbers(n);
-    long double shared = 0, all = 0;
-    for (std::size_t f = 0; f < n; ++f) {
-      shared += static_cast<long double>(weights[f]) * (object[f] < outcome[f] ? object[f] : outcome[f]);
-      all += static_cast<long double>(weights[f]) * object[f];
-    }
-    RC_PRE(all > 1e-300L);
-    require_near(compatibility(object, outcome, weights), static_cast<double>(shared / all));
-    RC_ASSERT(compatibility(object, object, weights) == 1.0);
-    RC_ASSERT(compatibility(object, Numbers(n, 0.0), weights) == 0.0);
-  });
+PROPERTY(CompatibilityLaws, IsTheShareOfTheObjectsMeasure) {  // (1)
+  const std::size_t n = any_size();
+  const Numbers object = any_unit_numbers(n), outcome = any_unit_numbers(n), weights = any_unit_numbers(n);
+  long double shared = 0, all = 0;
+  for (std::size_t f = 0; f < n; ++f) {
+    shared += static_cast<long double>(weights[f]) * (object[f] < outcome[f] ? object[f] : outcome[f]);
+    all += static_cast<long double>(weights[f]) * object[f];
+  }
+  RC_PRE(all > 1e-300L);
+  require_near(compatibility(object, outcome, weights), static_cast<double>(shared / all));
+  RC_ASSERT(compatibility(object, object, weights) == 1.0);
+  RC_ASSERT(compatibility(object, Numbers(n, 0.0), weights) == 0.0);
 }
 
 }  // namespace
-}  // namespace sigmax::laws

@@ -1,13 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <ostream>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/network/compose.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/query.hpp>
@@ -17,7 +7,6 @@
 
 /// Generated networks against full enumeration of the joint, the variables eliminated in the reverse order of
 /// declaration.
-namespace sigmax::laws {
 namespace {
 
 enum class Kinds { random, fuzzy, mixed };
@@ -168,15 +157,9 @@ void query_is_enumeration(Kinds kinds) {
   if (kinds != Kinds::mixed) RC_ASSERT(!answer.induced() && !answer.elimination().forced);
 }
 
-TEST(NetworkLaws, AQueryOfRandomVariablesIsTheEnumeration) {
-  holds([] { query_is_enumeration(Kinds::random); });
-}
-TEST(NetworkLaws, AQueryOfFuzzyVariablesIsTheEnumeration) {
-  holds([] { query_is_enumeration(Kinds::fuzzy); });
-}
-TEST(NetworkLaws, AQueryOfMixedVariablesIsTheEnumerationInnermostFirst) {
-  holds([] { query_is_enumeration(Kinds::mixed); });
-}
+PROPERTY(NetworkLaws, AQueryOfRandomVariablesIsTheEnumeration) { query_is_enumeration(Kinds::random); }
+PROPERTY(NetworkLaws, AQueryOfFuzzyVariablesIsTheEnumeration) { query_is_enumeration(Kinds::fuzzy); }
+PROPERTY(NetworkLaws, AQueryOfMixedVariablesIsTheEnumerationInnermostFirst) { query_is_enumeration(Kinds::mixed); }
 
 /// Of all variables at once; induced where the single query is.
 void marginals_are_enumerations(Kinds kinds) {
@@ -201,25 +184,19 @@ void marginals_are_enumerations(Kinds kinds) {
   }
 }
 
-TEST(NetworkLaws, TheMarginalsOfRandomVariablesAreEnumerations) {
-  holds([] { marginals_are_enumerations(Kinds::random); });
-}
-TEST(NetworkLaws, TheMarginalsOfFuzzyVariablesAreEnumerations) {
-  holds([] { marginals_are_enumerations(Kinds::fuzzy); });
-}
-TEST(NetworkLaws, TheMarginalsOfMixedVariablesAreEnumerationsInnermostFirst) {
-  holds([] { marginals_are_enumerations(Kinds::mixed); });
+PROPERTY(NetworkLaws, TheMarginalsOfRandomVariablesAreEnumerations) { marginals_are_enumerations(Kinds::random); }
+PROPERTY(NetworkLaws, TheMarginalsOfFuzzyVariablesAreEnumerations) { marginals_are_enumerations(Kinds::fuzzy); }
+PROPERTY(NetworkLaws, TheMarginalsOfMixedVariablesAreEnumerationsInnermostFirst) {
+  marginals_are_enumerations(Kinds::mixed);
 }
 
-TEST(NetworkLaws, TheTotalWithoutEvidenceIsOne) {
-  holds([] {
-    const World world = any_world(Kinds::mixed);
-    RC_LOG() << world;
-    const RelationNetwork network = network_of(world);
-    require_near(query(network, {}).total().value(), 1.0);
-    const NetworkAnswer answer = query(network, names_of(world.asked));
-    if (!answer.induced()) require_near(answer.total().value(), 1.0);
-  });
+PROPERTY(NetworkLaws, TheTotalWithoutEvidenceIsOne) {
+  const World world = any_world(Kinds::mixed);
+  RC_LOG() << world;
+  const RelationNetwork network = network_of(world);
+  require_near(query(network, {}).total().value(), 1.0);
+  const NetworkAnswer answer = query(network, names_of(world.asked));
+  if (!answer.induced()) require_near(answer.total().value(), 1.0);
 }
 
 void explanation_is_the_maximum(Kinds kinds) {
@@ -243,15 +220,9 @@ void explanation_is_the_maximum(Kinds kinds) {
                static_cast<double>(std::log(greatest)));
 }
 
-TEST(NetworkLaws, TheExplanationOfRandomVariablesIsTheGreatestOfAll) {
-  holds([] { explanation_is_the_maximum(Kinds::random); });
-}
-TEST(NetworkLaws, TheExplanationOfFuzzyVariablesIsTheGreatestOfAll) {
-  holds([] { explanation_is_the_maximum(Kinds::fuzzy); });
-}
-TEST(NetworkLaws, TheExplanationOfMixedVariablesIsTheGreatestOfAll) {
-  holds([] { explanation_is_the_maximum(Kinds::mixed); });
-}
+PROPERTY(NetworkLaws, TheExplanationOfRandomVariablesIsTheGreatestOfAll) { explanation_is_the_maximum(Kinds::random); }
+PROPERTY(NetworkLaws, TheExplanationOfFuzzyVariablesIsTheGreatestOfAll) { explanation_is_the_maximum(Kinds::fuzzy); }
+PROPERTY(NetworkLaws, TheExplanationOfMixedVariablesIsTheGreatestOfAll) { explanation_is_the_maximum(Kinds::mixed); }
 
 /// The joint over the marginal of the condition, and ⊕ one in each row unless it is induced.
 void composition_is_the_conditional(Kinds kinds) {
@@ -277,15 +248,8 @@ void composition_is_the_conditional(Kinds kinds) {
   if (kinds != Kinds::mixed) RC_ASSERT(!found.induced());
 }
 
-TEST(NetworkLaws, ACompositionOfRandomVariablesIsTheConditional) {
-  holds([] { composition_is_the_conditional(Kinds::random); });
-}
-TEST(NetworkLaws, ACompositionOfFuzzyVariablesIsTheConditional) {
-  holds([] { composition_is_the_conditional(Kinds::fuzzy); });
-}
-TEST(NetworkLaws, ACompositionOfMixedVariablesIsTheConditional) {
-  holds([] { composition_is_the_conditional(Kinds::mixed); });
-}
+PROPERTY(NetworkLaws, ACompositionOfRandomVariablesIsTheConditional) { composition_is_the_conditional(Kinds::random); }
+PROPERTY(NetworkLaws, ACompositionOfFuzzyVariablesIsTheConditional) { composition_is_the_conditional(Kinds::fuzzy); }
+PROPERTY(NetworkLaws, ACompositionOfMixedVariablesIsTheConditional) { composition_is_the_conditional(Kinds::mixed); }
 
 }  // namespace
-}  // namespace sigmax::laws

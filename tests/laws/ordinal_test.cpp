@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
 
-namespace sigmax::laws {
 namespace {
 
 /// The laws of the discrete calculus that do not need scaling. No ordinal operation rounds, so all of them are exact.
@@ -45,82 +40,68 @@ struct Prior {
   Numbers values = numbers_of(prior.values());
 };
 
-TEST(OrdinalLaws, CompositionIsItsRestatement) {
-  holds([] {
-    const auto x = any_variable<Ordinal>("x"), m = any_variable<Ordinal>("m"), y = any_variable<Ordinal>("y");
-    const auto left = any_relation(x, m);
-    const auto right = any_relation(m, y);
-    const auto prior = any_distribution(m);
-    RC_ASSERT(rows_of(compose(left, right).table()) == max_min(rows_of(left.table()), rows_of(right.table())));
-    RC_ASSERT(numbers_of(compose(left, prior).values()) ==
-              max_min(rows_of(left.table()), {numbers_of(prior.values())}).front());
-  });
+PROPERTY(OrdinalLaws, CompositionIsItsRestatement) {
+  const auto [x, m, y, left, right] = AnyRelations<Ordinal, Ordinal, Ordinal>{};
+  const auto prior = any_distribution(m);
+  RC_ASSERT(rows_of(compose(left, right).table()) == max_min(rows_of(left.table()), rows_of(right.table())));
+  RC_ASSERT(numbers_of(compose(left, prior).values()) ==
+            max_min(rows_of(left.table()), {numbers_of(prior.values())}).front());
 }
 
-TEST(OrdinalLaws, CompositionIsExactlyAssociativeAndKeepsNormalization) {
-  holds([] {
-    const auto x = any_variable<Ordinal>("x"), m = any_variable<Ordinal>("m"), l = any_variable<Ordinal>("l"),
-               y = any_variable<Ordinal>("y");
-    const auto a = any_relation(x, m);
-    const auto b = any_relation(m, l);
-    const auto c = any_relation(l, y);
-    const auto composed = compose(compose(a, b), c);
-    RC_ASSERT(rows_of(composed.table()) == rows_of(compose(a, compose(b, c)).table()));
-    for (std::size_t i = 0; i < y.size(); ++i) RC_ASSERT(total<Ordinal>(composed.row(i)) == 1.0);
-    RC_ASSERT(total<Ordinal>(compose(composed, any_distribution(y)).values()) == 1.0);
-  });
+PROPERTY(OrdinalLaws, CompositionIsExactlyAssociativeAndKeepsNormalization) {
+  const auto x = any_variable<Ordinal>("x"), m = any_variable<Ordinal>("m"), l = any_variable<Ordinal>("l"),
+             y = any_variable<Ordinal>("y");
+  const auto a = any_relation(x, m);
+  const auto b = any_relation(m, l);
+  const auto c = any_relation(l, y);
+  const auto composed = compose(compose(a, b), c);
+  RC_ASSERT(rows_of(composed.table()) == rows_of(compose(a, compose(b, c)).table()));
+  for (std::size_t i = 0; i < y.size(); ++i) RC_ASSERT(total<Ordinal>(composed.row(i)) == 1.0);
+  RC_ASSERT(total<Ordinal>(compose(composed, any_distribution(y)).values()) == 1.0);
 }
 
-TEST(OrdinalLaws, UpdateIsItsRestatementAndKeepsNormalization) {
-  holds([] {
-    const Prior p;
-    const Numbers evidence = any_unit_numbers(p.x.size()), joint = minima(p.values, evidence);
-    RC_PRE(possible(joint));
-    const auto posterior = update(p.prior, Likelihood{p.x, evidence});
-    RC_ASSERT(numbers_of(posterior.values()) == residuum(joint));
-    RC_ASSERT(total<Ordinal>(posterior.values()) == 1.0);
-  });
+PROPERTY(OrdinalLaws, UpdateIsItsRestatementAndKeepsNormalization) {
+  const Prior p;
+  const Numbers evidence = any_unit_numbers(p.x.size()), joint = minima(p.values, evidence);
+  RC_PRE(possible(joint));
+  const auto posterior = update(p.prior, Likelihood{p.x, evidence});
+  RC_ASSERT(numbers_of(posterior.values()) == residuum(joint));
+  RC_ASSERT(total<Ordinal>(posterior.values()) == 1.0);
 }
 
-TEST(OrdinalLaws, UpdateIsIdempotentIfEvidenceTreatsTheWinnersAlike) {
-  holds([] {
-    const Prior p;
-    Numbers evidence = any_unit_numbers(p.x.size());
-    const Numbers joint = minima(p.values, evidence);
-    RC_PRE(possible(joint));
-    const double greatest = *std::max_element(joint.begin(), joint.end());
-    double of_winners = 1.0;
-    for (std::size_t i = 0; i < joint.size(); ++i)
-      if (joint[i] == greatest) of_winners = std::min(of_winners, evidence[i]);
-    for (std::size_t i = 0; i < joint.size(); ++i)
-      if (joint[i] == greatest) evidence[i] = of_winners;  // the joint stays as it is
-    const Likelihood likelihood{p.x, evidence};
-    const auto once = update(p.prior, likelihood);
-    RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
-  });
+PROPERTY(OrdinalLaws, UpdateIsIdempotentIfEvidenceTreatsTheWinnersAlike) {
+  const Prior p;
+  Numbers evidence = any_unit_numbers(p.x.size());
+  const Numbers joint = minima(p.values, evidence);
+  RC_PRE(possible(joint));
+  const double greatest = *std::max_element(joint.begin(), joint.end());
+  double of_winners = 1.0;
+  for (std::size_t i = 0; i < joint.size(); ++i)
+    if (joint[i] == greatest) of_winners = std::min(of_winners, evidence[i]);
+  for (std::size_t i = 0; i < joint.size(); ++i)
+    if (joint[i] == greatest) evidence[i] = of_winners;  // the joint stays as it is
+  const Likelihood likelihood{p.x, evidence};
+  const auto once = update(p.prior, likelihood);
+  RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
 }
 
-TEST(OrdinalLaws, UpdateByCrispEvidenceIsIdempotent) {
-  holds([] {
-    const Prior p;
-    Numbers crisp = any_unit_numbers(p.x.size());
-    for (double& value : crisp) value = value >= 0.5 ? 1.0 : 0.0;
-    RC_PRE(possible(minima(p.values, crisp)));
-    const Likelihood likelihood{p.x, crisp};
-    const auto once = update(p.prior, likelihood);
-    RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
-  });
+PROPERTY(OrdinalLaws, UpdateByCrispEvidenceIsIdempotent) {
+  const Prior p;
+  Numbers crisp = any_unit_numbers(p.x.size());
+  for (double& value : crisp) value = value >= 0.5 ? 1.0 : 0.0;
+  RC_PRE(possible(minima(p.values, crisp)));
+  const Likelihood likelihood{p.x, crisp};
+  const auto once = update(p.prior, likelihood);
+  RC_ASSERT(numbers_of(update(once, likelihood).values()) == numbers_of(once.values()));
 }
 
-TEST(OrdinalLaws, RepeatedEvidenceChangesNothingFromTheSecondTimeOn) {
-  holds([] {
-    const Prior p;
-    const Numbers evidence = any_unit_numbers(p.x.size());
-    RC_PRE(possible(minima(p.values, evidence)));
-    const Likelihood likelihood{p.x, evidence};
-    const auto twice = update(update(p.prior, likelihood), likelihood);
-    RC_ASSERT(numbers_of(update(twice, likelihood).values()) == numbers_of(twice.values()));
-  });
+PROPERTY(OrdinalLaws, RepeatedEvidenceChangesNothingFromTheSecondTimeOn) {
+  const Prior p;
+  const Numbers evidence = any_unit_numbers(p.x.size());
+  RC_PRE(possible(minima(p.values, evidence)));
+  const Likelihood likelihood{p.x, evidence};
+  const auto twice = update(update(p.prior, likelihood), likelihood);
+  RC_ASSERT(numbers_of(update(twice, likelihood).values()) == numbers_of(twice.values()));
 }
 
 TEST(OrdinalLaws, UpdateByOtherEvidenceMayDecideATieTheSecondTime) {  // the residuum, not the minimum, is to blame
@@ -131,71 +112,58 @@ TEST(OrdinalLaws, UpdateByOtherEvidenceMayDecideATieTheSecondTime) {  // the res
   EXPECT_EQ(numbers_of(twice.values()), (Numbers{1.0, 0.5}));
 }
 
-TEST(OrdinalLaws, EvidenceThatSaysNothingChangesNothing) {
-  holds([] {
-    const Prior p;
-    RC_ASSERT(numbers_of(update(p.prior, Likelihood{p.x}).values()) == p.values);
-  });
+PROPERTY(OrdinalLaws, EvidenceThatSaysNothingChangesNothing) {
+  const Prior p;
+  RC_ASSERT(numbers_of(update(p.prior, Likelihood{p.x}).values()) == p.values);
 }
 
-TEST(OrdinalLaws, SupportShrinksToWhatEvidenceAllows) {
-  holds([] {
-    const Prior p;
-    const Numbers evidence = any_unit_numbers(p.x.size());
-    RC_PRE(possible(minima(p.values, evidence)));
-    const auto posterior = update(p.prior, Likelihood{p.x, evidence});
-    for (std::size_t i = 0; i < p.x.size(); ++i)
-      RC_ASSERT((posterior[i] > 0.0) == (p.values[i] > 0.0 && evidence[i] > 0.0));
-  });
+PROPERTY(OrdinalLaws, SupportShrinksToWhatEvidenceAllows) {
+  const Prior p;
+  const Numbers evidence = any_unit_numbers(p.x.size());
+  RC_PRE(possible(minima(p.values, evidence)));
+  const auto posterior = update(p.prior, Likelihood{p.x, evidence});
+  for (std::size_t i = 0; i < p.x.size(); ++i)
+    RC_ASSERT((posterior[i] > 0.0) == (p.values[i] > 0.0 && evidence[i] > 0.0));
 }
 
-TEST(OrdinalLaws, ALikelihoodIsCarriedBackAsItsRestatement) {
-  holds([] {
-    const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
-    const auto relation = any_relation(x, y);
-    const Numbers values = any_unit_numbers(x.size());
-    const auto carried = compose(Likelihood{x, values}, relation);
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      const Numbers joint = minima(numbers_of(relation.row(i)), values);
-      RC_ASSERT(carried[i] == *std::max_element(joint.begin(), joint.end()));
-    }
-  });
+PROPERTY(OrdinalLaws, ALikelihoodIsCarriedBackAsItsRestatement) {
+  const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
+  const auto relation = any_relation(x, y);
+  const Numbers values = any_unit_numbers(x.size());
+  const auto carried = compose(Likelihood{x, values}, relation);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const Numbers joint = minima(numbers_of(relation.row(i)), values);
+    RC_ASSERT(carried[i] == *std::max_element(joint.begin(), joint.end()));
+  }
 }
 
-TEST(OrdinalLaws, TheJointIsRebuiltFromMarginalAndConditional) {
-  holds([] {
-    const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
-    const auto relation = any_relation(x, y);
-    const auto prior = any_distribution(y);
-    const auto marginal = compose(relation, prior);
-    const auto inverse = invert(relation, prior);
-    for (std::size_t i = 0; i < y.size(); ++i)
-      for (std::size_t k = 0; k < x.size(); ++k)
-        RC_ASSERT(std::min(inverse.relation(k, i), marginal[k]) == std::min(relation(i, k), prior[i]));
-    for (const std::size_t k : inverse.unreachable) RC_ASSERT(marginal[k] == 0.0);
-  });
+PROPERTY(OrdinalLaws, TheJointIsRebuiltFromMarginalAndConditional) {
+  const auto [x, y, relation, prior] = AnyJoint<Ordinal, Ordinal>{};
+  const auto marginal = compose(relation, prior);
+  const auto inverse = invert(relation, prior);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    for (std::size_t k = 0; k < x.size(); ++k)
+      RC_ASSERT(std::min(inverse.relation(k, i), marginal[k]) == std::min(relation(i, k), prior[i]));
+  for (const std::size_t k : inverse.unreachable) RC_ASSERT(marginal[k] == 0.0);
 }
 
-TEST(OrdinalLaws, RelabellingByAnIncreasingFunctionRelabelsAnswers) {  // only the order of the grades counts
-  holds([] {
-    const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
-    const auto grade = [](double value) { return value * value / 2.0 + value / 2.0; };  // 0 and 1 stay
-    Rows rows = any_normalized_rows(By::max, y.size(), x.size());
-    for (Numbers& row : rows)
-      for (double& value : row) value = std::round(value * 1024.0) / 1024.0;  // so that the function is exact
-    Rows graded = rows;
-    for (Numbers& row : graded)
-      for (double& value : row) value = grade(value);
-    Numbers prior = any_normalized_numbers(By::max, y.size());
-    for (double& value : prior) value = std::round(value * 1024.0) / 1024.0;
-    Numbers graded_prior = prior;
-    for (double& value : graded_prior) value = grade(value);
+PROPERTY(OrdinalLaws, RelabellingByAnIncreasingFunctionRelabelsAnswers) {  // only the order of the grades counts
+  const auto x = any_variable<Ordinal>("x"), y = any_variable<Ordinal>("y");
+  const auto grade = [](double value) { return value * value / 2.0 + value / 2.0; };  // 0 and 1 stay
+  Rows rows = any_normalized_rows(By::max, y.size(), x.size());
+  for (Numbers& row : rows)
+    for (double& value : row) value = std::round(value * 1024.0) / 1024.0;  // so that the function is exact
+  Rows graded = rows;
+  for (Numbers& row : graded)
+    for (double& value : row) value = grade(value);
+  Numbers prior = any_normalized_numbers(By::max, y.size());
+  for (double& value : prior) value = std::round(value * 1024.0) / 1024.0;
+  Numbers graded_prior = prior;
+  for (double& value : graded_prior) value = grade(value);
 
-    const auto marginal = compose(Relation<Ordinal, Ordinal>{x, y, rows}, Distribution{y, prior});
-    const auto graded_marginal = compose(Relation<Ordinal, Ordinal>{x, y, graded}, Distribution{y, graded_prior});
-    for (std::size_t k = 0; k < x.size(); ++k) RC_ASSERT(graded_marginal[k] == grade(marginal[k]));
-  });
+  const auto marginal = compose(Relation<Ordinal, Ordinal>{x, y, rows}, Distribution{y, prior});
+  const auto graded_marginal = compose(Relation<Ordinal, Ordinal>{x, y, graded}, Distribution{y, graded_prior});
+  for (std::size_t k = 0; k < x.size(); ++k) RC_ASSERT(graded_marginal[k] == grade(marginal[k]));
 }
 
 }  // namespace
-}  // namespace sigmax::laws

@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include <sigmax/core/measure.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/update.hpp>
 
 #include "laws/generate.hpp"
-#include "support/type_names.hpp"
 
-namespace sigmax::laws {
 namespace {
 
 /// An exponent from ¼ to 4, one among them.
@@ -37,190 +30,158 @@ void require_dominated(const Distribution<Random>& p, const Distribution<Fuzzy>&
   }
 }
 
-TEST(RatioScaleLaws, EachDirectionUndoesTheOther) {  // (34), (35)
-  holds([] {
-    const RatioScale scale{any_exponent()};
-    const auto p = any_distribution(any_variable<Random>("x"));
-    require_near(to_probability(to_possibility(p, scale), scale).values(), p.values());
-    const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-    require_near(to_possibility(to_probability(pi, scale), scale).values(), pi.values());
-  });
+PROPERTY(RatioScaleLaws, EachDirectionUndoesTheOther) {  // (34), (35)
+  const RatioScale scale{any_exponent()};
+  const auto p = any_distribution(any_variable<Random>("x"));
+  require_near(to_probability(to_possibility(p, scale), scale).values(), p.values());
+  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
+  require_near(to_possibility(to_probability(pi, scale), scale).values(), pi.values());
 }
 
-TEST(RatioScaleLaws, EachDirectionKeepsTheOrder) {
-  holds([] {
-    const RatioScale scale{any_exponent()};
-    const auto p = any_distribution(any_variable<Random>("x"));
-    require_same_order(p.values(), to_possibility(p, scale).values());
-    const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-    require_same_order(pi.values(), to_probability(pi, scale).values());
-  });
+PROPERTY(RatioScaleLaws, EachDirectionKeepsTheOrder) {
+  const RatioScale scale{any_exponent()};
+  const auto p = any_distribution(any_variable<Random>("x"));
+  require_same_order(p.values(), to_possibility(p, scale).values());
+  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
+  require_same_order(pi.values(), to_probability(pi, scale).values());
 }
 
-TEST(RatioScaleLaws, ItIsItsRestatement) {
-  holds([] {
-    const RatioScale scale{any_exponent()};
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, scale);
-    const double greatest = p[index_of_greatest(p.values())];
-    for (std::size_t i = 0; i < p.size(); ++i) require_near(pi[i], std::pow(p[i] / greatest, scale.exponent));
-    double sum = 0.0;
-    for (const double value : pi.values()) sum += std::pow(value, 1.0 / scale.exponent);
-    const auto back = to_probability(pi, scale);
-    for (std::size_t i = 0; i < p.size(); ++i) require_near(back[i], std::pow(pi[i], 1.0 / scale.exponent) / sum);
-  });
+PROPERTY(RatioScaleLaws, ItIsItsRestatement) {
+  const RatioScale scale{any_exponent()};
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, scale);
+  const double greatest = p[index_of_greatest(p.values())];
+  for (std::size_t i = 0; i < p.size(); ++i) require_near(pi[i], std::pow(p[i] / greatest, scale.exponent));
+  double sum = 0.0;
+  for (const double value : pi.values()) sum += std::pow(value, 1.0 / scale.exponent);
+  const auto back = to_probability(pi, scale);
+  for (std::size_t i = 0; i < p.size(); ++i) require_near(back[i], std::pow(pi[i], 1.0 / scale.exponent) / sum);
 }
 
-TEST(RatioScaleLaws, ItCommutesWithUpdate) {
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const Numbers likelihood = any_unit_numbers(p.size());
-    // What is left must not be subnormal: there the division by the greatest rounds.
-    RC_PRE(plain::evidence(By::sum, numbers_of(p.values()), likelihood) > 1e-290L);
-    const auto posterior = update(p, Likelihood<Random>{p.variable(), likelihood});
-    const auto prior = to_possibility(p, RatioScale{});
-    require_near(to_possibility(posterior, RatioScale{}).values(),
-                 update(prior, Likelihood<Fuzzy>{prior.variable(), likelihood}).values());
-  });
+PROPERTY(RatioScaleLaws, ItCommutesWithUpdate) {
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const Numbers likelihood = any_unit_numbers(p.size());
+  // What is left must not be subnormal: there the division by the greatest rounds.
+  RC_PRE(plain::evidence(By::sum, numbers_of(p.values()), likelihood) > 1e-290L);
+  const auto posterior = update(p, Likelihood<Random>{p.variable(), likelihood});
+  const auto prior = to_possibility(p, RatioScale{});
+  require_near(to_possibility(posterior, RatioScale{}).values(),
+               update(prior, Likelihood<Fuzzy>{prior.variable(), likelihood}).values());
 }
 
-TEST(RatioScaleLaws, OutcomesAreDominatedIfTheExponentIsAtMostOne) {
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, RatioScale{std::min(1.0, any_exponent())});
-    for (std::size_t i = 0; i < p.size(); ++i) RC_ASSERT(pi[i] >= p[i]);
-  });
+PROPERTY(RatioScaleLaws, OutcomesAreDominatedIfTheExponentIsAtMostOne) {
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, RatioScale{std::min(1.0, any_exponent())});
+  for (std::size_t i = 0; i < p.size(); ++i) RC_ASSERT(pi[i] >= p[i]);
 }
 
-TEST(RatioScaleLaws, EventsNeedNotBeDominated) {  // p = (1 − m q, q, …, q): Π = q / (1 − m q) < P = m q
-  holds([] {
-    const std::size_t m = *rc::gen::inRange<std::size_t>(2, 7);
-    const double count = static_cast<double>(m), q = 0.9 * (count - 1.0) / (count * count);
-    const RandomVariable x{"x", m + 1};
-    Numbers numbers(m + 1, q);
-    numbers[0] = 1.0 - count * q;
-    RC_PRE(numbers[0] > q);
-    const Distribution p{x, numbers};
-    const auto pi = to_possibility(p, RatioScale{});
-    RC_ASSERT(possibility(pi, ~Event{pi.variable(), {0}}) < probability(p, ~Event{x, {0}}) - 1e-3);
-  });
+PROPERTY(RatioScaleLaws, EventsNeedNotBeDominated) {  // p = (1 − m q, q, …, q): Π = q / (1 − m q) < P = m q
+  const std::size_t m = *rc::gen::inRange<std::size_t>(2, 7);
+  const double count = static_cast<double>(m), q = 0.9 * (count - 1.0) / (count * count);
+  const RandomVariable x{"x", m + 1};
+  Numbers numbers(m + 1, q);
+  numbers[0] = 1.0 - count * q;
+  RC_PRE(numbers[0] > q);
+  const Distribution p{x, numbers};
+  const auto pi = to_possibility(p, RatioScale{});
+  RC_ASSERT(possibility(pi, ~Event{pi.variable(), {0}}) < probability(p, ~Event{x, {0}}) - 1e-3);
 }
 
-TEST(DuboisPradeLaws, ItIsItsRestatement) {  // π_i = Σ {p_j : p_j ≤ p_i}
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, DuboisPrade{});
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      long double sum = 0;
-      for (const double value : p.values())
-        if (value <= p[i]) sum += value;
-      require_near(pi[i], static_cast<double>(sum));
-    }
-  });
+PROPERTY(DuboisPradeLaws, ItIsItsRestatement) {  // π_i = Σ {p_j : p_j ≤ p_i}
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, DuboisPrade{});
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    long double sum = 0;
+    for (const double value : p.values())
+      if (value <= p[i]) sum += value;
+    require_near(pi[i], static_cast<double>(sum));
+  }
 }
 
-TEST(DuboisPradeLaws, ItKeepsTheOrderAndDominates) {
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, DuboisPrade{});
-    require_same_order(p.values(), pi.values());
-    require_dominated(p, pi);
-  });
+PROPERTY(DuboisPradeLaws, ItKeepsTheOrderAndDominates) {
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, DuboisPrade{});
+  require_same_order(p.values(), pi.values());
+  require_dominated(p, pi);
 }
 
-TEST(DuboisPradeLaws, NothingMoreSpecificDominatesAndKeepsTheOrder) {
+PROPERTY(DuboisPradeLaws, NothingMoreSpecificDominatesAndKeepsTheOrder) {
   // Each possibility is the probability of an event that no order-preserving π could make less possible.
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, DuboisPrade{});
-    const auto symmetric = to_possibility(p, DuboisPradeSandri{});
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      std::vector<std::size_t> as_probable_or_less;
-      for (std::size_t k = 0; k < p.size(); ++k)
-        if (p[k] <= p[i]) as_probable_or_less.push_back(k);
-      require_near(probability(p, Event{p.variable(), as_probable_or_less}), pi[i]);
-      require_near(possibility(pi, Event{pi.variable(), as_probable_or_less}), pi[i]);
-      RC_ASSERT(pi[i] <= symmetric[i] + 1e-12);
-    }
-  });
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, DuboisPrade{});
+  const auto symmetric = to_possibility(p, DuboisPradeSandri{});
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    std::vector<std::size_t> as_probable_or_less;
+    for (std::size_t k = 0; k < p.size(); ++k)
+      if (p[k] <= p[i]) as_probable_or_less.push_back(k);
+    require_near(probability(p, Event{p.variable(), as_probable_or_less}), pi[i]);
+    require_near(possibility(pi, Event{pi.variable(), as_probable_or_less}), pi[i]);
+    RC_ASSERT(pi[i] <= symmetric[i] + 1e-12);
+  }
 }
 
-TEST(DuboisPradeSandriLaws, ItIsItsRestatement) {  // π_i = Σ_j min(p_i, p_j)
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, DuboisPradeSandri{});
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      long double sum = 0;
-      for (const double value : p.values()) sum += std::min(value, p[i]);
-      require_near(pi[i], static_cast<double>(sum));
-    }
-  });
+PROPERTY(DuboisPradeSandriLaws, ItIsItsRestatement) {  // π_i = Σ_j min(p_i, p_j)
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, DuboisPradeSandri{});
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    long double sum = 0;
+    for (const double value : p.values()) sum += std::min(value, p[i]);
+    require_near(pi[i], static_cast<double>(sum));
+  }
 }
 
-TEST(DuboisPradeSandriLaws, ItsInverseSharesEveryCutEqually) {  // p_i = ∫_0^{π_i} dλ / |{j : π_j ≥ λ}|
-  holds([] {
-    const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-    const auto p = to_probability(pi, DuboisPradeSandri{});
-    for (std::size_t i = 0; i < pi.size(); ++i) {
-      long double integral = 0;
-      for (const double top : pi.values()) {  // the piece of the integral that ends at this value, if it is the first
-        if (top > pi[i] || top == 0.0) continue;
-        double bottom = 0.0;
-        int above = 0, same = 0;
-        for (const double value : pi.values()) {
-          if (value < top) bottom = std::max(bottom, value);
-          above += value >= top;
-          same += value == top;
-        }
-        integral += (static_cast<long double>(top) - bottom) / above / same;
+PROPERTY(DuboisPradeSandriLaws, ItsInverseSharesEveryCutEqually) {  // p_i = ∫_0^{π_i} dλ / |{j : π_j ≥ λ}|
+  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
+  const auto p = to_probability(pi, DuboisPradeSandri{});
+  for (std::size_t i = 0; i < pi.size(); ++i) {
+    long double integral = 0;
+    for (const double top : pi.values()) {  // the piece of the integral that ends at this value, if it is the first
+      if (top > pi[i] || top == 0.0) continue;
+      double bottom = 0.0;
+      int above = 0, same = 0;
+      for (const double value : pi.values()) {
+        if (value < top) bottom = std::max(bottom, value);
+        above += value >= top;
+        same += value == top;
       }
-      require_near(p[i], static_cast<double>(integral));
+      integral += (static_cast<long double>(top) - bottom) / above / same;
     }
-  });
+    require_near(p[i], static_cast<double>(integral));
+  }
 }
 
-TEST(DuboisPradeSandriLaws, EachDirectionUndoesTheOther) {
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    require_near(to_probability(to_possibility(p, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), p.values());
-    const auto pi = any_distribution(any_variable<Fuzzy>("y"));
-    require_near(to_possibility(to_probability(pi, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), pi.values());
-  });
+PROPERTY(DuboisPradeSandriLaws, EachDirectionUndoesTheOther) {
+  const auto p = any_distribution(any_variable<Random>("x"));
+  require_near(to_probability(to_possibility(p, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), p.values());
+  const auto pi = any_distribution(any_variable<Fuzzy>("y"));
+  require_near(to_possibility(to_probability(pi, DuboisPradeSandri{}), DuboisPradeSandri{}).values(), pi.values());
 }
 
-TEST(DuboisPradeSandriLaws, EachDirectionKeepsTheOrderAndDominates) {
-  holds([] {
-    const auto p = any_distribution(any_variable<Random>("x"));
-    const auto pi = to_possibility(p, DuboisPradeSandri{});
-    require_same_order(p.values(), pi.values());
-    require_dominated(p, pi);
-    const auto given = any_distribution(any_variable<Fuzzy>("y"));
-    const auto pignistic = to_probability(given, DuboisPradeSandri{});
-    require_same_order(given.values(), pignistic.values());
-    require_dominated(pignistic, given);
-  });
+PROPERTY(DuboisPradeSandriLaws, EachDirectionKeepsTheOrderAndDominates) {
+  const auto p = any_distribution(any_variable<Random>("x"));
+  const auto pi = to_possibility(p, DuboisPradeSandri{});
+  require_same_order(p.values(), pi.values());
+  require_dominated(p, pi);
+  const auto given = any_distribution(any_variable<Fuzzy>("y"));
+  const auto pignistic = to_probability(given, DuboisPradeSandri{});
+  require_same_order(given.values(), pignistic.values());
+  require_dominated(pignistic, given);
 }
 
-template <class Condition>
-class TransformLaws : public testing::Test {};
-using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(TransformLaws, Kinds, support::TypeNames);
+TYPED_SUITE(TransformLaws, Random, Fuzzy);
 
-TYPED_TEST(TransformLaws, ARelationIsTransformedRowByRow) {
-  holds([] {
-    const auto from = any_variable<TypeParam>("from");
-    const auto p = any_relation(any_variable<Random>("x"), from);
-    const auto pi = any_relation(any_variable<Fuzzy>("y"), from);
-    const RatioScale scale{any_exponent()};
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      RC_ASSERT(numbers_of(to_possibility(p, scale).row(i)) == numbers_of(to_possibility(p.given(i), scale).values()));
-      RC_ASSERT(numbers_of(to_possibility(p, DuboisPrade{}).row(i)) ==
-                numbers_of(to_possibility(p.given(i), DuboisPrade{}).values()));
-      RC_ASSERT(numbers_of(to_probability(pi, DuboisPradeSandri{}).row(i)) ==
-                numbers_of(to_probability(pi.given(i), DuboisPradeSandri{}).values()));
-    }
-  });
+TYPED_PROPERTY(TransformLaws, ARelationIsTransformedRowByRow) {
+  const auto from = any_variable<TypeParam>("from");
+  const auto p = any_relation(any_variable<Random>("x"), from);
+  const auto pi = any_relation(any_variable<Fuzzy>("y"), from);
+  const RatioScale scale{any_exponent()};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    RC_ASSERT(numbers_of(to_possibility(p, scale).row(i)) == numbers_of(to_possibility(p.given(i), scale).values()));
+    RC_ASSERT(numbers_of(to_possibility(p, DuboisPrade{}).row(i)) ==
+              numbers_of(to_possibility(p.given(i), DuboisPrade{}).values()));
+    RC_ASSERT(numbers_of(to_probability(pi, DuboisPradeSandri{}).row(i)) ==
+              numbers_of(to_probability(pi.given(i), DuboisPradeSandri{}).values()));
+  }
 }
 
 }  // namespace
-}  // namespace sigmax::laws

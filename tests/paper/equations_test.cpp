@@ -1,12 +1,6 @@
 // docs/equations.md has a row for each equation of the paper, in order, and what it names is there.
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace {
 
@@ -42,7 +36,7 @@ TEST(Equations, AllHaveASymbolAHeaderAndAPage) {
     const fs::path header = source / room / "include" / "sigmax" / row[3];
     ASSERT_TRUE(fs::exists(header)) << line;
     const std::string symbol = row[2].substr(1, row[2].size() - 2);
-    EXPECT_NE(contents(header).find(symbol), std::string::npos) << line;
+    EXPECT_TRUE(says(contents(header), {symbol}));
     const auto open = row[4].find("](");
     ASSERT_NE(open, std::string::npos) << line;
     EXPECT_TRUE(fs::exists(source / "docs" / row[4].substr(open + 2, row[4].size() - open - 3))) << line;

@@ -1,16 +1,10 @@
 /// Section VI against what its authors published, and against the truth where print and derivation part.
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace sigmax::apps {
 namespace {
 
 using Json = nlohmann::json;
@@ -19,8 +13,7 @@ Json simulate(std::vector<std::string> arguments) {
   const TemporaryDirectory directory;
   arguments.insert(arguments.begin(), "simulate");
   arguments.insert(arguments.end(), {"--quiet", "--out", directory.path()});
-  const auto ending = program::run(SIGMAX_HIMM_DEMO, arguments);
-  EXPECT_EQ(ending.status, 0) << ending.output;
+  const auto ending = program::succeeds(SIGMAX_HIMM_DEMO, arguments);
   return Json::parse(contents(directory.path() / "summary.json"));
 }
 
@@ -87,4 +80,3 @@ TEST(SectionSix, AsPrintedHimmIsWorseThanTheCorrectImmBeforeAndAfterTheManoeuvre
 }
 
 }  // namespace
-}  // namespace sigmax::apps

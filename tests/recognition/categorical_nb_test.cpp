@@ -1,26 +1,11 @@
-#include <gtest/gtest.h>
 #include <sys/wait.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <ostream>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>
 
 #include "apps/temporary_directory.hpp"
-#include "support/near.hpp"
 
 /// Sigma inference over learned relations, with Laplace smoothing, is categorical naive Bayes as scikit-learn has it.
-namespace sigmax {
 namespace {
 
 /// A column as numbers, in the order in which its values appear first.
@@ -113,4 +98,3 @@ INSTANTIATE_TEST_SUITE_P(Data, CategoricalNB,
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace sigmax

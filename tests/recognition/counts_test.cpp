@@ -1,28 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using plain::Numbers;
-using support::holds;
-using support::near;
-using support::require_near;
-using support::throws;
 
 using Row = std::vector<std::size_t>;
 
@@ -43,9 +24,9 @@ TEST(Counts, CountWhatIsNotMissing) {
   const Counts counts = farm();
   EXPECT_EQ(counts.rows(0), 3.0);
   EXPECT_EQ(counts.rows(1), 1.0);
-  EXPECT_PRED_FORMAT3(near, counts.of(0, 0), (Numbers{0, 0, 2}), 0.0);
-  EXPECT_PRED_FORMAT3(near, counts.of(0, 1), (Numbers{0, 1, 0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, counts.of(1, 0), (Numbers{1, 2}), 0.0);
+  EXPECT_CLOSE(counts.of(0, 0), (Numbers{0, 0, 2}), 0.0);
+  EXPECT_CLOSE(counts.of(0, 1), (Numbers{0, 1, 0}), 0.0);
+  EXPECT_CLOSE(counts.of(1, 0), (Numbers{1, 2}), 0.0);
 }
 
 TEST(Counts, MayBeGivenAsNumbers) {
@@ -58,11 +39,11 @@ TEST(Counts, MayBeGivenAsNumbers) {
 }
 
 TEST(PatternPrior, IsTheShareOfTheRows) {
-  EXPECT_PRED_FORMAT3(near, pattern_prior(farm()).values(), (Numbers{0.75, 0.25}), 0.0);
-  EXPECT_PRED_FORMAT3(near, pattern_prior(farm(), 1.0).values(), (Numbers{4.0 / 6.0, 2.0 / 6.0}), 1e-15);
+  EXPECT_CLOSE(pattern_prior(farm()).values(), (Numbers{0.75, 0.25}), 0.0);
+  EXPECT_CLOSE(pattern_prior(farm(), 1.0).values(), (Numbers{4.0 / 6.0, 2.0 / 6.0}), 1e-15);
   const Counts empty{animal, {legs}};
   EXPECT_THROW(pattern_prior(empty), std::invalid_argument);
-  EXPECT_PRED_FORMAT3(near, pattern_prior(empty, 1.0).values(), (Numbers{0.5, 0.5}), 0.0);
+  EXPECT_CLOSE(pattern_prior(empty, 1.0).values(), (Numbers{0.5, 0.5}), 0.0);
 }
 
 TEST(LearnedRelation, IsSmoothedAsStated) {
@@ -70,32 +51,29 @@ TEST(LearnedRelation, IsSmoothedAsStated) {
   const auto laplace = learned_relation(counts, 0, 1.0);
   EXPECT_EQ(laplace.to(), legs);
   EXPECT_EQ(laplace.from(), animal);
-  EXPECT_PRED_FORMAT3(near, laplace.table().values(), (Numbers{0.2, 0.2, 0.6, 0.25, 0.5, 0.25}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, learned_relation(counts, 0, 0.5).row(0), (Numbers{0.5 / 3.5, 0.5 / 3.5, 2.5 / 3.5}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, learned_relation(counts, 1, 0.0).table().values(),
-                      (Numbers{1.0 / 3.0, 2.0 / 3.0, 1.0, 0.0}), 1e-15);
+  EXPECT_CLOSE(laplace.table().values(), (Numbers{0.2, 0.2, 0.6, 0.25, 0.5, 0.25}), 1e-15);
+  EXPECT_CLOSE(learned_relation(counts, 0, 0.5).row(0), (Numbers{0.5 / 3.5, 0.5 / 3.5, 2.5 / 3.5}), 1e-15);
+  EXPECT_CLOSE(learned_relation(counts, 1, 0.0).table().values(), (Numbers{1.0 / 3.0, 2.0 / 3.0, 1.0, 0.0}), 1e-15);
 }
 
-TEST(LearnedRelation, IsTheStatedFormulaForAnyRows) {
-  holds([] {
-    const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
-    Counts counts{pattern, {feature}};
-    std::vector<Numbers> expected(pattern.size(), Numbers(feature.size(), 0.0));
-    const auto rows = *rc::gen::inRange<std::size_t>(0, 30);
-    for (std::size_t k = 0; k < rows; ++k) {
-      const auto c = *rc::gen::inRange<std::size_t>(0, pattern.size());
-      const auto f = *rc::gen::inRange<std::size_t>(0, feature.size() + 1);
-      counts.observe(c, Row{f == feature.size() ? missing : f});
-      if (f != feature.size()) expected[c][f] += 1.0;
-    }
-    const double alpha = laws::any([](rc::Random& random) { return static_cast<double>(1 + random.next() % 8) / 4.0; });
-    for (std::size_t c = 0; c < pattern.size(); ++c) {
-      double n = 0.0;
-      for (const double count : expected[c]) n += count;
-      for (double& count : expected[c]) count = (count + alpha) / (n + alpha * static_cast<double>(feature.size()));
-      require_near(learned_relation(counts, 0, alpha).row(c), expected[c]);
-    }
-  });
+PROPERTY(LearnedRelation, IsTheStatedFormulaForAnyRows) {
+  const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
+  Counts counts{pattern, {feature}};
+  std::vector<Numbers> expected(pattern.size(), Numbers(feature.size(), 0.0));
+  const auto rows = *rc::gen::inRange<std::size_t>(0, 30);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto c = *rc::gen::inRange<std::size_t>(0, pattern.size());
+    const auto f = *rc::gen::inRange<std::size_t>(0, feature.size() + 1);
+    counts.observe(c, Row{f == feature.size() ? missing : f});
+    if (f != feature.size()) expected[c][f] += 1.0;
+  }
+  const double alpha = laws::any([](rc::Random& random) { return static_cast<double>(1 + random.next() % 8) / 4.0; });
+  for (std::size_t c = 0; c < pattern.size(); ++c) {
+    double n = 0.0;
+    for (const double count : expected[c]) n += count;
+    for (double& count : expected[c]) count = (count + alpha) / (n + alpha * static_cast<double>(feature.size()));
+    require_near(learned_relation(counts, 0, alpha).row(c), expected[c]);
+  }
 }
 
 TEST(LearnedRelations, AsPossibilitiesAreTransformsOfTheProbabilities) {
@@ -106,29 +84,26 @@ TEST(LearnedRelations, AsPossibilitiesAreTransformsOfTheProbabilities) {
   ASSERT_EQ(ratio.size(), 2U);
   EXPECT_EQ(ratio[0].to(), as_fuzzy(legs));
   EXPECT_EQ(ratio[0].from(), as_fuzzy(animal));
-  EXPECT_PRED_FORMAT3(near, ratio[0].row(0), (Numbers{0.4, 0.6, 1.0}), 1e-15);  // relative frequency to the maximum
-  EXPECT_PRED_FORMAT3(near, learned_relations(counts, 0.0, DuboisPrade{})[0].row(0), (Numbers{0.2, 0.5, 1.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, learned_relations(counts, 0.0, DuboisPradeSandri{})[0].row(0), (Numbers{0.6, 0.8, 1.0}),
-                      1e-15);
-  EXPECT_PRED_FORMAT3(near, ratio[1].row(1), (Numbers{1.0, 0.0}), 0.0);
+  EXPECT_CLOSE(ratio[0].row(0), (Numbers{0.4, 0.6, 1.0}), 1e-15);  // relative frequency to the maximum
+  EXPECT_CLOSE(learned_relations(counts, 0.0, DuboisPrade{})[0].row(0), (Numbers{0.2, 0.5, 1.0}), 1e-15);
+  EXPECT_CLOSE(learned_relations(counts, 0.0, DuboisPradeSandri{})[0].row(0), (Numbers{0.6, 0.8, 1.0}), 1e-15);
+  EXPECT_CLOSE(ratio[1].row(1), (Numbers{1.0, 0.0}), 0.0);
 }
 
-TEST(LearnedRelations, ByRatioAreRelativeFrequenciesToTheMaximum) {
-  holds([] {
-    const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
-    Counts counts{pattern, {feature}};
-    for (std::size_t c = 0; c < pattern.size(); ++c)
-      for (std::size_t f = 0; f < feature.size(); ++f)
-        counts.observe_value(c, 0, f, static_cast<double>(1 + *rc::gen::inRange(0, 9)));
-    const auto learned = learned_relations(counts, 0.0, RatioScale{});
-    for (std::size_t c = 0; c < pattern.size(); ++c) {
-      const auto seen = counts.of(0, c);
-      Numbers expected(seen.begin(), seen.end());
-      const double greatest = *std::max_element(expected.begin(), expected.end());
-      for (double& count : expected) count /= greatest;
-      require_near(learned[0].row(c), expected);
-    }
-  });
+PROPERTY(LearnedRelations, ByRatioAreRelativeFrequenciesToTheMaximum) {
+  const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
+  Counts counts{pattern, {feature}};
+  for (std::size_t c = 0; c < pattern.size(); ++c)
+    for (std::size_t f = 0; f < feature.size(); ++f)
+      counts.observe_value(c, 0, f, static_cast<double>(1 + *rc::gen::inRange(0, 9)));
+  const auto learned = learned_relations(counts, 0.0, RatioScale{});
+  for (std::size_t c = 0; c < pattern.size(); ++c) {
+    const auto seen = counts.of(0, c);
+    Numbers expected(seen.begin(), seen.end());
+    const double greatest = *std::max_element(expected.begin(), expected.end());
+    for (double& count : expected) count /= greatest;
+    require_near(learned[0].row(c), expected);
+  }
 }
 
 TEST(LearnedRelations, MakeNaiveBayes) {
@@ -136,41 +111,39 @@ TEST(LearnedRelations, MakeNaiveBayes) {
   Classifier classifier{pattern_prior(counts), learned_relations(counts, 1.0)};
   classifier.observe(Row{2, 0});
   // cat: 3/4 · 3/5 · 2/5; hen: 1/4 · 1/4 · 2/3.
-  EXPECT_PRED_FORMAT3(near, classifier.belief()["cat"], 0.18 / (0.18 + 1.0 / 24.0), 1e-14);
+  EXPECT_CLOSE(classifier.belief()["cat"], 0.18 / (0.18 + 1.0 / 24.0), 1e-14);
   classifier.reset();
   classifier.observe(Row{missing, 0});
-  EXPECT_PRED_FORMAT3(near, classifier.belief()["cat"], 0.3 / (0.3 + 1.0 / 6.0), 1e-14);
+  EXPECT_CLOSE(classifier.belief()["cat"], 0.3 / (0.3 + 1.0 / 6.0), 1e-14);
 }
 
 TEST(Counts, RefuseWhatDoesNotFitAndCountNothingOfIt) {
   Counts counts = farm();
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe(2, Row{0, 0}); }, {"'animal'", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe(0, Row{0, 2}); }, {"'milk'", "2"}));
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { counts.observe(0, Row{0}); }, {"'animal'", "2 features", "1 values"}));
+  EXPECT_INVALID(("'animal'", "2"), counts.observe(2, Row{0, 0}));
+  EXPECT_INVALID(("'legs'", "3"), counts.observe(0, Row{3, 0}));
+  EXPECT_INVALID(("'milk'", "2"), counts.observe(0, Row{0, 2}));
+  EXPECT_INVALID(("'animal'", "2 features", "1 values"), counts.observe(0, Row{0}));
   for (const double times : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe(0, Row{0, 0}, times); }, {std::to_string(times)}));
+    EXPECT_INVALID((std::to_string(times)), counts.observe(0, Row{0, 0}, times));
     EXPECT_THROW(counts.observe_value(0, 0, 0, times), std::invalid_argument);
     EXPECT_THROW(learned_relation(counts, 0, times), std::invalid_argument);
     EXPECT_THROW(pattern_prior(counts, times), std::invalid_argument);
   }
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe_value(0, 2, 0); }, {"'animal'", "2 features", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe_value(0, 0, 3); }, {"'legs'", "3"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { counts.observe_value(2, 0, 0); }, {"'animal'", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { learned_relation(counts, 2, 1.0); }, {"'animal'", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { Counts(animal, {}); }, {"'animal'", "one feature"}));
+  EXPECT_INVALID(("'animal'", "2 features", "2"), counts.observe_value(0, 2, 0));
+  EXPECT_INVALID(("'legs'", "3"), counts.observe_value(0, 0, 3));
+  EXPECT_INVALID(("'animal'", "2"), counts.observe_value(2, 0, 0));
+  EXPECT_INVALID(("'animal'", "2"), learned_relation(counts, 2, 1.0));
+  EXPECT_INVALID(("'animal'", "one feature"), Counts(animal, {}));
   EXPECT_EQ(counts.rows(0), 3.0);
-  EXPECT_PRED_FORMAT3(near, counts.of(0, 0), (Numbers{0, 0, 2}), 0.0);
+  EXPECT_CLOSE(counts.of(0, 0), (Numbers{0, 0, 2}), 0.0);
 }
 
 TEST(LearnedRelation, RefusesAPatternThatWasNeverSeen) {
   Counts counts{animal, {legs, milk}};
   counts.observe(0, Row{0, 0});
   counts.observe(1, Row{missing, 0});
-  EXPECT_TRUE(
-      throws<std::invalid_argument>([&] { learned_relations(counts, 0.0); }, {"animal = 'hen'", "'legs'", "0"}));
-  EXPECT_PRED_FORMAT3(near, learned_relation(counts, 0, 1.0).row(1), (Numbers{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}), 1e-15);
+  EXPECT_INVALID(("animal = 'hen'", "'legs'", "0"), learned_relations(counts, 0.0));
+  EXPECT_CLOSE(learned_relation(counts, 0, 1.0).row(1), (Numbers{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}), 1e-15);
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <vector>
-
 #include <sigmax/core/measure.hpp>
 #include <sigmax/recognition/decision.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::holds;
-using support::near;
-using support::require_near;
 
 const RandomVariable animal{"animal", {"cat", "hen", "cow"}};
 const FuzzyVariable target{"target", {"T1", "T2", "T3"}};
@@ -22,25 +11,23 @@ const FuzzyVariable target{"target", {"T1", "T2", "T3"}};
 TEST(Decide, IsForTheMostProbableByTheMarginToTheSecond) {
   const Decision decision = decide(Belief{Distribution{animal, {0.25, 0.125, 0.625}}});
   EXPECT_EQ(decision.pattern, 2U);
-  EXPECT_PRED_FORMAT3(near, decision.margin, 0.375, 1e-15);
+  EXPECT_CLOSE(decision.margin, 0.375, 1e-15);
   EXPECT_EQ(decision.tied, 1U);
 }
 
 TEST(Decide, IsForTheMostPossibleByItsNecessity) {
   const Decision decision = decide(Belief{Distribution{target, {0.25, 1.0, 0.75}}});
   EXPECT_EQ(decision.pattern, 1U);
-  EXPECT_PRED_FORMAT3(near, decision.margin, 0.25, 1e-15);
+  EXPECT_CLOSE(decision.margin, 0.25, 1e-15);
 }
 
-TEST(Decide, TheMarginOfAPossibilityIsTheNecessityOfTheWinner) {
-  holds([] {
-    const auto pattern = laws::any_variable<Fuzzy>("pattern");
-    const auto belief = laws::any_distribution(pattern);
-    const Decision decision = decide(Belief{belief});
-    const double expected = necessity(belief, Event<Fuzzy>{pattern, {decision.pattern}});
-    if (decision.tied == 1) require_near(decision.margin, expected);
-    if (decision.tied > 1) RC_ASSERT(decision.margin == 0.0 && expected <= 2e-9);
-  });
+PROPERTY(Decide, TheMarginOfAPossibilityIsTheNecessityOfTheWinner) {
+  const auto pattern = laws::any_variable<Fuzzy>("pattern");
+  const auto belief = laws::any_distribution(pattern);
+  const Decision decision = decide(Belief{belief});
+  const double expected = necessity(belief, Event<Fuzzy>{pattern, {decision.pattern}});
+  if (decision.tied == 1) require_near(decision.margin, expected);
+  if (decision.tied > 1) RC_ASSERT(decision.margin == 0.0 && expected <= 2e-9);
 }
 
 TEST(Decide, GivesATieToTheFirst) {
@@ -92,4 +79,3 @@ TEST(BestPatterns, GiveTiesToTheFirst) {
 }
 
 }  // namespace
-}  // namespace sigmax

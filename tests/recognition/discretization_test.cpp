@@ -1,30 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
-#include <vector>
-
 #include <sigmax/recognition/discretization.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using plain::Numbers;
-using support::holds;
-using support::near;
-using support::throws;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Discretization, ARangeForOverATemporarysCutsSeesThem) {
   Numbers seen;
@@ -42,7 +20,7 @@ TEST(Discretization, PutsACutIntoTheBinAboveIt) {
   EXPECT_EQ(bins.bin(std::nextafter(4.0, 0.0)), 1U);
   EXPECT_EQ(bins.bin(4.0), 2U);
   EXPECT_EQ(bins.bin(infinity), 2U);
-  EXPECT_EQ(bins.bin(nan), missing);
+  EXPECT_EQ(bins.bin(not_a_number), missing);
 }
 
 TEST(Discretization, NamesItsBins) {
@@ -65,73 +43,68 @@ TEST(Discretization, WithoutCutsIsASingleBin) {
 }
 
 TEST(Discretization, RefusesCutsThatDoNotAscend) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { Discretization({1.0, 1.0}); }, {"ascend", "1 follows 1"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { Discretization({2.0, 1.5}); }, {"1.5 follows 2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { Discretization({nan}); }, {"finite", "nan"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { Discretization({1.0, infinity}); }, {"finite", "inf"}));
+  EXPECT_INVALID(("ascend", "1 follows 1"), Discretization({1.0, 1.0}));
+  EXPECT_INVALID(("1.5 follows 2"), Discretization({2.0, 1.5}));
+  EXPECT_INVALID(("finite", "nan"), Discretization({not_a_number}));
+  EXPECT_INVALID(("finite", "inf"), Discretization({1.0, infinity}));
   const Discretization bins{{1.0}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { bins.lower(2); }, {"2 bins", "2"}));
+  EXPECT_INVALID(("2 bins", "2"), bins.lower(2));
   EXPECT_THROW(bins.upper(2), std::invalid_argument);
 }
 
-TEST(Discretization, PutsEveryValueBetweenTheBoundsOfItsBin) {
-  holds([] {
-    Numbers cuts = laws::any_unit_numbers(laws::any_size());
-    std::sort(cuts.begin(), cuts.end());
-    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-    const Discretization bins{cuts};
-    const double value = laws::any_unit_number();
-    const std::size_t bin = bins.bin(value);
-    RC_ASSERT(bins.lower(bin) <= value && value < bins.upper(bin));
-  });
+PROPERTY(Discretization, PutsEveryValueBetweenTheBoundsOfItsBin) {
+  Numbers cuts = laws::any_unit_numbers(laws::any_size());
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  const Discretization bins{cuts};
+  const double value = laws::any_unit_number();
+  const std::size_t bin = bins.bin(value);
+  RC_ASSERT(bins.lower(bin) <= value && value < bins.upper(bin));
 }
 
 TEST(EqualWidth, CutsTheRangeOfTheTrainingData) {
-  const Numbers values{3.0, nan, -1.0, 0.0, 7.0};
+  const Numbers values{3.0, not_a_number, -1.0, 0.0, 7.0};
   const Discretization bins = equal_width(values, 4);
-  EXPECT_PRED_FORMAT3(near, bins.cuts(), (Numbers{1.0, 3.0, 5.0}), 1e-15);
+  EXPECT_CLOSE(bins.cuts(), (Numbers{1.0, 3.0, 5.0}), 1e-15);
   EXPECT_EQ(bins.bin(100.0), 3U);  // what lies outside belongs to the outer bins
   EXPECT_EQ(bins.bin(-100.0), 0U);
   EXPECT_EQ(equal_width(values, 1).size(), 1U);
   const double huge = std::numeric_limits<double>::max();
-  EXPECT_PRED_FORMAT3(near, equal_width(Numbers{-huge, huge}, 2).cuts(), (Numbers{0.0}), 0.0);
+  EXPECT_CLOSE(equal_width(Numbers{-huge, huge}, 2).cuts(), (Numbers{0.0}), 0.0);
 }
 
 TEST(EqualFrequency, PutsAsManyValuesIntoEveryBin) {
-  const Numbers values{5, 3, 9, 1, nan, 7, 8, 2, 6, 4};
+  const Numbers values{5, 3, 9, 1, not_a_number, 7, 8, 2, 6, 4};
   const Discretization bins = equal_frequency(values, 3);
-  EXPECT_PRED_FORMAT3(near, bins.cuts(), (Numbers{4.0, 7.0}), 0.0);  // 1 2 3 | 4 5 6 | 7 8 9
+  EXPECT_CLOSE(bins.cuts(), (Numbers{4.0, 7.0}), 0.0);  // 1 2 3 | 4 5 6 | 7 8 9
 }
 
 TEST(EqualFrequency, NeverSplitsATie) {
   // The cuts would be at 0, 0 and 2: below the least there is nothing to cut off.
-  EXPECT_PRED_FORMAT3(near, equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3}, 4).cuts(), (Numbers{2.0}), 0.0);
-  EXPECT_PRED_FORMAT3(near, equal_frequency(Numbers{0, 1, 1, 1, 1, 2}, 3).cuts(), (Numbers{1.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3}, 4).cuts(), (Numbers{2.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 2}, 3).cuts(), (Numbers{1.0}), 0.0);
 }
 
-TEST(EqualFrequency, HasBinsOfEqualSizeWhereNothingIsTied) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(2, 40);
-    const auto bins = *rc::gen::inRange<std::size_t>(1, n + 1);
-    Numbers values;
-    for (const std::size_t i : laws::any_order(n)) values.push_back(static_cast<double>(i));
-    const Discretization fitted = equal_frequency(values, bins);
-    RC_ASSERT(fitted.size() == bins);
-    std::vector<std::size_t> sizes(bins, 0);
-    for (const double value : values) ++sizes[fitted.bin(value)];
-    for (const std::size_t size : sizes) RC_ASSERT(size == n / bins || size == n / bins + 1);
-  });
+PROPERTY(EqualFrequency, HasBinsOfEqualSizeWhereNothingIsTied) {
+  const auto n = *rc::gen::inRange<std::size_t>(2, 40);
+  const auto bins = *rc::gen::inRange<std::size_t>(1, n + 1);
+  Numbers values;
+  for (const std::size_t i : laws::any_order(n)) values.push_back(static_cast<double>(i));
+  const Discretization fitted = equal_frequency(values, bins);
+  RC_ASSERT(fitted.size() == bins);
+  std::vector<std::size_t> sizes(bins, 0);
+  for (const double value : values) ++sizes[fitted.bin(value)];
+  for (const std::size_t size : sizes) RC_ASSERT(size == n / bins || size == n / bins + 1);
 }
 
 TEST(Fitting, RefusesWhatCannotBeCut) {
   for (const auto& fit : {&equal_width, &equal_frequency}) {
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { fit(Numbers{3.5, 3.5, nan}, 2); }, {"every value is 3.5"}));
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { fit(Numbers{nan}, 2); }, {"no value"}));
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { fit(Numbers{1.0, infinity}, 2); }, {"infinite"}));
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { fit(Numbers{1.0, 2.0}, 0); }, {"one bin"}));
+    EXPECT_INVALID(("every value is 3.5"), fit(Numbers{3.5, 3.5, not_a_number}, 2));
+    EXPECT_INVALID(("no value"), fit(Numbers{not_a_number}, 2));
+    EXPECT_INVALID(("infinite"), fit(Numbers{1.0, infinity}, 2));
+    EXPECT_INVALID(("one bin"), fit(Numbers{1.0, 2.0}, 0));
     EXPECT_EQ(fit(Numbers{3.5, 3.5}, 1).size(), 1U);
   }
 }
 
 }  // namespace
-}  // namespace sigmax

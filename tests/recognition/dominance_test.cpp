@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <stdexcept>
-#include <vector>
-
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
 
 #include "laws/generate.hpp"
-#include "support/property.hpp"
 
-namespace sigmax {
 namespace {
-
-using plain::Rows;
-using support::holds;
 
 TEST(DominatedPatterns, AreTheAirlinerAndTheBomberOfTheKinematicTables) {
   const FuzzyVariable type{"type", {"airliner", "bomber", "fighter"}},
@@ -76,25 +65,23 @@ Relation<Fuzzy, Fuzzy> any_coarse_relation(const FuzzyVariable& to, const FuzzyV
           })};
 }
 
-TEST(DominatedPatterns, NeverExceedTheirDominatorWhateverIsReported) {
-  holds([] {
-    const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
-    const auto relation = any_coarse_relation(features, patterns);
-    Classifier classifier{uninformative(patterns), relation};
-    const auto dominated = dominated_patterns(classifier);
-    for (int k = 0; k < 3; ++k) {
-      try {
-        classifier.observe(Likelihood{features, laws::any_unit_numbers(features.size())});
-      } catch (const std::domain_error&) {
-        continue;
-      }
-      for (const Dominance& each : dominated) {
-        const auto& belief = classifier.log_belief();
-        RC_ASSERT(belief.log(each.pattern) <= belief.log(each.dominator) + 1e-12);
-        if (each.equal) RC_ASSERT(belief.log(each.pattern) == belief.log(each.dominator));
-      }
+PROPERTY(DominatedPatterns, NeverExceedTheirDominatorWhateverIsReported) {
+  const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
+  const auto relation = any_coarse_relation(features, patterns);
+  Classifier classifier{uninformative(patterns), relation};
+  const auto dominated = dominated_patterns(classifier);
+  for (int k = 0; k < 3; ++k) {
+    try {
+      classifier.observe(Likelihood{features, laws::any_unit_numbers(features.size())});
+    } catch (const std::domain_error&) {
+      continue;
     }
-  });
+    for (const Dominance& each : dominated) {
+      const auto& belief = classifier.log_belief();
+      RC_ASSERT(belief.log(each.pattern) <= belief.log(each.dominator) + 1e-12);
+      if (each.equal) RC_ASSERT(belief.log(each.pattern) == belief.log(each.dominator));
+    }
+  }
 }
 
 /// Sound, not complete: what two patterns share in holding down is not listed, as the documentation says.
@@ -111,28 +98,25 @@ TEST(DominatedPatterns, DoNotListWhatSeveralPatternsHoldDownTogether) {
 }
 
 /// And the others can win: brute force over the reports that allow one feature value, or any set of them.
-TEST(DominatedPatterns, AreAllThatDominatesByBruteForce) {
-  holds([] {
-    const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
-    const auto relation = any_coarse_relation(features, patterns);
-    std::vector<bool> found(patterns.size(), false), expected(patterns.size(), false);
-    for (const Dominance& each : dominated_patterns(relation)) {
-      RC_ASSERT(!found[each.pattern]);
-      found[each.pattern] = true;
-    }
-    const Rows rows = laws::rows_of(relation.table());
-    for (std::size_t a = 0; a < rows.size(); ++a)
-      for (std::size_t b = 0; b < rows.size(); ++b) {
-        bool below = true, equal = true;
-        for (std::size_t f = 0; f < rows[a].size(); ++f) {
-          below = below && rows[a][f] <= rows[b][f];
-          equal = equal && rows[a][f] == rows[b][f];
-        }
-        if (a != b && below && (!equal || b < a)) expected[a] = true;
+PROPERTY(DominatedPatterns, AreAllThatDominatesByBruteForce) {
+  const auto patterns = laws::any_variable<Fuzzy>("pattern"), features = laws::any_variable<Fuzzy>("feature");
+  const auto relation = any_coarse_relation(features, patterns);
+  std::vector<bool> found(patterns.size(), false), expected(patterns.size(), false);
+  for (const Dominance& each : dominated_patterns(relation)) {
+    RC_ASSERT(!found[each.pattern]);
+    found[each.pattern] = true;
+  }
+  const Rows rows = laws::rows_of(relation.table());
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    for (std::size_t b = 0; b < rows.size(); ++b) {
+      bool below = true, equal = true;
+      for (std::size_t f = 0; f < rows[a].size(); ++f) {
+        below = below && rows[a][f] <= rows[b][f];
+        equal = equal && rows[a][f] == rows[b][f];
       }
-    RC_ASSERT(found == expected);
-  });
+      if (a != b && below && (!equal || b < a)) expected[a] = true;
+    }
+  RC_ASSERT(found == expected);
 }
 
 }  // namespace
-}  // namespace sigmax

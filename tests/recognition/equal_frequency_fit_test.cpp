@@ -1,20 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <random>
-#include <stdexcept>
-#include <vector>
-
 #include <sigmax/recognition/equal_frequency_fit.hpp>
 
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::throws;
 
 using Values = std::vector<double>;
 
@@ -102,14 +90,13 @@ TEST(EqualFrequencyFit, GivesOneBinWhereNoTwoValuesDiffer) {
 }
 
 TEST(EqualFrequencyFit, RefusesWhatCannotBeFitted) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { EqualFrequencyFit(0); }, {"at least one bin"}));
+  EXPECT_INVALID(("at least one bin"), EqualFrequencyFit(0));
   EqualFrequencyFit fit(4);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { fit.see(INFINITY); }, {"infinite"}));
+  EXPECT_INVALID(("infinite"), fit.see(INFINITY));
   for (int i = 0; i < 20000; ++i) fit.see(i);
   ASSERT_TRUE(fit.wants_another_pass());
   fit.see(1.0);
-  EXPECT_TRUE(throws<std::logic_error>([&] { fit.wants_another_pass(); }, {"other values"}));
+  EXPECT_REFUSED(std::logic_error, ("other values"), fit.wants_another_pass());
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,33 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <sigmax/core/witness.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
-#include "support/type_names.hpp"
 
-namespace sigmax {
 namespace {
-
-using laws::any_relation;
-using laws::any_variable;
-using plain::Numbers;
-using plain::Rows;
-using support::holds;
-using support::near;
-using support::require_near;
-using support::throws;
 
 using Readings = std::vector<std::size_t>;
 
@@ -48,9 +24,9 @@ TEST(Explain, NamesTheWinningValueOfAMaximumAndItsEquation) {
   EXPECT_EQ(only.reading, "z2");
   EXPECT_EQ(only.value, 0U);  // 0.5 · 1 beats 0.875 · 0.5
   EXPECT_EQ(only.share, 1.0);
-  EXPECT_PRED_FORMAT3(near, std::exp(only.log_likelihood), 0.5, 1e-15);
-  EXPECT_PRED_FORMAT3(near, std::exp(only.rival_log_likelihood), 0.875, 1e-15);
-  EXPECT_PRED_FORMAT3(near, only.log_ratio, std::log(0.5 / 0.875), 1e-15);
+  EXPECT_CLOSE(std::exp(only.log_likelihood), 0.5, 1e-15);
+  EXPECT_CLOSE(std::exp(only.rival_log_likelihood), 0.875, 1e-15);
+  EXPECT_CLOSE(only.log_ratio, std::log(0.5 / 0.875), 1e-15);
   EXPECT_EQ(only.equation,
             "p(reading = z2|platform = T1) = max over emitter of p(reading = z2|emitter) π(emitter|platform = T1) = "
             "0.5; emitter = e1: 0.5 · 1");
@@ -62,11 +38,11 @@ TEST(Explain, TellsTheShareOfTheGreatestTermOfASum) {
   const Classifier classifier{Distribution{type, {0.8, 0.2}}, manoeuvre_given_type};
   const std::vector<Report<Random>> reports{{Likelihood{manoeuvre, {0.25, 0.5}}}};
   const auto why = explain(classifier, std::span(reports), 1, 0);
-  EXPECT_PRED_FORMAT3(near, why.log_prior_ratio, std::log(0.25), 1e-14);
+  EXPECT_CLOSE(why.log_prior_ratio, std::log(0.25), 1e-14);
   const Contribution& only = why.contributions.front();
   EXPECT_EQ(only.reading, "");
   EXPECT_EQ(only.value, 1U);
-  EXPECT_PRED_FORMAT3(near, only.share, 0.25 / 0.375, 1e-14);
+  EXPECT_CLOSE(only.share, 0.25 / 0.375, 1e-14);
   EXPECT_EQ(only.equation,
             "L(report|type = 1) = sum over manoeuvre of L(report|manoeuvre) p(manoeuvre|type = 1) = 0.375; "
             "manoeuvre = strong: 0.5 · 0.5");
@@ -91,71 +67,63 @@ TEST(Explain, TellsTheReportAndTheFeatureOfEachFinding) {
   EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {2, 0}, {2, 1}}));
 }
 
-TEST(Explain, NamesTheWitnessOfTheComposition) {
-  holds([] {
-    const auto pattern = any_variable<Fuzzy>("pattern"), feature = any_variable<Fuzzy>("feature");
-    const auto sensed = any_variable<Random>("sensed");
-    // Numbers that products keep apart, or exactly equal: 2⁻ᵏ.
-    const auto powers = [](const auto& to, const auto& from, auto measure) {
-      return laws::any([&](rc::Random& random) {
-        Rows rows(from.size(), Numbers(to.size()));
-        for (Numbers& row : rows) {
-          for (double& value : row) value = std::ldexp(1.0, -static_cast<int>(random.next() % 6));
-          measure(row);
-        }
-        return rows;
-      });
-    };
-    const Relation<Fuzzy, Fuzzy> relation{feature, pattern,
-                                          powers(feature, pattern, [](Numbers& row) { row[0] = 1.0; })};
-    const Relation<Random, Fuzzy> sensor{sensed, feature, powers(sensed, feature, [](Numbers& row) {
-                                           double rest = 1.0;
-                                           for (double& value : row) rest -= value = value / 64.0;
-                                           row[0] += rest;
-                                         })};
-    const auto witnessed = compose_with_witness(sensor, relation);
-    const FeatureModel model{relation, sensor};
-    for (std::size_t z = 0; z < sensed.size(); ++z)
-      for (std::size_t c = 0; c < pattern.size(); ++c) {
-        const Contribution found = contribution(model, Finding<Fuzzy>{z}, c, c);
-        RC_ASSERT(found.value == witnessed.winner(c, z));
-        require_near(found.share, 1.0);
-        require_near(std::exp(found.log_likelihood), witnessed.relation()(c, z));
+PROPERTY(Explain, NamesTheWitnessOfTheComposition) {
+  const auto pattern = any_variable<Fuzzy>("pattern"), feature = any_variable<Fuzzy>("feature");
+  const auto sensed = any_variable<Random>("sensed");
+  // Numbers that products keep apart, or exactly equal: 2⁻ᵏ.
+  const auto powers = [](const auto& to, const auto& from, auto measure) {
+    return laws::any([&](rc::Random& random) {
+      Rows rows(from.size(), Numbers(to.size()));
+      for (Numbers& row : rows) {
+        for (double& value : row) value = std::ldexp(1.0, -static_cast<int>(random.next() % 6));
+        measure(row);
       }
-  });
+      return rows;
+    });
+  };
+  const Relation<Fuzzy, Fuzzy> relation{feature, pattern, powers(feature, pattern, [](Numbers& row) { row[0] = 1.0; })};
+  const Relation<Random, Fuzzy> sensor{sensed, feature, powers(sensed, feature, [](Numbers& row) {
+                                         double rest = 1.0;
+                                         for (double& value : row) rest -= value = value / 64.0;
+                                         row[0] += rest;
+                                       })};
+  const auto witnessed = compose_with_witness(sensor, relation);
+  const FeatureModel model{relation, sensor};
+  for (std::size_t z = 0; z < sensed.size(); ++z)
+    for (std::size_t c = 0; c < pattern.size(); ++c) {
+      const Contribution found = contribution(model, Finding<Fuzzy>{z}, c, c);
+      RC_ASSERT(found.value == witnessed.winner(c, z));
+      require_near(found.share, 1.0);
+      require_near(std::exp(found.log_likelihood), witnessed.relation()(c, z));
+    }
 }
 
-template <class Kind>
-class ExplainKind : public testing::Test {};
-using Kinds = testing::Types<Random, Fuzzy>;
-TYPED_TEST_SUITE(ExplainKind, Kinds, support::TypeNames);
+TYPED_SUITE(ExplainKind, Random, Fuzzy);
 
-TYPED_TEST(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
-  holds([] {
-    const auto pattern = any_variable<TypeParam>("pattern");
-    const auto first = any_variable<TypeParam>("first"), second = any_variable<TypeParam>("second");
-    Classifier classifier{laws::any_distribution(pattern),
-                          std::vector{any_relation(first, pattern), any_relation(second, pattern)}};
-    if (*rc::gen::inRange(0, 2) == 1) classifier.set_forgetting(0.75);
-    std::vector<Report<TypeParam>> reports;
-    for (int k = 0; k < 4; ++k) {
-      Report<TypeParam> report{*rc::gen::inRange<std::size_t>(0, first.size()),
-                               Likelihood{second, laws::any_unit_numbers(second.size())}};
-      if (*rc::gen::inRange(0, 3) == 0) report[0] = missing;
-      try {
-        classifier.observe(report);
-      } catch (const std::domain_error&) {
-        continue;
-      }
-      reports.push_back(report);
+TYPED_PROPERTY(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
+  const auto pattern = any_variable<TypeParam>("pattern");
+  const auto first = any_variable<TypeParam>("first"), second = any_variable<TypeParam>("second");
+  Classifier classifier{laws::any_distribution(pattern),
+                        std::vector{any_relation(first, pattern), any_relation(second, pattern)}};
+  if (*rc::gen::inRange(0, 2) == 1) classifier.set_forgetting(0.75);
+  std::vector<Report<TypeParam>> reports;
+  for (int k = 0; k < 4; ++k) {
+    Report<TypeParam> report{*rc::gen::inRange<std::size_t>(0, first.size()),
+                             Likelihood{second, laws::any_unit_numbers(second.size())}};
+    if (*rc::gen::inRange(0, 3) == 0) report[0] = missing;
+    try {
+      classifier.observe(report);
+    } catch (const std::domain_error&) {
+      continue;
     }
-    const auto& belief = classifier.log_belief();
-    for (std::size_t a = 0; a < pattern.size(); ++a)
-      for (std::size_t b = 0; b < pattern.size(); ++b) {
-        const double expected = belief.log(a) == belief.log(b) ? 0.0 : belief.log(a) - belief.log(b);
-        require_near(explain(classifier, std::span<const Report<TypeParam>>(reports), a, b).log_ratio(), expected);
-      }
-  });
+    reports.push_back(report);
+  }
+  const auto& belief = classifier.log_belief();
+  for (std::size_t a = 0; a < pattern.size(); ++a)
+    for (std::size_t b = 0; b < pattern.size(); ++b) {
+      const double expected = belief.log(a) == belief.log(b) ? 0.0 : belief.log(a) - belief.log(b);
+      require_near(explain(classifier, std::span<const Report<TypeParam>>(reports), a, b).log_ratio(), expected);
+    }
 }
 
 TEST(Explain, OfAnExcludedRivalIsInfinite) {
@@ -169,10 +137,9 @@ TEST(Explain, OfAnExcludedRivalIsInfinite) {
 
 TEST(Explain, RefusesWhatTheClassifierRefuses) {
   const Classifier classifier{uninformative(platform), emitter_given_platform};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { explain(classifier, Readings{0, 1}, 0, 1); }, {"1 features"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { explain(classifier, Readings{2}, 0, 1); }, {"'emitter'", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { explain(classifier, Readings{0}, 0, 2); }, {"'platform'", "2"}));
+  EXPECT_INVALID(("1 features"), explain(classifier, Readings{0, 1}, 0, 1));
+  EXPECT_INVALID(("'emitter'", "2"), explain(classifier, Readings{2}, 0, 1));
+  EXPECT_INVALID(("'platform'", "2"), explain(classifier, Readings{0}, 0, 2));
 }
 
 }  // namespace
-}  // namespace sigmax

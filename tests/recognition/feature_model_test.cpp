@@ -1,35 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <stdexcept>
-#include <vector>
-
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/classifier.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
-#include "support/type_names.hpp"
 
 /// Every kind of sensor over every kind of feature and pattern, by plain loops, and the small worlds with known
 /// answers.
-namespace sigmax {
 namespace {
-
-using laws::any_distribution;
-using laws::any_relation;
-using laws::any_variable;
-using laws::by_kind;
-using laws::numbers_of;
-using laws::rows_of;
-using plain::Numbers;
-using plain::Rows;
-using support::holds;
-using support::near;
-using support::require_near;
-using support::throws;
 
 template <class PatternKind, class FeatureKind, class ReadingKind>
 struct Kinds {
@@ -48,46 +24,42 @@ using AllKinds = testing::Types<Kinds<Random, Random, Random>,  // (41)–(43)
                                 Kinds<Random, Fuzzy, Fuzzy>>;
 TYPED_TEST_SUITE(FeatureModelOf, AllKinds, support::TypeNames);
 
-TYPED_TEST(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
+TYPED_PROPERTY(FeatureModelOf, ReadByASensorIsThePlainRecursion) {
   using K = TypeParam;
-  holds([] {
-    const auto pattern = any_variable<typename K::Pattern>("pattern");
-    const auto feature = any_variable<typename K::Feature>("feature");
-    const auto reading = any_variable<typename K::Reading>("reading");
-    const auto prior = any_distribution(pattern);
-    const auto feature_given_pattern = any_relation(feature, pattern);
-    const auto reading_given_feature = any_relation(reading, feature);
-    Classifier classifier{prior, std::vector{FeatureModel{feature_given_pattern, reading_given_feature}}};
-    const Rows rows = rows_of(feature_given_pattern.table()), sensor = rows_of(reading_given_feature.table());
-    for (std::size_t z = 0; z < reading.size(); ++z) {
-      Numbers likelihood;  // L(z|c) = ⊕ over f of L(z|f) L(f|c), where the feature's kind chooses ⊕; no β
-      for (const Numbers& row : rows)
-        likelihood.push_back(
-            static_cast<double>(plain::evidence(by_kind<typename K::Feature>, row, plain::column(sensor, z))));
-      constexpr plain::By by = by_kind<typename K::Pattern>;
-      if (plain::evidence(by, numbers_of(prior.values()), likelihood) <= 1e-200L) continue;  // few digits left
-      classifier.reset();
-      classifier.observe(std::vector<std::size_t>{z});
-      require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
-      // A sensor's crisp reading is the graded report of its column.
-      classifier.reset();
-      classifier.observe(reading_given_feature.likelihood(z));
-      require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
-    }
-  });
+  const auto pattern = any_variable<typename K::Pattern>("pattern");
+  const auto feature = any_variable<typename K::Feature>("feature");
+  const auto reading = any_variable<typename K::Reading>("reading");
+  const auto prior = any_distribution(pattern);
+  const auto feature_given_pattern = any_relation(feature, pattern);
+  const auto reading_given_feature = any_relation(reading, feature);
+  Classifier classifier{prior, std::vector{FeatureModel{feature_given_pattern, reading_given_feature}}};
+  const Rows rows = rows_of(feature_given_pattern.table()), sensor = rows_of(reading_given_feature.table());
+  for (std::size_t z = 0; z < reading.size(); ++z) {
+    Numbers likelihood;  // L(z|c) = ⊕ over f of L(z|f) L(f|c), where the feature's kind chooses ⊕; no β
+    for (const Numbers& row : rows)
+      likelihood.push_back(
+          static_cast<double>(plain::evidence(by_kind<typename K::Feature>, row, plain::column(sensor, z))));
+    constexpr plain::By by = by_kind<typename K::Pattern>;
+    if (plain::evidence(by, numbers_of(prior.values()), likelihood) <= 1e-200L) continue;  // few digits left
+    classifier.reset();
+    classifier.observe(std::vector<std::size_t>{z});
+    require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
+    // A sensor's crisp reading is the graded report of its column.
+    classifier.reset();
+    classifier.observe(reading_given_feature.likelihood(z));
+    require_near(classifier.belief().values(), plain::update(by, numbers_of(prior.values()), likelihood));
+  }
 }
 
-TYPED_TEST(FeatureModelOf, ReadItselfIsTheColumnOfItsRelation) {
+TYPED_PROPERTY(FeatureModelOf, ReadItselfIsTheColumnOfItsRelation) {
   using K = TypeParam;
-  holds([] {
-    const auto pattern = any_variable<typename K::Pattern>("pattern");
-    const auto feature = any_variable<typename K::Feature>("feature");
-    const auto relation = any_relation(feature, pattern);
-    const FeatureModel model{relation};
-    for (std::size_t f = 0; f < feature.size(); ++f)
-      for (std::size_t c = 0; c < pattern.size(); ++c)
-        require_near(model.log_likelihoods(f)[c], std::log(relation(c, f)), 1e-15);
-  });
+  const auto pattern = any_variable<typename K::Pattern>("pattern");
+  const auto feature = any_variable<typename K::Feature>("feature");
+  const auto relation = any_relation(feature, pattern);
+  const FeatureModel model{relation};
+  for (std::size_t f = 0; f < feature.size(); ++f)
+    for (std::size_t c = 0; c < pattern.size(); ++c)
+      require_near(model.log_likelihoods(f)[c], std::log(relation(c, f)), 1e-15);
 }
 
 TEST(FeatureModel, KnowsWhatIsRead) {
@@ -107,18 +79,17 @@ TEST(FeatureModel, KnowsWhatIsRead) {
   EXPECT_EQ(with_sensor.reading_symbol(), "p");
   EXPECT_EQ(with_sensor.evidence(2)["e2"], 0.75);
   // max over e of p(z1|e) π(e|c)
-  EXPECT_PRED_FORMAT3(near, with_sensor.log_likelihoods(0), (Numbers{std::log(0.5), std::log(0.125)}), 1e-15);
+  EXPECT_CLOSE(with_sensor.log_likelihoods(0), (Numbers{std::log(0.5), std::log(0.125)}), 1e-15);
 }
 
 TEST(FeatureModel, RefusesASensorOfAnotherFeatureAndReadingsThatItHasNot) {
   const RandomVariable target{"target", 2}, emitter{"emitter", 2}, band{"band", 2}, reading{"reading", 3};
   const Relation emitter_given_target{emitter, target, {{1.0, 0.0}, {0.0, 1.0}}};
   const Relation reading_given_band{reading, band, {{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { FeatureModel(emitter_given_target, reading_given_band); },
-                                            {"'emitter'", "'band'"}));
+  EXPECT_INVALID(("'emitter'", "'band'"), FeatureModel(emitter_given_target, reading_given_band));
   const FeatureModel model{emitter_given_target};
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { model.log_likelihoods(2); }, {"'emitter'", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { model.evidence(missing); }, {"'emitter'"}));
+  EXPECT_INVALID(("'emitter'", "2"), model.log_likelihoods(2));
+  EXPECT_INVALID(("'emitter'"), model.evidence(missing));
 }
 
 // The authors' kinematic recognition tables: manoeuvres weak, medium, strong; classes airliner, bomber, fighter.
@@ -129,14 +100,14 @@ TEST(KinematicTables, InvertToTheProbabilitiesOfManoeuvres) {  // (43)
   const Relation type_given_manoeuvre{
       type, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
   const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(0), (Numbers{1.0, 0.0, 0.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(1), (Numbers{2.0 / 5.0, 3.0 / 5.0, 0.0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(2), (Numbers{2.0 / 11.0, 3.0 / 11.0, 6.0 / 11.0}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(0), (Numbers{1.0, 0.0, 0.0}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(1), (Numbers{2.0 / 5.0, 3.0 / 5.0, 0.0}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(2), (Numbers{2.0 / 11.0, 3.0 / 11.0, 6.0 / 11.0}), 1e-15);
   Classifier classifier{uninformative(type), inverse.relation};
   classifier.observe(std::vector<std::size_t>{0});
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{55.0 / 87.0, 22.0 / 87.0, 10.0 / 87.0}), 1e-14);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{55.0 / 87.0, 22.0 / 87.0, 10.0 / 87.0}), 1e-14);
   classifier.observe(std::vector<std::size_t>{1});
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.0, 242.0 / 292.0, 50.0 / 292.0}), 1e-14);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.0, 242.0 / 292.0, 50.0 / 292.0}), 1e-14);
 }
 
 TEST(KinematicTables, InvertToThePossibilitiesOfManoeuvres) {  // (46)
@@ -144,60 +115,56 @@ TEST(KinematicTables, InvertToThePossibilitiesOfManoeuvres) {  // (46)
       manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
   const Relation type_given_manoeuvre{type, manoeuvre, {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
   const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
-  EXPECT_PRED_FORMAT3(near, inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
+  EXPECT_CLOSE(inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
   Classifier classifier{uninformative(type), inverse.relation};
   classifier.observe(std::vector<std::size_t>{0});
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{1.0, 1.0, 1.0}), 0.0);  // a weak one says nothing
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{1.0, 1.0, 1.0}), 0.0);  // a weak one says nothing
   classifier.observe(std::vector<std::size_t>{1});
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.0, 1.0, 1.0}), 0.0);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.0, 1.0, 1.0}), 0.0);
 }
 
 /// Where every row of the sensor's confusion has the same maximum, dividing by it is one factor for all.
-TEST(SigmaMaxClassifier, CoincidesWithMaxOnTheRatioScaledSensorWheneverItsMaximaAreEqual) {
-  holds([] {
-    const auto target = any_variable<Fuzzy>("target"), emitter = any_variable<Fuzzy>("emitter");
-    const RandomVariable reading{"reading", emitter.size()};
-    const auto emitter_given_target = any_relation(emitter, target);
-    // Right with probability q, the rest shared at random but nowhere above q.
-    const double q = laws::any([&](rc::Random& random) {
-      const double least = 1.0 / static_cast<double>(emitter.size());
-      return least + (1.0 - least) * static_cast<double>(random.next() % 1000) / 1000.0;
-    });
-    Rows confusion;
-    for (std::size_t e = 0; e < emitter.size(); ++e) {
-      const std::size_t others = emitter.size() - 1;
-      Numbers row(emitter.size(), others == 0 ? 0.0 : (1.0 - q) / static_cast<double>(others));
-      row[e] = others == 0 ? 1.0 : q;
-      if (others >= 2) {  // moves some of it from one wrong reading to another
-        const std::size_t a = (e + 1) % emitter.size(), b = (e + 2) % emitter.size();
-        const double moved = std::min(row[a], q - row[b]) * laws::any_unit_number();
-        row[a] -= moved;
-        row[b] += moved;
-      }
-      confusion.push_back(row);
-    }
-    const Relation<Random, Fuzzy> reading_given_emitter{reading, emitter, confusion};
-    Classifier sigma_max{uninformative(target), std::vector{FeatureModel{emitter_given_target, reading_given_emitter}}};
-    Classifier max{
-        uninformative(target),
-        std::vector{FeatureModel{emitter_given_target, to_possibility(reading_given_emitter, RatioScale{})}}};
-    for (int k = 0; k < 5; ++k) {
-      const std::vector<std::size_t> report{*rc::gen::inRange<std::size_t>(0, reading.size())};
-      bool excluded = false;
-      try {
-        sigma_max.observe(report);
-      } catch (const std::domain_error&) {
-        excluded = true;
-      }
-      if (excluded) {
-        RC_ASSERT_THROWS_AS(max.observe(report), std::domain_error);
-      } else {
-        max.observe(report);
-        require_near(sigma_max.belief().values(), max.belief().values());
-      }
-    }
+PROPERTY(SigmaMaxClassifier, CoincidesWithMaxOnTheRatioScaledSensorWheneverItsMaximaAreEqual) {
+  const auto target = any_variable<Fuzzy>("target"), emitter = any_variable<Fuzzy>("emitter");
+  const RandomVariable reading{"reading", emitter.size()};
+  const auto emitter_given_target = any_relation(emitter, target);
+  // Right with probability q, the rest shared at random but nowhere above q.
+  const double q = laws::any([&](rc::Random& random) {
+    const double least = 1.0 / static_cast<double>(emitter.size());
+    return least + (1.0 - least) * static_cast<double>(random.next() % 1000) / 1000.0;
   });
+  Rows confusion;
+  for (std::size_t e = 0; e < emitter.size(); ++e) {
+    const std::size_t others = emitter.size() - 1;
+    Numbers row(emitter.size(), others == 0 ? 0.0 : (1.0 - q) / static_cast<double>(others));
+    row[e] = others == 0 ? 1.0 : q;
+    if (others >= 2) {  // moves some of it from one wrong reading to another
+      const std::size_t a = (e + 1) % emitter.size(), b = (e + 2) % emitter.size();
+      const double moved = std::min(row[a], q - row[b]) * laws::any_unit_number();
+      row[a] -= moved;
+      row[b] += moved;
+    }
+    confusion.push_back(row);
+  }
+  const Relation<Random, Fuzzy> reading_given_emitter{reading, emitter, confusion};
+  Classifier sigma_max{uninformative(target), std::vector{FeatureModel{emitter_given_target, reading_given_emitter}}};
+  Classifier max{uninformative(target),
+                 std::vector{FeatureModel{emitter_given_target, to_possibility(reading_given_emitter, RatioScale{})}}};
+  for (int k = 0; k < 5; ++k) {
+    const std::vector<std::size_t> report{*rc::gen::inRange<std::size_t>(0, reading.size())};
+    bool excluded = false;
+    try {
+      sigma_max.observe(report);
+    } catch (const std::domain_error&) {
+      excluded = true;
+    }
+    if (excluded) {
+      RC_ASSERT_THROWS_AS(max.observe(report), std::domain_error);
+    } else {
+      max.observe(report);
+      require_near(sigma_max.belief().values(), max.belief().values());
+    }
+  }
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,24 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include <sigmax/recognition/folds.hpp>
 
 #include "laws/generate.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::holds;
-using support::throws;
 
 using Labels = std::vector<std::size_t>;
 
@@ -26,25 +10,23 @@ std::size_t spread(const Labels& sizes) {
   return *std::max_element(sizes.begin(), sizes.end()) - *std::min_element(sizes.begin(), sizes.end());
 }
 
-TEST(StratifiedFolds, AreLevelOverAllAndWithinEveryLabel) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(2, 60);
-    const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
-    Labels labels(n);
-    for (auto& label : labels) label = *rc::gen::inRange<std::size_t>(0, 4);
-    std::mt19937_64 generator(n);
-    const auto fold_of = stratified_folds(labels, folds, generator);
-    RC_ASSERT(fold_of.size() == n);
-    Labels all(folds, 0);
-    std::vector<Labels> within(4, Labels(folds, 0));
-    for (std::size_t row = 0; row < n; ++row) {
-      RC_ASSERT(fold_of[row] < folds);
-      ++all[fold_of[row]];
-      ++within[labels[row]][fold_of[row]];
-    }
-    RC_ASSERT(spread(all) <= 1U);
-    for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
-  });
+PROPERTY(StratifiedFolds, AreLevelOverAllAndWithinEveryLabel) {
+  const auto n = *rc::gen::inRange<std::size_t>(2, 60);
+  const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
+  Labels labels(n);
+  for (auto& label : labels) label = *rc::gen::inRange<std::size_t>(0, 4);
+  std::mt19937_64 generator(n);
+  const auto fold_of = stratified_folds(labels, folds, generator);
+  RC_ASSERT(fold_of.size() == n);
+  Labels all(folds, 0);
+  std::vector<Labels> within(4, Labels(folds, 0));
+  for (std::size_t row = 0; row < n; ++row) {
+    RC_ASSERT(fold_of[row] < folds);
+    ++all[fold_of[row]];
+    ++within[labels[row]][fold_of[row]];
+  }
+  RC_ASSERT(spread(all) <= 1U);
+  for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
 }
 
 TEST(StratifiedFolds, AreTheSameForASeedAndOthersForAnother) {
@@ -98,30 +80,28 @@ TEST(StratifiedFolds, FavourNoRow) {
   }
 }
 
-TEST(FoldDealer, DealsPartsAsLevelAsAWhole) {
-  holds([] {
-    const auto n = *rc::gen::inRange<std::size_t>(2, 60);
-    const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
-    const auto part = *rc::gen::inRange<std::size_t>(1, n + 1);
-    Labels labels(n), rows_of_label(4, 0), all(folds, 0);
-    for (auto& label : labels) ++rows_of_label[label = *rc::gen::inRange<std::size_t>(0, 4)];
-    std::vector<Labels> within(4, Labels(folds, 0));
-    std::mt19937_64 generator(n), whole(n);
-    FoldDealer dealer(rows_of_label, folds);
-    for (std::size_t first = 0; first < n; first += part) {
-      const auto rows = std::span(labels).subspan(first, std::min(part, n - first));
-      const auto fold_of = dealer.deal(rows, generator);
-      RC_ASSERT(fold_of.size() == rows.size());
-      for (std::size_t row = 0; row < rows.size(); ++row) {
-        RC_ASSERT(fold_of[row] < folds);
-        ++all[fold_of[row]];
-        ++within[rows[row]][fold_of[row]];
-      }
-      if (part == n) RC_ASSERT(fold_of == stratified_folds(labels, folds, whole));
+PROPERTY(FoldDealer, DealsPartsAsLevelAsAWhole) {
+  const auto n = *rc::gen::inRange<std::size_t>(2, 60);
+  const auto folds = *rc::gen::inRange<std::size_t>(2, n + 1);
+  const auto part = *rc::gen::inRange<std::size_t>(1, n + 1);
+  Labels labels(n), rows_of_label(4, 0), all(folds, 0);
+  for (auto& label : labels) ++rows_of_label[label = *rc::gen::inRange<std::size_t>(0, 4)];
+  std::vector<Labels> within(4, Labels(folds, 0));
+  std::mt19937_64 generator(n), whole(n);
+  FoldDealer dealer(rows_of_label, folds);
+  for (std::size_t first = 0; first < n; first += part) {
+    const auto rows = std::span(labels).subspan(first, std::min(part, n - first));
+    const auto fold_of = dealer.deal(rows, generator);
+    RC_ASSERT(fold_of.size() == rows.size());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      RC_ASSERT(fold_of[row] < folds);
+      ++all[fold_of[row]];
+      ++within[rows[row]][fold_of[row]];
     }
-    RC_ASSERT(spread(all) <= 1U);
-    for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
-  });
+    if (part == n) RC_ASSERT(fold_of == stratified_folds(labels, folds, whole));
+  }
+  RC_ASSERT(spread(all) <= 1U);
+  for (const Labels& sizes : within) RC_ASSERT(spread(sizes) <= 1U);
 }
 
 TEST(FoldDealer, DealsOnWhereThePartBeforeEnded) {
@@ -135,22 +115,20 @@ TEST(FoldDealer, DealsOnWhereThePartBeforeEnded) {
 
 TEST(FoldDealer, RefusesRowsThatWereNotSaid) {
   std::mt19937_64 generator(1);
-  EXPECT_TRUE(throws<std::invalid_argument>([] { FoldDealer(Labels{2, 0}, 3); }, {"folds", "2", "3"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([] { FoldDealer(Labels{2, 0}, 1); }, {"at least 2", "1"}));
+  EXPECT_INVALID(("folds", "2", "3"), FoldDealer(Labels{2, 0}, 3));
+  EXPECT_INVALID(("at least 2", "1"), FoldDealer(Labels{2, 0}, 1));
   FoldDealer dealer(Labels{2, 1}, 2);
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { dealer.deal(Labels{0, 2}, generator); }, {"2 labels", "2"}));
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { dealer.deal(Labels{0, 1, 1}, generator); }, {"label 1"}));
+  EXPECT_INVALID(("2 labels", "2"), dealer.deal(Labels{0, 2}, generator));
+  EXPECT_INVALID(("label 1"), dealer.deal(Labels{0, 1, 1}, generator));
   EXPECT_EQ(dealer.deal(Labels{1}, generator), Labels{0}) << "nothing was dealt of what was refused";
-  EXPECT_TRUE(throws<std::invalid_argument>([&] { dealer.deal(Labels{1}, generator); }, {"label 1"}));
+  EXPECT_INVALID(("label 1"), dealer.deal(Labels{1}, generator));
 }
 
 TEST(StratifiedFolds, RefuseAnImpossibleNumber) {
   std::mt19937_64 generator(1);
   const Labels labels{0, 1, 0};
   for (const std::size_t folds : {0U, 1U, 4U})
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { stratified_folds(labels, folds, generator); },
-                                              {"folds", "3", std::to_string(folds)}));
+    EXPECT_INVALID(("folds", "3", std::to_string(folds)), stratified_folds(labels, folds, generator));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,12 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <concepts>
-#include <cstddef>
-#include <random>
-#include <string>
-#include <vector>
-
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/classifier.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -18,14 +9,10 @@
 #include <sigmax/recognition/folds.hpp>
 #include <sigmax/recognition/triangle.hpp>
 
-#include "support/near.hpp"
+#include "support/test.hpp"
 
 /// Every line of code in docs/recognition.md and docs/learning.md, in its order, and the values that it claims.
-namespace sigmax {
 namespace {
-
-using Numbers = std::vector<double>;
-using support::near;
 
 const RandomVariable type{"type", {"airliner", "bomber", "fighter"}};
 const RandomVariable manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
@@ -46,29 +33,29 @@ const Relation reading_given_emitter{reading, emitter, {{0.8, 0.1, 0.1}, {0.1, 0
 TEST(RecognitionWalk, Sigma) {
   const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
   EXPECT_TRUE(inverse.unreachable.empty());
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(0), (Numbers{1, 0, 0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(1), (Numbers{0.4, 0.6, 0}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, inverse.relation.row(2), (Numbers{2.0 / 11, 3.0 / 11, 6.0 / 11}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(0), (Numbers{1, 0, 0}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(1), (Numbers{0.4, 0.6, 0}), 1e-15);
+  EXPECT_CLOSE(inverse.relation.row(2), (Numbers{2.0 / 11, 3.0 / 11, 6.0 / 11}), 1e-15);
 
   Classifier classifier{uninformative(type), inverse};
   classifier.observe(Likelihood{manoeuvre, {0.7, 0.2, 0.1}});
   const Distribution belief = classifier.belief();
   // (42): 0.7; 0.28 + 0.12; (1.4 + 0.6 + 0.6)/11
   const double sum = 0.7 + 0.4 + 2.6 / 11;
-  EXPECT_PRED_FORMAT3(near, belief.values(), (Numbers{0.7 / sum, 0.4 / sum, 2.6 / 11 / sum}), 1e-14);
-  EXPECT_PRED_FORMAT3(near, belief["airliner"], 0.524, 5e-4);
-  EXPECT_PRED_FORMAT3(near, belief["bomber"], 0.299, 5e-4);
-  EXPECT_PRED_FORMAT3(near, belief["fighter"], 0.177, 5e-4);
+  EXPECT_CLOSE(belief.values(), (Numbers{0.7 / sum, 0.4 / sum, 2.6 / 11 / sum}), 1e-14);
+  EXPECT_CLOSE(belief["airliner"], 0.524, 5e-4);
+  EXPECT_CLOSE(belief["bomber"], 0.299, 5e-4);
+  EXPECT_CLOSE(belief["fighter"], 0.177, 5e-4);
 }
 
 TEST(RecognitionWalk, Max) {
   const auto inverse = invert(fuzzy_type_given_manoeuvre, uninformative(fuzzy_manoeuvre));
-  EXPECT_PRED_FORMAT3(near, inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
+  EXPECT_CLOSE(inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
 
   Classifier classifier{uninformative(fuzzy_type), inverse};
   classifier.observe(Likelihood{fuzzy_manoeuvre, {0.2, 1.0, 0.5}});
   static_assert(std::same_as<decltype(classifier.belief()), Distribution<Fuzzy>>);
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.2, 1.0, 1.0}), 1e-15);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.2, 1.0, 1.0}), 1e-15);
 
   const auto never = dominated_patterns(classifier);
   ASSERT_EQ(never.size(), 2U);
@@ -81,21 +68,21 @@ TEST(RecognitionWalk, Max) {
 TEST(RecognitionWalk, SigmaMax) {
   Classifier by_report{uninformative(platform), emitter_given_platform};
   by_report.observe(reading_given_emitter.likelihood("e2"));
-  EXPECT_PRED_FORMAT3(near, by_report.belief().values(), (Numbers{0.5, 1.0}), 1e-15);
+  EXPECT_CLOSE(by_report.belief().values(), (Numbers{0.5, 1.0}), 1e-15);
 
   Classifier classifier{uninformative(platform),
                         std::vector{FeatureModel{emitter_given_platform, reading_given_emitter}}};
   classifier.observe(std::vector{reading.index_of("e2")});
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), by_report.belief().values(), 1e-15);
+  EXPECT_CLOSE(classifier.belief().values(), by_report.belief().values(), 1e-15);
 
   const Induced induced = compose(reading_given_emitter, emitter_given_platform);  // (17)
   const Distribution the_same = update(uninformative(platform), induced.likelihood("e2"));
-  EXPECT_PRED_FORMAT3(near, the_same.values(), by_report.belief().values(), 1e-15);
+  EXPECT_CLOSE(the_same.values(), by_report.belief().values(), 1e-15);
 
   const Relation scaled = to_possibility(reading_given_emitter, RatioScale{});
   Classifier max{uninformative(platform), std::vector{FeatureModel{emitter_given_platform, scaled}}};
   max.observe(std::vector{reading.index_of("e2")});
-  EXPECT_PRED_FORMAT3(near, max.belief().values(), by_report.belief().values(), 1e-15);
+  EXPECT_CLOSE(max.belief().values(), by_report.belief().values(), 1e-15);
 }
 
 TEST(RecognitionWalk, TheOtherMixture) {
@@ -107,14 +94,14 @@ TEST(RecognitionWalk, TheOtherMixture) {
   Classifier classifier{uninformative(type), std::vector{FeatureModel{manoeuvre_given_type, look_given_manoeuvre}}};
   classifier.observe(std::vector{look.index_of("small")});  // π⁺ = 0.2, 0.68, (0.4 + 3 + 6)/11
   const double sum = 0.2 + 0.68 + 9.4 / 11;
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.2 / sum, 0.68 / sum, 9.4 / 11 / sum}), 1e-14);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.2 / sum, 0.68 / sum, 9.4 / 11 / sum}), 1e-14);
 
   Classifier direct{uninformative(fuzzy_type), with_fuzzy_condition(manoeuvre_given_type)};
   direct.observe(std::vector{manoeuvre.index_of("medium")});
-  EXPECT_PRED_FORMAT3(near, direct.belief().values(), (Numbers{0.0, 1.0, (3.0 / 11) / 0.6}), 1e-15);
+  EXPECT_CLOSE(direct.belief().values(), (Numbers{0.0, 1.0, (3.0 / 11) / 0.6}), 1e-15);
 
   const Distribution prior = to_possibility(uninformative(type), RatioScale{});
-  EXPECT_PRED_FORMAT3(near, prior.values(), (Numbers{1, 1, 1}), 0.0);
+  EXPECT_CLOSE(prior.values(), (Numbers{1, 1, 1}), 0.0);
 }
 
 TEST(RecognitionWalk, APredictionForEveryStep) {
@@ -122,8 +109,7 @@ TEST(RecognitionWalk, APredictionForEveryStep) {
   Classifier classifier{compose(type_given_manoeuvre, prediction), invert(type_given_manoeuvre, prediction)};
   const Likelihood report{manoeuvre, {0.1, 0.3, 0.6}};
   classifier.observe_predicted(report, type_given_manoeuvre, prediction);
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(),
-                      compose(type_given_manoeuvre, update(prediction, report)).values(), 1e-14);
+  EXPECT_CLOSE(classifier.belief().values(), compose(type_given_manoeuvre, update(prediction, report)).values(), 1e-14);
 }
 
 const FuzzyVariable animal{"animal", {"cat", "hen", "frog"}};
@@ -136,14 +122,14 @@ TEST(RecognitionWalk, SeveralFeatures) {
   Classifier classifier{uninformative(animal), std::vector{legs_given_animal, skin_given_animal}};
   const std::vector<std::size_t> four_legs{legs.index_of("4"), missing};
   classifier.observe(four_legs);
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{1, 0, 1}), 0.0);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{1, 0, 1}), 0.0);
   const Report<Fuzzy> graded{missing, Likelihood{skin, {0.3, 0.1, 1.0}}};
   classifier.observe(graded);
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
 
   const Decision decision = decide(classifier.log_belief());
   EXPECT_EQ(animal.label(decision.pattern), "frog");
-  EXPECT_PRED_FORMAT3(near, decision.margin, 0.7, 1e-15);
+  EXPECT_CLOSE(decision.margin, 0.7, 1e-15);
   const auto sure_enough = decide_or_reject(classifier.log_belief(), 0.9);
   EXPECT_FALSE(sure_enough);
   const auto order = best_patterns(classifier.log_belief(), 2);
@@ -151,7 +137,7 @@ TEST(RecognitionWalk, SeveralFeatures) {
 
   const std::vector reports{as_report<Fuzzy>(four_legs), graded};
   const auto why = explain(classifier, std::span(reports), order[0], order[1]);
-  EXPECT_PRED_FORMAT3(near, why.log_ratio(), std::log(1.0 / 0.3), 1e-14);
+  EXPECT_CLOSE(why.log_ratio(), std::log(1.0 / 0.3), 1e-14);
   ASSERT_EQ(why.contributions.size(), 2U);
   EXPECT_EQ(why.contributions[0].equation, "π(legs = 4|animal = frog) = 1");
   EXPECT_EQ(why.contributions[1].equation,
@@ -160,7 +146,7 @@ TEST(RecognitionWalk, SeveralFeatures) {
   classifier.reset();
   classifier.set_forgetting(0.9);
   classifier.observe_all(reports);
-  EXPECT_PRED_FORMAT3(near, classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
+  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.3, 0, 1}), 1e-15);
 }
 
 TEST(RecognitionWalk, Learning) {
@@ -172,11 +158,10 @@ TEST(RecognitionWalk, Learning) {
   counts.observe(1, std::vector<std::size_t>{0, 0});
   Classifier sigma{pattern_prior(counts), learned_relations(counts, 1.0)};
   Classifier max{uninformative(as_fuzzy(kind)), learned_relations(counts, 1.0, DuboisPrade{})};
-  EXPECT_PRED_FORMAT3(near, learned_relation(counts, 0, 1.0).row(0), (Numbers{0.25, 0.75}), 0.0);
-  EXPECT_PRED_FORMAT3(near, max.features()[0].relation().row(0), (Numbers{0.25, 1.0}), 0.0);
+  EXPECT_CLOSE(learned_relation(counts, 0, 1.0).row(0), (Numbers{0.25, 0.75}), 0.0);
+  EXPECT_CLOSE(max.features()[0].relation().row(0), (Numbers{0.25, 1.0}), 0.0);
   sigma.observe(std::vector<std::size_t>{1, 1});
-  EXPECT_PRED_FORMAT3(near, sigma.belief()["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27),
-                      1e-14);
+  EXPECT_CLOSE(sigma.belief()["cat"], (2.0 / 3 * 0.75 * 2 / 3) / (2.0 / 3 * 0.75 * 2 / 3 + 1.0 / 27), 1e-14);
 
   const std::vector training{3.1, 4.7, 2.2, 5.0, 3.8, 2.9};
   const Discretization bins = equal_frequency(training, 3);
@@ -186,7 +171,7 @@ TEST(RecognitionWalk, Learning) {
 
   const FuzzyVariable speed = bins.variable<Fuzzy>("speed");
   const Distribution possible = triangular(speed, bins, Triangle{2.0, 4.0, 5.0});
-  EXPECT_PRED_FORMAT3(near, possible.values(), (Numbers{0.55, 1.0, 0.3}), 1e-14);
+  EXPECT_CLOSE(possible.values(), (Numbers{0.55, 1.0, 0.3}), 1e-14);
 }
 
 TEST(RecognitionWalk, Evaluation) {
@@ -224,11 +209,10 @@ TEST(RecognitionWalk, Evaluation) {
   EXPECT_EQ(accuracy, 7.0 / 8.0);  // the cat with two legs is a hen
   // Without that cat p(4|cat) = 4/5, with two others and it 3/5; p(2|hen) = 4/5 always.
   const double expected = std::log(5.0) - std::log(0.8) - 3 * (std::log(0.75) + std::log(2.0 / 3));
-  EXPECT_PRED_FORMAT3(near, log_loss, expected / 8, 1e-14);
-  EXPECT_PRED_FORMAT3(near, necessity_of_truth, 0.5, 1e-14);
+  EXPECT_CLOSE(log_loss, expected / 8, 1e-14);
+  EXPECT_CLOSE(necessity_of_truth, 0.5, 1e-14);
   EXPECT_EQ(difference.mean, 0.0);
   EXPECT_EQ(difference.upper(), 0.0);
 }
 
 }  // namespace
-}  // namespace sigmax

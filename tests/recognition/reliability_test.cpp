@@ -1,21 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <boost/math/distributions/normal.hpp>
-#include <cmath>
-#include <random>
-#include <stdexcept>
 
 #include <sigmax/core/distribution.hpp>
 #include <sigmax/recognition/reliability.hpp>
 
-#include "support/near.hpp"
-#include "support/throws.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
-
-using support::near;
-using support::throws;
 
 TEST(Reliability, CountsByHand) {
   Reliability reliability{4};
@@ -28,11 +18,11 @@ TEST(Reliability, CountsByHand) {
   EXPECT_EQ(bins[0].from, 0.25);
   EXPECT_EQ(bins[0].to, 0.5);
   EXPECT_EQ(bins[0].count, 3.0);
-  EXPECT_PRED_FORMAT3(near, bins[0].mean_degree, 1.04 / 3.0, 1e-15);
-  EXPECT_PRED_FORMAT3(near, bins[0].share, 1.0 / 3.0, 1e-15);
+  EXPECT_CLOSE(bins[0].mean_degree, 1.04 / 3.0, 1e-15);
+  EXPECT_CLOSE(bins[0].share, 1.0 / 3.0, 1e-15);
   EXPECT_EQ(bins[1].from, 0.75);
   EXPECT_EQ(bins[1].share, 1.0);
-  EXPECT_PRED_FORMAT3(near, reliability.calibration_error(), 0.04 / 4.0, 1e-15);
+  EXPECT_CLOSE(reliability.calibration_error(), 0.04 / 4.0, 1e-15);
 }
 
 /// The ends of Wilson's interval are the shares p from which the observed one is just 1.96 standard deviations of p
@@ -46,7 +36,7 @@ TEST(Reliability, HasWilsonsInterval) {
       const auto bin = reliability.bins().front();
       for (const double p : {bin.lower, bin.upper})
         if (p > 0.0 && p < 1.0) {
-          EXPECT_PRED_FORMAT3(near, std::abs(bin.share - p) / std::sqrt(p * (1.0 - p) / n), z, 1e-9) << n << ' ' << k;
+          EXPECT_CLOSE(std::abs(bin.share - p) / std::sqrt(p * (1.0 - p) / n), z, 1e-9) << n << ' ' << k;
         }
       EXPECT_LE(bin.lower, bin.share + 1e-15);
       EXPECT_GE(bin.upper, bin.share - 1e-15);
@@ -64,9 +54,9 @@ TEST(Reliability, CountsWhatWasRepeatedOnce) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].count, expected[i].count);
-    EXPECT_PRED_FORMAT3(near, found[i].mean_degree, expected[i].mean_degree, 1e-14);
-    EXPECT_PRED_FORMAT3(near, found[i].lower, expected[i].lower, 1e-14);
-    EXPECT_PRED_FORMAT3(near, found[i].upper, expected[i].upper, 1e-14);
+    EXPECT_CLOSE(found[i].mean_degree, expected[i].mean_degree, 1e-14);
+    EXPECT_CLOSE(found[i].lower, expected[i].lower, 1e-14);
+    EXPECT_CLOSE(found[i].upper, expected[i].upper, 1e-14);
   }
 }
 
@@ -82,7 +72,7 @@ TEST(Reliability, TakesEachPatternOfABelief) {
   for (const Reliability* one : {&beliefs, &parts}) {
     ASSERT_EQ(one->bins().size(), statements.bins().size());
     for (std::size_t i = 0; i < one->bins().size(); ++i) {
-      EXPECT_PRED_FORMAT3(near, one->bins()[i].mean_degree, statements.bins()[i].mean_degree, 1e-15);
+      EXPECT_CLOSE(one->bins()[i].mean_degree, statements.bins()[i].mean_degree, 1e-15);
       EXPECT_EQ(one->bins()[i].share, statements.bins()[i].share);
     }
   }
@@ -109,15 +99,14 @@ TEST(Reliability, FindsCalibratedProbabilitiesCalibrated) {
 TEST(Reliability, RefusesWhatIsNoDegree) {
   using Bad = std::invalid_argument;
   Reliability reliability;
-  EXPECT_TRUE(throws<Bad>([&] { reliability.add(1.5, true); }, {"[0, 1]", "1.5"}));
-  EXPECT_TRUE(throws<Bad>([&] { reliability.add(std::nan(""), true); }, {"[0, 1]"}));
-  EXPECT_TRUE(throws<Bad>([] { Reliability{0}; }, {"bin"}));
-  EXPECT_TRUE(throws<Bad>([&] { reliability.add(Reliability{3}); }, {"10", "3"}));
-  EXPECT_TRUE(throws<Bad>([&] { reliability.bins(0.5); }, {"0.5"}));
-  EXPECT_TRUE(throws<std::domain_error>([&] { reliability.calibration_error(); }, {"nothing"}));
+  EXPECT_REFUSED(Bad, ("[0, 1]", "1.5"), reliability.add(1.5, true));
+  EXPECT_REFUSED(Bad, ("[0, 1]"), reliability.add(std::nan(""), true));
+  EXPECT_REFUSED(Bad, ("bin"), Reliability{0});
+  EXPECT_REFUSED(Bad, ("10", "3"), reliability.add(Reliability{3}));
+  EXPECT_REFUSED(Bad, ("0.5"), reliability.bins(0.5));
+  EXPECT_REFUSED(std::domain_error, ("nothing"), reliability.calibration_error());
   const RandomVariable coin{"coin", {"heads", "tails"}};
   EXPECT_THROW(reliability.add(2, Belief{Distribution{coin, {0.5, 0.5}}}), std::exception);
 }
 
 }  // namespace
-}  // namespace sigmax

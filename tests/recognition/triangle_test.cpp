@@ -1,26 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
 #include <sigmax/recognition/triangle.hpp>
 
 #include "laws/generate.hpp"
-#include "support/near.hpp"
-#include "support/throws.hpp"
 
-namespace sigmax {
 namespace {
-
-using plain::Numbers;
-using support::holds;
-using support::near;
-using support::throws;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Triangle, RisesToItsOptimumAndFalls) {
   const Triangle speed{10.0, 20.0, 60.0};
@@ -54,49 +36,37 @@ TEST(Triangle, HasASupremumOverAnInterval) {
   EXPECT_EQ((Triangle{2.0, 4.0, 4.0}.supremum(4.0, 5.0)), 1.0);
 }
 
-TEST(Triangle, IsNeverAboveItsSupremumAndComesNearIt) {
-  holds([] {
-    Numbers corners = laws::any([](rc::Random& random) {
-      Numbers numbers(5);
-      for (double& number : numbers) number = static_cast<double>(random.next() % 17) / 4.0;
-      return numbers;
-    });
-    std::sort(corners.begin(), corners.begin() + 3);
-    const Triangle triangle{corners[0], corners[1], corners[2]};
-    const double lower = std::min(corners[3], corners[4]), upper = std::max(corners[3], corners[4]) + 0.25;
-    double greatest = 0.0;  // on a fine grid that holds all corners, and next to the upper bound
-    for (double x = lower; x < upper; x += 1.0 / 64.0) greatest = std::max(greatest, triangle(x));
-    greatest = std::max(greatest, triangle(std::nextafter(upper, lower)));
-    support::require_near(triangle.supremum(lower, upper), greatest);
+PROPERTY(Triangle, IsNeverAboveItsSupremumAndComesNearIt) {
+  Numbers corners = laws::any([](rc::Random& random) {
+    Numbers numbers(5);
+    for (double& number : numbers) number = static_cast<double>(random.next() % 17) / 4.0;
+    return numbers;
   });
+  std::sort(corners.begin(), corners.begin() + 3);
+  const Triangle triangle{corners[0], corners[1], corners[2]};
+  const double lower = std::min(corners[3], corners[4]), upper = std::max(corners[3], corners[4]) + 0.25;
+  double greatest = 0.0;  // on a fine grid that holds all corners, and next to the upper bound
+  for (double x = lower; x < upper; x += 1.0 / 64.0) greatest = std::max(greatest, triangle(x));
+  greatest = std::max(greatest, triangle(std::nextafter(upper, lower)));
+  support::require_near(triangle.supremum(lower, upper), greatest);
 }
 
 TEST(Triangular, GivesABinItsMostPossibleValue) {
   const Discretization bins{{10.0, 15.0, 30.0, 50.0}};
   const FuzzyVariable speed = bins.variable<Fuzzy>("speed");
   const Triangle triangle{10.0, 20.0, 60.0};
-  EXPECT_PRED_FORMAT3(near, triangular(speed, bins, triangle).values(), (Numbers{0.0, 0.5, 1.0, 0.75, 0.25}), 1e-15);
-  EXPECT_PRED_FORMAT3(near, triangular(speed, bins, triangle, 0.3).values(), (Numbers{0.3, 0.5, 1.0, 0.75, 0.3}),
-                      1e-15);
+  EXPECT_CLOSE(triangular(speed, bins, triangle).values(), (Numbers{0.0, 0.5, 1.0, 0.75, 0.25}), 1e-15);
+  EXPECT_CLOSE(triangular(speed, bins, triangle, 0.3).values(), (Numbers{0.3, 0.5, 1.0, 0.75, 0.3}), 1e-15);
 }
 
 TEST(Triangle, RefusesCornersOutOfOrder) {
-  EXPECT_TRUE(throws<std::invalid_argument>([] { Triangle(2.0, 1.0, 3.0); }, {"minimum", "2.0", "1.0", "3.0"}));
+  EXPECT_INVALID(("minimum", "2.0", "1.0", "3.0"), Triangle(2.0, 1.0, 3.0));
   EXPECT_THROW(Triangle(0.0, std::nan(""), 1.0), std::invalid_argument);
   EXPECT_THROW(Triangle(0.0, 1.0, infinity), std::invalid_argument);
   EXPECT_THROW(Triangle(-infinity, 0.0, 1.0), std::invalid_argument);
   const Discretization bins{{10.0}};
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        triangular(FuzzyVariable{"speed", 3}, bins, Triangle{0, 1, 2});
-      },
-      {"'speed'", "3", "2 values"}));
-  EXPECT_TRUE(throws<std::invalid_argument>(
-      [&] {
-        triangular(bins.variable<Fuzzy>("speed"), bins, Triangle{0, 1, 2}, 1.5);
-      },
-      {"[0, 1]", "1.5"}));
+  EXPECT_INVALID(("'speed'", "3", "2 values"), triangular(FuzzyVariable{"speed", 3}, bins, Triangle{0, 1, 2}));
+  EXPECT_INVALID(("[0, 1]", "1.5"), triangular(bins.variable<Fuzzy>("speed"), bins, Triangle{0, 1, 2}, 1.5));
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdlib>
-#include <new>
+#include "support/test.hpp"
 
 /// Replaces the allocation functions of a test program by ones that count. Include it in one file of the program only.
 namespace sigmax::support {

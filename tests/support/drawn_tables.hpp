@@ -1,20 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include <sigmax/core/kernels/winner.hpp>
 #include <sigmax/core/table.hpp>
+
+#include "support/test.hpp"
 
 /// Tables for the kernels, and what a composition of them is by its definition.
 namespace sigmax::drawn_tables {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_normal = std::numeric_limits<double>::min(), last_place = 0x1p-1074;
 
 /// How the numbers of a table are drawn.

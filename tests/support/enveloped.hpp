@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include <sigmax/hybrid/envelope.hpp>
 
 #include "support/restatement.hpp"

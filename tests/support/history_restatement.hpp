@@ -3,12 +3,6 @@
 /// dropped, it is the enumeration of all of them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "support/restatement.hpp"
 
 namespace restatement {

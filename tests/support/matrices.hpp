@@ -1,14 +1,7 @@
 #pragma once
 
-#include <rapidcheck.h>
-
-#include <Eigen/Core>
-#include <vector>
-
 #include <sigmax/estimation/gaussian.hpp>
 
-#include "support/near.hpp"
-#include "support/property.hpp"
 #include "support/restatement.hpp"
 
 namespace sigmax::support {
@@ -56,10 +49,16 @@ inline testing::AssertionResult near_matrix(const char* a_text, const char* b_te
   return near(a_text, b_text, tolerance_text, entries(a), entries(b), tolerance);
 }
 
-/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance) for Gaussians; to the bit if the tolerance is zero.
-template <int N, int MaxN, int OtherN, int OtherMaxN>
-testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text,
-                              const Gaussian<N, MaxN>& a, const Gaussian<OtherN, OtherMaxN>& b, double tolerance) {
+template <class T>
+concept Estimated = requires(const T& estimate) {
+  AnyMatrix(estimate.mean);
+  AnyMatrix(estimate.covariance);
+};
+
+/// EXPECT_CLOSE(found, expected, tolerance) for Gaussians and views of them; to the bit if the tolerance is zero.
+template <Estimated A, Estimated B>
+testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text, const A& a,
+                              const B& b, double tolerance) {
   const auto mean = near_matrix(a_text, b_text, tolerance_text, a.mean, b.mean, tolerance);
   if (!mean) return testing::AssertionResult(mean) << ", of the mean";
   return near_matrix(a_text, b_text, tolerance_text, a.covariance, b.covariance, tolerance);

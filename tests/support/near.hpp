@@ -14,7 +14,7 @@ inline bool is_near(double a, double b, double tolerance) {
   return a == b || (std::isfinite(b) && std::abs(a - b) <= tolerance * std::max(1.0, std::abs(b)));
 }
 
-/// EXPECT_PRED_FORMAT3(near, found, expected, tolerance) for numbers.
+/// EXPECT_CLOSE(found, expected, tolerance) for numbers.
 inline testing::AssertionResult near(const char* a_text, const char* b_text, const char* /*tolerance_text*/, double a,
                                      double b, double tolerance) {
   if (is_near(a, b, tolerance)) return testing::AssertionSuccess();
@@ -34,5 +34,8 @@ inline testing::AssertionResult near(const char* a_text, const char* b_text, con
       return result << "\n  at index " << i;
   return testing::AssertionSuccess();
 }
+
+#define EXPECT_CLOSE(found, expected, tolerance) EXPECT_PRED_FORMAT3(near, found, expected, tolerance)
+#define ASSERT_CLOSE(found, expected, tolerance) ASSERT_PRED_FORMAT3(near, found, expected, tolerance)
 
 }  // namespace sigmax::support

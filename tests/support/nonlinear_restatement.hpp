@@ -2,11 +2,6 @@
 /// library.
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <vector>
-
 #include "support/restatement.hpp"
 
 namespace restatement {

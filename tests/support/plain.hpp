@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cassert>
-#include <cstddef>
-#include <vector>
+#include "support/test.hpp"
 
 /// The discrete calculus restated with plain loops over vectors: no code shared with the library. It runs in long
 /// double, which holds the product of any two doubles.

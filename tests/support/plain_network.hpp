@@ -1,10 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 #include "support/plain.hpp"
 
 /// A network restated with plain loops: no code shared with the library.

@@ -2,14 +2,25 @@
 
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "support/test.hpp"
+
+namespace sigmax::support {
+
+using Arguments = std::vector<std::string>;
+
+inline Arguments operator+(Arguments all, const Arguments& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// `--set` before each.
+inline Arguments setting(const Arguments& settings) {
+  Arguments all;
+  for (const auto& each : settings) all.insert(all.end(), {"--set", each});
+  return all;
+}
+
+}  // namespace sigmax::support
 
 namespace program {
 
@@ -53,6 +64,15 @@ inline Ending run(const std::string& path, const std::vector<std::string>& argum
   const int status = pclose(pipe);
   ending.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return ending;
+}
+
+/// The ending, which must be a good one.
+inline Ending succeeded(Ending ending) {
+  EXPECT_EQ(ending.status, 0) << ending.output;
+  return ending;
+}
+inline Ending succeeds(const std::string& path, const std::vector<std::string>& arguments) {
+  return succeeded(run(path, arguments));
 }
 
 }  // namespace program

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cstdlib>
-#include <span>
 #include <sstream>
 #include <string>
 
@@ -29,6 +27,22 @@ void holds(const Property& property) {
   rc::detail::printResultMessage(result, message);
   FAIL() << message.str();
 }
+
+/// A test that `holds` for its body, which is a generated case; in a typed suite one for each TypeParam.
+#define PROPERTY(suite, name)        \
+  static void suite##_##name();      \
+  TEST(suite, name) {                \
+    holds([] { suite##_##name(); }); \
+  }                                  \
+  static void suite##_##name()
+#define TYPED_PROPERTY(suite, name)             \
+  template <class TypeParam>                    \
+  static void suite##_##name();                 \
+  TYPED_TEST(suite, name) {                     \
+    holds([] { suite##_##name<TypeParam>(); }); \
+  }                                             \
+  template <class TypeParam>                    \
+  static void suite##_##name()
 
 /// Fails the current case of a property unless the numbers are near.
 inline void require_near(double found, double expected, double tolerance = 1e-9) {

@@ -4,17 +4,7 @@
 /// the paper leaves open is an option here as it is there, and the tie rules are part of the definition.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+#include "support/test.hpp"
 
 namespace restatement {
 
@@ -166,12 +156,13 @@ inline Inverse inverse(const Matrix& a) {
   return {matrix, log_determinant};
 }
 
-/// x_k = F(dt) x_{k−1} + w, w ~ N(0, Q(dt)); z_k = H x_k + v, (47)–(48); the components of x have names.
+/// x_k = F(dt) x_{k−1} + u(dt) + w, w ~ N(0, Q(dt)); z_k = H x_k + v, (47)–(48); the components of x have names.
 template <class Real>
 struct ModelOf {
   std::vector<std::string> components;
   std::function<MatrixOf<Real>(double)> F, Q;
   Matrix H;
+  std::function<Vector(double)> input = {};  // known, and added to F x, if there is one
 };
 using Model = ModelOf<double>;
 
@@ -234,7 +225,9 @@ inline See seen_by_matrix(const Vector& z) {
 /// (27)–(28).
 inline State predicted(const Model& model, const State& state, double dt) {
   const Matrix F = model.F(dt);
-  return {F * state.mean, symmetrised(F * state.covariance * transposed(F) + model.Q(dt))};
+  Vector mean = F * state.mean;
+  if (model.input) mean = difference(mean, difference(Vector(mean.size(), 0.0), model.input(dt)));
+  return {mean, symmetrised(F * state.covariance * transposed(F) + model.Q(dt))};
 }
 
 /// An estimate with what was seen, and how well that was expected.

@@ -4,13 +4,6 @@
 /// information matrices, which doubles would lose. Nothing that may be singular is inverted.
 #pragma once
 
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <tuple>
-#include <utility>
-#include <vector>
-
 #include "support/restatement.hpp"
 
 namespace restatement::smoothing {

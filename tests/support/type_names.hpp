@@ -24,4 +24,11 @@ struct TypeNames {
   }
 };
 
+/// A typed suite of these types, by which its instances are named.
+#define TYPED_SUITE(suite, ...)                     \
+  template <class T>                                \
+  class suite : public testing::Test {};            \
+  using suite##Types = testing::Types<__VA_ARGS__>; \
+  TYPED_TEST_SUITE(suite, suite##Types, support::TypeNames)
+
 }  // namespace sigmax::support
