@@ -1,3 +1,5 @@
+#include <regex>
+
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
