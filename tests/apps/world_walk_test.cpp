@@ -12,10 +12,7 @@ struct Written {
   std::string printed, curves;
 };
 
-Written run_coins(int threads) {
-  const TemporaryDirectory directory;
-  const DrawOptions options{
-      .runs = 4000, .threads = threads, .output = {.out = directory.path().string(), .quiet = true}};
+void run_coins(const DrawOptions& options) {
   const RandomVariable coin{"coin", {"fair", "bent"}}, side{"side", {"heads", "tails"}};
   const Relation<Random, Random> probable{side, coin, {{0.5, 0.5}, {0.2, 0.8}}};
   const auto possible = with_fuzzy_condition(to_possibility(probable, RatioScale{}));
@@ -34,11 +31,14 @@ Written run_coins(int threads) {
     result.page.panels = {accuracy_chart(scores.front(), "throws")};
     add_scores(result, scores.front(), "throws");
   };
+  ResultFiles files(options.output);
+  run_world(world, options, files);
+}
+
+Written written_by(int threads) {
+  const TemporaryDirectory directory;
   testing::internal::CaptureStdout();
-  {
-    ResultFiles files(options.output);
-    run_world(world, options, files);
-  }
+  run_coins({.runs = 4000, .threads = threads, .output = {.out = directory.path().string(), .quiet = true}});
   std::fflush(stdout);
   return {testing::internal::GetCapturedStdout(), contents(directory.path() / "curves.csv")};
 }
@@ -54,7 +54,7 @@ double right_by_bayes() {
 }
 
 TEST(WorldWalk, TellsWhichCoinItIs) {
-  const Written by_one = run_coins(1);
+  const Written by_one = written_by(1);
   EXPECT_TRUE(by_one.printed.starts_with("Ten throws of one of two coins\n\n")) << by_one.printed;
   EXPECT_NE(by_one.printed.find("\nafter throws:     1     2     5    10"), std::string::npos) << by_one.printed;
   std::istringstream curves(by_one.curves);
@@ -65,7 +65,7 @@ TEST(WorldWalk, TellsWhichCoinItIs) {
   ASSERT_EQ(last.size(), 2U);
   EXPECT_NEAR(last[0], right_by_bayes(), 0.025);  // four standard deviations
   EXPECT_LT(last[1], last[0]);
-  const Written by_three = run_coins(3);
+  const Written by_three = written_by(3);
   EXPECT_EQ(by_three.curves, by_one.curves);
 }
 
