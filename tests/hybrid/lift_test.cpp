@@ -1,5 +1,6 @@
 #include <sigmax/hybrid/lift.hpp>
 
+#include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/view.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 
