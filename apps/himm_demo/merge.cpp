@@ -28,11 +28,7 @@ Journaled joined(const std::vector<std::string>& parts) {
     const auto path = part / journal_name;
     const Journaled own = read_journal(path);
     if (all.study.empty()) all.study = own.study;
-    if (own.study != all.study)
-      throw InputError(message({.where = path.native() + ":1",
-                                .what = "this is a shard of another campaign",
-                                .found = in_quotes(own.study),
-                                .expected = in_quotes(all.study)}));
+    require_study(path, own.study, all.study, "this is a shard of another campaign");
     for (const auto& [cell, row] : own.rows) {
       const auto [there, added] = all.rows.emplace(cell, row);
       if (!added && journal_line(cell, there->second) != journal_line(cell, row))

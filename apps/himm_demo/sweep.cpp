@@ -177,12 +177,12 @@ std::string list(const std::vector<double>& numbers) {
 /// The command that does the same again.
 std::string command_of(const SweepChoice& choice) {
   return fmt::format(
-      "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {}{} --filters {} "
-      "--probability {} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}",
+      "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters {} "
+      "--probability {} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}{}",
       version, fmt::join(choice.scenarios, ","), list(choice.mismatch), list(choice.period), list(choice.strength),
-      list(choice.length), choice.cross ? " --cross" : "", fmt::join(choice.filters, ","), list(choice.probability),
-      list(choice.possibility), list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.beyond, choice.tuning_runs,
-      choice.runs, choice.seed);
+      list(choice.length), fmt::join(choice.filters, ","), list(choice.probability), list(choice.possibility),
+      list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.beyond, choice.tuning_runs, choice.runs, choice.seed,
+      choice.cross ? " --cross" : "");
 }
 
 /// The scenario of the paper with another sampling period, and a manoeuvre of another strength and length.

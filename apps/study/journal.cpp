@@ -4,20 +4,24 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <boost/crc.hpp>
 #include <cerrno>
 #include <charconv>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "support/command_line.hpp"
 #include "support/error.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {
+
+constexpr std::string_view damage = "the line is damaged: its checksum is another";
+constexpr std::size_t seal_size = std::string_view(" #01234567\n").size();
 
 /// Reads one "cell,number,number,…" into the rows; false if it is something else.
 bool read_line(std::string_view line, CellRows& rows) {
@@ -39,58 +43,114 @@ bool read_line(std::string_view line, CellRows& rows) {
   return true;
 }
 
-/// The journal in a text, and how much of the text its whole lines are.
-std::pair<Journaled, std::size_t> parsed(const std::filesystem::path& path, std::string_view text) {
+/// What a text holds of a journal.
+struct Reading {
   Journaled journal;
-  std::size_t begin = 0;
-  for (std::size_t line = 1;; ++line) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string_view::npos) return {std::move(journal), begin};
-    const std::string_view found = text.substr(begin, end - begin);
-    if (line == 1)
-      journal.study = found;
-    else if (!read_line(found, journal.rows))
-      throw InputError(message({.where = fmt::format("{}:{}", path.native(), line),
-                                .found = in_quotes(found),
-                                .expected = "the number of a cell and what it gave, with commas between",
-                                .remedy = "delete the file, and the work starts anew"}));
+  std::size_t sound = 0;             ///< bytes before the first line that does not count
+  std::vector<std::size_t> damaged;  ///< lines
+};
+
+/// Throws InputError if the first line, without which the others say nothing, is not as it was written.
+Reading parsed(const std::filesystem::path& path, std::string_view text) {
+  Reading reading;
+  std::size_t begin = 0, end = 0;
+  for (std::size_t number = 1; (end = text.find('\n', begin)) != std::string_view::npos; ++number) {
+    const std::string_view found = text.substr(begin, end + 1 - begin);
+    const bool has_seal = found.size() >= seal_size && found.substr(found.size() - seal_size).starts_with(" #");
+    const std::string_view line = has_seal ? found.substr(0, found.size() - seal_size) : found;
+    const bool as_written = has_seal && found == sealed(line);
+    if (number == 1 && !as_written)
+      throw InputError(
+          message({.where = path.native() + ":1",
+                   .what = has_seal ? damage : "the line has no checksum, so an older version wrote this journal",
+                   .remedy = fmt::format("{}, or delete the file and give its command again, which starts anew",
+                                         has_seal ? "copy the file again" : "go on and merge by that version")}));
+    if (number == 1)
+      reading.journal.study = line;
+    else if (!as_written || !read_line(line, reading.journal.rows))
+      reading.damaged.push_back(number);
+    begin = end + 1;
+    if (reading.damaged.empty()) reading.sound = begin;
+  }
+  return reading;
+}
+
+/// "himm_demo 0.1.0 sweep", "--scenario 2", …
+std::vector<std::string_view> options_of(std::string_view study) {
+  std::vector<std::string_view> options;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = study.find(" --", begin);
+    options.push_back(study.substr(begin, end - begin));
+    if (end == std::string_view::npos) return options;
     begin = end + 1;
   }
 }
 
 }  // namespace
 
+std::string sealed(std::string_view line) {
+  boost::crc_32_type sum;
+  sum.process_bytes(line.data(), line.size());
+  return fmt::format("{} #{:08x}\n", line, sum.checksum());
+}
+
 std::string journal_line(std::size_t cell, const std::vector<double>& row) {
   std::string line = fmt::format("{}", cell);
   for (const double value : row) line.append(",").append(shortest(value));
-  return line + "\n";
+  return sealed(line);
 }
 
 Journaled read_journal(const std::filesystem::path& path) {
-  auto journal = parsed(path, read_text(path)).first;
+  auto [journal, sound, damaged] = parsed(path, read_text(path));
   if (journal.study.empty())
     throw InputError(message({.where = path.native(), .what = "is empty", .expected = "the journal of a campaign"}));
-  return journal;
+  if (!damaged.empty())
+    throw InputError(message({.where = fmt::format("{}:{}", path.native(), damaged.front()),
+                              .what = damage,
+                              .remedy = "copy the file again, or give its command again, which mends it"}));
+  return std::move(journal);
 }
 
-Journal::Journal(std::filesystem::path path, std::string study) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+void require_study(const std::filesystem::path& journal, std::string_view found, std::string_view expected,
+                   std::string_view what, std::string_view remedy) {
+  if (found == expected) return;
+  const auto theirs = options_of(found), ours = options_of(expected);
+  const auto [their, our] = std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());
+  const auto whole = [](const auto& options, auto option) {
+    return option == options.end() ? "no further option" : fmt::format("'{}'", printable(*option));
+  };
+  throw InputError(message({.where = journal.native() + ":1",
+                            .what = what,
+                            .found = whole(theirs, their),
+                            .expected = whole(ours, our),
+                            .remedy = remedy}));
+}
+
+Journal::Journal(std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {}
+
+Journal::Journal(std::filesystem::path path, std::string study) : Journal(std::move(path)) {
   if (descriptor_ < 0) fail();
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw InputError(message({.where = path_.native(),
                               .what = "another program is writing this journal",
                               .remedy = "wait until it ends, or give another --out"}));
-  std::size_t whole = 0;
-  std::tie(all_, whole) = parsed(path_, read_text(path_));
-  if (::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) fail();
-  if (whole > 0 && all_.study != study)
-    throw InputError(message({.where = path_.native() + ":1",
-                              .what = "the directory holds another campaign",
-                              .found = in_quotes(all_.study),
-                              .expected = in_quotes(study),
-                              .remedy = "give the same options, or another --out"}));
+  auto [journal, sound, damaged] = parsed(path_, read_text(path_));
+  if (sound > 0)
+    require_study(path_, journal.study, study, "the directory holds another campaign",
+                  "give the same options, or another --out");
+  if (::ftruncate(descriptor_, static_cast<off_t>(sound)) != 0) fail();
   all_.study = std::move(study);
-  if (whole == 0) write(all_.study + "\n");
+  if (sound == 0) write(sealed(all_.study));
+  if (damaged.empty()) {
+    all_.rows = std::move(journal.rows);
+    return;
+  }
+  const std::string others = damaged.size() > 1 ? fmt::format(", and {} below it", damaged.size() - 1) : "";
+  complain("himm_demo: warning: " + message({.where = fmt::format("{}:{}", path_.native(), damaged.front()),
+                                             .what = fmt::format("{}{}", damage, others),
+                                             .remedy = "what it said is computed again"}));
+  append(journal.rows);
 }
 
 Journal::~Journal() {
@@ -119,7 +179,7 @@ void Journal::append(const CellRows& rows) {
 
 void Journal::finish() {
   AtomicFile sorted(path_);
-  sorted.write(all_.study + "\n");
+  sorted.write(sealed(all_.study));
   for (const auto& [cell, row] : all_.rows) sorted.write(journal_line(cell, row));
   sorted.commit();
 }

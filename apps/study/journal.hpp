@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sigmax::apps {
@@ -12,20 +13,28 @@ namespace sigmax::apps {
 using CellRows = std::map<std::size_t, std::vector<double>>;
 
 /// A journal as it lies on the disk, which may still be growing: a first line that describes the study, then a line
-/// "cell,number,number,…" for each finished cell. Numbers read back as the same doubles. A line counts when its end is
-/// there.
+/// "cell,number,number,…" for each finished cell, each with its checksum. Numbers read back as the same doubles. A line
+/// counts when its end is there.
 struct Journaled {
   std::string study;
   CellRows rows;
 };
 
-/// Throws InputError, with the line, for what is no journal.
+/// Throws InputError, with the line, for what is no journal, and where a checksum is not that of its line.
 Journaled read_journal(const std::filesystem::path& path);
 
-/// The line of a cell in a journal, with its end.
+/// A line of a journal with its checksum, CRC-32, and its end: "0,1.5 #f5fa1db5".
+std::string sealed(std::string_view line);
+
+/// The sealed line of a cell.
 std::string journal_line(std::size_t cell, const std::vector<double>& row);
 
-/// The journal of a study that goes on. What a killed program left of its last line is cut off.
+/// Throws InputError with the first option that differs unless the journal is of the study that was expected.
+void require_study(const std::filesystem::path& journal, std::string_view found, std::string_view expected,
+                   std::string_view what, std::string_view remedy = {});
+
+/// The journal of a study that goes on. What a killed program left of its last line is cut off, and damaged lines are
+/// taken out with a warning, so that their cells are done again.
 ///
 ///     Journal journal("results/cells.journal", "himm_demo sweep {…}");
 ///     for (…) if (!journal.rows().contains(cell)) journal.append({{cell, work(cell)}});
@@ -49,12 +58,14 @@ class Journal {
   void finish();
 
  private:
+  explicit Journal(std::filesystem::path path);  // the other one goes on from here, so what it throws closes the file
+
   [[noreturn]] void fail() const;
   void write(const std::string& text);
 
   std::filesystem::path path_;
   Journaled all_;
-  int descriptor_ = -1;
+  int descriptor_;
 };
 
 }  // namespace sigmax::apps

@@ -40,8 +40,11 @@ bool run_first(const Study& study, const Sharing& sharing, Ranks* ranks, const O
     throw UsageError(message({.what = "--report shows all shards, and this is one", .remedy = "give it to merge"}));
   { const ResultFiles trial(options); }  // refuses a place that cannot be written before the work
   std::optional<Journal> journal;
-  if (!options.out.empty() && !study.description.empty())
-    journal.emplace(output_directory(options.out) / journal_name, study.description);
+  if (!options.out.empty() && !study.description.empty()) {
+    const auto path = output_directory(options.out) / journal_name;
+    journal.emplace(path, study.description);
+    say_when_interrupted(fmt::format("{} stays, and the same command goes on from there", printable(path.native())));
+  }
   CellRows waiting = journal ? journal->rows() : CellRows();  // until all before them are added
   std::vector<std::size_t> open;
   std::size_t share = 0, next = 0;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -32,8 +33,8 @@ constexpr int exit_signal = 128;
 const char* running = "";
 
 // Made before a signal can come: a handler may not allocate.
-std::array<char, 200> interrupted{};
-std::size_t interrupted_size = 0;
+std::array<char, 5000> interrupted{};
+std::atomic<std::size_t> interrupted_size = 0;
 
 extern "C" void end_interrupted(int signal) {
   remove_unfinished_files();
@@ -43,12 +44,8 @@ extern "C" void end_interrupted(int signal) {
   ::_exit(exit_signal + signal);
 }
 
-void handle_signals(const char* name) {
-  const char* const wipe = ::isatty(STDERR_FILENO) != 0 ? "\r\x1B[K" : "";  // a progress bar
-  const std::string text = fmt::format("{}{}: interrupted; unfinished output was removed\n", wipe, name);
-  interrupted_size = std::min(text.size(), interrupted.size());
-  std::copy_n(text.begin(), interrupted_size, interrupted.begin());
-
+void handle_signals() {
+  say_when_interrupted("");
   struct sigaction action = {};
   action.sa_handler = end_interrupted;
   ::sigfillset(&action.sa_mask);
@@ -143,6 +140,14 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
 
 }  // namespace
 
+void say_when_interrupted(std::string_view what_stays) {
+  const char* const wipe = ::isatty(STDERR_FILENO) != 0 ? "\r\x1B[K" : "";  // a progress bar
+  const std::string text = fmt::format("{}{}: interrupted; unfinished output was removed{}{}\n", wipe, running,
+                                       what_stays.empty() ? "" : "; ", what_stays);
+  interrupted_size = 0;
+  interrupted_size = text.copy(interrupted.data(), interrupted.size());
+}
+
 void complain(std::string_view text) {
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   std::fputs(wrapped(text, terminal ? terminal_width : any_width).c_str(), stderr);  // print would throw without one
@@ -157,7 +162,7 @@ void complain(const std::exception& error) { complain(fmt::format("{}: {}", runn
 int run_program(const char* name, const std::function<void()>& work) {
   running = name;
   try {
-    handle_signals(name);
+    handle_signals();
     work();
     flush_output();
   } catch (const std::exception& error) {

@@ -27,6 +27,9 @@ inline constexpr int exit_usage = 2, exit_input = 3;
 /// write.
 int run_program(const char* name, const std::function<void()>& work);
 
+/// What such a signal leaves besides, for the message.
+void say_when_interrupted(std::string_view what_stays);
+
 /// Prints a line to standard error, broken to the width of the tables if that is a terminal.
 void complain(std::string_view text);
 

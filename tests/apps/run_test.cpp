@@ -5,6 +5,8 @@
 #include <fcntl.h>
 
 #include "apps/temporary_directory.hpp"
+#include "result/result.hpp"
+#include "study/study.hpp"
 #include "support/error.hpp"
 #include "support/output.hpp"
 
@@ -94,6 +96,24 @@ TEST_F(RunProgram, ASignalRemovesUnfinishedFiles) {
     EXPECT_EQ(ending.complaint, signal == SIGPIPE ? "" : "demo: interrupted; unfinished output was removed\n");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator{directory.path()}, {}), 1) << "beside the complaints";
   }
+}
+
+TEST_F(RunProgram, ASignalLeavesTheJournalOfACampaignAndItsMessageSaysSo) {
+  const std::string out = directory.path() / std::string(200, 'o');
+  const auto done = [&](std::size_t least) {
+    const auto work = [least](std::size_t cell) {
+      if (cell < least || (least == 0 && cell == 3)) std::raise(SIGINT);
+      return Study::Row{static_cast<double>(cell)};
+    };
+    const Study study{"cells", 5, work, "a study"};
+    return run_in_child(directory,
+                        [&] { run(study, {.threads = 1}, {.out = out, .quiet = true}, [](auto, auto&) {}); });
+  };
+  const Ending ending = done(0);
+  EXPECT_EQ(ending.code, 130);
+  EXPECT_EQ(ending.complaint, "demo: interrupted; unfinished output was removed; " + out +
+                                  "/cells.journal stays, and the same command goes on from there\n");
+  EXPECT_EQ(done(3).code, 0) << "the first three cells are not done again";
 }
 
 TEST_F(RunProgram, AnIgnoredSignalStaysIgnored) {

@@ -1,11 +1,13 @@
-// Any bytes are a journal or an error that names the file. A journal that was cut off holds some of the same cells;
-// after it was opened, appended to, and torn off again, it holds the old cells and the new one, and finished it reads
-// the same. The bytes behind the first zero are a --shard.
+// Any bytes are a journal or an error that names the file; so they are when each of their lines gets its checksum. A
+// journal that was cut off holds some of the same cells; one that was changed in a byte is refused, unless that tore
+// off its end; after it was opened, appended to, and torn off again, it holds the old cells and the new one, and
+// finished it reads the same. The bytes behind the first zero are a --shard.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,9 +26,35 @@ using sigmax::fuzz::require;
 
 /// A journal of these cells in their order; numbers that are none equal each other here.
 std::string text_of(const std::string& study, const CellRows& rows) {
-  std::string text = study + "\n";
+  std::string text = sealed(study);
   for (const auto& [cell, row] : rows) text += journal_line(cell, row);
   return text;
+}
+
+/// The text with a checksum behind each whole line.
+std::string with_seals(std::string_view text) {
+  std::string result;
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+    result += sealed(text.substr(0, end));
+  return result.append(text);
+}
+
+/// The journal that a text is, or none.
+std::optional<Journaled> read(std::string_view text, const MemoryFile& file) {
+  try {
+    return read_journal(file.holding(text));
+  } catch (const InputError& error) {
+    require(std::string_view{error.what()}.starts_with(file.path().native()), "an error names the file");
+    return {};
+  }
+}
+
+void check_changed(std::string text, std::size_t at, const MemoryFile& file) {
+  text[at] = static_cast<char>(text[at] ^ 1);
+  const auto changed = read(text, file);
+  if (!changed) return;
+  const Journaled cut = read_journal(file.holding(text.substr(0, at)));
+  require(text_of(changed->study, changed->rows) == text_of(cut.study, cut.rows), "no change is read as a number");
 }
 
 void check_cut(const Journaled& whole, std::string_view text, const MemoryFile& file) {
@@ -75,14 +103,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
   const std::string_view text = bytes.substr(0, bytes.find('\0'));
   if (text.size() < bytes.size()) check_shard(std::string{bytes.substr(text.size() + 1)});
-  Journaled journal;
-  try {
-    journal = read_journal(file.holding(text));
-  } catch (const InputError& error) {
-    require(std::string_view{error.what()}.starts_with(file.path().native()), "an error names the file");
-    return 0;
-  }
-  check_cut(journal, text, file);
-  check_opened(journal, text, file);
+  read(text, file);
+  const std::string with = with_seals(text);
+  const auto journal = read(with, file);
+  if (!journal) return 0;
+  check_cut(*journal, with, file);
+  check_changed(with, 997 * size % with.size(), file);
+  check_opened(*journal, with, file);
   return 0;
 }
