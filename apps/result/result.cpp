@@ -60,7 +60,19 @@ void add_no_chart(CLI::App& app, bool& no_chart) {
                        "No charts at the end, where the output is a terminal of 80 columns or more");
 }
 
+namespace {
+
+void refuse_standard_output(const char* option, const std::string& file) {
+  if (file == "-")
+    throw UsageError(message({.what = std::string(option) + ": the standard output takes only what is printed",
+                              .found = "'-'",
+                              .remedy = "give a name, or /dev/stdout"}));
+}
+
+}  // namespace
+
 void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {
+  refuse_standard_output(option.c_str(), file);
   refuse_input(option, file, file, inputs);
 }
 
@@ -82,6 +94,9 @@ ResultFiles::ResultFiles(const OutputOptions& options) {
     throw UsageError(message({.what = "--report: this program was built without charts",
                               .remedy = "install libjs-dygraphs and node-d3, and build again"}));
   if (!options.plots.empty()) need_gnuplot();
+  refuse_standard_output("--out", options.out);
+  refuse_standard_output("--report", options.report);
+  refuse_standard_output("--plots", options.plots);
   if (!options.out.empty()) directory_ = output_directory(options.out);
   if (!options.report.empty()) report_.emplace(options.report);
   if (!options.plots.empty()) plots_ = output_directory(options.plots);

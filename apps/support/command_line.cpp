@@ -315,7 +315,7 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
       std::ostringstream out, complaint;
       code = app.exit(error, out, complaint) == 0 ? 0 : exit_usage;
       std::fputs(out.str().c_str(), stdout);
-      if (!complaint.str().empty()) complain(complaint.str());
+      if (!complaint.str().empty()) complain(fmt::format("{}: {}", outline.name, complaint.str()));
     }
   });
   return ended != 0 ? ended : code;

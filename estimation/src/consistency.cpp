@@ -24,6 +24,7 @@ double usual_nis(std::size_t quantities) {
 
 void InnovationTally::add_nis(double nis, std::size_t quantities) {
   ++count_;
+  quantities_ += quantities;
   nis_ += nis;
   if (nis <= usual_nis(quantities)) ++inside_;
   ++bins_[nis > 0.0 ? static_cast<int>(std::floor(bins_per_octave * std::log2(nis))) : bin_of_zero];
@@ -39,6 +40,8 @@ void InnovationTally::add(std::span<const double> innovation, std::span<const do
 }
 
 double InnovationTally::mean_nis() const { return nis_ / static_cast<double>(count_); }
+
+double InnovationTally::expected_nis() const { return static_cast<double>(quantities_) / static_cast<double>(count_); }
 
 double InnovationTally::median_nis() const {
   std::size_t below = 0;

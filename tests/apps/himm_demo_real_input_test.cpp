@@ -302,6 +302,30 @@ TEST(HimmDemoRealInput, AGateThatTurnsAwayMuchIsWarnedOf) {
   EXPECT_FALSE(says(little, {"the gate of filter"}));
 }
 
+/// Rows of positions that hardly move, by a sensor that is better than it says, or a filter that expects jumps.
+TEST(HimmDemoRealInput, AnNisFarBelowWhatIsExpectedHasACause) {
+  const auto still = recording("time_s,x_m,y_m", [](int k) {
+    return exact(k) + "," + exact(k % 2 == 0 ? 1.0 : -1.0) + "," + exact(k % 3 - 1.0);
+  });
+  const auto with = [&](const char* sigma, const char* sigma_w) {
+    return tracked(still, {"--set", sigma, "--set", sigma_w}).output;
+  };
+  EXPECT_TRUE(says(with("sigma_position_m=5", "sigma_w=300"),
+                   {"where 2 is expected, and 100 % of the variance of an innovation is the prediction's: sigma_w is "
+                    "too great"}));
+  EXPECT_TRUE(says(with("sigma_position_m=500", "sigma_w=0.1"), {"where 2 is expected: the measurements are far better "
+                                                                 "than the sensor's sigmas say"}));
+  EXPECT_FALSE(says(with("sigma_position_m=1", "sigma_w=1"), {"the mean NIS is"}));
+}
+
+/// A filter's own name that is like that of a known one, and has keys.
+TEST(HimmDemoRealInput, AFilterWithATableHasTheNameThatItWants) {
+  EXPECT_TRUE(says(tracked("time_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n3,3,0\n",
+                           {"--set", "filters=imm_histores", "--set", "filter.imm_histores.sigma_w=2"})
+                       .output,
+                   {"imm_histores"}));
+}
+
 std::string clock(int seconds) {
   const auto two = [](int value) { return std::string(value < 10 ? "0" : "") + std::to_string(value); };
   seconds %= 86400;

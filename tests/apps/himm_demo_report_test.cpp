@@ -263,6 +263,29 @@ TEST_F(ReportPage, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
   expect_drawn(page);
 }
 
+/// Beside the NIS stands where 95 % are of as many quantities as each row has, of velocities too.
+TEST_F(ReportPage, OfRowsWithMoreQuantitiesExpectsMoreOfTheNis) {
+  for (const bool always : {true, false}) {
+    std::ofstream file(directory.path() / "moves.csv");
+    file << "time_s,x_m,y_m,vx_mps,vy_mps\n";
+    for (int k = 0; k < 30; ++k) file << k << ',' << 10 * k << ",7," << (always || k % 2 == 0 ? "10,0" : ",") << '\n';
+    file.close();
+    program::succeeds(SIGMAX_HIMM_DEMO, {"track", directory.path() / "moves.csv", "--quiet", "--set",
+                                         "sigma_velocity_mps=1", "--out", directory.path()});
+    const auto [data, summary] = written(directory.path());
+    const auto& nis = data.at("views").at(0).at("panels").back();
+    const double two = 5.991465, four = 9.487729;  // of χ²
+    if (always) {
+      EXPECT_NEAR(nis.at("expected").at(0).at("to").get<double>(), four, 1e-5);
+    } else {
+      EXPECT_TRUE(nis.at("expected").empty());
+      const auto& usual = nis.at("curves").front().at("values");
+      EXPECT_NEAR(usual.at(usual.size() - 1).get<double>(), two, 1e-5);
+      EXPECT_NEAR(usual.at(usual.size() - 2).get<double>(), four, 1e-5);
+    }
+  }
+}
+
 TEST_F(ReportPage, OfALongRecordingIsThinnedAndSaysSo) {
   std::ofstream file(directory.path() / "long.csv");
   file << "time_s,x_m,y_m\n";

@@ -28,6 +28,7 @@ TEST(InnovationTally, ByHand) {
   tally.add(third, second);  // of another size: they are no neighbours
   EXPECT_EQ(tally.count(), 3U);
   EXPECT_CLOSE(tally.mean_nis(), (5.0 + 10.0 + 4.0) / 3.0, 1e-15);
+  EXPECT_CLOSE(tally.expected_nis(), (2.0 + 2.0 + 1.0) / 3.0, 1e-15);
   EXPECT_CLOSE(tally.share_inside(), 1.0 / 3.0, 1e-15);  // 5.99 of two quantities, 3.84 of one
   EXPECT_CLOSE(tally.mean_square(), 19.0 / 5.0, 1e-15);
   EXPECT_CLOSE(tally.autocorrelation(), (3.0 - 2.0) / 19.0, 1e-15);

@@ -14,6 +14,7 @@
 #include "himm_demo/experiment/scenario.hpp"
 #include "himm_demo/filters/keys.hpp"
 #include "support/output.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -75,12 +76,20 @@ const KnownFilter* known_filter(std::string_view name) {
   return found == known_filters.end() ? nullptr : &*found;
 }
 
-bool default_kind(const Settings& settings, const std::string& name) {
+bool default_kind(const Settings& settings, const Settings& table, const std::string& name) {
   if (const KnownFilter* known = known_filter(name)) return known->fuzzy;
-  if (name.starts_with("himm")) return true;
-  if (name.starts_with("imm")) return false;
   std::vector<std::string_view> names;
   for (const auto& known : known_filters) names.push_back(known.name);
+  if (name.starts_with("himm") || name.starts_with("imm")) {
+    // A name by itself means nothing but the plain filter: one like another's is that, misspelt.
+    for (const std::string_view known : names)
+      if (table.names().empty() && known.size() > 4 && spelling_distance(name, known) <= 2)
+        throw settings.error("filters", "the name of a filter, or one that no other is like",
+                             fmt::format("did you mean \"{0}\"? For a filter of your own of that name give a key of "
+                                         "[filter.{1}]",
+                                         known, name));
+    return name.starts_with("himm");
+  }
   throw settings.error("filters",
                        fmt::format("\"all\", names out of {}, other names that begin with imm or himm, or a table "
                                    "[filter.{}] with a kind",
@@ -274,7 +283,7 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
     FilterSettings own = defaults.filter;
     own.name = name;
     own.fuzzy = table.has("kind") ? table.choice("kind", {{"random", false}, {"fuzzy", true}}, false)
-                                  : default_kind(settings, name);
+                                  : default_kind(settings, table, name);
     if (const KnownFilter* known = known_filter(name)) known->adapt(own);
     return read_filter(settings.overlaid_by(table), std::move(own));
   };

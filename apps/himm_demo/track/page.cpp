@@ -23,7 +23,7 @@ constexpr std::size_t most_stays = 1000;  // of a history
 constexpr std::size_t plot_at = 0, plot_error_at = 3, truth_at = 6, plot_columns = 9;
 
 /// Columns of an estimate; the weights of the models follow.
-constexpr std::size_t position_at = 0, error_at = 3, sigma_at = 6, nis_at = 9, weights_at = 10;
+constexpr std::size_t position_at = 0, error_at = 3, sigma_at = 6, nis_at = 9, quantities_at = 10, weights_at = 11;
 
 constexpr std::array<const char*, 3> cartesian_names = {"x", "y", "z"}, geodetic_names = {"east", "north", "up"};
 
@@ -149,7 +149,7 @@ void TrackPage::measured(const Row& row, const std::optional<Position>& position
   track->plots.add(row.plot.time, numbers);
 }
 
-void TrackPage::estimated(const Row& row, std::size_t filter, const TargetPoint& point) {
+void TrackPage::estimated(const Row& row, std::size_t filter, const TargetPoint& point, int measured) {
   Track* const track = track_of(row);
   if (!track) return;
   std::vector<double> numbers(weights_at + models_.size(), nan);
@@ -159,6 +159,7 @@ void TrackPage::estimated(const Row& row, std::size_t filter, const TargetPoint&
     numbers[sigma_at + axis] = std::sqrt(point.covariance[axis * (point.mean.size() + 1)]);
   }
   numbers[nis_at] = point.nis.value_or(nan);
+  if (point.nis) numbers[quantities_at] = measured;
   const auto& own = filters_[filter].models;
   for (std::size_t j = 0; j < own.size(); ++j)
     numbers[weights_at + static_cast<std::size_t>(std::find(models_.begin(), models_.end(), own[j]) -
@@ -211,6 +212,20 @@ std::vector<LineChart> TrackPage::charts_of_the_first() const {
   if (tracks_.empty()) return {};
   const auto panels = charts(tracks_.begin()->second);
   return {std::get<LineChart>(panels.front()), std::get<LineChart>(panels[panels.size() - 2])};
+}
+
+/// Below which 95 % of the NIS are if the filter is consistent: a band, or a point for each row where rows measure
+/// different numbers of measured.
+void add_usual_nis(const std::vector<double>& measured, LineChart& chart) {
+  const char* const name = "95 % if consistent";
+  std::vector<double> usual;
+  for (const double number : measured) usual.push_back(std::isnan(number) ? number : chi_square_quantile(0.95, number));
+  const auto first = std::find_if(usual.begin(), usual.end(), [](double value) { return !std::isnan(value); });
+  if (first == usual.end()) return;
+  if (std::all_of(first, usual.end(), [&](double value) { return std::isnan(value) || value == *first; }))
+    chart.expected = {{0.0, *first, name}};
+  else
+    chart.curves.push_back({.name = name, .values = std::move(usual), .dots = true});
 }
 
 /// Along one axis the position; errors or standard deviations, NIS and weights; all of one time.
@@ -272,7 +287,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   LineChart weights = chart("Mode weights", "probability (IMM) or possibility (HIMM)");
   weights.greatest_y = 1.05;
   LineChart nis = chart("NIS of the measurements", "NIS");
-  nis.expected = {{0.0, chi_square_quantile(0.95, static_cast<double>(axes)), "95 % if consistent"}};
+  add_usual_nis(of(track.estimates.front(), quantities_at), nis);
   for (std::size_t f = 0; f < filters_.size(); ++f) {
     nis.curves.push_back({filters_[f].name, filters_[f].name, of(track.estimates[f], nis_at)});
     for (std::size_t j = 0; j < models_.size(); ++j) {

@@ -22,8 +22,8 @@ class TrackPage {
   /// geodetic.
   void measured(const Row& row, const std::optional<Position>& position, const std::optional<Geodetic>& anchor);
 
-  /// What a filter said of the row, in the same coordinates.
-  void estimated(const Row& row, std::size_t filter, const TargetPoint& point);
+  /// What a filter said of the row, of which it took so many quantities, in the same coordinates.
+  void estimated(const Row& row, std::size_t filter, const TargetPoint& point, int quantities);
 
   /// That a filter's gate turned the row's measurement away, or that a filter started once more.
   void rejected(const Row& row, std::size_t filter) { mark(row, filter, true); }

@@ -42,6 +42,7 @@ struct Target {
   std::deque<Row> rows{};                                    // whose tags are their numbers
   std::size_t taken = 0;
   std::size_t measurements = 0;  // of them
+  std::size_t told = 0;          // estimates
 
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
 
@@ -401,13 +402,14 @@ class TrackRun {
   }
 
   /// Takes down what a filter says of a row.
-  void tell(const Target& target, Said& said) {
+  void tell(Target& target, Said& said) {
+    ++target.told;
     TargetPoint& point = said.point;
     const Row& row = target.row(point.tag);
     const FilterSettings& filter = filters_[said.filter];
     const std::size_t n = point.mean.size();
+    const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
-      const auto quantities = static_cast<std::size_t>(believed(filter, row.sensor, row.plot, axes_).size);
       add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
         ++sums.count;
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
@@ -415,14 +417,22 @@ class TrackRun {
           if (row.truth) sums.error[axis].add(point.mean[axis] - (*row.truth)[axis]);
         }
         for (std::size_t j = 0; j < sums.weights.size(); ++j) sums.weights[j] += point.weights[j];
-        if (point.nis) sums.innovations.add_nis(*point.nis, quantities);
+        if (!point.nis) return;
+        sums.innovations.add_nis(*point.nis, static_cast<std::size_t>(plot.size));
+        for (int axis = 0; plot.sensor == AnyPlot::Sensor::position && axis < axes_; ++axis) {
+          const double R = plot.variance(axis), left = point.covariance[static_cast<std::size_t>(axis) * (n + 1)];
+          if (!(left < R)) continue;
+          const double S = R * R / (R - left);  // since P R/S is left of P
+          sums.innovation_variance += S;
+          sums.predicted_variance += S - R;
+        }
       });
     }
     if (!sinks_.estimates && !sinks_.page) return;
     std::optional<Geodetic> place;
     if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
     if (sinks_.estimates) sinks_.estimates->write(estimates_.line(row.track, filter, point, place));
-    if (sinks_.page) sinks_.page->estimated(row, said.filter, point);
+    if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
   }
 
   /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
@@ -486,7 +496,7 @@ class TrackRun {
     });
     if (!news) return;
     for (Said& said : news->said) tell(target, said);
-    bool started = true;
+    bool started = target.told > 0;  // what only starts tells nothing
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       FilterOutcome& own = outcome_.filters[f];
       const auto& [rejected, starts] = target.tallies[f];
@@ -528,7 +538,7 @@ class TrackRun {
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
                                      : "there is too little for every filter to start",
          .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
-         .expected = "at least three measurements (two rows if the start is given)",
+         .expected = "more than the three measurements that start a filter (two rows if the start is given)",
          .remedy = outcome_.bearings == outcome_.measurements && outcome_.bearings > 0
                        ? "bearings do not tell where a target starts; give start = \"given\" with start_mean, "
                          "start_covariance_diagonal and start_time_s"

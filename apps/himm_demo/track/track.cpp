@@ -179,13 +179,20 @@ class Reporter {
           "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
           file_, line, rows, rows == 1 ? "row counts" : "rows count");
     });
-    const auto greatest = greatest_nis();
-    const int expected = recording_.bearings() && !recording_.located() ? 1 : recording_.axes();
-    warn(worst.many == 0 && greatest && *greatest < 0.1 * expected, [&] {  // what the gate lets pass has a low one
-      return fmt::format(
-          "{}: the mean NIS is {:.2g} at most, where {} is expected: the measurements are far better than the sensor's "
-          "sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, altitude_ft",
-          file_, *greatest, expected);
+    const Sums* const best = nearest_to_consistent();
+    const double nis = best ? best->innovations.mean_nis() : 0.0, usual = best ? best->innovations.expected_nis() : 0.0;
+    warn(worst.many == 0 && best && nis < 0.1 * usual, [&] {  // what the gate lets pass has a low one
+      const double share = best->predicted_variance / best->innovation_variance;
+      return nis >= 0.1 * usual * (1.0 - share)
+                 ? fmt::format(
+                       "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the "
+                       "variance of an innovation is the prediction's: sigma_w is too great for this target",
+                       file_, nis, usual, 100.0 * share)
+                 : fmt::format(
+                       "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far "
+                       "better than the sensor's sigmas say, or in another unit than was taken; headers may "
+                       "name one, as range_nmi, range_km, altitude_ft",
+                       file_, nis, usual);
     });
     for (const auto& filter : filters_)
       for (const auto& own : filter.sensors)
@@ -202,15 +209,16 @@ class Reporter {
     return warnings;
   }
 
-  /// The greatest mean NIS of a filter, if all have some.
-  std::optional<double> greatest_nis() const {
-    double greatest = 0.0;
+  /// Of the filter with the greatest mean NIS for what is expected of it, if all have some; else null.
+  const Sums* nearest_to_consistent() const {
+    const Sums* best = nullptr;
+    const auto ratio = [](const Sums& sums) { return sums.innovations.mean_nis() / sums.innovations.expected_nis(); };
     for (const auto& filter : outcome_.filters) {
-      const InnovationTally& innovations = filter.sums[0].innovations;
-      if (innovations.count() < 10) return std::nullopt;
-      greatest = std::max(greatest, innovations.mean_nis());
+      const Sums& sums = filter.sums[0];
+      if (sums.innovations.count() < 10) return nullptr;
+      if (!best || ratio(sums) > ratio(*best)) best = &sums;
     }
-    return greatest;
+    return best;
   }
 
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.

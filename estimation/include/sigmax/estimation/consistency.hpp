@@ -29,6 +29,7 @@ class InnovationTally {
   /// The NIS: its mean, its median to 0.1 %, and the share below the number below which 95 % should be. NaN, or 0 for
   /// the median, without any.
   double mean_nis() const;
+  double expected_nis() const;  ///< the mean number of quantities, where that of a filter that is right is
   double median_nis() const;
   double share_inside() const;
   /// @}
@@ -42,6 +43,7 @@ class InnovationTally {
 
  private:
   std::size_t count_ = 0;
+  std::size_t quantities_ = 0;
   double nis_ = 0.0;
   std::size_t inside_ = 0;
   std::map<int, std::size_t> bins_;  ///< of the NIS' logarithm
