@@ -49,9 +49,8 @@ std::optional<double> not_available(std::string_view header) {
 
 std::string_view instead_of(std::string_view header) {
   constexpr std::string_view sigma = "one standard deviation along each axis is sigma_position_m";
-  constexpr std::string_view sigmas = "only sigma_x_m, sigma_y_m, sigma_z_m are read";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
-      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}, {"var", sigmas}, {"cov", sigmas}};
+      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;
   return {};
@@ -82,7 +81,8 @@ std::string names_of(const Quantity& quantity) {
 
 std::string advice(const Quantity& quantity) {
   std::vector<std::string> suffixes;
-  for (const Unit& unit : quantity.units) suffixes.push_back(fmt::format("_{}", unit.suffix));
+  for (const Unit& unit : quantity.units)
+    if (!unit.suffix.empty()) suffixes.push_back(fmt::format("_{}", unit.suffix));
   if (suffixes.size() == 1) return "name its unit: " + suffixes.front();
   return fmt::format("name its unit: {} or {}", fmt::join(suffixes.begin(), suffixes.end() - 1, ", "), suffixes.back());
 }

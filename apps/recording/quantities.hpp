@@ -33,6 +33,7 @@ inline constexpr Unit lengths[] = {{"m", 1.0, "m"},
                                    {"ft", foot, "ft"},
                                    {"nmi", nautical_mile, "nautical miles"},
                                    {"mi", mile, "miles"}};
+inline constexpr Unit areas[] = {{"m2", 1.0, "m²"}, {"", 1.0, "m²"}};
 inline constexpr Unit speeds[] = {
     {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
     {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
@@ -56,6 +57,7 @@ enum class Role {
   truth,
   sigma_position,
   sigma_all_axes,
+  covariance,
   sigma_polar
 };
 
@@ -68,8 +70,9 @@ struct Quantity {
   std::string_view note = {};  ///< what the unit alone does not say
 };
 
-/// All of them: those of a role in the order of the axes, or of range, azimuth and elevation.
-inline constexpr std::array<Quantity, 25> quantities = {
+/// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
+/// as far as their diagonal.
+inline constexpr std::array<Quantity, 31> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
@@ -92,6 +95,12 @@ inline constexpr std::array<Quantity, 25> quantities = {
      {Role::sigma_position, {"sigma_y", "std_y"}, units::lengths},
      {Role::sigma_position, {"sigma_z", "std_z"}, units::lengths},
      {Role::sigma_all_axes, {"sigma_position"}, units::lengths},
+     {Role::covariance, {"cov_xx", "var_x"}, units::areas},
+     {Role::covariance, {"cov_xy"}, units::areas},
+     {Role::covariance, {"cov_yy", "var_y"}, units::areas},
+     {Role::covariance, {"cov_xz"}, units::areas},
+     {Role::covariance, {"cov_yz"}, units::areas},
+     {Role::covariance, {"cov_zz", "var_z"}, units::areas},
      {Role::sigma_polar, {"sigma_range"}, units::lengths},
      {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
      {Role::sigma_polar, {"sigma_elevation"}, units::angles}}};
@@ -113,7 +122,7 @@ template <class Use>
 void for_each_header(const Quantity& quantity, const Use& use) {
   for (const Unit& unit : quantity.units)
     for (const std::string_view stem : quantity.stems)
-      if (!stem.empty()) use(std::string(stem).append("_").append(unit.suffix), unit);
+      if (!stem.empty()) use(std::string(stem).append(unit.suffix.empty() ? "" : "_").append(unit.suffix), unit);
 }
 
 /// What a column of this name holds where there is no number: AIS has such numbers (ITU-R M.1371). They are of that

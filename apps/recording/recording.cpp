@@ -24,9 +24,13 @@ bool is_a_name(std::string_view header) {
                      [&](std::string_view ending) { return header.ends_with(ending); });
 }
 
+/// So many covariances has a matrix of so many rows, as far as their diagonal.
+constexpr std::size_t covariances(std::size_t rows) { return rows * (rows + 1) / 2; }
+
 /// Whether it is how accurate others of the row are.
 bool is_accuracy(Role role) {
-  return role == Role::sigma_position || role == Role::sigma_all_axes || role == Role::sigma_polar;
+  return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
+         role == Role::sigma_polar;
 }
 
 }  // namespace
@@ -127,10 +131,11 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   drop(Role::velocity, takes_velocity_ ? axes : 0);
   if (!polar() || !takes_range_rate_) drop(Role::range_rate);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  if (!located()) {
-    drop(Role::sigma_position);
-    drop(Role::sigma_all_axes);
-  }
+  const std::size_t places = located() && !simulated_ ? axes : 0;
+  drop(Role::covariance, covariances(places));
+  const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
+  drop(Role::sigma_position, has_variance ? 0 : places);
+  if (places == 0 || has_variance) drop(Role::sigma_all_axes);
   if (!polar()) {
     drop(Role::sigma_polar, azimuth ? 2 : 0);
     column(Role::sigma_polar).reset();
@@ -286,7 +291,7 @@ void RecordingReader::take_numbers() {
     const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
     if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
     if (said_[q]) *said_[q] *= columns_[q]->unit->value;
-    if (said_[q] && is_accuracy(role) && !(*said_[q] > 0.0))
+    if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
 }
@@ -384,7 +389,42 @@ AnyPlot RecordingReader::components() const {
   }
   for (std::size_t i = 0; i < 3; ++i)
     if (said(Role::velocity, i)) add(axes + i, *said(Role::velocity, i), nan);
-  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, variances);
+  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, covariance(places, variances));
+}
+
+/// The covariance of components at these places of the state, row by row, by their variances where the row tells none.
+std::vector<double> RecordingReader::covariance(const std::vector<int>& places, std::vector<double> variances) const {
+  const std::size_t n = places.size();
+  const auto number = [&](std::size_t i, std::size_t j) {  // of those that the row may tell, j up to i
+    return covariances(static_cast<std::size_t>(places[i])) + static_cast<std::size_t>(places[j]);
+  };
+  const auto own = [&](std::size_t i, std::size_t j) {
+    return places[i] < axes_ ? said(Role::covariance, number(i, j)) : std::nullopt;
+  };
+  for (std::size_t i = 0; i < n; ++i) variances[i] = own(i, i).value_or(variances[i]);
+  std::vector<double> matrix(n * n);
+  for (std::size_t i = 0; i < n; ++i) matrix[i * (n + 1)] = variances[i];
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (own(i, j) && std::isnan(variances[i] + variances[j]))
+        throw error(Role::covariance, number(i, j), "an empty cell, since the row does not tell both variances",
+                    "fill theirs");
+      matrix[i * n + j] = matrix[j * n + i] = own(i, j).value_or(0.0);
+    }
+  std::vector<double> left = matrix;  // by elimination
+  for (std::size_t k = 0; k < n; ++k) {
+    const double pivot = left[k * (n + 1)];
+    if (std::isnan(pivot)) continue;  // the settings' variance, of an error that depends on no other
+    if (pivot <= 0.0) {
+      std::size_t at = number(k, k);
+      while (!has(Role::covariance, at)) --at;
+      throw error(Role::covariance, at, "a positive definite covariance with those beside it",
+                  "correct it, or leave the row's covariances empty");
+    }
+    for (std::size_t i = k + 1; i < n; ++i)
+      for (std::size_t j = k + 1; j < n; ++j) left[i * n + j] -= left[i * n + k] * left[k * n + j] / pivot;
+  }
+  return matrix;
 }
 
 std::string RecordingReader::taken() const {
@@ -421,6 +461,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
   const std::pair<bool, std::string_view> reasons[] = {
       {velocity && simulated_, "--radar measures no velocity"},
       {simulated_ && role == Role::polar, "--radar measures positions"},
+      {simulated_ && is_accuracy(role), "--radar has its own"},
       {!other.empty(), needs},
       {velocity, "give --set sigma_velocity_mps=…"},
       {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},

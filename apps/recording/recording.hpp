@@ -139,6 +139,7 @@ class RecordingReader {
   std::optional<AnyPlot> measured();
   AnyPlot radar_plot() const;
   AnyPlot components() const;
+  std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
 
   CsvReader csv_;
   CsvRow row_;

@@ -91,10 +91,10 @@ TEST(HimmDemoRealInput, SaysWhichColumnsItDoesNotUse) {
   EXPECT_TRUE(says(tracked(two, {"--set", "sensor.a.sigma_velocity_mps=1"}).output,
                    {"velocity does not count, for want of sensor.NAME.sigma_velocity_mps: b 20"}));
   EXPECT_FALSE(says(tracked(two, {"--set", "sigma_velocity_mps=1"}).output, {"for want of"}));
-  const auto truth = recording("time_s,x_m,y_m,z_m,vx_mps,vy_mps",
-                               [](int k) { return exact(k) + "," + exact(5000 + k) + ",7,9,1,0"; });
+  const auto truth = recording("time_s,x_m,y_m,z_m,vx_mps,vy_mps,sigma_x_m",
+                               [](int k) { return exact(k) + "," + exact(5000 + k) + ",7,9,1,0,1"; });
   EXPECT_TRUE(says(tracked(truth, {"--radar", "50,0.1,0.1", "--set", "sigma_velocity_mps=1"}).output,
-                   {"Not used: vx_mps, vy_mps (--radar measures no velocity)"}));
+                   {"Not used: vx_mps, vy_mps (--radar measures no velocity), sigma_x_m (--radar has its own)"}));
   const auto place = recording("time_s,latitude_deg,longitude_deg,azimuth_deg",
                                [](int k) { return exact(k) + ",50," + exact(1e-4 * k) + ",5"; });
   EXPECT_TRUE(says(tracked(place).output, {"Not used: azimuth_deg (does not go with the others)"}));
@@ -109,10 +109,9 @@ TEST(HimmDemoRealInput, NoColumnGoesUnsaid) {
                {"--set", "sigma_velocity_mps=1"})
         .output;
   };
-  EXPECT_TRUE(
-      says(with("flight_level,accuracy_m,sensor_x_m,sigma_m,heading_deg,cov_xy", "1,2,3,4,5,6"),
-           {"Not used: accuracy_m, sigma_m (one standard deviation along each axis is sigma_position_m), cov_xy "
-            "(only sigma_x_m, sigma_y_m, sigma_z_m are read), flight_level, sensor_x_m, heading_deg  all"}));
+  EXPECT_TRUE(says(with("flight_level,accuracy_m,sensor_x_m,sigma_m,heading_deg,cov_vxvx", "1,2,3,4,5,6"),
+                   {"Not used: accuracy_m, sigma_m (one standard deviation along each axis is sigma_position_m), "
+                    "flight_level, sensor_x_m, heading_deg, cov_vxvx  all"}));
   // A pair that lacks its other half says which.
   EXPECT_TRUE(says(with("sog_kt", "1"), {"Not used: sog_kt (needs track_deg or course_deg or cog_deg)"}));
   EXPECT_TRUE(says(with("latitude_deg,true_y_m", "1,1"),
@@ -309,6 +308,12 @@ TEST(HimmDemoRealInput, ARowMaySayItsOwnAccuracy) {
                   .estimates,
               tracked(own).estimates)
         << names;
+  const auto variances = recording("time_s,x_m,y_m,var_x_m2,cov_yy,sigma_x_m,cov_zz", [](int k) {
+    return exact(k) + "," + exact(k * k) + "," + exact(k % 5) + ",9,9,7,7";
+  });
+  EXPECT_EQ(tracked(variances).estimates, tracked(own).estimates);
+  EXPECT_TRUE(says(tracked(variances).output, {"var_x_m2 in m² for the row's accuracy, cov_yy in m² for",
+                                               "Not used: sigma_x_m, cov_zz (does not go with the others)"}));
   const auto polar = recording("time_s,range_m,azimuth_deg,sigma_range_m,sigma_azimuth_deg", [](int k) {
     return exact(k) + "," + exact(9000 + k * k) + "," + exact(k % 5) + ",3,0.2";
   });
