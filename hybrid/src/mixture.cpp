@@ -40,7 +40,8 @@ void Mixture::add_covariance(const Part& part, double weight, double* covariance
   const int n = size(), m = part.estimate.n;
   const double* const P = part.estimate.covariance;
   if (!part.map) {
-    for (int i = 0; i < n * n; ++i) covariance[i] += weight * P[i];
+    for (int k = 0; k < n; ++k)
+      for (int i = k; i < n; ++i) covariance[i + k * n] += weight * P[i + k * n];
     return;
   }
   const int* const in_source = part.map->in_source.data();
@@ -48,10 +49,10 @@ void Mixture::add_covariance(const Part& part, double weight, double* covariance
     double* const column = covariance + k * n;
     const int at = in_source[k];
     if (at >= 0) {
-      for (int i = 0; i < n; ++i)
+      for (int i = k; i < n; ++i)
         if (in_source[i] >= 0) column[i] += weight * P[in_source[i] + at * m];
     } else if (lift == Lift::unbiased) {
-      for (int i = 0; i < n; ++i)
+      for (int i = k; i < n; ++i)
         if (in_source[i] < 0) column[i] += weight * receiver.covariance[i + k * n];
     } else if (lift != Lift::zero) {
       column[k] += weight * receiver.covariance[k + k * n];
@@ -63,6 +64,7 @@ void Mixture::read(const Part& part, View result) const {
   mean_of(part, result.mean);
   std::fill_n(result.covariance, size() * size(), 0.0);
   add_covariance(part, 1.0, result.covariance);
+  mirror_lower(result.covariance, size());
 }
 
 void match_moments(const Mixture& mixture, const double* weights, const double* covariance_weights, View result,
@@ -84,7 +86,7 @@ void match_moments(const Mixture& mixture, const double* weights, const double* 
     mixture.mean_of(mixture.parts[l], mean);
     for (int i = 0; i < n; ++i) mean[i] -= result.mean[i];
     for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) result.covariance[i + k * n] += weight * mean[i] * mean[k];
+      for (int i = k; i < n; ++i) result.covariance[i + k * n] += weight * mean[i] * mean[k];
   }
   mirror_lower(result.covariance, n);
 }

@@ -1,41 +1,19 @@
 #include "kernels/kernels.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include <Eigen/LU>
 
 #include "support/matrices.hpp"
+#include "support/test.hpp"
 
-namespace sigmax {
 namespace {
 
-using namespace support;
 using Matrix = Eigen::MatrixXd;
-using detail::Outcome;
+using sigmax::detail::Outcome;
 
-/// Numbers without a pattern, the same in every run.
-class Draws {
- public:
-  Matrix matrix(Eigen::Index rows, Eigen::Index columns) {
-    return Matrix::NullaryExpr(rows, columns, [this] { return uniform_(generator_); });
-  }
-  Matrix covariance(Eigen::Index n) {
-    const Matrix A = matrix(n, n);
-    return A * A.transpose() + 0.5 * Matrix::Identity(n, n);
-  }
-
- private:
-  std::mt19937_64 generator_{5};
-  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
-};
+Matrix random_covariance(Eigen::Index n) {
+  const Matrix A = Matrix::Random(n, n);
+  return A * A.transpose() + 0.5 * Matrix::Identity(n, n);
+}
 
 template <class Action>
 void with_each_instruction_set(const Action& action) {
@@ -62,13 +40,14 @@ std::vector<Case> cases() {
 
 TEST(Kernels, UpdateIsJosephsFormInPlaceToo) {
   with_each_instruction_set([](const detail::Kernels& kernels) {
-    Draws draws;
     for (const Case& one : cases()) {
       const int n = one.n, seen = one.seen, m = one.m;
       const bool has_H = one.has_H;
       SCOPED_TRACE(testing::Message() << n << " states, " << seen << " seen, " << m << " quantities, H " << has_H);
-      const Matrix P = draws.covariance(n), R = draws.covariance(m), x = draws.matrix(n, 1), z = draws.matrix(m, 1);
-      const Matrix residual = draws.matrix(m, 1), given = has_H ? draws.matrix(m, seen) : Matrix::Identity(m, seen);
+      const Matrix P = random_covariance(n), R = random_covariance(m), x = Matrix::Random(n, 1),
+                   z = Matrix::Random(m, 1);
+      const Matrix residual = Matrix::Random(m, 1),
+                   given = has_H ? Matrix(Matrix::Random(m, seen)) : Matrix::Identity(m, seen);
       Matrix H = Matrix::Zero(m, n);
       H.leftCols(seen) = given;
       const Matrix S = H * P * H.transpose() + R, W = P * H.transpose() * S.inverse();
@@ -103,14 +82,13 @@ TEST(Kernels, UpdateIsJosephsFormInPlaceToo) {
 
 TEST(Kernels, PredictionIsThatOfTheWholeMatrices) {
   with_each_instruction_set([](const detail::Kernels& kernels) {
-    Draws draws;
     for (const int axes : {1, 2, 3})
       for (const int order : {1, 2, 3}) {
         SCOPED_TRACE(testing::Message() << axes << " axes of order " << order);
         const int n = axes * order;
-        const Matrix Q = draws.covariance(order), P = draws.covariance(n), x = draws.matrix(n, 1),
-                     input = draws.matrix(n, 1);
-        const Matrix F = draws.matrix(order, order).triangularView<Eigen::Upper>();
+        const Matrix Q = random_covariance(order), P = random_covariance(n), x = Matrix::Random(n, 1),
+                     input = Matrix::Random(n, 1);
+        const Matrix F = Matrix::Random(order, order).triangularView<Eigen::Upper>();
         Matrix all_F = Matrix::Zero(n, n), all_Q = Matrix::Zero(n, n);
         for (int a = 0; a < order; ++a)
           for (int b = 0; b < order; ++b) {
@@ -142,11 +120,11 @@ TEST(Kernels, PredictionIsThatOfTheWholeMatrices) {
 /// Also beyond the ten rows, and the terms of a sum, that are held at once.
 TEST(Kernels, ProductsAreEigens) {
   with_each_instruction_set([](const detail::Kernels& kernels) {
-    Draws draws;
     for (const int rows : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 23})
       for (const int inner : {1, 2, 31, 32, 33, 70})
         for (const int columns : {1, 4}) {
-          const Matrix A = draws.matrix(rows, inner), B = draws.matrix(inner, columns), C = draws.matrix(rows, columns);
+          const Matrix A = Matrix::Random(rows, inner), B = Matrix::Random(inner, columns),
+                       C = Matrix::Random(rows, columns);
           const auto found = [&](detail::Into into) {
             Matrix result = C;
             kernels.product(A.data(), rows, detail::columns_of(B.data(), inner), result.data(), rows, rows, inner,
@@ -199,4 +177,3 @@ TEST(Kernels, LikelihoodsOfTheSmallestAndTheGreatestSpreads) {
 }
 
 }  // namespace
-}  // namespace sigmax

@@ -63,7 +63,10 @@ inline MotionChoice turning(double sigma_w = 4.0) { return motion("dwpa", sigma_
 
 /// Three planar models and a transition for their kind of mode.
 inline TargetChoice chosen(bool fuzzy, Scheme scheme = Scheme::interacting) {
-  TargetChoice choice{.axes = 2, .fuzzy = fuzzy, .scheme = scheme};
+  TargetChoice choice;
+  choice.axes = 2;
+  choice.fuzzy = fuzzy;
+  choice.scheme = scheme;
   choice.motions = {calm(1.0), calm(5.0), turning()};
   choice.models = {"calm", "rough", "turn"};
   choice.transition = fuzzy ? Rows{{1.0, 0.5, 0.2}, {0.5, 1.0, 0.5}, {0.1, 0.5, 1.0}}

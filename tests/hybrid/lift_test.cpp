@@ -1,5 +1,6 @@
 #include <sigmax/hybrid/lift.hpp>
 
+#include <sigmax/estimation/dense.hpp>
 #include <sigmax/estimation/view.hpp>
 #include <sigmax/hybrid/mixture.hpp>
 
@@ -103,6 +104,7 @@ TEST(Lift, CovariancesAreAddedByTheirWeight) {
   const Mixture::Part part{detail::view(source), &map};
   SquareMatrix<4> sum = SquareMatrix<4>::Ones();
   Mixture{detail::view(receiver), {&part, 1}, Lift::unbiased}.add_covariance(part, 2.0, sum.data());
+  detail::mirror_lower(sum.data(), 4);  // they are added on and below the diagonal
   EXPECT_EQ(sum, (SquareMatrix<4>{{15, 2, 1, 1}, {2, 17, 1, 1}, {1, 1, 61, 13}, {1, 1, 13, 81}}));
 }
 

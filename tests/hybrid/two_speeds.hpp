@@ -34,7 +34,11 @@ inline const auto by_compass = [](const auto& function, const FitSearch& search)
 
 /// A target that is calm or turns, in its own two modes.
 inline TargetChoice two_speeds(bool fuzzy) {
-  TargetChoice choice{.axes = 2, .fuzzy = fuzzy, .motions = {{"dwna"}, {"dwna"}}, .models = {"calm", "turn"}};
+  TargetChoice choice;
+  choice.axes = 2;
+  choice.fuzzy = fuzzy;
+  choice.motions = {{"dwna"}, {"dwna"}};
+  choice.models = {"calm", "turn"};
   choice.motions[0][MotionParameter::sigma_w] = 1.0;
   choice.motions[1][MotionParameter::sigma_w] = 12.0;
   choice.transition = fuzzy ? std::vector<std::vector<double>>{{1.0, 0.2}, {0.2, 1.0}}

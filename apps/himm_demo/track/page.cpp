@@ -225,7 +225,7 @@ void add_usual_nis(const std::vector<double>& measured, LineChart& chart) {
   if (std::all_of(first, usual.end(), [&](double value) { return std::isnan(value) || value == *first; }))
     chart.expected = {{0.0, *first, name}};
   else
-    chart.curves.push_back({.name = name, .values = std::move(usual), .dots = true});
+    chart.curves.push_back({.name = name, .group = measurement_name, .values = std::move(usual), .dots = true});
 }
 
 /// Along one axis the position; errors or standard deviations, NIS and weights; all of one time.

@@ -21,7 +21,7 @@ struct Mixture {
   Lift lift = Lift::zero;
 
   int size() const { return receiver.n; }
-  /// The mean of a part, and covariance += weight · that of a part.
+  /// The mean of a part, and covariance += weight · that of a part, on and below the diagonal.
   void mean_of(const Part& part, double* mean) const;
   void add_covariance(const Part& part, double weight, double* covariance) const;
   /// One part, lifted.
