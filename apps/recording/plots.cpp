@@ -91,6 +91,9 @@ void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions&
   app.option("--columns", recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
       .list_alone()
       .type("NAME=HEADER,…");
+  app.option("--missing", recording.missing, "Cells that stand for no number, beside empty ones, as -999")
+      .list_alone()
+      .type("CELL,…");
   app.option("--select", recording.select, "Only rows that have this value; may be repeated")
       .type("COLUMN=VALUE")
       .repeated();

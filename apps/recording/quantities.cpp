@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +23,11 @@ std::vector<std::string> known_names(bool all) {
   return names;
 }
 
+/// Whether a header is this stem, alone or with a unit.
+bool has_stem(std::string_view header, std::string_view stem) {
+  return header == stem || header.starts_with(std::string(stem) + "_");
+}
+
 /// What to do about a name that there is not.
 std::string remedy_for(const std::string& name) {
   if (const Quantity* const quantity = without_known_unit(name)) return advice(*quantity);
@@ -33,6 +39,23 @@ std::string remedy_for(const std::string& name) {
 
 }  // namespace
 
+std::optional<double> not_available(std::string_view header) {
+  constexpr std::pair<std::string_view, double> numbers[] = {
+      {"sog_kt", 102.3}, {"cog_deg", 360.0}, {"latitude_deg", 91.0}, {"longitude_deg", 181.0}};
+  for (const auto& [name, number] : numbers)
+    if (name == header) return number;
+  return std::nullopt;
+}
+
+std::string_view instead_of(std::string_view header) {
+  constexpr std::string_view sigma = "one standard deviation along each axis is sigma_position_m";
+  constexpr std::pair<std::string_view, std::string_view> stems[] = {
+      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}};
+  for (const auto& [stem, reason] : stems)
+    if (has_stem(header, stem)) return reason;
+  return {};
+}
+
 const Quantity* without_known_unit(std::string_view header) {
   const Quantity* found = nullptr;
   std::size_t longest = 0;
@@ -40,8 +63,7 @@ const Quantity* without_known_unit(std::string_view header) {
   for (const Quantity& quantity : quantities) {
     for_each_header(quantity, [&](const std::string& name, const Unit&) { known |= name == header; });
     for (const std::string_view stem : quantity.stems) {
-      const bool named = header == stem || header.starts_with(std::string(stem) + "_");
-      if (stem.size() <= longest || !named) continue;
+      if (stem.size() <= longest || !has_stem(header, stem)) continue;
       found = &quantity;
       longest = stem.size();
     }
@@ -49,9 +71,18 @@ const Quantity* without_known_unit(std::string_view header) {
   return known ? nullptr : found;
 }
 
+std::string names_of(const Quantity& quantity) {
+  std::string names;
+  for (const std::string_view stem : quantity.stems)
+    if (!stem.empty())
+      names += fmt::format("{}{}_{}", names.empty() ? "" : " or ", stem, quantity.units.front().suffix);
+  return names;
+}
+
 std::string advice(const Quantity& quantity) {
   std::vector<std::string> suffixes;
-  for (const Unit& unit : quantity.units) suffixes.push_back(fmt::format("_{}", unit.suffix));
+  for (const Unit& unit : quantity.units)
+    if (!unit.suffix.empty()) suffixes.push_back(fmt::format("_{}", unit.suffix));
   if (suffixes.size() == 1) return "name its unit: " + suffixes.front();
   return fmt::format("name its unit: {} or {}", fmt::join(suffixes.begin(), suffixes.end() - 1, ", "), suffixes.back());
 }

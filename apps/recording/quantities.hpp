@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,7 @@ inline constexpr Unit lengths[] = {{"m", 1.0, "m"},
                                    {"ft", foot, "ft"},
                                    {"nmi", nautical_mile, "nautical miles"},
                                    {"mi", mile, "miles"}};
+inline constexpr Unit areas[] = {{"m2", 1.0, "m²"}, {"", 1.0, "m²"}};
 inline constexpr Unit speeds[] = {
     {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
     {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
@@ -45,19 +47,32 @@ inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
 }  // namespace units
 
 /// Where a number of a row goes: those of a role make one position, one measurement, one truth.
-enum class Role { position, place, polar, velocity, course, range_rate, truth, sigma_position, sigma_polar };
+enum class Role {
+  position,
+  place,
+  polar,
+  velocity,
+  course,
+  range_rate,
+  truth,
+  sigma_position,
+  sigma_all_axes,
+  covariance,
+  sigma_polar
+};
 
 /// What a row may say: its headers are a stem and a unit. The unit that comes first wins, then the stem: altitude_m
 /// before altitude_gnss_ft, that before altitude_ft.
 struct Quantity {
   Role role;
-  std::array<std::string_view, 2> stems;  ///< the second may be empty
+  std::array<std::string_view, 3> stems;  ///< those after the first may be empty
   std::span<const Unit> units;
   std::string_view note = {};  ///< what the unit alone does not say
 };
 
-/// All of them: those of a role in the order of the axes, or of range, azimuth and elevation.
-inline constexpr std::array<Quantity, 24> quantities = {
+/// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
+/// as far as their diagonal.
+inline constexpr std::array<Quantity, 31> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
@@ -70,15 +85,22 @@ inline constexpr std::array<Quantity, 24> quantities = {
      {Role::velocity, {"vx"}, units::speeds},
      {Role::velocity, {"vy"}, units::speeds},
      {Role::velocity, {"vz", "vertical_rate"}, units::speeds, " upwards"},
-     {Role::course, {"groundspeed", "speed"}, units::speeds},
-     {Role::course, {"track", "course"}, units::degrees, " clockwise from north"},
+     {Role::course, {"groundspeed", "speed", "sog"}, units::speeds},
+     {Role::course, {"track", "course", "cog"}, units::degrees, " clockwise from north"},
      {Role::range_rate, {"range_rate"}, units::speeds},
      {Role::truth, {"true_x"}, units::lengths},
      {Role::truth, {"true_y"}, units::lengths},
      {Role::truth, {"true_z"}, units::lengths},
-     {Role::sigma_position, {"sigma_x"}, units::lengths},
-     {Role::sigma_position, {"sigma_y"}, units::lengths},
-     {Role::sigma_position, {"sigma_z"}, units::lengths},
+     {Role::sigma_position, {"sigma_x", "std_x"}, units::lengths},
+     {Role::sigma_position, {"sigma_y", "std_y"}, units::lengths},
+     {Role::sigma_position, {"sigma_z", "std_z"}, units::lengths},
+     {Role::sigma_all_axes, {"sigma_position"}, units::lengths},
+     {Role::covariance, {"cov_xx", "var_x"}, units::areas},
+     {Role::covariance, {"cov_xy"}, units::areas},
+     {Role::covariance, {"cov_yy", "var_y"}, units::areas},
+     {Role::covariance, {"cov_xz"}, units::areas},
+     {Role::covariance, {"cov_yz"}, units::areas},
+     {Role::covariance, {"cov_zz", "var_z"}, units::areas},
      {Role::sigma_polar, {"sigma_range"}, units::lengths},
      {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
      {Role::sigma_polar, {"sigma_elevation"}, units::angles}}};
@@ -100,11 +122,21 @@ template <class Use>
 void for_each_header(const Quantity& quantity, const Use& use) {
   for (const Unit& unit : quantity.units)
     for (const std::string_view stem : quantity.stems)
-      if (!stem.empty()) use(std::string(stem).append("_").append(unit.suffix), unit);
+      if (!stem.empty()) use(std::string(stem).append(unit.suffix.empty() ? "" : "_").append(unit.suffix), unit);
 }
+
+/// What a column of this name holds where there is no number: AIS has such numbers (ITU-R M.1371). They are of that
+/// name alone; a `course_deg` of 360 is one.
+std::optional<double> not_available(std::string_view header);
+
+/// Why a column is not read whose name says what others are read for; or empty.
+std::string_view instead_of(std::string_view header);
 
 /// The quantity that a header seems to name without a unit that is read, as `range_furlong` or `x`; or null.
 const Quantity* without_known_unit(std::string_view header);
+
+/// "track_deg or course_deg": its names, in the first of its units.
+std::string names_of(const Quantity& quantity);
 
 /// "name its unit: _m, _km or _ft"
 std::string advice(const Quantity& quantity);

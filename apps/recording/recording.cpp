@@ -24,11 +24,21 @@ bool is_a_name(std::string_view header) {
                      [&](std::string_view ending) { return header.ends_with(ending); });
 }
 
+/// So many covariances has a matrix of so many rows, as far as their diagonal.
+constexpr std::size_t covariances(std::size_t rows) { return rows * (rows + 1) / 2; }
+
+/// Whether it is how accurate others of the row are.
+bool is_accuracy(Role role) {
+  return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
+         role == Role::sigma_polar;
+}
+
 }  // namespace
 
 RecordingReader::RecordingReader(const RecordingOptions& options)
     : csv_(open_csv(options.file)),
       mapping_(mapping_of(options.columns)),
+      missing_(options.missing),
       from_north_(options.azimuth_from_north.value_or(false)),
       skip_bad_times_(options.skip_bad_times),
       takes_velocity_(options.velocity && !options.simulated),
@@ -63,8 +73,10 @@ std::optional<RecordingReader::Column> RecordingReader::find(const Quantity& qua
   std::optional<Column> column, mapped;  // what --columns names goes before what the file does
   for_each_header(quantity, [&](const std::string& header, const Unit& unit) {
     const auto index = find(header);
-    if (index && !column) column = {*index, &unit};
-    if (index && !mapped && mapping_.contains(header)) mapped = {*index, &unit};
+    if (!index) return;
+    const Column found{*index, &unit, not_available(header)};
+    if (!column) column = found;
+    if (!mapped && mapping_.contains(header)) mapped = found;
   });
   return mapped ? mapped : column;
 }
@@ -119,7 +131,11 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   drop(Role::velocity, takes_velocity_ ? axes : 0);
   if (!polar() || !takes_range_rate_) drop(Role::range_rate);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  if (!located()) drop(Role::sigma_position);
+  const std::size_t places = located() && !simulated_ ? axes : 0;
+  drop(Role::covariance, covariances(places));
+  const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
+  drop(Role::sigma_position, has_variance ? 0 : places);
+  if (places == 0 || has_variance) drop(Role::sigma_all_axes);
   if (!polar()) {
     drop(Role::sigma_polar, azimuth ? 2 : 0);
     column(Role::sigma_polar).reset();
@@ -165,7 +181,7 @@ bool RecordingReader::next(Row& row) {
   do {
     if (!csv_.next(row_)) return false;
   } while (!std::all_of(select_.begin(), select_.end(), is_selected) || !take_time(row));
-  row.roll_deg = roll_ ? row_.optional_number(*roll_) : std::nullopt;
+  row.roll_deg = roll_ ? number_in(*roll_) : std::nullopt;
   row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
   take_numbers();
@@ -203,7 +219,10 @@ bool RecordingReader::take_time(Row& row) {
     throw row_.error(
         time_, fmt::format("a time after that of the row before, {}", shortest(last_.find(row.track)->second.time)),
         sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
-                : "sort the rows by time and drop repeated ones, or give --on-bad-time skip");
+        : time == last_.find(row.track)->second.time
+            ? "where several sensors measure at one time, name them in a column sensor; else drop repeated rows, or "
+              "give --on-bad-time skip"
+            : "sort the rows by time, or give --on-bad-time skip");
   ++skipped_;
   return false;
 }
@@ -239,16 +258,40 @@ bool RecordingReader::refused_time(const Row& row, double time) {
   return false;
 }
 
+/// The number in a cell, which may stand for none.
+std::optional<double> RecordingReader::number_in(std::size_t column) {
+  const std::string_view cell = trimmed(row_[column]);
+  const auto is_cell = [&](const std::string& word) {
+    const auto number = parse_number(word);
+    return cell == word || (number && number == parse_number(cell));
+  };
+  if (cell.empty() || std::none_of(missing_.begin(), missing_.end(), is_cell)) return row_.optional_number(column);
+  ++missing_cells_[column];
+  return std::nullopt;
+}
+
+/// A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
+void RecordingReader::leave_out_what_is_not_available() {
+  const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
+  const bool no_place = says_none(place_of(Role::place)) && says_none(place_of(Role::place) + 1);
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (!said_[q] || !(quantities[q].role == Role::place ? no_place : says_none(q))) continue;
+    if (says_none(q)) ++missing_cells_[columns_[q]->index];
+    said_[q].reset();
+  }
+}
+
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
+  leave_out_what_is_not_available();
   for (std::size_t q = 0; q < quantities.size(); ++q) {
-    said_[q] = columns_[q] ? row_.optional_number(columns_[q]->index) : std::nullopt;
     const Role role = quantities[q].role;
     const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
     if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
     if (said_[q]) *said_[q] *= columns_[q]->unit->value;
-    const bool is_sigma = role == Role::sigma_position || role == Role::sigma_polar;
-    if (said_[q] && is_sigma && !(*said_[q] > 0.0))
+    if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
 }
@@ -335,8 +378,9 @@ AnyPlot RecordingReader::components() const {
     z.push_back(number);
     variances.push_back(sigma * sigma);
   };
+  const double sigma = said(Role::sigma_all_axes).value_or(nan);
   for (std::size_t i = 0; i < 3; ++i)
-    if (said(where, i)) add(i, *said(where, i), said(Role::sigma_position, i).value_or(nan));
+    if (said(where, i)) add(i, *said(where, i), said(Role::sigma_position, i).value_or(sigma));
   const auto axes = static_cast<std::size_t>(axes_);
   if (const auto speed = said(Role::course), course = said(Role::course, 1); speed && course) {
     if (!(std::abs(*course) <= 360.0)) throw error(Role::course, 1, "degrees from −360 to 360", "correct the cell");
@@ -345,7 +389,42 @@ AnyPlot RecordingReader::components() const {
   }
   for (std::size_t i = 0; i < 3; ++i)
     if (said(Role::velocity, i)) add(axes + i, *said(Role::velocity, i), nan);
-  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, variances);
+  return z.empty() ? AnyPlot{} : AnyPlot::components(0.0, places, z, covariance(places, variances));
+}
+
+/// The covariance of components at these places of the state, row by row, by their variances where the row tells none.
+std::vector<double> RecordingReader::covariance(const std::vector<int>& places, std::vector<double> variances) const {
+  const std::size_t n = places.size();
+  const auto number = [&](std::size_t i, std::size_t j) {  // of those that the row may tell, j up to i
+    return covariances(static_cast<std::size_t>(places[i])) + static_cast<std::size_t>(places[j]);
+  };
+  const auto own = [&](std::size_t i, std::size_t j) {
+    return places[i] < axes_ ? said(Role::covariance, number(i, j)) : std::nullopt;
+  };
+  for (std::size_t i = 0; i < n; ++i) variances[i] = own(i, i).value_or(variances[i]);
+  std::vector<double> matrix(n * n);
+  for (std::size_t i = 0; i < n; ++i) matrix[i * (n + 1)] = variances[i];
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (own(i, j) && std::isnan(variances[i] + variances[j]))
+        throw error(Role::covariance, number(i, j), "an empty cell, since the row does not tell both variances",
+                    "fill theirs");
+      matrix[i * n + j] = matrix[j * n + i] = own(i, j).value_or(0.0);
+    }
+  std::vector<double> left = matrix;  // by elimination
+  for (std::size_t k = 0; k < n; ++k) {
+    const double pivot = left[k * (n + 1)];
+    if (std::isnan(pivot)) continue;  // the settings' variance, of an error that depends on no other
+    if (pivot <= 0.0) {
+      std::size_t at = number(k, k);
+      while (!has(Role::covariance, at)) --at;
+      throw error(Role::covariance, at, "a positive definite covariance with those beside it",
+                  "correct it, or leave the row's covariances empty");
+    }
+    for (std::size_t i = k + 1; i < n; ++i)
+      for (std::size_t j = k + 1; j < n; ++j) left[i * n + j] -= left[i * n + k] * left[k * n + j] / pivot;
+  }
+  return matrix;
 }
 
 std::string RecordingReader::taken() const {
@@ -358,62 +437,85 @@ std::string RecordingReader::taken() const {
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
                           located() && bearings() ? " in rows without a position" : "");
-    if (quantity.role == Role::sigma_position || quantity.role == Role::sigma_polar) part += " for the row's accuracy";
+    if (is_accuracy(quantity.role)) part += " for the row's accuracy";
     parts.push_back(std::move(part));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Names of the first quantity that those of a role cannot do without, and that has no column; or empty.
+std::string RecordingReader::other_half(Role role) const {
+  const bool pair =
+      role == Role::position || role == Role::place || role == Role::course || (role == Role::polar && !geodetic());
+  const std::size_t needed = role == Role::truth ? static_cast<std::size_t>(axes_) : pair ? 2 : 0;
+  for (std::size_t i = 0; i < needed; ++i)
+    if (const Quantity& quantity = quantities[place_of(role) + i]; !find(quantity)) return names_of(quantity);
+  return {};
 }
 
 std::string RecordingReader::why_unused(std::size_t q) const {
   if (columns_[q]) return csv_.names()[columns_[q]->index] + " says it";
   const Role role = quantities[q].role;
   const bool velocity = !takes_velocity_ && (role == Role::velocity || role == Role::course);
+  const std::string other = other_half(role), needs = "needs " + other;
   const std::pair<bool, std::string_view> reasons[] = {
       {velocity && simulated_, "--radar measures no velocity"},
-      {velocity, "give --set sigma_velocity_mps=…"},
       {simulated_ && role == Role::polar, "--radar measures positions"},
+      {simulated_ && is_accuracy(role), "--radar has its own"},
+      {!other.empty(), needs},
+      {velocity, "give --set sigma_velocity_mps=…"},
       {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
       {true, "does not go with the others"}};
   return std::string(
       std::find_if(std::begin(reasons), std::end(reasons), [](const auto& reason) { return reason.first; })->second);
 }
 
-/// Columns with the name of a quantity, or nearly, that do not count in any way, and why not.
+/// The columns that do not count in any way, and why not: those with the name of a quantity, or nearly, before others.
 std::string RecordingReader::unused() const {
-  const auto counts = [&](std::size_t index) {
-    return index == time_ || index == sensor_ || index == track_ || index == roll_ ||
-           std::any_of(select_.begin(), select_.end(), [&](const auto& wanted) { return wanted.first == index; }) ||
-           std::any_of(columns_.begin(), columns_.end(),
-                       [&](const auto& column) { return column && column->index == index; });
-  };
+  const auto names = csv_.names();
+  std::vector<bool> done(names.size());
+  for (const auto& index : {std::optional(time_), sensor_, track_, roll_})
+    if (index) done[*index] = true;
+  for (const auto& wanted : select_) done[wanted.first] = true;
+  for (const auto& column : columns_)
+    if (column) done[column->index] = true;
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-  const auto add = [&](std::size_t index, const std::string& reason) {
+  const auto add = [&](std::size_t index, std::string_view reason) {
+    if (done[index]) return;
+    done[index] = true;
     auto same = std::find_if(reasons.begin(), reasons.end(), [&](const auto& other) { return other.first == reason; });
-    if (same == reasons.end()) same = reasons.insert(same, {reason, {}});
-    same->second.push_back(csv_.names()[index]);
+    if (same == reasons.end()) same = reasons.insert(same, {std::string(reason), {}});
+    same->second.push_back(names[index].empty() ? fmt::format("column {}", index + 1) : names[index]);
   };
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     bool named = false;
     for_each_header(quantities[q], [&](const std::string& header, const Unit&) {
       const auto index = find(header);
       named |= index.has_value();
-      if (index && !counts(*index)) add(*index, why_unused(q));
+      if (index) add(*index, why_unused(q));
     });
-    for (std::size_t index = 0; index < csv_.names().size() && !named; ++index)
-      if (!counts(index) && !is_a_name(csv_.names()[index]) &&
-          without_known_unit(csv_.names()[index]) == &quantities[q])
+    for (std::size_t index = 0; index < names.size() && !named; ++index)
+      if (!is_a_name(names[index]) && without_known_unit(names[index]) == &quantities[q])
         add(index, advice(quantities[q]));
   }
+  for (std::size_t index = 0; index < names.size(); ++index)
+    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
+  for (std::size_t index = 0; index < names.size(); ++index) add(index, {});
   std::vector<std::string> parts;
-  for (const auto& [reason, names] : reasons) parts.push_back(fmt::format("{} ({})", fmt::join(names, ", "), reason));
+  for (const auto& [reason, columns] : reasons)
+    parts.push_back(fmt::format("{}{}", fmt::join(columns, ", "), reason.empty() ? "" : " (" + reason + ")"));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::vector<std::string> RecordingReader::notes() const {
   const std::string columns = unused();
   const std::string times = midnights_.rows == 1 ? "once" : fmt::format("{} times", midnights_.rows);
+  std::vector<std::string> missing;
+  for (const auto& [column, cells] : missing_cells_)
+    missing.push_back(fmt::format("{} {}", csv_.names()[column], cells));
   const std::pair<bool, std::string> notes[] = {
       {!columns.empty(), "Not used: " + columns},
+      {!missing.empty(), fmt::format("Cells that say that there is no number: {}", fmt::join(missing, ", "))},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
       {bearings_ > 0 && unused_azimuths_ > 0,

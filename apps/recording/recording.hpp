@@ -23,6 +23,7 @@ struct RecordingOptions {
   std::vector<std::string> columns;             ///< NAME=HEADER
   std::optional<std::array<double, 3>> origin;  ///< latitude and longitude in degrees, altitude in m
   std::optional<bool> azimuth_from_north;       ///< clockwise from north rather than counter-clockwise from east
+  std::vector<std::string> missing;             ///< cells that stand for no number
   std::vector<std::string> select;              ///< COLUMN=VALUE, all of which must hold
   std::string track_id;                         ///< the column that tells tracks apart, or empty: all rows are one
   bool skip_bad_times = false;                  ///< rather than refuse them
@@ -78,8 +79,9 @@ class RecordingReader {
   /// What the columns were taken to be.
   std::string taken() const;
 
-  /// Sentences on what was read so far: which columns of names that are known, or seem to be, do not count, and why; in
-  /// how many rows a velocity does not, since they are a radar's or a bearing; where times of day passed midnight.
+  /// Sentences on what was read so far: which columns do not count, and why, where there is a reason; how many cells
+  /// say that there is no number; in how many rows a velocity does not count, since they are a radar's or a bearing;
+  /// where times of day passed midnight.
   std::vector<std::string> notes() const;
 
   /// So many rows, and the line of the first.
@@ -97,10 +99,11 @@ class RecordingReader {
   std::size_t skipped() const { return skipped_; }
 
  private:
-  /// Where a quantity stands, and in which unit.
+  /// Where a quantity stands, in which unit, and the number that stands for none.
   struct Column {
     std::size_t index;
     const Unit* unit;
+    std::optional<double> not_available;
   };
   /// The time of a track's last row, and the sensors that spoke then.
   struct Last {
@@ -118,12 +121,15 @@ class RecordingReader {
   void find_columns(const RecordingOptions& options);
   void refuse_other_kinds(bool cartesian, bool time_known) const;
   std::optional<std::string> without_unit() const;
+  std::string other_half(Role role) const;
   std::string why_unused(std::size_t quantity) const;
   std::string unused() const;
 
   bool take_time(Row& row);
   double on_its_day(const Row& row, double time_of_day);
   bool refused_time(const Row& row, double time);
+  std::optional<double> number_in(std::size_t column);
+  void leave_out_what_is_not_available();
   void take_numbers();
   const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
   bool says(Role role) const;
@@ -133,6 +139,7 @@ class RecordingReader {
   std::optional<AnyPlot> measured();
   AnyPlot radar_plot() const;
   AnyPlot components() const;
+  std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
 
   CsvReader csv_;
   CsvRow row_;
@@ -142,6 +149,7 @@ class RecordingReader {
   std::size_t time_ = 0;
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
+  std::vector<std::string> missing_;
   bool from_north_ = false;
   bool skip_bad_times_ = false;
   bool takes_velocity_ = false;
@@ -152,7 +160,8 @@ class RecordingReader {
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t skipped_ = 0;
   Counted senseless_;
-  Counted midnights_;  // that tracks passed
+  std::map<std::size_t, std::size_t> missing_cells_;  // by column
+  Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;
   std::size_t bearings_ = 0;             // that count
   std::size_t unused_azimuths_ = 0;      // beside a position

@@ -59,6 +59,23 @@ std::optional<double> parse_time_of_day(std::string_view text) {
   return static_cast<double>(time->whole_s) + time->fraction_s;
 }
 
+/// Minutes ahead of UTC of "+hh:mm", "+hhmm" or "+hh"; none of "Z" or nothing.
+std::optional<int> offset_minutes(std::string_view zone) {
+  if (zone.empty() || zone == "Z") return 0;
+  const bool ahead = take(zone, "+");
+  if (!ahead && !take(zone, "-")) return std::nullopt;
+  const std::string_view from = zone;
+  int minutes = 0;
+  if (!take(zone, "00")) return std::nullopt;
+  if (const std::string_view rest = zone; take(zone, ":00"))
+    minutes = number_at(rest, 1);
+  else if (take(zone, "00"))
+    minutes = number_at(rest, 0);
+  const int hours = number_at(from, 0);
+  if (!zone.empty() || hours > 23 || minutes > 59) return std::nullopt;
+  return (ahead ? 1 : -1) * (60 * hours + minutes);
+}
+
 std::optional<double> parse_date_and_time(std::string_view text) {
   using namespace std::chrono;
   const std::string_view from = text;
@@ -68,15 +85,9 @@ std::optional<double> parse_date_and_time(std::string_view text) {
   const auto time = take_time_of_day(text);
   if (!date.ok() || !time) return std::nullopt;
   std::int64_t whole = std::int64_t{sys_days{date}.time_since_epoch().count()} * 86400 + time->whole_s;
-  const std::string_view zone = text;
-  if (const bool ahead = take(text, "+00:00"); ahead || take(text, "-00:00")) {
-    const int hours = number_at(zone, 1), minutes = number_at(zone, 4);
-    if (hours > 23 || minutes > 59) return std::nullopt;
-    whole -= (ahead ? 60 : -60) * (hours * 60 + minutes);
-  } else {
-    take(text, "Z");
-  }
-  if (!text.empty()) return std::nullopt;
+  const auto offset = offset_minutes(trimmed(text));
+  if (!offset) return std::nullopt;
+  whole -= 60 * *offset;
   return static_cast<double>(whole) + time->fraction_s;
 }
 

@@ -9,9 +9,9 @@ namespace sigmax::apps {
 /// A time in seconds: a plain number, an ISO 8601 date and time as seconds since 1970-01-01 UTC, or a time of day,
 /// hh:mm:ss with a fraction if any, as seconds since midnight.
 ///
-/// A date and time is YYYY-MM-DD, 'T' or a blank, hh:mm:ss, a fraction after '.' or ',' if any, and 'Z' or ±hh:mm,
-/// without which it is UTC. As in POSIX time a leap second, ss = 60, is the first second of the next minute. Blanks
-/// around it are allowed and nothing else.
+/// A date and time is YYYY-MM-DD, 'T' or a blank, hh:mm:ss, a fraction after '.' or ',' if any, and 'Z', ±hh:mm,
+/// ±hhmm or ±hh, after a blank if any, without which it is UTC. As in POSIX time a leap second, ss = 60, is the first
+/// second of the next minute. Blanks around it are allowed and nothing else.
 std::optional<double> parse_timestamp(std::string_view text);
 
 /// Whether that is a time of day, which tells no date.

@@ -78,7 +78,7 @@ TEST(HimmDemoRealInput, SaysWhichColumnsItDoesNotUse) {
   const std::string plain = tracked(extra).output;
   EXPECT_TRUE(
       says(plain, {"Not used: x_km (x_m says it), altitude (name its unit: _m, _km, _ft, _nmi or _mi), vx_mps, vy_mps "
-                   "(give --set sigma_velocity_mps=…), range_rate_mps (does not go with the others)"}));
+                   "(give --set sigma_velocity_mps=…), range_rate_mps (does not go with the others), colour"}));
   EXPECT_FALSE(says(tracked(extra, {"--set", "sigma_velocity_mps=1"}).output, {"vx_mps, vy_mps (give"}));
   const auto radar = recording("time_s,range_m,azimuth_deg,range_rate_mps,vx_mps,vy_mps",
                                [](int k) { return exact(k) + "," + exact(9000 + k) + ",5,1,2,3"; });
@@ -91,15 +91,71 @@ TEST(HimmDemoRealInput, SaysWhichColumnsItDoesNotUse) {
   EXPECT_TRUE(says(tracked(two, {"--set", "sensor.a.sigma_velocity_mps=1"}).output,
                    {"velocity does not count, for want of sensor.NAME.sigma_velocity_mps: b 20"}));
   EXPECT_FALSE(says(tracked(two, {"--set", "sigma_velocity_mps=1"}).output, {"for want of"}));
-  const auto truth = recording("time_s,x_m,y_m,z_m,vx_mps,vy_mps",
-                               [](int k) { return exact(k) + "," + exact(5000 + k) + ",7,9,1,0"; });
+  const auto truth = recording("time_s,x_m,y_m,z_m,vx_mps,vy_mps,sigma_x_m",
+                               [](int k) { return exact(k) + "," + exact(5000 + k) + ",7,9,1,0,1"; });
   EXPECT_TRUE(says(tracked(truth, {"--radar", "50,0.1,0.1", "--set", "sigma_velocity_mps=1"}).output,
-                   {"Not used: vx_mps, vy_mps (--radar measures no velocity)"}));
+                   {"Not used: vx_mps, vy_mps (--radar measures no velocity), sigma_x_m (--radar has its own)"}));
   const auto place = recording("time_s,latitude_deg,longitude_deg,azimuth_deg",
                                [](int k) { return exact(k) + ",50," + exact(1e-4 * k) + ",5"; });
   EXPECT_TRUE(says(tracked(place).output, {"Not used: azimuth_deg (does not go with the others)"}));
-  const auto none = recording("time_s,x_m,y_m,colour", [](int k) { return exact(k) + "," + exact(k) + ",7,red"; });
+  const auto none = recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(k) + ",7"; });
   EXPECT_FALSE(says(tracked(none).output, {"Not used"}));
+}
+
+TEST(HimmDemoRealInput, NoColumnGoesUnsaid) {
+  const auto with = [](const std::string& more, const std::string& cells) {
+    return tracked(
+               recording("time_s,x_m,y_m," + more, [&](int k) { return exact(k) + "," + exact(k) + ",7," + cells; }),
+               {"--set", "sigma_velocity_mps=1"})
+        .output;
+  };
+  EXPECT_TRUE(says(with("flight_level,accuracy_m,sensor_x_m,sigma_m,heading_deg,cov_vxvx", "1,2,3,4,5,6"),
+                   {"Not used: accuracy_m, sigma_m (one standard deviation along each axis is sigma_position_m), "
+                    "flight_level, sensor_x_m, heading_deg, cov_vxvx  all"}));
+  // A pair that lacks its other half says which.
+  EXPECT_TRUE(says(with("sog_kt", "1"), {"Not used: sog_kt (needs track_deg or course_deg or cog_deg)"}));
+  EXPECT_TRUE(says(with("latitude_deg,true_y_m", "1,1"),
+                   {"Not used: latitude_deg (needs longitude_deg), true_y_m (needs true_x_m)"}));
+  EXPECT_TRUE(says(with("elevation_deg", "1"), {"Not used: elevation_deg (needs range_m)"}));
+  EXPECT_TRUE(says(with("altitude_ft,altitude", "1,1"), {"Not used: altitude_ft (needs latitude_deg), altitude"}));
+  EXPECT_TRUE(says(with("", "1"), {"Not used: column 4"}));
+}
+
+/// A ship at 10 m/s east by the names of AIS, every fifth row with these cells.
+std::string ship(const std::string& speed, const std::string& course, const std::string& place_and_velocity) {
+  return recording("time_s,latitude_deg,longitude_deg," + speed + "," + course, [&](int k) {
+    const std::string ordinary = "50," + exact(0.0014 * k) + "," + exact(10.0 * 3600.0 / 1852.0) + ",90";
+    return exact(10 * k) + "," + (k % 5 == 4 ? place_and_velocity : ordinary);
+  });
+}
+
+TEST(HimmDemoRealInput, WhatAisHasWhereThereIsNoNumberIsMissing) {
+  const std::vector<std::string> velocity = {"--set", "sigma_velocity_mps=1"};
+  const auto in = [&](const std::string& cells) { return tracked(ship("sog_kt", "cog_deg", cells), velocity); };
+  const auto sentinels = in("91,181,102.3,360");
+  EXPECT_EQ(sentinels.estimates, in(",,,").estimates);
+  EXPECT_TRUE(says(sentinels.output, {"sog_kt in kt, cog_deg in ° clockwise from north"}));
+  EXPECT_TRUE(says(sentinels.output, {"Cells that say that there is no number: latitude_deg 6, longitude_deg 6, sog_kt "
+                                      "6, cog_deg 6  all"}));
+  EXPECT_EQ(in("50,0.1,102.3,90").estimates, in("50,0.1,,").estimates);
+  EXPECT_EQ(in("50,0.1,10,360.0").estimates, in("50,0.1,,").estimates);
+  EXPECT_EQ(in("50,181,1,0").estimates, in("50,-179,1,0").estimates);  // alone it is a place
+  // Names that are not those of AIS keep their numbers.
+  const auto course = [&](const std::string& cells) {
+    return tracked(ship("speed_kt", "course_deg", cells), velocity).estimates;
+  };
+  EXPECT_NE(course("50,0.1,102.3,90"), course("50,0.1,,"));
+  EXPECT_NE(course("50,0.1,10,360"), course("50,0.1,,"));
+}
+
+TEST(HimmDemoRealInput, CellsThatStandForNoNumberMayBeNamed) {
+  const auto with = [](const std::string& cells) {
+    return recording("time_s,x_m,y_m,roll_deg",
+                     [&](int k) { return exact(k) + "," + (k % 6 == 5 ? cells : exact(10 * k) + ",7,1"); });
+  };
+  const auto named = tracked(with("-999, n/a ,-999.0"), {"--missing=-999,n/a"});
+  EXPECT_EQ(named.estimates, tracked(with(",,")).estimates);
+  EXPECT_TRUE(says(named.output, {"Cells that say that there is no number: x_m 5, y_m 5, roll_deg 5"}));
 }
 
 TEST(HimmDemoRealInput, ANisFarTooLowIsWarnedOf) {
@@ -246,6 +302,18 @@ TEST(HimmDemoRealInput, ARowMaySayItsOwnAccuracy) {
   const auto set =
       recording("time_s,x_m,y_m", [](int k) { return exact(k) + "," + exact(k * k) + "," + exact(k % 5); });
   EXPECT_EQ(tracked(own).estimates, tracked(set, {"--set", "sigma_position_m=3"}).estimates);
+  for (const char* names : {"std_x_m,std_y_m", "sigma_position_m,sigma_x_m"})  // the axis' own goes before that of all
+    EXPECT_EQ(tracked(recording(std::string("time_s,x_m,y_m,") + names,
+                                [](int k) { return exact(k) + "," + exact(k * k) + "," + exact(k % 5) + ",3,3"; }))
+                  .estimates,
+              tracked(own).estimates)
+        << names;
+  const auto variances = recording("time_s,x_m,y_m,var_x_m2,cov_yy,sigma_x_m,cov_zz", [](int k) {
+    return exact(k) + "," + exact(k * k) + "," + exact(k % 5) + ",9,9,7,7";
+  });
+  EXPECT_EQ(tracked(variances).estimates, tracked(own).estimates);
+  EXPECT_TRUE(says(tracked(variances).output, {"var_x_m2 in m² for the row's accuracy, cov_yy in m² for",
+                                               "Not used: sigma_x_m, cov_zz (does not go with the others)"}));
   const auto polar = recording("time_s,range_m,azimuth_deg,sigma_range_m,sigma_azimuth_deg", [](int k) {
     return exact(k) + "," + exact(9000 + k * k) + "," + exact(k % 5) + ",3,0.2";
   });
@@ -431,7 +499,7 @@ TEST(HimmDemoRealInput, MetresGoBeforeFeetAndWhatIsMappedBeforeBoth) {
 TEST(HimmDemoRealInput, IdentifiersAreNoQuantities) {
   const auto two =
       recording("time_s,x_m,y_m,track_id,speed_type", [](int k) { return exact(k) + "," + exact(10 * k) + ",7,A,B"; });
-  EXPECT_FALSE(says(tracked(two).output, {"Not used"}));
+  EXPECT_TRUE(says(tracked(two).output, {"Not used: track_id, speed_type  all"}));
   const auto chosen = recording("time_s,x_m,y_m,track", [](int k) { return exact(k) + "," + exact(10 * k) + ",7,1"; });
   EXPECT_TRUE(says(tracked(chosen).output, {"Not used: track (name its unit: _deg)"}));
   EXPECT_FALSE(says(tracked(chosen, {"--select", "track=1"}).output, {"Not used"}));

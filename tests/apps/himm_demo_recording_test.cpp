@@ -246,6 +246,34 @@ TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
   }
 }
 
+TEST(HimmDemoRecording, EachRowMayTellItsWholeCovariance) {
+  for (const std::size_t axes : {2U, 3U}) {
+    SCOPED_TRACE(axes);
+    std::mt19937_64 engine(4);
+    std::normal_distribution<double> noise;
+    std::string text = axes == 3 ? "time_s,x_m,y_m,z_m,cov_xx,cov_xy,cov_yy_m2,cov_xz,cov_yz,cov_zz_m2\n"
+                                 : "time_s,x_m,y_m,cov_xx,cov_xy,cov_yy_m2\n";
+    std::vector<Expected> expected;
+    for (const auto& [time, x] : flight(axes)) {
+      Position z{restatement::Vector(axes), restatement::Matrix(axes, axes)};
+      text += exact(time);
+      std::vector<double> errors(
+          axes);  // the covariance is that of three errors along directions of the row, and some along all
+      for (const double sigma : {3.0, 8.0, 5.0}) {
+        for (double& error : errors) error = sigma * noise(engine);
+        for (Index i = 0; i < axes; ++i)
+          for (Index j = 0; j < axes; ++j) z.R(i, j) += errors[i] * errors[j] + (i == j ? 1.0 : 0.0);
+      }
+      for (Index i = 0; i < axes; ++i) text += "," + exact(z.z[i] = x[i] + errors[i]);
+      for (Index i = 0; i < axes; ++i)
+        for (Index j = 0; j <= i; ++j) text += "," + exact(z.R(i, j));
+      text += "\n";
+      expected.push_back({time, z});
+    }
+    expect_restated(estimates(text), expected, axes);
+  }
+}
+
 TEST(HimmDemoRecording, ASensorOfTheSettingsThatIsInNoRowIsWarnedOf) {
   std::string output;
   estimates("time_s,sensor,x_m,y_m,range_m,azimuth_deg\n0,a,1,2,,\n1,a,2,3,,\n2,a,3,4,,\n3,a,4,5,,\n",

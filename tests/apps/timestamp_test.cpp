@@ -30,6 +30,10 @@ TEST(Timestamp, AnOffsetIsTakenOff) {
   EXPECT_EQ(parse_timestamp("2016-01-12T14:02:11+01:00"), parse_timestamp("2016-01-12T13:02:11Z"));
   EXPECT_EQ(parse_timestamp("2016-01-12T07:32:11-05:30"), parse_timestamp("2016-01-12T13:02:11Z"));
   EXPECT_EQ(parse_timestamp("1970-01-01T00:30:00.5+00:30"), 0.5);
+  for (const char* zone : {"+01", "+0100", " +01:00", " +01", "\t+0100"})
+    EXPECT_EQ(parse_timestamp("2016-01-12 14:02:11" + std::string(zone)), parse_timestamp("2016-01-12T13:02:11Z"))
+        << zone;
+  EXPECT_EQ(parse_timestamp("2016-01-12T07:32:11-0530"), parse_timestamp("2016-01-12T13:02:11 Z"));
 }
 
 TEST(Timestamp, ALeapSecondIsTheFirstOfTheNextMinute) {
@@ -80,8 +84,14 @@ TEST(Timestamp, NothingElseIsATime) {
                                  "2016-01-00T13:02:11",
                                  "2015-02-29T13:02:11",
                                  "1900-02-29T13:02:11",
-                                 "2016-01-12T13:02:11+0100",
-                                 "2016-01-12T13:02:11+01",
+                                 "2016-01-12T13:02:11+010",
+                                 "2016-01-12T13:02:11+1",
+                                 "2016-01-12T13:02:11+",
+                                 "2016-01-12T13:02:11+01:",
+                                 "2016-01-12T13:02:11+01000",
+                                 "2016-01-12T13:02:11+2400",
+                                 "2016-01-12T13:02:11-0160",
+                                 "2016-01-12T13:02:11 + 01:00",
                                  "2016-01-12T13:02:11+24:00",
                                  "2016-01-12T13:02:11+01:60",
                                  "2016-01-12T13:02:11ZZ",

@@ -1,5 +1,6 @@
 // Any bytes are a finite time or none; a time agrees with the C library's, and reads the same when written out again. A
 // time of day is that time on 1970-01-01.
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -55,9 +56,14 @@ void check_date_and_time(const std::string& text, double seconds) {
     fraction = std::strtod(("0." + text.substr(begin, end - begin)).c_str(), nullptr);
   }
   double offset = 0.0;
-  if (end < text.size() && text[end] != 'Z')
-    offset = (text[end] == '-' ? -60.0 : 60.0) *
-             (60.0 * std::stoi(text.substr(end + 1, 2)) + std::stoi(text.substr(end + 4, 2)));
+  end = std::min(text.find_first_not_of(" \t", end), text.size());
+  if (end < text.size() && text[end] != 'Z') {
+    std::string digits = text.substr(end + 1);
+    std::erase(digits, ':');
+    require(digits.size() == 2 || digits.size() == 4, "a zone is hours, or hours and minutes");
+    digits.resize(4, '0');
+    offset = (text[end] == '-' ? -60.0 : 60.0) * (60.0 * std::stoi(digits.substr(0, 2)) + std::stoi(digits.substr(2)));
+  }
   require(std::abs(seconds - (by_the_c_library(text) - offset + fraction)) <= 1e-4, "the C library has the same time");
 }
 

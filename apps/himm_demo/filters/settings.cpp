@@ -208,6 +208,7 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
   const Accuracy& accuracy = settings.accuracy_of(sensor);
   std::array<double, 6> z{}, variances{};
   std::array<int, 6> places{};
+  std::array<std::size_t, 6> from{};
   std::size_t n = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
     const auto sigma = sigma_of(accuracy, plot, i, axes);
@@ -215,9 +216,15 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
     const double own = plot.variance(static_cast<int>(i));
     z[n] = plot.z[i];
     variances[n] = std::isnan(own) ? *sigma * *sigma : own;
+    from[n] = i;
     places[n++] = plot.places[i];
   }
-  const std::span numbers(z.data(), n), R(variances.data(), n);
+  std::array<double, 36> covariance{};
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      covariance[i * n + j] =
+          i == j ? variances[i] : plot.covariance[from[i] * static_cast<std::size_t>(plot.size) + from[j]];
+  const std::span numbers(z.data(), n), R(covariance.data(), n * n);
   const auto taken = [&] {
     switch (n == 0 ? AnyPlot::Sensor::none : plot.sensor) {
       case AnyPlot::Sensor::bearing:
@@ -226,7 +233,7 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
       case AnyPlot::Sensor::doppler:
         if (n > static_cast<std::size_t>(axes)) return AnyPlot::doppler(plot.time, numbers, R, radar_at);
         if (settings.radar_measurement == RadarForm::polar) return AnyPlot::polar(plot.time, numbers, R, radar_at);
-        return converted(plot.time, numbers, R, settings.radar_measurement, radar_at);
+        return converted(plot.time, numbers, {variances.data(), n}, settings.radar_measurement, radar_at);
       case AnyPlot::Sensor::components:
         if (n == static_cast<std::size_t>(axes) && places[n - 1] == axes - 1)
           return AnyPlot::position(plot.time, numbers, R);
