@@ -47,7 +47,7 @@ endfunction()
 option(SIGMAX_UNITY "Compile several files of the programs as one" ON)
 function(sigmax_unity target)
   if(SIGMAX_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 3)
   endif()
 endfunction()
 
