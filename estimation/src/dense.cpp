@@ -57,16 +57,4 @@ double normalized_error_squared(const double* error, const double* P, int n) {
   return sum;
 }
 
-void lower_inverse(const double* L, int n, double* inverse) {
-  for (int column = 0; column < n; ++column) {
-    for (int row = 0; row < column; ++row) inverse[row + column * n] = 0.0;
-    inverse[column + column * n] = 1.0 / L[column + column * n];
-    for (int row = column + 1; row < n; ++row) {
-      double sum = 0.0;
-      for (int k = column; k < row; ++k) sum += L[row + k * n] * inverse[k + column * n];
-      inverse[row + column * n] = -sum / L[row + row * n];
-    }
-  }
-}
-
 }  // namespace sigmax::detail

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <type_traits>
-#include <utility>
 
 #include "kernels/kernels.hpp"
 

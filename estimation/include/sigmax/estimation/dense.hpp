@@ -56,7 +56,4 @@ void lower_solve(const double* L, int n, double* z);
 /// eᵀ P⁻¹ e. Throws std::domain_error if P is not positive definite.
 double normalized_error_squared(const double* error, const double* P, int n);
 
-/// L⁻¹ of a lower triangular L.
-void lower_inverse(const double* L, int n, double* inverse);
-
 }  // namespace sigmax::detail
