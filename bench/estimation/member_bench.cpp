@@ -13,6 +13,7 @@
 #include <sigmax/estimation/coordinated_turn.hpp>
 #include <sigmax/estimation/cubature.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
+#include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/estimation/extended.hpp>
 #include <sigmax/estimation/radar.hpp>
 #include <sigmax/estimation/sensors.hpp>
@@ -73,6 +74,16 @@ void run(benchmark::State& state, const Filter& filter, const Sensor& sensor, co
 }
 
 const auto polar = [](const Polar& seen) { return PolarSensor<3>::measurement(seen, sigma); };
+const auto position = [](const Polar& seen) { return to_cartesian(seen, sigma, Conversion::unbiased); };
+const auto doppler = [](const Polar& seen) {
+  Gaussian<4> z{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
+  z.mean.head<3>() = polar(seen).mean;
+  z.covariance.topLeftCorner<3, 3>() = polar(seen).covariance;
+  return z;
+};
+const auto bearing = [](const Polar& seen) {
+  return Gaussian<1>{Vector<1>(seen.azimuth), SquareMatrix<1>(sigma.azimuth * sigma.azimuth)};
+};
 
 template <Conversion How>
 void Converted(benchmark::State& state) {
@@ -105,12 +116,13 @@ struct Undifferentiated : CoordinatedTurn<3> {
 
 constexpr double q = 9.0, q_omega = 0.01;
 const auto linear = dwna<3>(3.0);
+const auto accelerated = dwpa<3>(1.0);
 const CoordinatedTurn<3> turn{q, q_omega};
 const Undifferentiated undifferentiated{q, q_omega};
 
-template <template <class> class Filter, const auto& motion>
+template <template <class> class Filter, const auto& motion, class Sensor = PolarSensor<3>, const auto& convert = polar>
 void Step(benchmark::State& state) {
-  run(state, Filter<std::remove_cvref_t<decltype(motion)>>{motion}, PolarSensor<3>{}, polar);
+  run(state, Filter<std::remove_cvref_t<decltype(motion)>>{motion}, Sensor{}, convert);
 }
 BENCHMARK_TEMPLATE(Step, Extended, linear)->Name("Step/dwna/extended");
 BENCHMARK_TEMPLATE(Step, Unscented, linear)->Name("Step/dwna/unscented");
@@ -119,6 +131,13 @@ BENCHMARK_TEMPLATE(Step, Extended, turn)->Name("Step/turn/extended");
 BENCHMARK_TEMPLATE(Step, Extended, undifferentiated)->Name("Step/turn/extended_autodiff");
 BENCHMARK_TEMPLATE(Step, Unscented, turn)->Name("Step/turn/unscented");
 BENCHMARK_TEMPLATE(Step, Cubature, turn)->Name("Step/turn/cubature");
+BENCHMARK_TEMPLATE(Step, Extended, turn, PositionSensor<3>, position)->Name("Step/turn/kalman_converted");
+BENCHMARK_TEMPLATE(Step, Extended, accelerated)->Name("Step/dwpa/extended");
+BENCHMARK_TEMPLATE(Step, Unscented, accelerated)->Name("Step/dwpa/unscented");
+BENCHMARK_TEMPLATE(Step, Cubature, accelerated)->Name("Step/dwpa/cubature");
+BENCHMARK_TEMPLATE(Step, Extended, accelerated, PositionSensor<3>, position)->Name("Step/dwpa/kalman_converted");
+BENCHMARK_TEMPLATE(Step, Extended, accelerated, DopplerSensor<3>, doppler)->Name("Step/dwpa/extended_doppler");
+BENCHMARK_TEMPLATE(Step, Extended, accelerated, BearingSensor, bearing)->Name("Step/dwpa/extended_bearing");
 
 template <class Filter>
 void BareStep(benchmark::State& state) {

@@ -30,8 +30,11 @@ struct Case {
 
 /// Every shape that has code of its own, some that have none, and more quantities and states than fit on the stack.
 std::vector<Case> cases() {
-  std::vector<Case> all{{6, 6, 4, true},   {9, 6, 4, true},    {5, 2, 1, true},     {4, 4, 2, true},
+  std::vector<Case> all{{5, 4, 3, true},   {8, 6, 4, true},    {8, 2, 1, true},     {4, 4, 2, true},
                         {11, 4, 4, false}, {20, 18, 17, true}, {18, 17, 17, false}, {3, 3, 3, false}};
+  for (const int n : {4, 5, 6, 7, 9}) all.push_back({n, 2, 1, true});
+  for (const int n : {4, 6}) all.push_back({n, 4, 3, true});
+  for (const int n : {6, 7, 9}) all.push_back({n, 6, 4, true});
   for (const int axes : {1, 2, 3})
     for (const int n : {2 * axes, 2 * axes + 1, 3 * axes, 3 * axes + 1})
       for (const bool has_H : {false, true}) all.push_back({n, axes, axes, has_H});

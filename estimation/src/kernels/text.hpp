@@ -21,13 +21,16 @@ using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 using Full = std::conditional_t<SIGMAX_LANE_BYTES == 32, Four, Two>;
 
+/// A size that only the call tells.
+constexpr int any = -1;
+
 /// So many rows of a column, in vectors; what is beyond the rows means nothing.
 template <int Rows>
 struct Column {
   using Piece = std::conditional_t<Rows == 1, One, std::conditional_t<Rows == 2, Two, Full>>;
   static constexpr int width = sizeof(Piece) / sizeof(double);
   static constexpr int pieces = (Rows + width - 1) / width;
-  Piece piece[pieces];
+  Piece piece[pieces > 0 ? pieces : 1];
 
   double operator[](int i) const { return piece[i / width][i % width]; }
   void set(int i, double number) { piece[i / width][i % width] = number; }
@@ -91,10 +94,10 @@ void product_of(const double* A, int a_column, Strided B, double* C, int c_colum
   }
 }
 
-/// A matrix in hand, of sizes that the compiler knows, or, of 0 and 0, of those that it is made with.
+/// A matrix in hand, of sizes that the compiler knows, or of those that it is made with.
 template <int Rows, int Columns>
 struct Block {
-  Column<Rows> column[Columns];
+  Column<Rows> column[Columns > 0 ? Columns : 1];
 
   Block(int, int) {}
   Block(const double* numbers, int apart, int, int) {
@@ -108,7 +111,7 @@ struct Block {
 };
 
 template <>
-struct Block<0, 0> {
+struct Block<any, any> {
   Block(int rows, int columns)
       : rows_(rows), columns_(columns), numbers_(rows * columns <= 256 ? few_ : new double[rows * columns]) {}
   Block(const double* numbers, int apart, int rows, int columns) : Block(rows, columns) {
@@ -148,7 +151,7 @@ TransposedBlock<Columns, Rows> transposed(const Block<Rows, Columns>& block) {
 /// C ± A B, or A B alone.
 template <Into into, int Rows, int Inner, int Columns, template <int, int> class Right>
 inline void multiply_blocks(const Block<Rows, Inner>& A, const Right<Inner, Columns>& B, Block<Rows, Columns>& C) {
-  if constexpr (Rows == 0) {
+  if constexpr (Rows == any) {
     product_of(A.strided().numbers, A.rows(), B.strided(), C.data(), C.rows(), C.rows(), A.columns(), C.columns(),
                into);
   } else {
@@ -196,12 +199,12 @@ inline bool cholesky(const double* S, int size, double least, double* L) {
   return true;
 }
 
-/// See `Kernels`; of as many quantities as the compiler knows, if M is not 0.
+/// See `Kernels`.
 template <int M>
 inline Outcome score_by(const ConstView& z, InnovationView& innovation, double* S_inverse) {
   const int m = M > 0 ? M : z.n;
   double few[M > 0 ? 2 * M * M : 1];
-  Block<0, 0> many(M > 0 ? 0 : 2 * m, m);
+  Block<any, any> many(M > 0 ? 0 : 2 * m, m);
   double* const L = M > 0 ? few : many.data();
   double* const inverse = L + m * m;  // of L
   double* const S = innovation.covariance;
@@ -250,52 +253,72 @@ Outcome score_any(const ConstView& z, InnovationView& innovation, double* S_inve
   if (z.n == 1) return score_by<1>(z, innovation, S_inverse);
   if (z.n == 2) return score_by<2>(z, innovation, S_inverse);
   if (z.n == 3) return score_by<3>(z, innovation, S_inverse);
-  return score_by<0>(z, innovation, S_inverse);
+  return score_by<any>(z, innovation, S_inverse);
 }
 
 /// I − W H.
-template <int K>
-inline Block<K, K> complement(const Block<K, K>& W, const Block<K, K>& H) {
+template <int M, int K>
+inline Block<K, K> complement(const Block<K, M>& W, const Block<M, K>& H) {
   auto A = product(W, H);
   for (int j = 0; j < A.columns(); ++j)
     for (int i = 0; i < A.rows(); ++i) A.add(i, j, (i == j ? 1.0 : 0.0) - 2.0 * A(i, j));
   return A;
 }
 
+/// A Hᵀ, which is A where the components are measured themselves.
+template <bool themselves, int Rows, int M, int K>
+inline Block<Rows, M> seen_of(const Block<Rows, K>& A, const Block<M, K>& H) {
+  if constexpr (themselves)
+    return A;
+  else
+    return product(A, transposed(H));
+}
+
 /// Joseph's update, (I − WH) P (I − WH)ᵀ + W R Wᵀ, block by block: 1 of the k components that are seen, for which H
 /// (m × k) has columns, and 2 of the others. Where they are measured themselves, H = [I 0], I − W₁ is R S⁻¹, which does
-/// not cancel. If K is not 0, it is k and m, and n is K + Rest.
-template <int K, int Rest, bool themselves>
+/// not cancel.
+template <int M, int K, int Rest, bool themselves>
 Outcome update_by(const double* numbers_of_H, int seen, const ConstView& prior, const ConstView& z,
                   const View& posterior, InnovationView& innovation) {
-  const int n = K > 0 ? K + Rest : prior.n, k = K > 0 ? K : seen, m = K > 0 ? K : z.n, rest = n - k;
+  const int n = K > 0 ? K + Rest : prior.n, k = K > 0 ? K : seen, m = M > 0 ? M : z.n, rest = n - k;
   const double* const P = prior.covariance;
-  const Block<K, K> P11(P, n, k, k), R(z.covariance, m, m, m);
+  const Block<K, K> P11(P, n, k, k);
+  const Block<M, M> R(z.covariance, m, m, m);
   const Block<Rest, K> P21(P + k, n, rest, k);
   Block<Rest, Rest> P22(P + k + k * n, n, rest, rest);
-  const Block<K, K> H(themselves ? P : numbers_of_H, themselves ? n : m, m, k);
-  const auto PHt1 = themselves ? P11 : product(P11, transposed(H));
-  const auto PHt2 = themselves ? P21 : product(P21, transposed(H));
-  Block<K, K> S(z.covariance, m, m, m);
+  const Block<M, K> H(themselves ? P : numbers_of_H, themselves ? n : m, m, k);
+  const auto PHt1 = seen_of<themselves>(P11, H);
+  const auto PHt2 = seen_of<themselves>(P21, H);
+  Block<M, M> S(z.covariance, m, m, m);
   if constexpr (!themselves) multiply_blocks<Into::plus>(H, PHt1, S);
-  double few[K > 0 ? K * K : 1];
-  Block<0, 0> many(K > 0 ? 0 : m, m);
-  double* const inverse = K > 0 ? few : many.data();
+  double few[M > 0 ? M * M : 1];
+  Block<any, any> many(M > 0 ? 0 : m, m);
+  double* const inverse = M > 0 ? few : many.data();
   for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i) innovation.covariance[i + j * m] = S(i, j) + (themselves ? P11(i, j) : 0.0);
-  const Outcome outcome = score_by<K>(z, innovation, inverse);
+    for (int i = 0; i < m; ++i) innovation.covariance[i + j * m] = S(i, j) + (themselves ? PHt1(i, j) : 0.0);
+  const Outcome outcome = score_by<M>(z, innovation, inverse);
   if (outcome != Outcome::done) return outcome;
-  const Block<K, K> S_inverse(inverse, m, m, m);
+  const Block<M, M> S_inverse(inverse, m, m, m);
   const auto W1 = product(PHt1, S_inverse);
   const auto W2 = product(PHt2, S_inverse);
   const auto WR1 = product(W1, R);
-  const auto A = themselves ? product(R, S_inverse) : complement(W1, H);
-  const auto W2H = themselves ? W2 : product(W2, H);
+  const auto A = [&] {
+    if constexpr (themselves)
+      return product(R, S_inverse);
+    else
+      return complement(W1, H);
+  }();
+  const auto W2H = [&] {
+    if constexpr (themselves)
+      return W2;
+    else
+      return product(W2, H);
+  }();
 
   auto C = P21;  // − W₂H P₁₁
   multiply_blocks<Into::minus>(W2, transposed(PHt1), C);
   const auto WR2 = product(W2, R);
-  auto D = themselves ? C : product(C, transposed(H));  // − W₂R
+  auto D = seen_of<themselves>(C, H);  // − W₂R
   multiply_blocks<Into::minus>(W2, R, D);
   multiply_blocks<Into::minus>(W2, transposed(PHt2), P22);
   multiply_blocks<Into::minus>(D, transposed(W2), P22);
@@ -329,27 +352,33 @@ Outcome update_by(const double* numbers_of_H, int seen, const ConstView& prior, 
   return Outcome::done;
 }
 
-/// The same: the compiler knows the sizes where as many quantities are measured as there are axes.
-template <int K, int Rest>
+/// The same, of sizes that the compiler knows where they are those of a plot: of a position along the axes or in a
+/// radar's space, of a bearing, or with a range rate.
+template <int M, int K, int Rest>
 Outcome update_as(const double* H, int seen, const ConstView& prior, const ConstView& z, const View& posterior,
                   InnovationView& innovation) {
-  return H ? update_by<K, Rest, false>(H, seen, prior, z, posterior, innovation)
-           : update_by<K, Rest, true>(H, seen, prior, z, posterior, innovation);
+  if constexpr (M == K)
+    if (!H) return update_by<M, K, Rest, true>(H, seen, prior, z, posterior, innovation);
+  return update_by<M, K, Rest, false>(H, seen, prior, z, posterior, innovation);
 }
-template <int Axes>
-Outcome update_along(const double* H, int seen, const ConstView& prior, const ConstView& z, const View& posterior,
-                     InnovationView& innovation) {
-  if (prior.n == 2 * Axes) return update_as<Axes, Axes>(H, seen, prior, z, posterior, innovation);
-  if (prior.n == 2 * Axes + 1) return update_as<Axes, Axes + 1>(H, seen, prior, z, posterior, innovation);
-  if (prior.n == 3 * Axes) return update_as<Axes, 2 * Axes>(H, seen, prior, z, posterior, innovation);
-  return update_as<0, 0>(H, seen, prior, z, posterior, innovation);
-}
+
+struct Sizes {
+  int measured, seen, rest;
+  decltype(&update_as<any, any, any>) update;
+};
 Outcome update_any(const double* H, int seen, const ConstView& prior, const ConstView& z, const View& posterior,
                    InnovationView& innovation) {
-  if (seen == z.n && seen == 1) return update_along<1>(H, seen, prior, z, posterior, innovation);
-  if (seen == z.n && seen == 2) return update_along<2>(H, seen, prior, z, posterior, innovation);
-  if (seen == z.n && seen == 3) return update_along<3>(H, seen, prior, z, posterior, innovation);
-  return update_as<0, 0>(H, seen, prior, z, posterior, innovation);
+  static constexpr Sizes known[]{
+      {1, 1, 1, update_as<1, 1, 1>}, {1, 1, 2, update_as<1, 1, 2>}, {2, 2, 2, update_as<2, 2, 2>},
+      {2, 2, 3, update_as<2, 2, 3>}, {2, 2, 4, update_as<2, 2, 4>}, {3, 3, 3, update_as<3, 3, 3>},
+      {3, 3, 4, update_as<3, 3, 4>}, {3, 3, 6, update_as<3, 3, 6>}, {1, 2, 2, update_as<1, 2, 2>},
+      {1, 2, 3, update_as<1, 2, 3>}, {1, 2, 4, update_as<1, 2, 4>}, {1, 2, 5, update_as<1, 2, 5>},
+      {1, 2, 7, update_as<1, 2, 7>}, {3, 4, 0, update_as<3, 4, 0>}, {3, 4, 2, update_as<3, 4, 2>},
+      {4, 6, 0, update_as<4, 6, 0>}, {4, 6, 1, update_as<4, 6, 1>}, {4, 6, 3, update_as<4, 6, 3>}};
+  for (const Sizes& one : known)
+    if (z.n == one.measured && seen == one.seen && prior.n == seen + one.rest)
+      return one.update(H, seen, prior, z, posterior, innovation);
+  return update_as<any, any, any>(H, seen, prior, z, posterior, innovation);
 }
 
 /// (27), (28) with F = F_s ⊗ I and F_s upper triangular: blocks are added, nothing is multiplied by zero.
@@ -413,7 +442,7 @@ void predict_any(const AxisLaw& law, int axes, const ConstView& prior, const Vie
 
 /// P = F P Fᵀ + Q, each variance with the rounding of the terms of F P Fᵀ, before they may cancel.
 void predict_covariance(const double* F, const double* Q, const double* P, int n, double* result) {
-  Block<0, 0> FP(n, n), sum(Q, n, n, n), terms(n, 1);
+  Block<any, any> FP(n, n), sum(Q, n, n, n), terms(n, 1);
   product_of(F, n, columns_of(P, n), FP.data(), n, n, n, n, Into::only);
   product_of(FP.data(), n, {F, n, 1}, sum.data(), n, n, n, n, Into::plus);
   double* const total = terms.data();
