@@ -61,14 +61,10 @@ inline bool any(Mask<V> mask) {
 /// A bit for each lane where the mask does not hold.
 template <class V>
 inline unsigned failures(Mask<V> mask) {
-  if constexpr (Lane<V>::count == 1) {
-    return mask ? 0 : 1;
-  } else {
-    unsigned bits = 0;
-    for (int lane = 0; lane < Lane<V>::count; ++lane)
-      if (!mask[lane]) bits |= 1U << static_cast<unsigned>(lane);
-    return bits;
-  }
+  unsigned bits = 0;
+  for (int lane = 0; lane < Lane<V>::count; ++lane)
+    if (!mask[lane]) bits |= 1U << static_cast<unsigned>(lane);
+  return bits;
 }
 
 template <class V>
