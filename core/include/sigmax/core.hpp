@@ -24,13 +24,11 @@
 #include <sigmax/core/network.hpp>
 #include <sigmax/core/network/bif.hpp>
 #include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/evidence.hpp>
 #include <sigmax/core/network/explanation.hpp>
 #include <sigmax/core/network/graphviz.hpp>
 #include <sigmax/core/network/measure.hpp>
 #include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>
-#include <sigmax/core/network/variable.hpp>
 #include <sigmax/core/outcomes.hpp>
 #include <sigmax/core/relation.hpp>
 #include <sigmax/core/route.hpp>
