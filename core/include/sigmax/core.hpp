@@ -6,14 +6,12 @@
 /// const, copies share only what never changes, and no verb keeps a state of its own.
 
 #include <sigmax/core/algebra.hpp>
-#include <sigmax/core/banded_rows.hpp>
 #include <sigmax/core/belief.hpp>
 #include <sigmax/core/chain.hpp>
 #include <sigmax/core/check.hpp>
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/condition.hpp>
 #include <sigmax/core/distribution.hpp>
-#include <sigmax/core/entries.hpp>
 #include <sigmax/core/forward_backward.hpp>
 #include <sigmax/core/hybrid_distribution.hpp>
 #include <sigmax/core/induced.hpp>
@@ -35,7 +33,6 @@
 #include <sigmax/core/rows.hpp>
 #include <sigmax/core/sample.hpp>
 #include <sigmax/core/scaled_number.hpp>
-#include <sigmax/core/sparse_rows.hpp>
 #include <sigmax/core/table.hpp>
 #include <sigmax/core/tie.hpp>
 #include <sigmax/core/transform.hpp>
