@@ -24,28 +24,21 @@ Factor table_factor(const RelationNetwork& network, Vertex v, const Parts& parts
   Factor factor{scope_of(network, v, parts), {}};
   factor.values.resize(outcomes_of(factor.scope, sizes));
   const std::vector<std::size_t>& parents = network[v].parents;
-  const std::size_t row_size = parts.known[v] ? 1 : sizes[v];
-  std::vector<std::size_t> digits(parents.size(), 0);
-  std::size_t row_of_factor = 0;
+  ScaledNumber* out = factor.values.data();
   const auto read = [&](const auto& rows) {
     for (std::size_t r = 0; r < rows.rows(); ++r) {
       bool fits = true;
-      for (std::size_t p = 0; p < parents.size(); ++p)
-        fits = fits && digits[p] == parts.known[parents[p]].value_or(digits[p]);
-      if (fits) {
-        ScaledNumber* const out = factor.values.data() + row_size * row_of_factor++;
-        const auto entries = rows.entries(r);
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-          if (!parts.known[v])
-            out[entries.index(k)] = ScaledNumber{entries.value(k)};
-          else if (entries.index(k) == *parts.known[v])
-            *out = ScaledNumber{entries.value(k)};
-        }
+      for (std::size_t p = parents.size(), rest = r; fits && p-- > 0; rest /= sizes[parents[p]])
+        fits = parts.known[parents[p]].value_or(rest % sizes[parents[p]]) == rest % sizes[parents[p]];
+      if (!fits) continue;
+      const auto entries = rows.entries(r);
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (!parts.known[v])
+          out[entries.index(k)] = ScaledNumber{entries.value(k)};
+        else if (entries.index(k) == *parts.known[v])
+          *out = ScaledNumber{entries.value(k)};
       }
-      for (std::size_t p = parents.size(); p-- > 0;) {
-        if (++digits[p] < sizes[parents[p]]) break;
-        digits[p] = 0;
-      }
+      out += parts.known[v] ? 1 : sizes[v];
     }
   };
   std::visit(read, network[v].rows);
@@ -122,12 +115,10 @@ std::vector<Vertex> vertices_of(const RelationNetwork& network, const std::vecto
 Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const Findings& findings,
                const std::vector<Vertex>& asked) {
   Parts parts{std::move(tables), std::vector<std::optional<std::size_t>>(network.size())};
-  std::vector<bool> is_asked(network.size(), false);
-  for (const Vertex v : asked) is_asked[v] = true;
   for (const Vertex v : parts.tables) {
     const auto& weights = findings.weights[v];
     const std::size_t size = network[v].variable.size();
-    if (is_asked[v] || (!weights && size > 1)) continue;
+    if ((!weights && size > 1) || std::find(asked.begin(), asked.end(), v) != asked.end()) continue;
     std::size_t first = 0, count = 0;
     for (std::size_t i = size; i-- > 0;)
       if (!weights || !(*weights)[i].is_zero()) first = i, ++count;
