@@ -61,33 +61,6 @@ TYPED_PROPERTY(ClassifierOf, OneReportThatAllowsFewFeaturesIsThePlainRecursionTo
   }
 }
 
-TYPED_TEST(ClassifierOf, InSequenceIsTheBatchOverManyReports) {
-  const Variable<TypeParam> pattern{"pattern", 3}, feature{"feature", 3};
-  const Rows rows = std::is_same_v<TypeParam, Random> ? Rows{{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}, {0.2, 0.5, 0.3}}
-                                                      : Rows{{1.0, 0.5, 0.2}, {0.2, 0.5, 1.0}, {0.4, 1.0, 0.3}};
-  const Relation<TypeParam, TypeParam> feature_given_pattern{feature, pattern, rows};
-  const std::vector<Numbers> reports{{0.7, 0.2, 0.1}, {0.1, 0.2, 0.7}, {0.3, 0.4, 0.3}};
-  Classifier classifier{uninformative(pattern), feature_given_pattern};
-  std::vector<long double> sums(3, 0.0L);
-  constexpr int n = 100000;
-  for (int k = 0; k < n; ++k) {
-    // The first half speaks for pattern 0 until the others are far below any double; the second half brings 1 back.
-    const std::size_t which = k % 5 == 0 ? 2U : (k < n / 2 ? 0U : 1U);
-    classifier.observe(Likelihood{feature, reports[which]});
-    for (std::size_t c = 0; c < 3; ++c)
-      sums[c] += std::log(plain::evidence(by_kind<TypeParam>, rows[c], reports[which]));
-    if (k == n / 2) {
-      EXPECT_EQ(classifier.belief()[1], 0.0);
-    }
-  }
-  const long double greatest = std::max({sums[0], sums[1], sums[2]});
-  Numbers weights;
-  for (const long double sum : sums) weights.push_back(static_cast<double>(std::exp(sum - greatest)));
-  ASSERT_LT(std::abs(static_cast<double>(sums[1] - sums[0])), 2.0);  // the two patterns are level again
-  const Numbers expected = plain::update(by_kind<TypeParam>, weights, {1.0, 1.0, 1.0});
-  EXPECT_CLOSE(classifier.belief().values(), expected, 1e-6);  // 10⁵ roundings of logarithms about 10⁴
-}
-
 TYPED_TEST(ClassifierOf, AReportThatExcludesEveryPatternIsRefusedAndForgotten) {
   const Variable<TypeParam> target{"target", {"T1", "T2"}}, emitter{"emitter", {"e1", "e2", "e3"}};
   const Relation<TypeParam, TypeParam> emitter_given_target{emitter, target, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
@@ -97,14 +70,6 @@ TYPED_TEST(ClassifierOf, AReportThatExcludesEveryPatternIsRefusedAndForgotten) {
   EXPECT_REFUSED(std::domain_error, ("'target'"), classifier.observe(Likelihood{emitter, {0.0, 0.0, 1.0}}));
   EXPECT_CLOSE(classifier.belief().values(), before.values(), 1e-15);
   EXPECT_EQ(most_likely(classifier.belief()), "T1");
-}
-
-TYPED_TEST(ClassifierOf, RefusesAPriorOrAReportOfAnotherVariable) {
-  const Variable<TypeParam> target{"target", {"T1", "T2"}}, other{"other", {"T1", "T2"}}, emitter{"emitter", 2};
-  const Relation<TypeParam, TypeParam> emitter_given_target{emitter, target, {{1.0, 0.0}, {0.0, 1.0}}};
-  EXPECT_INVALID(("Classifier", "'other'", "'target'"), Classifier(uninformative(other), emitter_given_target));
-  Classifier classifier{uninformative(target), emitter_given_target};
-  EXPECT_INVALID(("'target'", "'emitter'"), classifier.observe(Likelihood{target}));
 }
 
 template <class Prior, class FeatureGivenPattern>
@@ -176,22 +141,6 @@ TEST(Usage, OneRecognizerServesBothKinds) {
   EXPECT_EQ(recognize(random, reports), "T2");
   EXPECT_EQ(recognize(fuzzy, reports), "T2");
   EXPECT_EQ(recognize(fuzzy, {}), "T1");
-}
-
-TEST(Usage, TheSpeedTellsTheAgeThroughTheMood) {
-  const FuzzyVariable age{"age", {"young", "middle", "old"}};
-  const FuzzyVariable mood{"mood", {"calm", "wild"}};
-  const RandomVariable speed{"speed", {"slow", "fast"}};
-
-  const Relation mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
-  const Relation speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
-
-  const Induced speed_given_age = compose(speed_given_mood, mood_given_age);
-  EXPECT_CLOSE(speed_given_age.normalized().given("young")["fast"], 0.7, 1e-15);
-  const Distribution who = update(uninformative(age), speed_given_age.likelihood("fast"));
-  static_assert(std::same_as<decltype(who), const Distribution<Fuzzy>>);
-  EXPECT_CLOSE(who.values(), (std::vector{1.0, 0.6, 0.2}), 1e-14);  // 0.7, 0.42, 0.14
-  EXPECT_EQ(most_likely(who), "young");
 }
 
 }  // namespace
