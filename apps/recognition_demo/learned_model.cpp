@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <sigmax/recognition/equal_frequency_fit.hpp>
+#include <sigmax/recognition/discretization.hpp>
 
 #include "support/command_line.hpp"
 

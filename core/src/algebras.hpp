@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
-#include <sigmax/core/any_algebra.hpp>
 #include <sigmax/core/condition.hpp>
+#include <sigmax/core/uncertainty.hpp>
 
 /// Algebras as objects of a type of their own, for the templates that are compiled for each of them.
 namespace sigmax::detail {

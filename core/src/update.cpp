@@ -71,15 +71,6 @@ void condition_rows(A algebra, Rows& rows, std::vector<std::size_t>& unreachable
   if (!unreachable.empty()) rows.fill_rows(unreachable, equal_share(algebra, rows.columns()));
 }
 
-/// action(rows) of rows that are columns of others, which are never banded.
-template <class Action>
-void visit_columns(AnyRows& columns, const Action& action) {
-  if (Table* const table = std::get_if<Table>(&columns))
-    action(*table);
-  else
-    action(std::get<SparseRows>(columns));
-}
-
 }  // namespace
 
 double update_logs(const Outcomes& variable, std::span<const double> prior, std::span<const double> likelihood,
@@ -110,10 +101,14 @@ void invert(const AnyRows& rows, const Prior& prior, const AnyAlgebra& algebra, 
   kernels::transpose(rows, result);
   unreachable.clear();
   with(algebra, [&](auto a) {
-    visit_columns(result, [&](auto& columns) {
+    const auto invert_columns = [&](auto& columns) {
       for (std::size_t to = 0; to < columns.rows(); ++to) weigh(a, prior, columns.entries(to), columns.values(to));
       condition_rows(a, columns, unreachable);
-    });
+    };
+    if (Table* const table = std::get_if<Table>(&result))
+      invert_columns(*table);
+    else
+      invert_columns(std::get<SparseRows>(result));  // columns are never banded
   });
 }
 

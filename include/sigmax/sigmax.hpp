@@ -86,7 +86,6 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/discretization.hpp>
 #include <sigmax/recognition/dominance.hpp>
-#include <sigmax/recognition/equal_frequency_fit.hpp>
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/explanation.hpp>
 #include <sigmax/recognition/feature_model.hpp>

@@ -1,11 +1,12 @@
 #include <sigmax/recognition/discretization.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <system_error>
+#include <utility>
 
 namespace sigmax {
 namespace {
@@ -31,6 +32,17 @@ std::vector<double> sorted(std::span<const double> values, std::size_t bins) {
     throw std::invalid_argument("a discretization cannot be fitted: every value is " + shown(result.front()));
   return result;
 }
+
+constexpr std::size_t most_keys = 8192;  // in all ranges
+constexpr int bits = 8;                  // by which a range is divided
+constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+
+std::uint64_t key_of(double value) {
+  const auto pattern = std::bit_cast<std::uint64_t>(value + 0.0);  // there is one zero
+  return (pattern & sign) != 0 ? ~pattern : pattern | sign;
+}
+
+double value_of(std::uint64_t key) { return std::bit_cast<double>((key & sign) != 0 ? key & ~sign : ~key); }
 
 }  // namespace
 
@@ -85,6 +97,81 @@ Discretization equal_frequency(std::span<const double> values, std::size_t bins)
     const double cut = ascending[j * ascending.size() / bins];
     if (cut > (cuts.empty() ? ascending.front() : cuts.back())) cuts.push_back(cut);
   }
+  return Discretization{std::move(cuts)};
+}
+
+EqualFrequencyFit::EqualFrequencyFit(std::size_t bins)
+    : bins_(bins), ranges_{{.first = 0, .free_bits = 64, .below = 0}} {
+  if (bins == 0) throw std::invalid_argument("a discretization needs at least one bin");
+}
+
+void EqualFrequencyFit::count(Range& range, Key key) {
+  ++range.counts[(key - range.first) >> (range.free_bits - bits)];
+}
+
+void EqualFrequencyFit::see(double value) {
+  if (std::isnan(value)) return;
+  if (std::isinf(value)) throw std::invalid_argument("a discretization cannot be fitted to an infinite value");
+  if (ranks_.empty()) {
+    ++size_;
+    least_ = std::fmin(least_, value);
+    greatest_ = std::fmax(greatest_, value);
+  }
+  const Key key = key_of(value);
+  const auto above = std::upper_bound(ranges_.begin(), ranges_.end(), key,
+                                      [](Key wanted, const Range& range) { return wanted < range.first; });
+  if (above == ranges_.begin()) return;
+  Range& range = *std::prev(above);
+  if (range.free_bits < 64 && (key - range.first) >> range.free_bits != 0) return;
+  range.least = std::min(range.least, key);
+  range.greatest = std::max(range.greatest, key);
+  if (!range.counts.empty()) return count(range, key);
+  range.keys.push_back(key);
+  if (range.keys.size() <= most_keys / ranges_.size()) return;
+  range.counts.assign(std::size_t{1} << bits, 0);
+  for (const Key seen : std::exchange(range.keys, {})) count(range, seen);
+}
+
+void EqualFrequencyFit::settle(Range& range, std::vector<Range>& next) {
+  std::sort(range.keys.begin(), range.keys.end());
+  const int free_bits = range.free_bits - bits;
+  std::size_t below = range.below;
+  std::size_t part = 0;
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    if (!std::isnan(cuts_[i]) || ranks_[i] < range.below) continue;
+    if (range.counts.empty()) {
+      if (ranks_[i] - range.below < range.keys.size()) cuts_[i] = value_of(range.keys[ranks_[i] - range.below]);
+      continue;
+    }
+    while (part < range.counts.size() && ranks_[i] >= below + range.counts[part]) below += range.counts[part++];
+    if (part == range.counts.size()) return;
+    const Key first = range.first + (Key{part} << free_bits);
+    if (range.least == range.greatest)
+      cuts_[i] = value_of(range.least);
+    else if (free_bits == 0)
+      cuts_[i] = value_of(first);
+    else if (next.empty() || next.back().first != first)
+      next.push_back({.first = first, .free_bits = free_bits, .below = below});
+  }
+}
+
+bool EqualFrequencyFit::wants_another_pass() {
+  if (ranks_.empty() && size_ > 0) {
+    for (std::size_t j = 1; j < bins_; ++j) ranks_.push_back(j * size_ / bins_);
+    cuts_.assign(ranks_.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  std::vector<Range> next;
+  for (Range& range : ranges_) settle(range, next);
+  ranges_ = std::move(next);
+  if (ranges_.empty() && std::any_of(cuts_.begin(), cuts_.end(), [](double cut) { return std::isnan(cut); }))
+    throw std::logic_error("EqualFrequencyFit: this pass had other values than those before");
+  return !ranges_.empty();
+}
+
+Discretization EqualFrequencyFit::discretization() const {
+  std::vector<double> cuts;
+  for (const double cut : cuts_)
+    if (cut > (cuts.empty() ? least_ : cuts.back())) cuts.push_back(cut);
   return Discretization{std::move(cuts)};
 }
 

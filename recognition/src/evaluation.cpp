@@ -42,13 +42,4 @@ double ConfusionMatrix::macro_f1() const {
   return sum / patterns;
 }
 
-Interval paired_interval(std::span<const double> a, std::span<const double> b) {
-  if (a.size() != b.size() || a.size() < 2)
-    throw std::invalid_argument("a paired interval needs scores of the same cases, at least two, not " +
-                                std::to_string(a.size()) + " and " + std::to_string(b.size()));
-  RunningMean difference;
-  for (std::size_t i = 0; i < a.size(); ++i) difference.add(a[i] - b[i]);
-  return difference.interval();
-}
-
 }  // namespace sigmax

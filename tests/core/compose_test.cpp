@@ -81,48 +81,6 @@ TEST(Compose, EliminatesARandomVariableByTheSum) {  // (7)
   EXPECT_CLOSE(composed.table().values(), (std::vector{0.6, 0.4, 0.42, 0.58}), 1e-15);
 }
 
-TEST(Compose, EliminatesAFuzzyVariableByTheMaximum) {  // (6)
-  const FuzzyVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
-  const Relation a_given_b{a, b, {{1.0, 0.1}, {0.3, 1.0}}};
-  const Relation b_given_c{b, c, {{1.0, 0.5}, {0.2, 1.0}}};
-  EXPECT_CLOSE(compose(a_given_b, b_given_c).table().values(), (std::vector{1.0, 0.5, 0.3, 1.0}), 1e-15);
-}
-
-TEST(Compose, OfARandomRelationOverAFuzzyOneIsInducedByTheMaximum) {  // (17)
-  const Induced speed_given_age = compose(speed_given_mood, mood_given_age);
-  EXPECT_CLOSE(speed_given_age.table().values(), (std::vector{0.3, 0.7, 0.9, 0.42, 0.9, 0.14}), 1e-15);
-  EXPECT_CLOSE(speed_given_age.betas(), (std::vector{1.0, 1.32, 1.04}), 1e-15);
-  EXPECT_CLOSE(speed_given_age.normalized().given("middle")["fast"], 0.42 / 1.32, 1e-15);
-}
-
-TEST(Compose, OfAFuzzyRelationOverARandomOneIsInducedByTheSum) {  // (18)
-  const RandomVariable a{"a", 2};
-  const Relation speed_given_a{speed, a, {{0.5, 0.5}, {0.25, 0.75}}};
-  const Relation mood_given_speed{mood, speed, {{1.0, 0.2}, {0.4, 1.0}}};
-  const Induced mood_given_a = compose(mood_given_speed, speed_given_a);
-  EXPECT_CLOSE(mood_given_a.table().values(), (std::vector{0.7, 0.6, 0.55, 0.8}), 1e-15);
-  EXPECT_CLOSE(mood_given_a.betas(), (std::vector{0.7, 0.8}), 1e-15);
-}
-
-TEST(Compose, OfProbabilitiesAndAPossibilityIsTheSmallWorldOfTheReadings) {  // (15), (16)
-  const RandomVariable x{"x", 3};
-  const FuzzyVariable y{"y", 2};
-  const Relation x_given_y{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}};
-  const Induced x_induced = compose(x_given_y, Distribution{y, {1.0, 0.5}});
-  EXPECT_CLOSE(x_induced.values(), (std::vector{0.6, 0.3, 0.3}), 1e-15);
-  EXPECT_CLOSE(x_induced.beta(), 1.2, 1e-15);
-  EXPECT_CLOSE(x_induced.normalized().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
-}
-
-TEST(Compose, OfPossibilitiesAndAProbabilityIsTheSmallWorldOfTheReadings) {  // (18) with one condition
-  const FuzzyVariable y{"y", 2};
-  const RandomVariable x{"x", 3};
-  const Relation y_given_x{y, x, {{1.0, 0.4}, {0.5, 1.0}, {0.3, 1.0}}};
-  const Induced y_induced = compose(y_given_x, Distribution{x, {0.5, 0.3, 0.2}});
-  EXPECT_CLOSE(y_induced.values(), (std::vector{0.71, 0.70}), 1e-15);
-  EXPECT_CLOSE(y_induced.beta(), 0.71, 1e-15);
-}
-
 TEST(Compose, OfSingleOutcomesIsCertain) {
   const FuzzyVariable one{"one", 1};
   const Relation certain{one, one, {{1.0}}};

@@ -33,33 +33,6 @@ TEST(HybridDistribution, IsConditionalTimesMarginal) {  // (12), (13)
   EXPECT_EQ(built_by_12.inner(), x);
 }
 
-TEST(HybridDistribution, BuiltFromProbabilitiesAndAPossibilityIsTheSmallWorldOfTheReadings) {  // (12) → (14), (16)
-  const Induced p_induced = built_by_12.inner_marginal();
-  EXPECT_CLOSE(p_induced.values(), (std::vector{0.6, 0.3, 0.3}), 1e-15);
-  EXPECT_CLOSE(p_induced.beta(), 6.0 / 5.0, 1e-15);
-  EXPECT_CLOSE(p_induced.normalized().values(), (std::vector{0.5, 0.25, 0.25}), 1e-15);
-  const auto back = built_by_12.outer_given_inner();
-  EXPECT_CLOSE(back.relation.table().values(), (std::vector{1.0, 1.0 / 12.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0}), 1e-15);
-  EXPECT_TRUE(back.unreachable.empty());
-}
-
-TEST(HybridDistribution, BuiltFromPossibilitiesAndAProbabilityIsTheSmallWorldOfTheReadings) {
-  const Induced pi_induced = built_by_13.inner_marginal();
-  EXPECT_CLOSE(pi_induced.values(), (std::vector{0.71, 0.70}), 1e-15);
-  EXPECT_CLOSE(pi_induced.beta(), 0.71, 1e-15);
-  EXPECT_CLOSE(pi_induced.normalized().values(), (std::vector{1.0, 70.0 / 71.0}), 1e-15);
-  const Relation back = built_by_13.outer_given_inner().relation;
-  EXPECT_CLOSE(back.row(0), (std::vector{50.0 / 71.0, 15.0 / 71.0, 6.0 / 71.0}), 1e-15);
-  EXPECT_CLOSE(back.row(1), (std::vector{2.0 / 7.0, 3.0 / 7.0, 2.0 / 7.0}), 1e-15);
-}
-
-TEST(HybridDistribution, SumsToOneInItsOwnOrderOnly) {  // (10), (11)
-  EXPECT_CLOSE(built_by_12.total(), 1.0, 1e-15);        // max_y Σ_x, (11)
-  EXPECT_CLOSE(built_by_12.beta(), 1.2, 1e-15);         // Σ_x max_y, (10)
-  EXPECT_CLOSE(built_by_13.total(), 1.0, 1e-15);        // Σ_x max_y, (10)
-  EXPECT_CLOSE(built_by_13.beta(), 0.71, 1e-15);        // max_y Σ_x, (11)
-}
-
 TEST(HybridDistribution, GivesBackWhatItWasBuiltFrom) {
   EXPECT_CLOSE(built_by_12.outer_marginal().values(), y_prior.values(), 1e-15);
   EXPECT_CLOSE(built_by_12.inner_given_outer().relation.table().values(), x_given_y.table().values(), 1e-15);
@@ -164,10 +137,17 @@ TEST(HybridDistribution, ConditionsSubnormalMassExactly) {
   EXPECT_TRUE(joint.outer_given_inner().unreachable.empty());
 }
 
-TEST(HybridDistribution, SaysWhatComposeAndInvertSayOfItsFactors) {
+TEST(HybridDistribution, SaysWhatComposeAndInvertSayOfItsFactors) {  // and update, (19), (20)
   EXPECT_CLOSE(built_by_12.inner_marginal().values(), compose(x_given_y, y_prior).values(), 1e-15);
   EXPECT_CLOSE(built_by_12.outer_given_inner().relation.table().values(),
                invert(x_given_y, y_prior).relation.table().values(), 1e-14);
+  EXPECT_CLOSE(built_by_13.inner_marginal().values(), compose(y_given_x, x_prior).values(), 1e-15);
+  EXPECT_CLOSE(built_by_13.inner_marginal().normalized().values(), (std::vector{1.0, 70.0 / 71.0}), 1e-15);
+  EXPECT_CLOSE(built_by_13.outer_given_inner().relation.table().values(),
+               invert(y_given_x, x_prior).relation.table().values(), 1e-14);
+  EXPECT_CLOSE(update(y_prior, x_given_y.likelihood("2")).values(), (std::vector{1.0 / 3.0, 1.0}), 1e-14);
+  EXPECT_CLOSE(update(x_prior, y_given_x.likelihood("1")).values(), (std::vector{2.0 / 7.0, 3.0 / 7.0, 2.0 / 7.0}),
+               1e-14);
 }
 
 }  // namespace

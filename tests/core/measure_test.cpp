@@ -161,23 +161,12 @@ TEST(Compatibility, OfGradedFeaturesIntersectsByTheMinimum) {
   EXPECT_EQ(compatibility(object, outcome, std::vector{1.0, 0.0, 2.0}), 0.5);
 }
 
-TEST(Compatibility, IsRawAndNormalizingIsAStepOfItsOwn) {
-  const FuzzyVariable group{"group", {"young", "middle aged"}};
-  const std::vector degrees{compatibility(man, young_features),
-                            compatibility(man, Features{"reading glasses", "two children", "runs daily"})};
-  EXPECT_EQ(degrees, (std::vector{0.5, 0.75}));
-  EXPECT_THROW((Distribution{group, degrees}), std::invalid_argument);
-  EXPECT_CLOSE(normalized(group, degrees).values(), (std::vector{2.0 / 3.0, 1.0}), 1e-15);
-}
-
 TEST(Compatibility, RefusesAnObjectWithoutFeatures) {
   EXPECT_INVALID(("positive", "0"), compatibility(Features{}, young_features));
   EXPECT_THROW(compatibility(man, young_features, [](const std::string&) { return 0.0; }), std::invalid_argument);
 }
 
 TEST(Compatibility, RefusesWhatIsNoDegreeOrNoMeasure) {
-  const double infinity = std::numeric_limits<double>::infinity(),
-               not_a_number = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> one{1.0}, two{1.0, 1.0};
   const auto refused = [](const std::vector<double>& object, const std::vector<double>& outcome,
                           const std::vector<double>& weights, std::string_view word) {

@@ -3,6 +3,7 @@
 #include <sigmax/core/network/query.hpp>
 #include <sigmax/core/network/transform.hpp>
 
+#include "core/network_grid.hpp"
 #include "support/plain_network.hpp"
 
 /// Published networks against a plain computation that eliminates strictly in the reverse order of declaration.
@@ -112,20 +113,6 @@ void expect_explanation(const RelationNetwork& network, std::size_t evidence) {
   EXPECT_CLOSE(static_cast<double>(route), static_cast<double>(greatest), 1e-12);
 }
 
-/// All at once against one after the other.
-void expect_marginals(const RelationNetwork& network, std::size_t evidence) {
-  const Case given = symptoms(network, evidence);
-  const auto all = marginals(network, given.evidence);
-  ASSERT_EQ(all.size(), network.size());
-  for (std::size_t v = 0; v < network.size(); ++v) {
-    SCOPED_TRACE(network[v].variable.name());
-    const NetworkAnswer single = query(network, {network[v].variable.name()}, given.evidence);
-    EXPECT_CLOSE(all[v].normalized(), single.normalized(), 1e-12);
-    EXPECT_CLOSE(all[v].total().log(), single.total().log(), 1e-12);
-    EXPECT_EQ(all[v].induced(), single.induced());
-  }
-}
-
 using SmallNetwork = PublishedNetwork;
 
 TEST_P(SmallNetwork, AnswersAsThePlainComputation) {
@@ -146,7 +133,7 @@ TEST_P(SmallNetwork, HasTheSameAnswersAllAtOnce) {
   for (const std::size_t evidence : {0U, 8U})
     for (const RelationNetwork& each :
          {network, as_fuzzy(network, RatioScale{}), as_fuzzy(network, RatioScale{}, the_last)})
-      expect_marginals(each, evidence);
+      expect_single_queries(each, symptoms(each, evidence).evidence);
 }
 TEST_P(SmallNetwork, IsExplainedAsByThePlainComputation) {
   for (const std::size_t evidence : {0U, 3U, 8U}) {
@@ -180,7 +167,7 @@ TEST_P(LargeNetwork, GivesTheSameEvidenceWhateverIsAsked) {
   }
 }
 
-TEST_P(LargeNetwork, HasTheSameAnswersAllAtOnce) { expect_marginals(network, 10); }
+TEST_P(LargeNetwork, HasTheSameAnswersAllAtOnce) { expect_single_queries(network, symptoms(network, 10).evidence); }
 
 TEST_P(LargeNetwork, IsExplainedByARouteOfTheValueGiven) {
   const Case given = symptoms(network, 10);

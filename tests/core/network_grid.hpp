@@ -35,4 +35,22 @@ inline RelationNetwork grid(std::size_t side) {
   return network;
 }
 
+/// marginals() against query() of each variable: the numbers, the total, and whether they are induced.
+inline void expect_single_queries(const RelationNetwork& network, const Evidence& evidence) {
+  const auto all = marginals(network, evidence);
+  ASSERT_EQ(all.size(), network.size());
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    SCOPED_TRACE(network[v].variable.name());
+    const auto single = query(network, {network[v].variable.name()}, evidence);
+    EXPECT_EQ(all[v].variables()[0], network[v].variable);
+    EXPECT_EQ(all[v].induced(), single.induced());
+    EXPECT_CLOSE(all[v].total().log(), single.total().log(), 1e-12);
+    ASSERT_EQ(all[v].values().size(), single.values().size());
+    for (std::size_t i = 0; i < single.values().size(); ++i) {
+      EXPECT_EQ(all[v].values()[i].is_zero(), single.values()[i].is_zero());
+      EXPECT_CLOSE(all[v].values()[i].over(single.total()), single.normalized()[i], 1e-12);
+    }
+  }
+}
+
 }  // namespace sigmax::support

@@ -51,12 +51,6 @@ TEST(RelationNetwork, RefusesWhatItDoesNotHold) {
                  network.index_of(FuzzyVariable{"mood", {"calm", "odd"}}));
 }
 
-TEST(RelationNetwork, RefusesAParentThatIsNotDeclaredBefore) {
-  RelationNetwork network;
-  EXPECT_INVALID(("'mood'", "'age'", "before"), network.declare(mood_given_age));
-  EXPECT_EQ(network.size(), 0U);
-}
-
 TEST(RelationNetwork, CannotBeGivenACycle) {
   RelationNetwork network;
   const Relation itself{age, age, {{1.0, 0.5}, {0.5, 1.0}}};

@@ -76,10 +76,6 @@ TEST(RatioScale, CommutesWithUpdate) {
                1e-14);
 }
 
-TEST(DuboisPrade, AddsWhatIsAsProbableOrLess) {
-  EXPECT_CLOSE(to_possibility(forecast, DuboisPrade{}).values(), (std::vector{1.0, 0.5, 0.2}), 1e-15);
-}
-
 TEST(DuboisPrade, GivesTiesOnePossibility) {
   const RandomVariable five{"five", 5};
   EXPECT_CLOSE(to_possibility(Distribution{five, {0.1, 0.35, 0.1, 0.35, 0.1}}, DuboisPrade{}).values(),
@@ -96,10 +92,6 @@ TEST(DuboisPrade, TakesWhatRoundingAlonePartsForATie) {
     EXPECT_EQ(possible[0], possible[1]);
     EXPECT_EQ(possible[2], 1.0);
   }
-}
-
-TEST(DuboisPradeSandri, AddsTheSmallerOfEachPair) {
-  EXPECT_CLOSE(to_possibility(forecast, DuboisPradeSandri{}).values(), (std::vector{1.0, 0.8, 0.6}), 1e-15);
 }
 
 TEST(DuboisPradeSandri, GoesBackByThePignisticProbability) {

@@ -114,55 +114,6 @@ TEST(Update, BringsBackAnOutcomeThatWasAlmostExcluded) {
   EXPECT_CLOSE(belief.distribution().values(), (std::vector{1.0, 1.0}), 1e-9);
 }
 
-TEST(Update, OfAPossibilityByARandomReadingIsTheSmallWorldOfTheReadings) {  // (19)
-  const RandomVariable x{"x", 3};
-  const FuzzyVariable y{"y", 2};
-  const Relation x_given_y{x, y, {{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}}};
-  const Distribution prior{y, {1.0, 0.5}};
-  EXPECT_CLOSE(update(prior, x_given_y.likelihood("0")).values(), (std::vector{1.0, 1.0 / 12.0}), 1e-14);
-  EXPECT_CLOSE(update(prior, x_given_y.likelihood("1")).values(), (std::vector{1.0, 0.5}), 1e-14);
-  EXPECT_CLOSE(update(prior, x_given_y.likelihood("2")).values(), (std::vector{1.0 / 3.0, 1.0}), 1e-14);
-  const auto inverse = invert(x_given_y, prior);
-  EXPECT_CLOSE(inverse.relation.table().values(), (std::vector{1.0, 1.0 / 12.0, 1.0, 0.5, 1.0 / 3.0, 1.0}), 1e-14);
-  EXPECT_TRUE(inverse.unreachable.empty());
-}
-
-TEST(Update, OfAProbabilityByAFuzzyReadingIsTheSmallWorldOfTheReadings) {  // (20)
-  const FuzzyVariable y{"y", 2};
-  const RandomVariable x{"x", 3};
-  const Relation y_given_x{y, x, {{1.0, 0.4}, {0.5, 1.0}, {0.3, 1.0}}};
-  const Distribution prior{x, {0.5, 0.3, 0.2}};
-  const std::vector given_first{50.0 / 71.0, 15.0 / 71.0, 6.0 / 71.0}, given_second{2.0 / 7.0, 3.0 / 7.0, 2.0 / 7.0};
-  EXPECT_CLOSE(update(prior, y_given_x.likelihood("0")).values(), given_first, 1e-14);
-  EXPECT_CLOSE(update(prior, y_given_x.likelihood("1")).values(), given_second, 1e-14);
-  const auto inverse = invert(y_given_x, prior).relation;
-  EXPECT_CLOSE(inverse.row(0), given_first, 1e-14);
-  EXPECT_CLOSE(inverse.row(1), given_second, 1e-14);
-}
-
-TEST(Invert, TurnsTheKinematicTablesOfTheAuthorsAround) {  // (43)
-  const RandomVariable target{"target", {"airliner", "bomber", "fighter"}};
-  const RandomVariable manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
-  const double third = 1.0 / 3.0;
-  const Relation target_given_manoeuvre{target, manoeuvre, {{third, third, third}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
-  const auto inverse = invert(target_given_manoeuvre, uninformative(manoeuvre));
-  const Relation<Random, Random>& manoeuvre_given_target = inverse.relation;
-  EXPECT_EQ(manoeuvre_given_target.to(), manoeuvre);
-  EXPECT_EQ(manoeuvre_given_target.from(), target);
-  EXPECT_CLOSE(manoeuvre_given_target.row(0), (std::vector{1.0, 0.0, 0.0}), 1e-14);
-  EXPECT_CLOSE(manoeuvre_given_target.row(1), (std::vector{0.4, 0.6, 0.0}), 1e-14);
-  EXPECT_CLOSE(manoeuvre_given_target.row(2), (std::vector{2.0 / 11.0, 3.0 / 11.0, 6.0 / 11.0}), 1e-14);
-}
-
-TEST(Invert, TurnsTheFuzzyKinematicTablesAround) {  // (46)
-  const FuzzyVariable target{"target", {"airliner", "bomber", "fighter"}};
-  const FuzzyVariable manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
-  const Relation target_given_manoeuvre{target, manoeuvre, {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
-  const auto manoeuvre_given_target = invert(target_given_manoeuvre, uninformative(manoeuvre)).relation;
-  EXPECT_CLOSE(manoeuvre_given_target.table().values(), (std::vector{1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0}),
-               0.0);
-}
-
 TEST(Invert, ListsUnreachableValuesAndSaysNothingAboutThem) {
   const RandomVariable from{"from", 2}, to{"to", 4};
   const Relation relation{to, from, {{0.5, 0.5, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}};

@@ -61,33 +61,6 @@ TYPED_PROPERTY(ClassifierOf, OneReportThatAllowsFewFeaturesIsThePlainRecursionTo
   }
 }
 
-TYPED_TEST(ClassifierOf, InSequenceIsTheBatchOverManyReports) {
-  const Variable<TypeParam> pattern{"pattern", 3}, feature{"feature", 3};
-  const Rows rows = std::is_same_v<TypeParam, Random> ? Rows{{0.6, 0.3, 0.1}, {0.1, 0.3, 0.6}, {0.2, 0.5, 0.3}}
-                                                      : Rows{{1.0, 0.5, 0.2}, {0.2, 0.5, 1.0}, {0.4, 1.0, 0.3}};
-  const Relation<TypeParam, TypeParam> feature_given_pattern{feature, pattern, rows};
-  const std::vector<Numbers> reports{{0.7, 0.2, 0.1}, {0.1, 0.2, 0.7}, {0.3, 0.4, 0.3}};
-  Classifier classifier{uninformative(pattern), feature_given_pattern};
-  std::vector<long double> sums(3, 0.0L);
-  constexpr int n = 100000;
-  for (int k = 0; k < n; ++k) {
-    // The first half speaks for pattern 0 until the others are far below any double; the second half brings 1 back.
-    const std::size_t which = k % 5 == 0 ? 2U : (k < n / 2 ? 0U : 1U);
-    classifier.observe(Likelihood{feature, reports[which]});
-    for (std::size_t c = 0; c < 3; ++c)
-      sums[c] += std::log(plain::evidence(by_kind<TypeParam>, rows[c], reports[which]));
-    if (k == n / 2) {
-      EXPECT_EQ(classifier.belief()[1], 0.0);
-    }
-  }
-  const long double greatest = std::max({sums[0], sums[1], sums[2]});
-  Numbers weights;
-  for (const long double sum : sums) weights.push_back(static_cast<double>(std::exp(sum - greatest)));
-  ASSERT_LT(std::abs(static_cast<double>(sums[1] - sums[0])), 2.0);  // the two patterns are level again
-  const Numbers expected = plain::update(by_kind<TypeParam>, weights, {1.0, 1.0, 1.0});
-  EXPECT_CLOSE(classifier.belief().values(), expected, 1e-6);  // 10⁵ roundings of logarithms about 10⁴
-}
-
 TYPED_TEST(ClassifierOf, AReportThatExcludesEveryPatternIsRefusedAndForgotten) {
   const Variable<TypeParam> target{"target", {"T1", "T2"}}, emitter{"emitter", {"e1", "e2", "e3"}};
   const Relation<TypeParam, TypeParam> emitter_given_target{emitter, target, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
@@ -99,14 +72,6 @@ TYPED_TEST(ClassifierOf, AReportThatExcludesEveryPatternIsRefusedAndForgotten) {
   EXPECT_EQ(most_likely(classifier.belief()), "T1");
 }
 
-TYPED_TEST(ClassifierOf, RefusesAPriorOrAReportOfAnotherVariable) {
-  const Variable<TypeParam> target{"target", {"T1", "T2"}}, other{"other", {"T1", "T2"}}, emitter{"emitter", 2};
-  const Relation<TypeParam, TypeParam> emitter_given_target{emitter, target, {{1.0, 0.0}, {0.0, 1.0}}};
-  EXPECT_INVALID(("Classifier", "'other'", "'target'"), Classifier(uninformative(other), emitter_given_target));
-  Classifier classifier{uninformative(target), emitter_given_target};
-  EXPECT_INVALID(("'target'", "'emitter'"), classifier.observe(Likelihood{target}));
-}
-
 template <class Prior, class FeatureGivenPattern>
 concept Classifies = requires(const Prior& prior, const FeatureGivenPattern& relation) {
   Classifier{prior, relation};
@@ -114,84 +79,5 @@ concept Classifies = requires(const Prior& prior, const FeatureGivenPattern& rel
 static_assert(Classifies<Distribution<Fuzzy>, Relation<Fuzzy, Fuzzy>>);
 static_assert(!Classifies<Distribution<Fuzzy>, Relation<Fuzzy, Random>>);
 static_assert(!Classifies<Distribution<Random>, Induced<Relation<Random, Random>>>);
-
-// Sigma-max inference: a random sensor reports on a fuzzy feature of a fuzzy pattern, (17) and (19).
-
-PROPERTY(SigmaMaxClassifier, IsThePlainRecursion) {
-  const auto pattern = any_variable<Fuzzy>("pattern"), feature = any_variable<Fuzzy>("feature");
-  const auto reading = any_variable<Random>("reading");
-  const auto feature_given_pattern = any_relation(feature, pattern);
-  const auto reading_given_feature = any_relation(reading, feature);
-  const auto prior = any_distribution(pattern);
-  for (std::size_t z = 0; z < reading.size(); ++z) {
-    Numbers likelihood;  // p⁺(z|c) = max over f of p(z|f) π(f|c), without β
-    for (const Numbers& row : rows_of(feature_given_pattern.table()))
-      likelihood.push_back(static_cast<double>(
-          plain::evidence(plain::By::max, row, plain::column(rows_of(reading_given_feature.table()), z))));
-    if (plain::evidence(plain::By::max, numbers_of(prior.values()), likelihood) <= 1e-200L) continue;
-    const Numbers expected = plain::update(plain::By::max, numbers_of(prior.values()), likelihood);
-    Classifier classifier{prior, feature_given_pattern};
-    classifier.observe(reading_given_feature.likelihood(z));
-    require_near(classifier.belief().values(), expected);
-    // The same by the induced relation of the reading given the pattern.
-    const Induced reading_given_pattern = compose(reading_given_feature, feature_given_pattern);
-    require_near(update(prior, reading_given_pattern.likelihood(z)).values(), expected);
-  }
-}
-
-TEST(SigmaMaxClassifier, IsMaxInferenceOnTheRatioScaledSensorIfItsMaximaAreEqual) {
-  const FuzzyVariable target{"target", {"T1", "T2", "T3"}}, emitter{"emitter", {"e1", "e2", "e3"}};
-  const RandomVariable reading{"reading", {"e1", "e2", "e3"}};
-  const Relation emitter_given_target{emitter, target, {{1.0, 1.0, 0.2}, {0.3, 1.0, 1.0}, {1.0, 0.0, 1.0}}};
-  const Relation reading_given_emitter{reading, emitter, {{0.7, 0.2, 0.1}, {0.15, 0.7, 0.15}, {0.1, 0.2, 0.7}}};
-  const Relation scaled{FuzzyVariable{"scaled reading", {"e1", "e2", "e3"}},
-                        emitter,
-                        {{1.0, 2.0 / 7.0, 1.0 / 7.0}, {1.5 / 7.0, 1.0, 1.5 / 7.0}, {1.0 / 7.0, 2.0 / 7.0, 1.0}}};
-  Classifier sigma_max{uninformative(target), emitter_given_target};
-  Classifier max{uninformative(target), emitter_given_target};
-  for (const char* z : {"e2", "e3", "e2", "e1", "e3", "e3"}) {
-    sigma_max.observe(reading_given_emitter.likelihood(z));
-    max.observe(scaled.likelihood(z));
-    EXPECT_CLOSE(sigma_max.belief().values(), max.belief().values(), 1e-12);
-  }
-}
-
-// What using it should feel like.
-
-using Reports = std::vector<std::vector<double>>;
-
-template <Uncertainty Kind>
-std::string recognize(const Relation<Kind, Kind>& emitter_given_target, const Reports& reports) {
-  Classifier classifier{uninformative(emitter_given_target.from()), emitter_given_target};
-  for (const auto& report : reports) classifier.observe(Likelihood{emitter_given_target.to(), report});
-  return most_likely(classifier.belief());
-}
-
-TEST(Usage, OneRecognizerServesBothKinds) {
-  const RandomVariable target{"target", {"T1", "T2"}}, emitter{"emitter", {"e1", "e2", "e3"}};
-  const FuzzyVariable fuzzy_target{"target", {"T1", "T2"}}, fuzzy_emitter{"emitter", {"e1", "e2", "e3"}};
-  const Relation random{emitter, target, {{0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}}};
-  const Relation fuzzy{fuzzy_emitter, fuzzy_target, {{1.0, 1.0, 0.0}, {0.0, 1.0, 1.0}}};
-  const Reports reports{{0.1, 0.8, 0.1}, {0.1, 0.2, 0.7}};
-  EXPECT_EQ(recognize(random, reports), "T2");
-  EXPECT_EQ(recognize(fuzzy, reports), "T2");
-  EXPECT_EQ(recognize(fuzzy, {}), "T1");
-}
-
-TEST(Usage, TheSpeedTellsTheAgeThroughTheMood) {
-  const FuzzyVariable age{"age", {"young", "middle", "old"}};
-  const FuzzyVariable mood{"mood", {"calm", "wild"}};
-  const RandomVariable speed{"speed", {"slow", "fast"}};
-
-  const Relation mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
-  const Relation speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
-
-  const Induced speed_given_age = compose(speed_given_mood, mood_given_age);
-  EXPECT_CLOSE(speed_given_age.normalized().given("young")["fast"], 0.7, 1e-15);
-  const Distribution who = update(uninformative(age), speed_given_age.likelihood("fast"));
-  static_assert(std::same_as<decltype(who), const Distribution<Fuzzy>>);
-  EXPECT_CLOSE(who.values(), (std::vector{1.0, 0.6, 0.2}), 1e-14);  // 0.7, 0.42, 0.14
-  EXPECT_EQ(most_likely(who), "young");
-}
 
 }  // namespace

@@ -90,22 +90,6 @@ TEST(LearnedRelations, AsPossibilitiesAreTransformsOfTheProbabilities) {
   EXPECT_CLOSE(ratio[1].row(1), (Numbers{1.0, 0.0}), 0.0);
 }
 
-PROPERTY(LearnedRelations, ByRatioAreRelativeFrequenciesToTheMaximum) {
-  const RandomVariable pattern{"pattern", laws::any_size()}, feature{"feature", laws::any_size()};
-  Counts counts{pattern, {feature}};
-  for (std::size_t c = 0; c < pattern.size(); ++c)
-    for (std::size_t f = 0; f < feature.size(); ++f)
-      counts.observe_value(c, 0, f, static_cast<double>(1 + *rc::gen::inRange(0, 9)));
-  const auto learned = learned_relations(counts, 0.0, RatioScale{});
-  for (std::size_t c = 0; c < pattern.size(); ++c) {
-    const auto seen = counts.of(0, c);
-    Numbers expected(seen.begin(), seen.end());
-    const double greatest = *std::max_element(expected.begin(), expected.end());
-    for (double& count : expected) count /= greatest;
-    require_near(learned[0].row(c), expected);
-  }
-}
-
 TEST(LearnedRelations, MakeNaiveBayes) {
   const Counts counts = farm();
   Classifier classifier{pattern_prior(counts), learned_relations(counts, 1.0)};

@@ -1,4 +1,4 @@
-#include <sigmax/recognition/equal_frequency_fit.hpp>
+#include <sigmax/recognition/discretization.hpp>
 
 #include "support/test.hpp"
 

@@ -94,47 +94,22 @@ TEST(Evaluation, RefusesABeliefOfAnotherVariable) {
   EXPECT_EQ(evaluation.size(), 0U);
 }
 
-TEST(PairedInterval, IsTheStatedFormula) {
-  const Interval interval = paired_interval(Numbers{1, 1, 0, 1}, Numbers{0, 1, 0, 0});  // differences 1, 0, 0, 1
-  const double half = 3.18244630528371 * std::sqrt((4 * 0.25 / 3.0) / 4.0);  // Student's t, three degrees of freedom
-  EXPECT_CLOSE(interval.mean, 0.5, 1e-15);
-  EXPECT_CLOSE(interval.lower(), 0.5 - half, 1e-12);
-  EXPECT_CLOSE(interval.upper(), 0.5 + half, 1e-12);
-  const Interval none = paired_interval(Numbers{1, 0, 1}, Numbers{1, 0, 1});
-  EXPECT_EQ(none.lower(), 0.0);
-  EXPECT_EQ(none.upper(), 0.0);
-}
-
-PROPERTY(PairedInterval, TurnsRoundWithItsArguments) {
-  const auto n = *rc::gen::inRange<std::size_t>(2, 20);
-  const Numbers a = laws::any_unit_numbers(n), b = laws::any_unit_numbers(n);
-  const Interval there = paired_interval(a, b), back = paired_interval(b, a);
-  require_near(there.mean, -back.mean);
-  require_near(there.lower(), -back.upper());
-  require_near(there.upper(), -back.lower());
-}
-
 /// Of 2000 experiments about 95 in 100 intervals hold the truth: the count is within five of its standard deviations.
-TEST(PairedInterval, HoldsTheTruthInNinetyFiveOfAHundred) {
+TEST(RunningMean, OfPairedScoresHoldsTheTruthInNinetyFiveOfAHundred) {
   std::mt19937_64 generator(3);
   const auto happens = [&](double chance) { return static_cast<double>(generator() >> 11) * 0x1p-53 < chance; };
   int held = 0;
   for (int experiment = 0; experiment < 2000; ++experiment) {
-    Numbers a, b;
+    RunningMean difference;
     for (int k = 0; k < 200; ++k) {
       const bool easy = happens(0.5);  // what both find easy pairs them
-      a.push_back(easy || happens(0.5) ? 1.0 : 0.0);
-      b.push_back(easy || happens(0.25) ? 1.0 : 0.0);
+      const bool a = easy || happens(0.5), b = easy || happens(0.25);
+      difference.add((a ? 1.0 : 0.0) - (b ? 1.0 : 0.0));
     }
-    const Interval interval = paired_interval(a, b);
+    const Interval interval = difference.interval();
     held += interval.lower() <= 0.125 && 0.125 <= interval.upper() ? 1 : 0;
   }
   EXPECT_NEAR(held, 1900.0, 5.0 * std::sqrt(2000.0 * 0.95 * 0.05));
-}
-
-TEST(PairedInterval, RefusesWhatIsNotPaired) {
-  EXPECT_INVALID(("2 and 1"), paired_interval(Numbers{1, 0}, Numbers{1}));
-  EXPECT_THROW(paired_interval(Numbers{1}, Numbers{1}), std::invalid_argument);
 }
 
 }  // namespace

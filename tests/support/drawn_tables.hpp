@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sigmax/core/kernels/winner.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 #include <sigmax/core/table.hpp>
 
 #include "support/test.hpp"

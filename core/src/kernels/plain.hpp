@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <sigmax/core/kernels/winner.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 #include <sigmax/core/table.hpp>
 
 namespace sigmax::kernels {

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include <sigmax/core/any_algebra.hpp>
-#include <sigmax/core/kernels/winner.hpp>
+#include <sigmax/core/kernels/compose.hpp>
+#include <sigmax/core/uncertainty.hpp>
 
 namespace sigmax::kernels {
 

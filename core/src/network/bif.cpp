@@ -17,234 +17,203 @@
 #include <variant>
 #include <vector>
 
-#include "order.hpp"
-#include "row_label.hpp"
+#include "solve.hpp"
 
 namespace sigmax {
 namespace {
 
-struct Token {
-  std::string text;
-  std::size_t line;
-  enum { word, quoted, sign, end } sort;
-};
+/// A view of its place in the text of the file, with its quotation marks if it has any; empty at the end of the file.
+/// Between tokens the format ignores "," and "|" as it does blanks and comments.
+using Token = std::string_view;
 
-std::string shown(const Token& token) {
-  return token.sort == Token::end ? "the end of the file" : "'" + token.text + "'";
-}
+constexpr Token signs = "{}()[];", ignored = " \t\r\n\v\f,|";
+bool has(Token characters, char c) { return characters.find(c) != Token::npos; }
 
-/// The text of a file as tokens. Between tokens the format ignores "," and "|" as it does blanks and comments.
-class Tokens {
- public:
-  Tokens(std::istream& in, std::string_view file) : text_(contents(in)), file_(file), next_() {
-    if (in.bad() || (text_.empty() && in.fail())) fail(1, "expected a network, found that nothing can be read");
-    take();
-  }
-
-  const Token& peek() const { return next_; }
-  bool is(std::string_view text) const {
-    return (next_.sort == Token::word || next_.sort == Token::sign) && next_.text == text;
-  }
-  Token take() { return std::exchange(next_, scan()); }
-
-  /// Takes a token that must be this one.
-  void expect(std::string_view text) {
-    if (!is(text)) fail("'" + std::string(text) + "'");
-    take();
-  }
-  Token word(const std::string& meaning) {
-    if (next_.sort != Token::word && next_.sort != Token::quoted) fail(meaning);
-    return take();
-  }
-
-  /// Throws: `expected` is not what comes next.
-  [[noreturn]] void fail(const std::string& expected) const {
-    fail(next_.line, "expected " + expected + ", found " + shown(next_));
-  }
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw std::invalid_argument(file_ + ":" + std::to_string(line) + ": " + what);
-  }
-
- private:
-  static constexpr std::string_view signs = "{}()[];";
-  static constexpr std::string_view ignored = " \t\r\n\v\f,|";
-
-  static std::string contents(std::istream& in) {
-    std::ostringstream text;
-    text << in.rdbuf();
-    std::string contents = text.str();
-    if (contents.starts_with("\xEF\xBB\xBF")) contents.erase(0, 3);  // a byte-order mark
-    return contents;
-  }
-
-  bool at(std::string_view text) const { return std::string_view(text_).substr(position_).starts_with(text); }
-
-  /// Moves to `position`, counting lines.
-  void move_to(std::size_t position) {
-    for (position = std::min(position, text_.size()); position_ < position; ++position_)
-      if (text_[position_] == '\n') ++line_;
-  }
-
-  void skip_ignored() {
-    while (position_ < text_.size()) {
-      if (at("//")) {
-        move_to(text_.find('\n', position_));
-      } else if (at("/*")) {
-        const std::size_t close = text_.find("*/", position_ + 2);
-        if (close == std::string::npos) fail(line_, "expected '*/' after '/*', found the end of the file");
-        move_to(close + 2);
-      } else if (ignored.find(text_[position_]) != std::string_view::npos) {
-        move_to(position_ + 1);
-      } else {
-        return;
-      }
-    }
-  }
-
-  Token scan() {
-    skip_ignored();
-    const std::size_t line = line_, start = position_;
-    if (start == text_.size()) return {"", line, Token::end};
-    if (signs.find(text_[start]) != std::string_view::npos) {
-      move_to(start + 1);
-      return {text_.substr(start, 1), line, Token::sign};
-    }
-    if (text_[start] == '"') {
-      const std::size_t close = text_.find('"', start + 1);
-      if (close == std::string::npos) fail(line, "expected '\"' at the end of a name, found the end of the file");
-      move_to(close + 1);
-      return {text_.substr(start + 1, close - start - 1), line, Token::quoted};
-    }
-    while (position_ < text_.size() && (signs.find(text_[position_]) == std::string_view::npos) &&
-           ignored.find(text_[position_]) == std::string_view::npos && !at("//") && !at("/*"))
-      ++position_;
-    return {text_.substr(start, position_ - start), line, Token::word};
-  }
-
-  std::string text_;
-  std::string file_;
-  std::size_t position_ = 0;
-  std::size_t line_ = 1;
-  Token next_;
-};
-
-struct Block {
-  std::size_t line;
-  RandomVariable variable;
-  std::optional<std::size_t> table_line;  ///< of its probability block, once there is one
-  std::vector<std::size_t> parents;
-  std::vector<std::vector<double>> rows;
-};
+Token text_of(Token token) { return token.starts_with('"') ? token.substr(1, token.size() - 2) : token; }
+std::string quoted(Token text) { return "'" + std::string(text) + "'"; }
 
 class Reader {
  public:
-  Reader(std::istream& in, std::string_view file) : tokens_(in, file) {}
+  Reader(std::istream& in, std::string_view file) : text_(contents(in)), file_(file), rest_(text_) {
+    if (in.bad() || (text_.empty() && in.fail())) fail(rest_, "expected a network, found that nothing can be read");
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // a byte-order mark
+    take();
+  }
 
   RelationNetwork read() {
-    tokens_.expect("network");
-    tokens_.word("the name of the network");
-    tokens_.expect("{");
-    while (!tokens_.is("}")) property("'property' or '}'");
-    tokens_.expect("}");
-    while (tokens_.peek().sort != Token::end) {
-      if (tokens_.is("variable")) {
+    expect("network");
+    word("the name of the network");
+    expect("{");
+    while (next_ != "}") property("'property' or '}'");
+    expect("}");
+    while (!next_.empty()) {
+      if (next_ == "variable") {
         variable();
-      } else if (tokens_.is("probability")) {
+      } else if (next_ == "probability") {
         probability();
       } else {
-        tokens_.fail("'variable' or 'probability'");
+        refuse("'variable' or 'probability'");
       }
     }
-    if (blocks_.empty()) tokens_.fail("'variable'");
+    if (blocks_.empty()) refuse("'variable'");
     return network();
   }
 
  private:
+  struct Block {
+    Token name;
+    RandomVariable variable;
+    std::optional<Token> table;  ///< of its probability block, once there is one
+    std::vector<std::size_t> parents;
+    std::vector<std::vector<double>> rows;
+  };
+
   static constexpr std::size_t greatest_table = std::size_t{1} << 22;
 
-  void property(const std::string& expected) {
-    if (!tokens_.is("property")) tokens_.fail(expected);
-    while (!tokens_.is(";")) {
-      if (tokens_.peek().sort == Token::end) tokens_.fail("';' after a property");
-      tokens_.take();
+  static std::string contents(std::istream& in) {
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  /// The number of the line where a token begins.
+  std::string line_of(Token token) const { return std::to_string(1 + std::count(text_.data(), token.data(), '\n')); }
+
+  /// Throws: something is wrong with a line.
+  [[noreturn]] void fail(Token at, const std::string& what) const {
+    throw std::invalid_argument(file_ + ":" + line_of(at) + ": " + what);
+  }
+
+  /// Throws: what comes next is not what is expected.
+  [[noreturn]] void refuse(const std::string& expected) const {
+    fail(next_, "expected " + expected + ", found " + (next_.empty() ? "the end of the file" : quoted(text_of(next_))));
+  }
+
+  void skip(std::size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
+
+  Token scan() {
+    for (bool skipped = true; skipped && !rest_.empty();) {
+      if (rest_.starts_with("//")) {
+        skip(rest_.find('\n'));
+      } else if (rest_.starts_with("/*")) {
+        const std::size_t close = rest_.find("*/", 2);
+        if (close == Token::npos) fail(rest_, "expected '*/' after '/*', found the end of the file");
+        skip(close + 2);
+      } else if ((skipped = has(ignored, rest_.front()))) {
+        skip(1);
+      }
     }
-    tokens_.take();
+    std::size_t size = std::min<std::size_t>(rest_.size(), 1);
+    if (rest_.starts_with('"')) {
+      size = rest_.find('"', 1) + 1;
+      if (size == 0) fail(rest_, "expected '\"' at the end of a name, found the end of the file");
+    } else if (size > 0 && !has(signs, rest_.front())) {
+      const auto goes_on = [](Token rest) {
+        return !has(signs, rest.front()) && !has(ignored, rest.front()) && !rest.starts_with("//") &&
+               !rest.starts_with("/*");
+      };
+      while (size < rest_.size() && goes_on(rest_.substr(size))) ++size;
+    }
+    const Token token = rest_.substr(0, size);
+    skip(size);
+    return token;
+  }
+
+  Token take() { return std::exchange(next_, scan()); }
+
+  /// Takes a token that must be this one.
+  void expect(Token text) {
+    if (next_ != text) refuse(quoted(text));
+    take();
+  }
+  Token word(const std::string& meaning) {
+    if (next_.empty() || has(signs, next_.front())) refuse(meaning);
+    return take();
+  }
+
+  void property(const std::string& expected) {
+    if (next_ != "property") refuse(expected);
+    while (next_ != ";") {
+      if (next_.empty()) refuse("';' after a property");
+      take();
+    }
+    take();
   }
 
   void variable() {
-    tokens_.expect("variable");
-    const Token name = tokens_.word("the name of a variable");
-    if (index_.contains(name.text)) tokens_.fail(name.line, "variable '" + name.text + "' is declared twice");
-    tokens_.expect("{");
+    take();
+    const Token name = word("the name of a variable");
+    const std::string text(text_of(name));
+    if (index_.contains(text)) fail(name, "variable '" + text + "' is declared twice");
+    expect("{");
     std::optional<std::vector<std::string>> labels;
-    while (!tokens_.is("}")) {
-      if (tokens_.is("type") && !labels) {
+    while (next_ != "}") {
+      if (next_ == "type" && !labels) {
         labels = outcomes();
       } else {
         property(labels ? "'property' or '}'" : "'type' or 'property'");
       }
     }
-    if (!labels) tokens_.fail("'type'");
-    tokens_.expect("}");
+    if (!labels) refuse("'type'");
+    take();
     try {
-      blocks_.push_back({name.line, RandomVariable{name.text, std::move(*labels)}, {}, {}, {}});
+      blocks_.push_back({name, RandomVariable{text, std::move(*labels)}, {}, {}, {}});
     } catch (const std::invalid_argument& error) {
-      tokens_.fail(name.line, error.what());
+      fail(name, error.what());
     }
-    index_.emplace(name.text, blocks_.size() - 1);
+    index_.emplace(text, blocks_.size() - 1);
   }
 
   std::vector<std::string> outcomes() {
-    tokens_.expect("type");
-    tokens_.expect("discrete");
-    tokens_.expect("[");
-    const Token count = tokens_.word("the number of outcomes");
-    tokens_.expect("]");
-    tokens_.expect("{");
+    take();
+    expect("discrete");
+    expect("[");
+    const Token count = word("the number of outcomes");
+    expect("]");
+    expect("{");
     std::vector<std::string> labels;
-    while (!tokens_.is("}")) labels.push_back(tokens_.word("an outcome or '}'").text);
-    if (std::to_string(labels.size()) != count.text)
-      tokens_.fail(count.line, "expected as many outcomes as the number says, found '" + count.text + "' and " +
-                                   std::to_string(labels.size()) + " outcomes");
-    tokens_.expect("}");
-    tokens_.expect(";");
+    while (next_ != "}") labels.emplace_back(text_of(word("an outcome or '}'")));
+    const std::string found = std::to_string(labels.size());
+    if (found != text_of(count))
+      fail(count, "expected as many outcomes as the number says, found " + quoted(text_of(count)) + " and " + found +
+                      " outcomes");
+    take();
+    expect(";");
     return labels;
   }
 
   std::size_t declared(const std::string& meaning) {
-    const Token name = tokens_.word(meaning);
-    const auto found = index_.find(name.text);
-    if (found == index_.end()) tokens_.fail(name.line, "expected " + meaning + ", found '" + name.text + "'");
+    const Token name = word(meaning);
+    const auto found = index_.find(text_of(name));
+    if (found == index_.end()) fail(name, "expected " + meaning + ", found " + quoted(text_of(name)));
     return found->second;
   }
 
   void probability() {
-    const std::size_t line = tokens_.take().line;
-    tokens_.expect("(");
+    const Token start = take();
+    expect("(");
     Block& block = blocks_[declared("the name of a declared variable")];
-    if (block.table_line)
-      tokens_.fail(line, "variable '" + block.variable.name() + "' has a probability already, in line " +
-                             std::to_string(*block.table_line));
-    block.table_line = line;
+    const std::string name = quoted(block.variable.name());
+    if (block.table) fail(start, "variable " + name + " has a probability already, in line " + line_of(*block.table));
+    block.table = start;
     std::size_t rows = 1;
-    while (!tokens_.is(")")) {
+    while (next_ != ")") {
       block.parents.push_back(declared("the name of a declared variable or ')'"));
       rows *= blocks_[block.parents.back()].variable.size();
       if (rows * block.variable.size() > greatest_table)
-        tokens_.fail(line, "the table of '" + block.variable.name() + "' has more than " +
-                               std::to_string(greatest_table) + " numbers");
+        fail(start, "the table of " + name + " has more than " + std::to_string(greatest_table) + " numbers");
     }
-    tokens_.expect(")");
-    tokens_.expect("{");
+    take();
+    expect("{");
     block.rows.resize(rows);
     std::vector<double> otherwise;
-    while (!tokens_.is("}")) {
-      if (tokens_.is("table")) {
+    while (next_ != "}") {
+      if (next_ == "table") {
         table(block);
-      } else if (tokens_.is("default")) {
-        tokens_.take();
+      } else if (next_ == "default") {
+        take();
         otherwise = row(block);
-      } else if (tokens_.is("(")) {
+      } else if (next_ == "(") {
         entry(block);
       } else {
         property("'table', 'default', '(', 'property' or '}'");
@@ -252,121 +221,135 @@ class Reader {
     }
     for (std::size_t r = 0; r < rows; ++r) {
       if (block.rows[r].empty()) block.rows[r] = otherwise;
-      if (block.rows[r].empty()) tokens_.fail("a row for " + condition(block, r) + " or 'default'");
+      if (block.rows[r].empty()) refuse("a row for " + condition(block, r) + " or 'default'");
     }
-    tokens_.expect("}");
+    take();
   }
 
   /// "(young, calm)": the outcomes of the parents in one row, the last fastest.
   std::string condition(const Block& block, std::size_t row) const {
-    std::vector<Outcomes> parents;
-    for (const std::size_t parent : block.parents) parents.push_back(blocks_[parent].variable);
-    return "(" + labels_of_row(parents, row) + ")";
+    return "(" + labels_of_row(parents_of(block), row) + ")";
+  }
+
+  std::vector<NetworkVariable> parents_of(const Block& block) const {
+    std::vector<NetworkVariable> parents;
+    for (const std::size_t parent : block.parents) parents.emplace_back(blocks_[parent].variable);
+    return parents;
   }
 
   void entry(Block& block) {
-    const std::size_t line = tokens_.peek().line;
-    tokens_.expect("(");
+    const Token start = take();
     std::size_t index = 0;
     for (const std::size_t parent : block.parents) {
       const auto& variable = blocks_[parent].variable;
-      const Token label = tokens_.word("an outcome of '" + variable.name() + "'");
+      const Token label = word("an outcome of " + quoted(variable.name()));
       try {
-        index = index * variable.size() + variable.index_of(label.text);
+        index = index * variable.size() + variable.index_of(text_of(label));
       } catch (const std::invalid_argument& error) {
-        tokens_.fail(label.line, error.what());
+        fail(label, error.what());
       }
     }
-    tokens_.expect(")");
-    if (!block.rows[index].empty()) tokens_.fail(line, "the row for " + condition(block, index) + " is given twice");
+    expect(")");
+    if (!block.rows[index].empty()) fail(start, "the row for " + condition(block, index) + " is given twice");
     block.rows[index] = row(block);
   }
 
   double number() {
-    const Token token = tokens_.word("a number");
+    const Token token = word("a number"), text = text_of(token);
     double value = 0.0;
-    const char* const end = token.text.data() + token.text.size();
-    const auto read = std::from_chars(token.text.data(), end, value);
-    if (read.ec != std::errc{} || read.ptr != end || !(value >= 0.0 && value <= 1.0 + bif_tolerance))
-      tokens_.fail(token.line, "expected a number between 0 and 1, found '" + token.text + "'");
+    const auto read = std::from_chars(text.begin(), text.end(), value);
+    if (read.ec != std::errc{} || read.ptr != text.end() || !(value >= 0.0 && value <= 1.0 + bif_tolerance))
+      fail(token, "expected a number between 0 and 1, found " + quoted(text));
     return value;
   }
 
-  std::vector<double> row(const Block& block) {
-    const std::size_t line = tokens_.peek().line;
+  /// So many numbers and ";".
+  std::vector<double> numbers(const Block& block, std::size_t count) {
     std::vector<double> values;
-    while (!tokens_.is(";") && values.size() < block.variable.size()) values.push_back(number());
-    if (values.size() < block.variable.size())
-      tokens_.fail(std::to_string(block.variable.size()) + " numbers for '" + block.variable.name() + "'");
-    tokens_.expect(";");
-    normalize(values, line);
+    while (values.size() < count) {
+      if (next_ == ";") refuse(std::to_string(count) + " numbers for " + quoted(block.variable.name()));
+      values.push_back(number());
+    }
+    expect(";");
+    return values;
+  }
+
+  std::vector<double> row(const Block& block) {
+    const Token start = next_;
+    std::vector<double> values = numbers(block, block.variable.size());
+    normalize(values, start);
     return values;
   }
 
   /// The outcomes of the variable itself come slowest.
   void table(Block& block) {
-    const std::size_t line = tokens_.take().line;
-    const std::size_t outcomes = block.variable.size();
-    for (auto& values : block.rows) {
-      if (!values.empty()) tokens_.fail(line, "expected a 'table' or rows, found both or 'table' twice");
-      values.resize(outcomes);
+    const Token start = take();
+    for (const auto& values : block.rows)
+      if (!values.empty()) fail(start, "expected a 'table' or rows, found both or 'table' twice");
+    const std::size_t rows = block.rows.size();
+    const std::vector<double> values = numbers(block, block.variable.size() * rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t i = r; i < values.size(); i += rows) block.rows[r].push_back(values[i]);
+      normalize(block.rows[r], start);
     }
-    for (std::size_t i = 0; i < outcomes; ++i)
-      for (auto& values : block.rows) {
-        if (tokens_.is(";"))
-          tokens_.fail(std::to_string(outcomes * block.rows.size()) + " numbers for '" + block.variable.name() + "'");
-        values[i] = number();
-      }
-    tokens_.expect(";");
-    for (auto& values : block.rows) normalize(values, line);
   }
 
-  void normalize(std::vector<double>& values, std::size_t line) const {
+  void normalize(std::vector<double>& values, Token start) const {
     const double sum = total<Random>(values);
     if (!(std::abs(sum - 1.0) <= bif_tolerance))
-      tokens_.fail(line, "expected probabilities of the sum 1, found the sum " + std::to_string(sum));
+      fail(start, "expected probabilities of the sum 1, found the sum " + std::to_string(sum));
     if (std::abs(sum - 1.0) <= drift_tolerance) return;  // written with all digits
     for (double& value : values) value /= sum;
   }
 
+  /// Depth first: parents before children, as early as the file has them.
   RelationNetwork network() const {
-    std::vector<std::vector<std::size_t>> parents;
-    for (const Block& block : blocks_) {
-      if (!block.table_line)
-        tokens_.fail(block.line, "expected a probability of variable '" + block.variable.name() + "', found none");
-      parents.push_back(block.parents);
-    }
-    const auto order = elimination::parents_first(parents, [this](std::size_t child, std::size_t parent) {
-      tokens_.fail(*blocks_[child].table_line, "expected parents that do not depend on '" +
-                                                   blocks_[child].variable.name() + "', found '" +
-                                                   blocks_[parent].variable.name() + "'");
-    });
+    for (const Block& block : blocks_)
+      if (!block.table)
+        fail(block.name, "expected a probability of variable " + quoted(block.variable.name()) + ", found none");
     RelationNetwork network;
-    for (const std::size_t v : order) {
-      const Block& block = blocks_[v];
-      std::vector<NetworkVariable> conditions;
-      for (const std::size_t parent : block.parents) conditions.emplace_back(blocks_[parent].variable);
-      try {
-        network.declare(block.variable, conditions, block.rows);
-      } catch (const std::invalid_argument& error) {
-        tokens_.fail(*block.table_line, error.what());
+    std::vector<std::size_t> open, entered(blocks_.size(), 0);  // how many of the parents were, and one more
+    std::vector<bool> done(blocks_.size(), false);
+    for (std::size_t root = 0; root < blocks_.size(); ++root) {
+      if (!done[root]) open.push_back(root);
+      while (!open.empty()) {
+        const std::size_t v = open.back();
+        const Block& block = blocks_[v];
+        if (entered[v]++ == block.parents.size()) {
+          declare(network, block);
+          done[v] = true;
+          open.pop_back();
+        } else if (const std::size_t parent = block.parents[entered[v] - 1]; entered[parent] == 0) {
+          open.push_back(parent);
+        } else if (!done[parent]) {
+          fail(*block.table, "expected parents that do not depend on " + quoted(block.variable.name()) + ", found " +
+                                 quoted(blocks_[parent].variable.name()));
+        }
       }
     }
     return network;
   }
 
-  Tokens tokens_;
+  void declare(RelationNetwork& network, const Block& block) const {
+    try {
+      network.declare(block.variable, parents_of(block), block.rows);
+    } catch (const std::invalid_argument& error) {
+      fail(*block.table, error.what());
+    }
+  }
+
+  std::string text_;
+  std::string file_;
+  Token rest_, next_;
   std::vector<Block> blocks_;
   std::map<std::string, std::size_t, std::less<>> index_;
 };
 
 /// A name as the format reads it again. Throws std::invalid_argument for one that it cannot.
 std::string written(const std::string& name) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '+';
-  };
+  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || has("_-.+", c); };
   if (!name.empty() && std::all_of(name.begin(), name.end(), plain)) return name;
-  if (name.find('"') != std::string::npos)
+  if (has(name, '"'))
     throw std::invalid_argument("BIF cannot hold the name '" + name + "', for it has a quotation mark");
   return '"' + name + '"';
 }
@@ -393,25 +376,19 @@ void write_bif(std::ostream& out, const RelationNetwork& network, std::string_vi
   }
   for (const auto& vertex : network.vertices()) {
     text << "probability ( " << written(vertex.variable.name());
+    std::vector<NetworkVariable> parents;
     std::size_t rows = 1;
-    const char* separator = " | ";
     for (const std::size_t parent : vertex.parents) {
-      text << std::exchange(separator, ", ") << written(network[parent].variable.name());
-      rows *= network[parent].variable.size();
+      text << (parents.empty() ? " | " : ", ") << written(network[parent].variable.name());
+      parents.push_back(network[parent].variable);
+      rows *= parents.back().size();
     }
     text << " ) {\n";
     for (std::size_t row = 0; row < rows; ++row) {
-      std::string labels;
-      for (std::size_t p = vertex.parents.size(), rest = row; p-- > 0;) {
-        const NetworkVariable& parent = network[vertex.parents[p]].variable;
-        labels = written(parent.label(rest % parent.size())) + (labels.empty() ? "" : ", ") + labels;
-        rest /= parent.size();
-      }
-      text << (vertex.parents.empty() ? "  table" : "  (" + labels + ")");
-      const auto value = [&](std::size_t i) {
-        return std::visit([&](const auto& all) { return all.at(row, i); }, vertex.rows);
-      };
-      for (std::size_t i = 0; i < vertex.variable.size(); ++i) text << (i > 0 ? ", " : " ") << written(value(i));
+      const auto labels = labels_of_row(parents, row, [](const std::string& label) { return written(label); });
+      text << (parents.empty() ? "  table" : "  (" + labels + ")");
+      const Table values = detail::dense_row(vertex.rows, row);
+      for (std::size_t i = 0; i < values.size(); ++i) text << (i > 0 ? ", " : " ") << written(values(0, i));
       text << ";\n";
     }
     text << "}\n";

@@ -1,5 +1,3 @@
-#include "clique_tree.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "exponents.hpp"
+#include "solve.hpp"
 
 namespace sigmax::elimination {
 namespace {

@@ -18,16 +18,8 @@ elimination::Factor joint(const RelationNetwork& network, const std::vector<Vert
                           const std::vector<Vertex>& asked, std::size_t table_limit) {
   const auto findings = elimination::findings_of(network, {});
   const auto parts = elimination::parts_of(network, tables, findings, asked);
-  std::vector<std::pair<Vertex, Role>> fixed;
-  double numbers = 1.0;
-  for (const Vertex v : asked) {
-    fixed.emplace_back(v, Role::fixed);
-    numbers *= static_cast<double>(network[v].variable.size());
-  }
-  const auto order = elimination::order_of_elimination(elimination::order_problem(network, parts, fixed));
-  elimination::refuse_above(table_limit, order.greatest_table, order.greatest_scope, network);
-  elimination::refuse_above(table_limit, numbers, asked, network);
-  return elimination::joint(network, elimination::factors_of(network, parts, findings), order, asked);
+  const auto order = elimination::order_of_elimination(elimination::order_problem(network, parts, asked));
+  return elimination::joint(network, parts, findings, order, asked, table_limit);
 }
 
 }  // namespace
@@ -51,7 +43,8 @@ ComposedRelation compose(const RelationNetwork& network, std::string_view from_n
   const auto numbers = joint(network, tables, {from, to}, table_limit);
 
   const auto parts = elimination::parts_of(network, tables, elimination::findings_of(network, {}), {from, to});
-  const auto problem = elimination::order_problem(network, parts, {{from, Role::fixed}, {to, Role::kept}});
+  auto problem = elimination::order_problem(network, parts, {from});
+  problem.roles[to] = Role::kept;
   const bool induced = !elimination::order_of_elimination(problem).complete;
 
   Table rows(from_variable.size(), to_variable.size());

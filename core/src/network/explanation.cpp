@@ -32,14 +32,10 @@ Explanation most_likely_outcomes(const RelationNetwork& network, const std::vect
   const auto parts = elimination::parts_of(network, elimination::relevant(network, asked, findings), findings, {});
 
   // The others by their kinds, then those asked for by the maximum, on what is left of the factors.
-  std::vector<std::pair<Vertex, Role>> fixed;
-  for (const Vertex v : asked) fixed.emplace_back(v, Role::fixed);
-  auto problem = elimination::order_problem(network, parts, fixed);
+  auto problem = elimination::order_problem(network, parts, asked);
   const auto within = elimination::order_of_elimination(problem);
-  elimination::refuse_above(table_limit, within.greatest_table, within.greatest_scope, network);
-  auto factors = elimination::eliminated(
-      elimination::factors_of(network, parts, findings), within.vertices, sizes,
-      [&](const auto& bucket, Vertex v) { return elimination::eliminate_by_kind(network, bucket, v, sizes); });
+  elimination::refuse_above(table_limit, within, network);
+  auto factors = elimination::eliminated(network, elimination::factors_of(network, parts, findings), within.vertices);
 
   problem.kinds.assign(network.size(), 0);  // as if of one kind
   problem.roles.assign(network.size(), Role::absent);
@@ -49,7 +45,7 @@ Explanation most_likely_outcomes(const RelationNetwork& network, const std::vect
     for (const Vertex v : factor.scope) problem.roles[v] = Role::eliminated;
   }
   const auto order = elimination::order_of_elimination(problem);
-  elimination::refuse_above(table_limit, order.greatest_table, order.greatest_scope, network);
+  elimination::refuse_above(table_limit, order, network);
 
   // Max is selective: what each elimination selected is read off its factors afterwards, outermost variable first.
   std::vector<std::vector<Factor>> buckets;
@@ -66,13 +62,10 @@ Explanation most_likely_outcomes(const RelationNetwork& network, const std::vect
   for (Vertex v = 0; v < network.size(); ++v) outcomes[v] = parts.known[v].value_or(0);
   for (std::size_t step = order.vertices.size(); step-- > 0;) {
     const Vertex v = order.vertices[step];
-    auto factors_of_v = std::move(buckets[step]);
-    for (Factor& factor : factors_of_v) {
-      const std::vector<Vertex> scope = factor.scope;
-      for (const Vertex other : scope)
-        if (other != v) factor = elimination::restricted(factor, other, outcomes[other], sizes);
-    }
-    const auto values = elimination::product(factors_of_v, {v}, sizes).values;
+    std::vector<ScaledNumber> values(sizes[v], ScaledNumber{1.0});
+    for (outcomes[v] = 0; outcomes[v] < sizes[v]; ++outcomes[v])
+      for (const Factor& factor : buckets[step])
+        values[outcomes[v]] = values[outcomes[v]] * elimination::number_at(factor, outcomes, sizes);
     outcomes[v] = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   }
   Explanation explanation{{}, {}, best.log()};

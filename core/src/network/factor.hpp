@@ -90,16 +90,12 @@ Factor eliminate(std::span<const Factor> factors, Vertex vertex, std::span<const
   return result;
 }
 
-/// The factor where `vertex`, which is in its scope, has this outcome.
-inline Factor restricted(const Factor& factor, Vertex vertex, std::size_t outcome, std::span<const std::size_t> sizes) {
-  const auto place = std::find(factor.scope.begin(), factor.scope.end(), vertex);
-  const std::size_t inner = outcomes_of({place + 1, factor.scope.end()}, sizes);
-  Factor result{factor.scope, {}};
-  result.scope.erase(result.scope.begin() + (place - factor.scope.begin()));
-  result.values.reserve(factor.values.size() / sizes[vertex]);
-  for (std::size_t start = outcome * inner; start < factor.values.size(); start += inner * sizes[vertex])
-    for (std::size_t i = start; i < start + inner; ++i) result.values.push_back(factor.values[i]);
-  return result;
+/// The number of a factor where every vertex, by its index, has this outcome.
+inline ScaledNumber number_at(const Factor& factor, std::span<const std::size_t> outcomes,
+                              std::span<const std::size_t> sizes) {
+  std::size_t index = 0;
+  for (const Vertex v : factor.scope) index = index * sizes[v] + outcomes[v];
+  return factor.values[index];
 }
 
 }  // namespace sigmax::elimination

@@ -8,7 +8,7 @@
 
 #include <sigmax/core/network/transform.hpp>
 
-#include "row_label.hpp"
+#include "solve.hpp"
 
 namespace sigmax {
 namespace {
@@ -16,62 +16,55 @@ namespace {
 /// The condition of row `row`, for a message: one outcome of all parents together, "(age, mood)" = "(old, calm)".
 Outcomes condition(const std::vector<NetworkVariable>& parents, std::size_t row) {
   std::string names;
-  std::vector<Outcomes> outcomes;
-  for (const auto& parent : parents) {
-    names += (names.empty() ? "" : ", ") + parent.name();
-    outcomes.push_back(parent.outcomes());
-  }
-  const std::string labels = labels_of_row(outcomes, row);
+  for (const auto& parent : parents) names += (names.empty() ? "" : ", ") + parent.name();
+  const std::string labels = labels_of_row(parents, row);
   if (parents.size() == 1) return {names, {labels}};
   return {"(" + names + ")", {"(" + labels + ")"}};
 }
 
-/// Runs `prove(row)`; only where that throws is the row's condition put into words.
+/// Runs prove(variable of its kind, row's condition, row) for every row; only where that throws is the condition put
+/// into words.
 template <class Prove>
-void prove_row(const std::vector<NetworkVariable>& parents, std::size_t row, const Prove& prove) {
-  try {
-    prove(check::Row{});
-  } catch (const std::invalid_argument&) {
-    if (parents.empty()) throw;
-    const Outcomes given = condition(parents, row);
-    prove(check::Row{&given, 0});
-  }
-}
-
-void prove_number_of_rows(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
-                          std::size_t rows) {
+void prove_rows(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, std::size_t rows,
+                const Prove& prove) {
   std::size_t expected = 1;
   for (const auto& parent : parents) expected *= parent.size();
   if (rows != expected)
     throw std::invalid_argument("the table of '" + variable.name() + "' needs " + std::to_string(expected) +
                                 " rows, one for the outcomes of its parents together, but " + std::to_string(rows) +
                                 " were given");
+  variable.visit([&](const auto& typed) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      try {
+        prove(typed, check::Row{}, row);
+      } catch (const std::invalid_argument&) {
+        if (parents.empty()) throw;
+        const Outcomes given = condition(parents, row);
+        prove(typed, check::Row{&given, 0}, row);
+      }
+    }
+  });
 }
 
 }  // namespace
 
 void RelationNetwork::declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                               const std::vector<std::vector<double>>& rows) {
-  prove_number_of_rows(variable, parents, rows.size());
   Table table(rows.size(), variable.size());
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    variable.visit([&]<class Kind>(const Variable<Kind>& typed) {
-      prove_row(parents, row, [&](check::Row at) { prove_normalized<Kind>(typed, at, rows[row]); });
-    });
-    std::copy(rows[row].begin(), rows[row].end(), table.row(row).begin());
-  }
+  prove_rows(variable, parents, rows.size(),
+             [&]<class Kind>(const Variable<Kind>& typed, check::Row condition, std::size_t row) {
+               prove_normalized<Kind>(typed, condition, rows[row]);
+               std::copy(rows[row].begin(), rows[row].end(), table.row(row).begin());
+             });
   append(variable, parents, std::move(table));
 }
 
 void RelationNetwork::declare(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                               SparseRows rows) {
-  prove_number_of_rows(variable, parents, rows.rows());
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    variable.visit([&]<class Kind>(const Variable<Kind>& typed) {
-      prove_row(parents, row, [&](check::Row at) {
-        detail::prove_entries(typed, at, rows.entries(row), detail::algebra_of<Kind>(), Kind::total);
-      });
-    });
+  prove_rows(variable, parents, rows.rows(),
+             [&]<class Kind>(const Variable<Kind>& typed, check::Row condition, std::size_t row) {
+               detail::prove_entries(typed, condition, rows.entries(row), detail::algebra_of<Kind>(), Kind::total);
+             });
   rows.widen(variable.size());
   append(variable, parents, std::move(rows));
 }
@@ -85,21 +78,9 @@ Distribution<Random> RelationNetwork::given(std::size_t v, std::span<const std::
 }
 
 std::size_t RelationNetwork::index_of(std::string_view name) const {
-  const auto place = place_of(name);
-  if (place == by_name_.end() || vertices_[*place].variable.name() != name)
-    throw std::invalid_argument("the network has no variable '" + std::string(name) + "'");
-  return *place;
-}
-
-std::vector<std::size_t>::const_iterator RelationNetwork::place_of(std::string_view name) const {
-  return std::lower_bound(by_name_.begin(), by_name_.end(), name, [this](std::size_t v, std::string_view other) {
-    return vertices_[v].variable.name() < other;
-  });
-}
-
-bool RelationNetwork::has(std::string_view name) const {
-  const auto place = place_of(name);
-  return place != by_name_.end() && vertices_[*place].variable.name() == name;
+  const auto found = by_name_.find(name);
+  if (found == by_name_.end()) throw std::invalid_argument("the network has no variable '" + std::string(name) + "'");
+  return found->second;
 }
 
 std::size_t RelationNetwork::index_of(const NetworkVariable& variable) const {
@@ -114,10 +95,11 @@ std::size_t RelationNetwork::index_of(const NetworkVariable& variable) const {
 
 void RelationNetwork::append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents,
                              AnyRows rows) {
-  if (has(variable.name())) throw std::invalid_argument("variable '" + variable.name() + "' is declared twice");
+  if (by_name_.contains(variable.name()))
+    throw std::invalid_argument("variable '" + variable.name() + "' is declared twice");
   std::vector<std::size_t> indices;
   for (const auto& parent : parents) {
-    if (!has(parent.name()))
+    if (!by_name_.contains(parent.name()))
       throw std::invalid_argument("variable '" + variable.name() + "' has the parent '" + parent.name() +
                                   "', which is not declared before it");
     const std::size_t index = index_of(parent);
@@ -125,9 +107,8 @@ void RelationNetwork::append(const NetworkVariable& variable, const std::vector<
       throw std::invalid_argument("variable '" + variable.name() + "' has the parent '" + parent.name() + "' twice");
     indices.push_back(index);
   }
-  const auto place = place_of(variable.name()) - by_name_.begin();
   vertices_.push_back({variable, std::move(indices), std::move(rows)});
-  by_name_.insert(by_name_.begin() + place, vertices_.size() - 1);
+  by_name_.emplace(variable.name(), vertices_.size() - 1);
 }
 
 RelationNetwork as_fuzzy(const RelationNetwork& network, const RowTransform& transform) {

@@ -4,10 +4,8 @@
 #include <limits>
 #include <queue>
 #include <set>
+#include <tuple>
 #include <utility>
-
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/depth_first_search.hpp>
 
 namespace sigmax::elimination {
 namespace {
@@ -173,61 +171,35 @@ class Blocking {
   std::vector<std::vector<Vertex>> by_;  // whom each is known to block
 };
 
-/// The variables that are left, by fill, then by table, then innermost first. Tables are computed when they matter.
+/// The variables that are left, by fill, then by table, then innermost first.
 class Candidates {
  public:
   Candidates(const Interactions& graph, const std::vector<std::size_t>& sizes)
-      : graph_(&graph), sizes_(&sizes), entries_(sizes.size()) {}
+      : graph_(&graph), sizes_(&sizes), keys_(sizes.size()) {}
+
+  struct Key {
+    std::size_t fill = 0;
+    double table = 0.0;  // the outcomes that the elimination ranges over; of no candidate zero
+    Vertex v = 0;
+    bool operator<(const Key& other) const {
+      return std::tie(fill, table, other.v) < std::tie(other.fill, other.table, v);
+    }
+  };
 
   bool empty() const { return order_.empty(); }
-  bool contains(Vertex v) const { return entries_[v].present; }
+  bool contains(Vertex v) const { return keys_[v].table > 0.0; }
   void insert(Vertex v) {
-    entries_[v] = {graph_->fill(v), unknown, true};
-    order_.insert(key(v));
+    double table = static_cast<double>((*sizes_)[v]);
+    for (const Vertex u : graph_->around(v)) table *= static_cast<double>((*sizes_)[u]);
+    order_.insert(keys_[v] = {graph_->fill(v), table, v});
   }
-  void erase(Vertex v) {
-    order_.erase(key(v));
-    entries_[v].present = false;
-  }
-  std::size_t least_fill() const {
-    return order_.empty() ? std::numeric_limits<std::size_t>::max() : order_.begin()->fill;
-  }
-
-  /// The first variable, and the outcomes that its elimination ranges over.
-  std::pair<Vertex, double> first() {
-    while (order_.begin()->table == unknown) {
-      const Vertex v = order_.begin()->v;
-      order_.erase(order_.begin());
-      double outcomes = static_cast<double>((*sizes_)[v]);
-      for (const Vertex u : graph_->around(v)) outcomes *= static_cast<double>((*sizes_)[u]);
-      entries_[v].table = outcomes;
-      order_.insert(key(v));
-    }
-    return {order_.begin()->v, order_.begin()->table};
-  }
+  void erase(Vertex v) { order_.erase(std::exchange(keys_[v], {})); }
+  const Key& first() const { return *order_.begin(); }
 
  private:
-  static constexpr double unknown = 0.0;  // below all others, so that it is asked for before they are chosen
-  struct Entry {
-    std::size_t fill = 0;
-    double table = unknown;
-    bool present = false;
-  };
-  struct Key {
-    std::size_t fill;
-    double table;
-    Vertex v;
-    bool operator<(const Key& other) const {
-      if (fill != other.fill) return fill < other.fill;
-      if (table != other.table) return table < other.table;
-      return v > other.v;
-    }
-  };
-  Key key(Vertex v) const { return {entries_[v].fill, entries_[v].table, v}; }
-
   const Interactions* graph_;
   const std::vector<std::size_t>* sizes_;
-  std::vector<Entry> entries_;
+  std::vector<Key> keys_;
   std::set<Key> order_;
 };
 
@@ -273,8 +245,8 @@ Order order_of_elimination(const OrderProblem& problem) {
   for (Vertex v = 0; v < roles.size(); ++v)
     if (roles[v] == Role::eliminated) (blocking.blocked(v) ? blocked : free).insert(v);
   while (!free.empty()) {
-    if (blocked.least_fill() < free.least_fill()) order.forced = true;
-    const auto [v, outcomes] = free.first();
+    const auto [fill, outcomes, v] = free.first();
+    if (!blocked.empty() && blocked.first().fill < fill) order.forced = true;
     order.vertices.push_back(v);
     if (outcomes > order.greatest_table) {
       order.greatest_table = outcomes;
@@ -291,28 +263,6 @@ Order order_of_elimination(const OrderProblem& problem) {
       if (blocked.contains(u)) blocked.erase(u), free.insert(u);
   }
   order.complete = blocked.empty();
-  return order;
-}
-
-std::vector<Vertex> parents_first(const std::vector<std::vector<Vertex>>& parents,
-                                  const std::function<void(Vertex child, Vertex parent)>& on_cycle) {
-  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
-  Graph graph(parents.size());
-  for (Vertex child = 0; child < parents.size(); ++child)
-    for (const Vertex parent : parents[child]) boost::add_edge(child, parent, graph);
-
-  struct Visitor : boost::default_dfs_visitor {
-    Visitor(std::vector<Vertex>& order, const std::function<void(Vertex, Vertex)>& on_cycle)
-        : order_(&order), on_cycle_(&on_cycle) {}
-    void back_edge(const Graph::edge_descriptor& edge, const Graph& g) const {
-      (*on_cycle_)(boost::source(edge, g), boost::target(edge, g));
-    }
-    void finish_vertex(Vertex v, const Graph&) const { order_->push_back(v); }
-    std::vector<Vertex>* order_;
-    const std::function<void(Vertex, Vertex)>* on_cycle_;
-  };
-  std::vector<Vertex> order;
-  boost::depth_first_search(graph, boost::visitor(Visitor(order, on_cycle)));
   return order;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "factor.hpp"
@@ -47,10 +46,5 @@ std::vector<bool> can_be_last(const OrderProblem& problem);
 /// passes by the half that does not have its variable. A variable is free to be eliminated next if such exchanges bring
 /// it innermost. Freedom is never lost, so the greedy choice cannot get stuck.
 Order order_of_elimination(const OrderProblem& problem);
-
-/// The vertices with parents before children, as early as their index allows. Calls `on_cycle(child, parent)`, which
-/// throws, for a parent that descends from its child.
-std::vector<Vertex> parents_first(const std::vector<std::vector<Vertex>>& parents,
-                                  const std::function<void(Vertex child, Vertex parent)>& on_cycle);
 
 }  // namespace sigmax::elimination

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include "kernels/unbounded_row.hpp"
+
 namespace sigmax::elimination {
 namespace {
 
@@ -22,28 +24,21 @@ Factor table_factor(const RelationNetwork& network, Vertex v, const Parts& parts
   Factor factor{scope_of(network, v, parts), {}};
   factor.values.resize(outcomes_of(factor.scope, sizes));
   const std::vector<std::size_t>& parents = network[v].parents;
-  const std::size_t row_size = parts.known[v] ? 1 : sizes[v];
-  std::vector<std::size_t> digits(parents.size(), 0);
-  std::size_t row_of_factor = 0;
+  ScaledNumber* out = factor.values.data();
   const auto read = [&](const auto& rows) {
     for (std::size_t r = 0; r < rows.rows(); ++r) {
       bool fits = true;
-      for (std::size_t p = 0; p < parents.size(); ++p)
-        fits = fits && digits[p] == parts.known[parents[p]].value_or(digits[p]);
-      if (fits) {
-        ScaledNumber* const out = factor.values.data() + row_size * row_of_factor++;
-        const auto entries = rows.entries(r);
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-          if (!parts.known[v])
-            out[entries.index(k)] = ScaledNumber{entries.value(k)};
-          else if (entries.index(k) == *parts.known[v])
-            *out = ScaledNumber{entries.value(k)};
-        }
+      for (std::size_t p = parents.size(), rest = r; fits && p-- > 0; rest /= sizes[parents[p]])
+        fits = parts.known[parents[p]].value_or(rest % sizes[parents[p]]) == rest % sizes[parents[p]];
+      if (!fits) continue;
+      const auto entries = rows.entries(r);
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (!parts.known[v])
+          out[entries.index(k)] = ScaledNumber{entries.value(k)};
+        else if (entries.index(k) == *parts.known[v])
+          *out = ScaledNumber{entries.value(k)};
       }
-      for (std::size_t p = parents.size(); p-- > 0;) {
-        if (++digits[p] < sizes[parents[p]]) break;
-        digits[p] = 0;
-      }
+      out += parts.known[v] ? 1 : sizes[v];
     }
   };
   std::visit(read, network[v].rows);
@@ -120,12 +115,10 @@ std::vector<Vertex> vertices_of(const RelationNetwork& network, const std::vecto
 Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const Findings& findings,
                const std::vector<Vertex>& asked) {
   Parts parts{std::move(tables), std::vector<std::optional<std::size_t>>(network.size())};
-  std::vector<bool> is_asked(network.size(), false);
-  for (const Vertex v : asked) is_asked[v] = true;
   for (const Vertex v : parts.tables) {
     const auto& weights = findings.weights[v];
     const std::size_t size = network[v].variable.size();
-    if (is_asked[v] || (!weights && size > 1)) continue;
+    if ((!weights && size > 1) || std::find(asked.begin(), asked.end(), v) != asked.end()) continue;
     std::size_t first = 0, count = 0;
     for (std::size_t i = size; i-- > 0;)
       if (!weights || !(*weights)[i].is_zero()) first = i, ++count;
@@ -134,23 +127,24 @@ Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const
   return parts;
 }
 
-OrderProblem order_problem(const RelationNetwork& network, const Parts& parts,
-                           const std::vector<std::pair<Vertex, Role>>& roles) {
+OrderProblem order_problem(const RelationNetwork& network, const Parts& parts, const std::vector<Vertex>& others,
+                           Role role) {
   OrderProblem problem{sizes_of(network), {}, std::vector<Role>(network.size(), Role::absent), {}};
   for (const auto& vertex : network.vertices()) problem.kinds.push_back(vertex.variable.kind());
   for (const Vertex v : parts.tables) {
     problem.scopes.push_back(scope_of(network, v, parts));
     for (const Vertex u : problem.scopes.back()) problem.roles[u] = Role::eliminated;
   }
-  for (const auto& [v, role] : roles)
+  for (const Vertex v : others)
     if (!parts.known[v]) problem.roles[v] = role;
   return problem;
 }
 
-void refuse_above(std::size_t limit, double numbers, const std::vector<Vertex>& scope, const RelationNetwork& network) {
-  const double bytes = numbers * static_cast<double>(sizeof(ScaledNumber));
+void refuse_above(std::size_t limit, const Order& order, const RelationNetwork& network) {
+  const double numbers = order.greatest_table, bytes = numbers * static_cast<double>(sizeof(ScaledNumber));
   if (bytes <= static_cast<double>(limit)) return;
   constexpr std::size_t shown = 12;
+  const std::vector<Vertex>& scope = order.greatest_scope;
   std::ostringstream message;
   message.precision(3);
   message << "the query needs a table of " << numbers << " numbers (" << bytes / 0x1p30 << " GiB), above the limit of "
@@ -175,18 +169,45 @@ std::vector<Factor> factors_of(const RelationNetwork& network, const Parts& part
   return factors;
 }
 
-Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
-                         const std::vector<std::size_t>& sizes) {
-  return with_algebra_of(network[vertex].variable, [&]<class A>(A) { return eliminate<A>(factors, vertex, sizes); });
+std::vector<Factor> eliminated(const RelationNetwork& network, std::vector<Factor> factors,
+                               const std::vector<Vertex>& order) {
+  const std::vector<std::size_t> sizes = sizes_of(network);
+  return eliminated(std::move(factors), order, sizes, [&](const std::vector<Factor>& bucket, Vertex v) {
+    return with_algebra_of(network[v].variable, [&]<class A>(A) { return eliminate<A>(bucket, v, sizes); });
+  });
 }
 
-Factor joint(const RelationNetwork& network, std::vector<Factor> factors, const Order& order,
-             const std::vector<Vertex>& asked) {
-  const std::vector<std::size_t> sizes = sizes_of(network);
-  const auto left = eliminated(
-      std::move(factors), order.vertices, sizes,
-      [&](const std::vector<Factor>& bucket, Vertex v) { return eliminate_by_kind(network, bucket, v, sizes); });
-  return product(left, asked, sizes);
+double outcomes_of(const RelationNetwork& network, const std::vector<Vertex>& vertices) {
+  double outcomes = 1.0;
+  for (const Vertex v : vertices) outcomes *= static_cast<double>(network[v].variable.size());
+  return outcomes;
+}
+
+Factor joint(const RelationNetwork& network, const Parts& parts, const Findings& findings, const Order& order,
+             const std::vector<Vertex>& asked, std::size_t limit) {
+  refuse_above(limit, order, network);
+  refuse_above(limit, {{}, outcomes_of(network, asked), asked}, network);
+  return product(eliminated(network, factors_of(network, parts, findings), order.vertices), asked, sizes_of(network));
 }
 
 }  // namespace sigmax::elimination
+
+namespace sigmax {
+
+Evidence::Evidence(std::initializer_list<std::pair<std::string, std::string>> outcomes) {
+  for (const auto& [variable, label] : outcomes) observe(variable, label);
+}
+
+Evidence& Evidence::observe(std::string variable, std::string label) {
+  outcomes_.push_back({std::move(variable), std::move(label)});
+  return *this;
+}
+
+Evidence& Evidence::observe(const NetworkVariable& variable, const kernels::Evidence& likelihood) {
+  Weights weights{variable, {}};
+  for (std::size_t i = 0; i < variable.size(); ++i) weights.numbers.push_back(number_of(likelihood, i));
+  likelihoods_.push_back(std::move(weights));
+  return *this;
+}
+
+}  // namespace sigmax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include <sigmax/core/network.hpp>
-#include <sigmax/core/network/evidence.hpp>
 #include <sigmax/core/network/query.hpp>
 
 #include "factor.hpp"
@@ -53,12 +53,12 @@ struct Parts {
 Parts parts_of(const RelationNetwork& network, std::vector<Vertex> tables, const Findings& findings,
                const std::vector<Vertex>& asked);
 
-/// The ordering problem of the parts: variables are eliminated unless they are known, or `roles` says otherwise.
-OrderProblem order_problem(const RelationNetwork& network, const Parts& parts,
-                           const std::vector<std::pair<Vertex, Role>>& roles);
+/// The ordering problem of the parts: variables are eliminated unless they are known, or are `others`, with this role.
+OrderProblem order_problem(const RelationNetwork& network, const Parts& parts, const std::vector<Vertex>& others = {},
+                           Role role = Role::fixed);
 
-/// Throws std::length_error, naming the variables, if a table of this many numbers takes more than `limit` bytes.
-void refuse_above(std::size_t limit, double numbers, const std::vector<Vertex>& scope, const RelationNetwork& network);
+/// Throws std::length_error, naming the variables, if the greatest table of an order takes more than `limit` bytes.
+void refuse_above(std::size_t limit, const Order& order, const RelationNetwork& network);
 
 /// Tables and evidence as factors. The order must have passed `refuse_above`, for they are made dense.
 std::vector<Factor> factors_of(const RelationNetwork& network, const Parts& parts, const Findings& findings);
@@ -87,12 +87,50 @@ decltype(auto) with_algebra_of(const NetworkVariable& variable, const Action& ac
   return variable.visit([&]<class Kind>(const Variable<Kind>&) -> decltype(auto) { return action(AlgebraOf<Kind>{}); });
 }
 
-/// ⊕ over one variable by its own kind.
-Factor eliminate_by_kind(const RelationNetwork& network, const std::vector<Factor>& factors, Vertex vertex,
-                         const std::vector<std::size_t>& sizes);
+/// Eliminates in this order, each variable by its own kind.
+std::vector<Factor> eliminated(const RelationNetwork& network, std::vector<Factor> factors,
+                               const std::vector<Vertex>& order);
 
-/// The joint of `asked`, all others eliminated by their kinds in the order given.
-Factor joint(const RelationNetwork& network, std::vector<Factor> factors, const Order& order,
-             const std::vector<Vertex>& asked);
+/// How many outcomes the variables have together.
+double outcomes_of(const RelationNetwork& network, const std::vector<Vertex>& vertices);
+
+/// The joint of `asked`, all others of the parts eliminated by their kinds in the order given. Throws
+/// std::length_error, naming the variables, if that or its greatest table takes more than `limit` bytes.
+Factor joint(const RelationNetwork& network, const Parts& parts, const Findings& findings, const Order& order,
+             const std::vector<Vertex>& asked, std::size_t limit);
+
+/// What a calibrated tree of cliques tells.
+struct Calibrated {
+  std::vector<std::vector<ScaledNumber>> marginals;  ///< by index of the vertex; empty if it is not in the order
+  ScaledNumber total;                                ///< ⊕ over everything; if it is zero there are no marginals
+};
+
+/// All marginals of the product of the factors. The variables of `order` are of one kind and all that the factors have.
+///
+/// The cliques are those that eliminating in this order makes, each within another left out. Every clique first hands
+/// on to the next what it and those behind it say of the variables that both have, the outermost ones being last; on
+/// the way back it is told what all say of them, which is divided by what it said itself (0/0 = 0: there it has only
+/// zeros). Marginals then are those of single cliques. It takes time and memory in proportion to the cliques' tables.
+///
+/// The numbers are doubles with one exponent a table. Should a product come near the limit of their range, everything
+/// is done again with an exponent for each number, so nothing underflows. All marginals have the same ⊕, the total.
+Calibrated calibrated(const RelationNetwork& network, const std::vector<Factor>& factors,
+                      const std::vector<Vertex>& order);
 
 }  // namespace sigmax::elimination
+
+namespace sigmax {
+
+/// The outcomes of the parents in one row of a table, the last parent fastest: "young, calm"; or what `show` makes of
+/// their labels.
+template <class Show = std::identity>
+std::string labels_of_row(const std::vector<NetworkVariable>& parents, std::size_t row, const Show& show = {}) {
+  std::string labels;
+  for (std::size_t p = parents.size(); p-- > 0;) {
+    labels = show(parents[p].label(row % parents[p].size())) + (labels.empty() ? "" : ", ") + labels;
+    row /= parents[p].size();
+  }
+  return labels;
+}
+
+}  // namespace sigmax

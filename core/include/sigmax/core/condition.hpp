@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include <sigmax/core/any_algebra.hpp>
+#include <sigmax/core/uncertainty.hpp>
 
 namespace sigmax {
 

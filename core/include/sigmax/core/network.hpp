@@ -1,16 +1,83 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include <sigmax/core/network/variable.hpp>
 #include <sigmax/core/relation.hpp>
 
 namespace sigmax {
+
+/// Variables of the kinds that can meet in one network; all that a network knows of them. They are mixable: their ⊗ is
+/// the product.
+using NetworkKinds = std::variant<RandomVariable, FuzzyVariable>;
+
+template <class Kind>
+concept NetworkKind = std::constructible_from<NetworkKinds, Variable<Kind>>;
+
+/// A variable whose kind is known only when the program runs.
+class NetworkVariable {
+ public:
+  template <NetworkKind Kind>
+  NetworkVariable(Variable<Kind> variable) : variable_(std::move(variable)) {}
+
+  /// Calls `action` with the Variable<Kind> that it is.
+  template <class Action>
+  decltype(auto) visit(const Action& action) const {
+    return std::visit(action, variable_);
+  }
+
+  /// The number of its kind among the kinds of networks.
+  std::size_t kind() const { return variable_.index(); }
+
+  template <NetworkKind Kind>
+  bool is() const {
+    return std::holds_alternative<Variable<Kind>>(variable_);
+  }
+
+  /// Throws std::invalid_argument if the variable is of another kind.
+  template <NetworkKind Kind>
+  const Variable<Kind>& as() const& {
+    if (const auto* const variable = std::get_if<Variable<Kind>>(&variable_)) return *variable;
+    check::other_kind(name(), kind_name(), Kind::name);
+  }
+
+  template <NetworkKind Kind>
+  Variable<Kind> as() const&& {
+    const NetworkVariable& named = *this;
+    return named.as<Kind>();
+  }
+
+  /// "random" or "fuzzy".
+  std::string_view kind_name() const {
+    return visit([]<class Kind>(const Variable<Kind>&) { return Kind::name; });
+  }
+  const Outcomes& outcomes() const& {
+    return visit([](const Outcomes& outcomes) -> const Outcomes& { return outcomes; });
+  }
+  Outcomes outcomes() const&& {
+    return visit([](const Outcomes& outcomes) { return outcomes; });
+  }
+  const std::string& name() const& { return outcomes().name(); }
+  std::string name() const&& { return outcomes().name(); }
+  std::size_t size() const { return outcomes().size(); }
+  std::string label(std::size_t index) const { return outcomes().label(index); }
+  std::size_t index_of(std::string_view label) const { return outcomes().index_of(label); }
+
+  friend bool operator==(const NetworkVariable& a, const NetworkVariable& b) {
+    return a.kind() == b.kind() && a.outcomes() == b.outcomes();
+  }
+
+ private:
+  NetworkKinds variable_;
+};
 
 /// Variables of either kind, each with a table of itself given any number of variables declared before it.
 ///
@@ -83,12 +150,8 @@ class RelationNetwork {
                                   const std::vector<std::string>&);
   void append(const NetworkVariable& variable, const std::vector<NetworkVariable>& parents, AnyRows rows);
 
-  /// Where the index of a variable of this name is, or would be, in `by_name_`.
-  std::vector<std::size_t>::const_iterator place_of(std::string_view name) const;
-  bool has(std::string_view name) const;
-
   std::vector<Vertex> vertices_;
-  std::vector<std::size_t> by_name_;  // the indices of all vertices, in the order of the names
+  std::map<std::string, std::size_t, std::less<>> by_name_;  // the indices of all vertices
 };
 
 }  // namespace sigmax

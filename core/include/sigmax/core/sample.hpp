@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -12,18 +12,6 @@ namespace sigmax {
 
 namespace detail {
 
-/// A number in [0, 1) of 53 bits, drawn as std::generate_canonical does.
-template <class Generator>
-double unit_number(Generator& generator) {
-  constexpr long double range = static_cast<long double>(Generator::max()) - Generator::min() + 1.0L;
-  double sum = 0.0, scale = 1.0;
-  while (scale < 0x1p53) {
-    sum += static_cast<double>(generator() - Generator::min()) * scale;
-    scale = static_cast<double>(scale * range);
-  }
-  return std::min(sum / scale, 1.0 - 0x1p-53);
-}
-
 /// The outcome at which the sum of the values passes `level`, a number in [0, 1).
 std::size_t outcome_at(std::span<const double> values, double level);
 
@@ -33,7 +21,7 @@ std::size_t outcome_at(std::span<const double> values, double level);
 /// bits is drawn.
 template <class Generator>
 std::size_t sample(const Distribution<Random>& distribution, Generator& generator) {
-  return detail::outcome_at(distribution.values(), detail::unit_number(generator));
+  return detail::outcome_at(distribution.values(), std::generate_canonical<double, 53>(generator));
 }
 
 /// One outcome for every variable of a network, in the order of declaration, drawn parents first. Throws

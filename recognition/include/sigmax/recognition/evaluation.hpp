@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,6 +49,9 @@ class ConfusionMatrix {
 ///     for (…) difference.add(maxima.add(truth, max.log_belief()) - sums.add(truth, sigma.log_belief()));
 ///     sums.confusion().accuracy();
 ///     difference.interval();   // paired by case
+///
+/// Of cross-validation that interval holds for the classifiers as trained in these folds; it does not count that other
+/// training data would have made others.
 template <Uncertainty Kind>
 class Evaluation {
  public:
@@ -135,11 +137,5 @@ class Evaluation {
   std::size_t ties_ = 0;
   std::size_t size_ = 0;
 };
-
-/// The mean of a − b over the same cases with its interval, see `mean_interval`.
-///
-/// Of cross-validation it holds for the classifiers as trained in these folds; it does not count that other training
-/// data would have made others. Throws std::invalid_argument if the numbers of cases differ or are below two.
-Interval paired_interval(std::span<const double> a, std::span<const double> b);
 
 }  // namespace sigmax

@@ -1,12 +1,31 @@
 #pragma once
 
-#include <sigmax/core/any_algebra.hpp>
-#include <sigmax/core/kernels/winner.hpp>
+#include <cstdint>
+#include <vector>
+
 #include <sigmax/core/rows.hpp>
+#include <sigmax/core/uncertainty.hpp>
 
 namespace sigmax::kernels {
 
 using sigmax::detail::AnyAlgebra;
+
+/// Which index won; 32 bits, because routes through long chains store many.
+using Winner = std::uint32_t;
+
+/// For every number that a result stores, in its order, the first index that attains it; 0 if none does.
+using FirstWinners = std::vector<Winner>;
+
+/// The winners of one relation of a chain. Where ⊗ selects it takes, for every number, all indices that attained more
+/// than those before them, and what they attained: a later minimum may make any of them a tie.
+struct Winners {
+  struct Attempt {
+    Winner index;
+    double value;
+  };
+  FirstWinners first;
+  std::vector<std::vector<Attempt>> attempts;
+};
 
 /// result(i, k) = ⊕_j right(i, j) ⊗ left(j, k), stored as fits: dense if a part must be, banded if both parts are, else
 /// sparse. `result` is neither of the parts. Where ⊕ selects, `winners` may be asked for.

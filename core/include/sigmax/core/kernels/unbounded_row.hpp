@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <sigmax/core/any_algebra.hpp>
-#include <sigmax/core/kernels/winner.hpp>
+#include <sigmax/core/kernels/compose.hpp>
 #include <sigmax/core/rows.hpp>
 #include <sigmax/core/scaled_number.hpp>
+#include <sigmax/core/uncertainty.hpp>
 
 namespace sigmax::kernels {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <sigmax/core/network.hpp>
-#include <sigmax/core/network/evidence.hpp>
 #include <sigmax/core/network/query.hpp>
 
 namespace sigmax {
