@@ -536,8 +536,6 @@ HeatMap overview_map(const std::vector<Condition>& conditions, const std::vector
               .row_label = "filter",
               .column_label = "scenario/group",
               .rows = names,
-              .columns = {},
-              .values = {},
               .value_label = "ratio, mean over axes and phases",
               .digits = 3};
   std::vector<const Condition*> own;
@@ -574,9 +572,7 @@ std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condit
         charts.push_back(
             {.title = title,
              .x_label = relative(measured) ? "relative difference or share, %" : "samples, or switches a run",
-             .rows = {},
-             .series = {{.name = "with the correct IMM", .values = {}},
-                        {.name = "with the released IMM", .values = {}}},
+             .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
              .reference = statement.against == Actor::nobody ? std::nullopt : std::optional(0.0),
              .wanted_label = "where the sentence wants it",
              .digits = relative(measured) ? 1 : 2,
@@ -604,11 +600,10 @@ View view_of(const Judgements& all, const Condition& condition, const std::vecto
   for (std::size_t axis = 0; axis < axis_names.size(); ++axis) {
     IntervalChart chart{.title = fmt::format("RMSE in {}", axis_names[axis]),
                         .x_label = "RMSE, m",
-                        .rows = {phase_names.begin(), phase_names.end()},
-                        .series = {}};
+                        .rows = {phase_names.begin(), phase_names.end()}};
     for (const auto& name : names) {
       if (!condition.has(name)) continue;
-      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
       for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
         series.values.push_back(condition.rmse(name, phase, axis).interval());
     }

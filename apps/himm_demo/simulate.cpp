@@ -245,7 +245,6 @@ class Views {
             .x_label = "sample",
             .y_label = std::move(y_label),
             .x = by_sample([](std::size_t k) { return static_cast<double>(k + 1); }),
-            .curves = {},
             .shaded = shaded_};
   }
 
@@ -317,7 +316,7 @@ class Views {
 
   /// The track of a run; with an error ellipse of each filter at a few samples.
   Plan plan(const TracedRun& run, std::size_t number) const {
-    Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m", .traces = {}};
+    Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m"};
     const auto add = [&](const std::string& of, PlanTrace::Shape shape, const auto& at) {
       const auto along = [&](Eigen::Index axis) { return by_sample([&](std::size_t k) { return at(k)(axis); }); };
       plan.traces.push_back({.name = of, .group = of, .shape = shape, .x = along(0), .y = along(1), .z = along(2)});

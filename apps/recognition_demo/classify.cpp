@@ -311,9 +311,7 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
       .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
       .row_label = "classifier",
       .column_label = pattern.name(),
-      .rows = {},
       .columns = labels_of(pattern),
-      .values = {},
       .value_label = "probability or possibility"};
   for (const Contestant& contestant : all) {
     support.rows.push_back(contestant.name);

@@ -69,7 +69,6 @@ HeatMap relation_map(const Relation<Random, Random>& relation) {
               .column_label = relation.to().name(),
               .rows = labels_of(relation.from()),
               .columns = labels_of(relation.to()),
-              .values = {},
               .value_label = "probability of the value, given the class"};
   map.fill([&](std::size_t c, std::size_t value) {
     return HeatMap::Cell{relation(c, value),
@@ -154,7 +153,6 @@ std::vector<Panel> support_charts(const std::vector<std::string>& patterns, cons
                     .x_label = x_label,
                     .y_label = "probability or possibility",
                     .x = x,
-                    .curves = {},
                     .greatest_y = 1.05};
     for (std::size_t i = 0; i < contestants.size(); ++i) {
       chart.curves.push_back({contestants[i].name, contestants[i].name, {}});

@@ -63,7 +63,6 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
               .column_label = relation.to().name(),
               .rows = labels_of(relation.from()),
               .columns = labels_of(relation.to()),
-              .values = {},
               .value_label = "possibility by max inference"};
   map.fill([&](std::size_t c, std::size_t value) {
     const double possible = relation(c, value);

@@ -352,7 +352,6 @@ HeatMap confusion_map(const std::string& classifier, const std::vector<std::stri
               .column_label = "decided class",
               .rows = classes,
               .columns = classes,
-              .values = {},
               .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
               .digits = foldings == 1 ? 0 : 1};
   map.fill([&](std::size_t truth, std::size_t c) {
@@ -365,15 +364,14 @@ HeatMap confusion_map(const std::string& classifier, const std::vector<std::stri
 /// that possibilities are.
 LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
                             std::size_t foldings) {
-  LineChart chart{.title = "Reliability of " + classifier,
-                  .x_label = fuzzy ? "possibility of a class" : "probability of a class",
-                  .y_label = "share of such classes that are the true one",
-                  .x = {},
-                  .curves = {{.name = "share, ± 95 %", .values = {}},
-                             {.name = fuzzy ? "bound: not more often than possible" : "calibrated", .values = {}}},
-                  .greatest_y = 1.15,
-                  .note = "Above each point: how many classes of rows had such a degree.",
-                  .joined = true};
+  LineChart chart{
+      .title = "Reliability of " + classifier,
+      .x_label = fuzzy ? "possibility of a class" : "probability of a class",
+      .y_label = "share of such classes that are the true one",
+      .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
+      .greatest_y = 1.15,
+      .note = "Above each point: how many classes of rows had such a degree.",
+      .joined = true};
   Curve& share = chart.curves[0];
   const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
     chart.x.push_back(degree);

@@ -275,10 +275,9 @@ View view_of(const Scenario& scenario, const Condition& condition, const SeenRun
                     .x_label = "sample",
                     .y_label = std::move(y_label),
                     .x = counted_from(1, Scenario::samples),
-                    .curves = {},
                     .greatest_y = 1.05};
     for (std::size_t j = 0; j < modes; ++j) {
-      chart.curves.push_back({.name = scenario.mode.label(j), .values = {}});
+      chart.curves.push_back({.name = scenario.mode.label(j)});
       for (std::size_t k = 0; k < Scenario::samples; ++k)
         chart.curves.back().values.push_back(run.numbers[k * numbers + first + j]);
     }

@@ -269,16 +269,12 @@ void say_performance(const PerformanceOptions& options, const PerformanceData& d
 LineChart quantity_chart(const Knowledge& quantity, std::size_t type) {
   const auto& [least, greatest, bins, probable, possible] = quantity;
   const std::string& name = probable.to().name();
-  LineChart chart{.title = name,
-                  .x_label = name + ", in the file's unit",
-                  .y_label = "possibility",
-                  .x = {},
-                  .curves = {},
-                  .greatest_y = 1.05};
+  LineChart chart{
+      .title = name, .x_label = name + ", in the file's unit", .y_label = "possibility", .greatest_y = 1.05};
   const double width = (greatest - least) / static_cast<double>(bins.size());
   for (std::size_t b = 0; b < bins.size(); ++b) chart.x.push_back(least + (static_cast<double>(b) + 0.5) * width);
   const auto add = [&](const std::string& curve, const auto& relation) {
-    chart.curves.push_back({.name = curve, .values = {}});
+    chart.curves.push_back({.name = curve});
     for (std::size_t b = 0; b < chart.x.size(); ++b) chart.curves.back().values.push_back(relation(type, b));
   };
   add("triangle", possible);

@@ -210,8 +210,7 @@ LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counte
   LineChart chart{.title = "Right decisions",
                   .x_label = what_is_counted,
                   .y_label = "share of the runs that are right; ties share the credit",
-                  .x = counted_from(first, scores.front().accuracy.size()),
-                  .curves = {}};
+                  .x = counted_from(first, scores.front().accuracy.size())};
   for (const Score& score : scores) chart.curves.push_back({score.name, score.name, score.accuracy});
   return chart;
 }

@@ -241,11 +241,8 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
     return at_times(all, since(track.first_time, rows.times()), rows.column(column));
   };
   const auto chart = [&](std::string title, std::string y_label) {
-    LineChart made{.title = std::move(title),
-                   .x_label = "time since the first row, s",
-                   .y_label = std::move(y_label),
-                   .x = all,
-                   .curves = {}};
+    LineChart made{
+        .title = std::move(title), .x_label = "time since the first row, s", .y_label = std::move(y_label), .x = all};
     made.joined = true;
     add_restarts(track, made);
     return made;
@@ -341,10 +338,8 @@ void TrackPage::add_histories(const Track& track, LineChart& weights) const {
 Plan TrackPage::plan(const std::string& name, const Track& track) const {
   const bool geodetic = track.anchor.has_value();
   const bool high = recording_.axes() == 3;
-  Plan plan{.title = "Track " + name,
-            .x_label = geodetic ? "east, m" : "x, m",
-            .y_label = geodetic ? "north, m" : "y, m",
-            .traces = {}};
+  Plan plan{
+      .title = "Track " + name, .x_label = geodetic ? "east, m" : "x, m", .y_label = geodetic ? "north, m" : "y, m"};
   if (name == "all rows") plan.title = "Track";
   const auto add = [&](const std::string& of, const std::string& group, PlanTrace::Shape shape, const Thinned& rows,
                        std::size_t from) {
@@ -360,9 +355,7 @@ Plan TrackPage::plan(const std::string& name, const Track& track) const {
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       PlanTrace trace{.name = fmt::format("{} {}", what, filters_[f].name),
                       .group = filters_[f].name,
-                      .shape = PlanTrace::Shape::crosses,
-                      .x = {},
-                      .y = {}};
+                      .shape = PlanTrace::Shape::crosses};
       for (const Mark& mark : marks)
         if (mark.filter == f) {
           trace.x.push_back(mark.position[0]);

@@ -233,7 +233,7 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const char* const name = diagnoses(findings)[i].first;
-    IntervalSeries series{.name = name, .group = name, .values = {}};
+    IntervalSeries series{.name = name, .group = name};
     for (const auto& row : chart.rows) {
       const auto found = parts[i].find(row);
       const bool any = found != parts[i].end() && found->second->count() > 0;
@@ -249,12 +249,10 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
 IntervalChart fold_chart(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
   IntervalChart chart{.title = "Held out, by fold",
                       .x_label = fmt::format("{}; less is better", unit_of(options.objective)),
-                      .rows = {},
-                      .series = {},
                       .digits = 4};
   for (std::size_t fold = 0; fold <= options.folds; ++fold) chart.rows.push_back(name_of_fold(fold, options));
   for (const auto& [name, figures] : by_fold(tuned, options, data)) {
-    auto& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+    auto& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
     for (const double figure : figures) series.values.push_back({figure, 0.0});
   }
   return chart;
@@ -282,7 +280,7 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
   for (std::size_t i = 0; i < all.size(); ++i)
     view.panels.emplace_back(Words{fmt::format("What the innovations say, {}", when(i)),
                                    fmt::format("{}", fmt::join(advice_of(*all[i].second), "\n"))});
-  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1", .rows = {}, .series = {}};
+  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1"};
   nis.reference = 1.0;
   nis.digits = 3;
   view.panels.emplace_back(innovation_chart(
@@ -397,8 +395,6 @@ Report page_of(const std::string& heading, const TuneOptions& options, const Tun
   Report page{.title = fmt::format("Settings for {}", fmt::join(options.files, ", ")),
               .verdict = {heading},
               .command = options.page.command,
-              .groups = {},
-              .panels = {},
               .chooser = "Filter"};
   std::set<std::string> names;
   for (const TuneFindings& findings : all) {
