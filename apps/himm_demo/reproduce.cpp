@@ -125,7 +125,7 @@ class Condition {
   bool has(std::string_view filter) const {
     const auto& filters = experiment.filters;
     return filter == measurement_name ||
-           std::any_of(filters.begin(), filters.end(), [&](const FilterSettings& own) { return own.name == filter; });
+           std::ranges::any_of(filters, [&](const FilterSettings& own) { return own.name == filter; });
   }
 
   /// The mean of one column over the runs. `filter` may be "measurement" for mean square errors.
@@ -285,8 +285,8 @@ bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOpti
 
 Finding finding_of(const std::vector<Measured>& all) {
   const auto is = [](Finding finding) { return [=](const Measured& measured) { return measured.finding == finding; }; };
-  if (std::all_of(all.begin(), all.end(), is(Finding::inside))) return Finding::inside;
-  return std::any_of(all.begin(), all.end(), is(Finding::outside)) ? Finding::outside : Finding::open;
+  if (std::ranges::all_of(all, is(Finding::inside))) return Finding::inside;
+  return std::ranges::any_of(all, is(Finding::outside)) ? Finding::outside : Finding::open;
 }
 
 enum class Verdict { holds, only_against_released, does_not_hold, undecided };
@@ -395,8 +395,8 @@ std::size_t least_favourable(const std::vector<Measured>& all) {
     const double inside = std::min(measured.interval.mean - region.above, region.below - measured.interval.mean);
     return std::isnan(inside) ? 0.0 : inside / std::max(measured.interval.half_width, 1e-12);
   };
-  const auto worst = std::min_element(all.begin(), all.end(),
-                                      [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
+  const auto worst =
+      std::ranges::min_element(all, [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
   return static_cast<std::size_t>(worst - all.begin());
 }
 
@@ -444,8 +444,7 @@ ResultTable deciding_figures(const std::vector<Judged>& all) {
                      {.header = "released IMM"}});
   for (std::size_t s = 0; s < all.size(); ++s) {
     const auto& figures = all[s].against_correct;
-    const auto inside = std::count_if(figures.begin(), figures.end(),
-                                      [](const Measured& measured) { return measured.finding == Finding::inside; });
+    const auto inside = std::ranges::count(figures, Finding::inside, &Measured::finding);
     const std::size_t worst = least_favourable(figures);
     table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), place_and_subject_of(figures[worst]),
                text_of(figures[worst]), text_of(all[s].against_released[worst])});
@@ -487,7 +486,7 @@ ResultTable figures_table(const Judgements& all) {
 std::vector<std::string> names_of(std::span<const Condition> conditions, std::vector<std::string> names = {}) {
   for (const auto& condition : conditions)
     for (const auto& filter : condition.experiment.filters)
-      if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
+      if (std::ranges::find(names, filter.name) == names.end()) names.push_back(filter.name);
   return names;
 }
 
@@ -566,8 +565,7 @@ std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condit
       const Statement& statement = *measured.statement;
       if (statement.scenario != condition.scenario || statement.group != condition.group) continue;
       const std::string title = chart_of(measured);
-      auto chart =
-          std::find_if(charts.begin(), charts.end(), [&](const IntervalChart& one) { return one.title == title; });
+      auto chart = std::ranges::find(charts, title, &IntervalChart::title);
       if (chart == charts.end()) {
         charts.push_back(
             {.title = title,

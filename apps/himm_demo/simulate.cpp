@@ -304,7 +304,7 @@ class Views {
           const std::vector<double> weights = found[f + 1].told_weights(k);
           return weights.empty() ? nan : weights[j];
         };
-        const auto model = std::find(models.begin(), models.end(), own[j]) - models.begin();
+        const auto model = std::ranges::find(models, own[j]) - models.begin();
         made.curves.push_back({.name = name(f) + " " + own[j],
                                .group = name(f),
                                .values = by_sample(weight),
@@ -582,7 +582,7 @@ ResultTable weights_by_sample(const Found& found) {
       std::vector<Cell> cells = {k + 1, of.name()};
       for (const auto& model : models) {
         const auto& own = of.filter()->models;
-        const auto j = static_cast<std::size_t>(std::find(own.begin(), own.end(), model) - own.begin());
+        const auto j = static_cast<std::size_t>(std::ranges::find(own, model) - own.begin());
         cells.push_back(j < weights.size() ? Cell(weights[j]) : Cell());
       }
       table.row(std::move(cells));

@@ -115,7 +115,7 @@ class RowReader {
 
   /// Where a cell is among names.
   std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
-    const auto found = std::find(names.begin(), names.end(), trimmed(row[column]));
+    const auto found = std::ranges::find(names, trimmed(row[column]));
     if (found == names.end()) return unseen(row.error(column, what + shown(names), remedy));
     return static_cast<std::size_t>(found - names.begin());
   }
@@ -157,8 +157,8 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Rando
       contestant.fuzzy()
           ? reasons(std::get<MaxClassifier>(contestant.classifier), std::get<Belief<Fuzzy>>(by.belief), readings)
           : reasons(std::get<SigmaClassifier>(contestant.classifier), std::get<Belief<Random>>(by.belief), readings);
-  std::stable_sort(why.contributions.begin(), why.contributions.end(),
-                   [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
+  std::ranges::stable_sort(why.contributions,
+                           [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
   const std::string &best = pattern.label(why.pattern), &next = pattern.label(why.rival);
   ResultTable table(
       {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},

@@ -80,9 +80,9 @@ HeatMap relation_map(const Relation<Random, Random>& relation) {
 }  // namespace
 
 double credit_of(std::span<const double> logs, std::size_t truth) {
-  const double greatest = *std::max_element(logs.begin(), logs.end());
+  const double greatest = *std::ranges::max_element(logs);
   if (!ties(logs[truth], greatest)) return 0.0;
-  const auto tied = std::count_if(logs.begin(), logs.end(), [greatest](double log) { return ties(log, greatest); });
+  const auto tied = std::ranges::count_if(logs, [greatest](double log) { return ties(log, greatest); });
   return 1.0 / static_cast<double>(tied);
 }
 
@@ -179,7 +179,7 @@ std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& le
   for (const auto& relation : learned)
     if (std::max(relation.to().size(), relation.from().size()) <= most_values)
       all.emplace_back(telling(relation), &relation);
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Panel> maps;
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i) maps.emplace_back(relation_map(*all[i].second));
   return maps;

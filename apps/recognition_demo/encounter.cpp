@@ -56,8 +56,8 @@ EncounterData read_encounter(const std::string& file) {
   for (CsvRow row; reader.next(row);) {
     const std::string name{trimmed(row[klass])};
     if (name.empty()) throw row.error(klass, "the name of a class");
-    if (std::find(classes.begin(), classes.end(), name) == classes.end()) classes.push_back(name);
-    const auto known = std::find(feature_names.begin(), feature_names.end(), trimmed(row[feature]));
+    if (std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+    const auto known = std::ranges::find(feature_names, trimmed(row[feature]));
     if (known == feature_names.end()) continue;
     Layers& layers = all[{name, static_cast<std::size_t>(known - feature_names.begin())}];
     const double begin = row.number(lower), end = row.number(upper), times = row.number(count);

@@ -122,7 +122,7 @@ PerformanceData read_performance(const std::string& file) {
   PerformanceData data;
   std::map<std::pair<std::string, std::string>, Performance> cells;
   const auto remember = [](std::vector<std::string>& names, std::string name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   };
   for (CsvRow row; reader.next(row);) {
     for (const std::size_t column : {type, variable})
@@ -294,7 +294,7 @@ void fill(Report& page, const PerformanceOptions& options, const PerformanceData
   page.chooser = "Type";
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t v = 0; v < knowledge.size(); ++v) order.emplace_back(-telling(knowledge[v].probable), v);
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   for (std::size_t type = 0; type < std::min(most_types, data.types.size()); ++type) {
     View& view = page.views.emplace_back(View{data.types[type], {}});
     for (std::size_t i = 0; i < std::min(most_quantities, order.size()); ++i)

@@ -84,7 +84,7 @@ class Scoreboard {
       Score& score = scores[i];
       for (double& value : score.accuracy) value /= n;
       for (double* value : {&score.belief_in_truth, &score.necessity_of_truth, &score.ties}) *value /= n;
-      score.same_as = static_cast<std::size_t>(std::find(same_[i].begin(), same_[i].end(), true) - same_[i].begin());
+      score.same_as = static_cast<std::size_t>(std::ranges::find(same_[i], true) - same_[i].begin());
     }
     return scores;
   }

@@ -20,8 +20,7 @@ constexpr double beyond_sense = 1e30;
 /// Whether a header is that of names rather than numbers: track_id.
 bool is_a_name(std::string_view header) {
   constexpr std::string_view endings[] = {"_id", "_name", "_no", "_number", "_type"};
-  return std::any_of(std::begin(endings), std::end(endings),
-                     [&](std::string_view ending) { return header.ends_with(ending); });
+  return std::ranges::any_of(endings, [&](std::string_view ending) { return header.ends_with(ending); });
 }
 
 /// So many covariances has a matrix of so many rows, as far as their diagonal.
@@ -94,8 +93,7 @@ void RecordingReader::drop(Role role, std::size_t from) {
 }
 
 void RecordingReader::find_columns(const RecordingOptions& options) {
-  std::transform(quantities.begin(), quantities.end(), columns_.begin(),
-                 [&](const Quantity& quantity) { return find(quantity); });
+  std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
   const auto time = find("time_s");
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
@@ -180,7 +178,7 @@ bool RecordingReader::next(Row& row) {
   const auto is_selected = [&](const auto& wanted) { return trimmed(row_[wanted.first]) == wanted.second; };
   do {
     if (!csv_.next(row_)) return false;
-  } while (!std::all_of(select_.begin(), select_.end(), is_selected) || !take_time(row));
+  } while (!std::ranges::all_of(select_, is_selected) || !take_time(row));
   row.roll_deg = roll_ ? number_in(*roll_) : std::nullopt;
   row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
@@ -252,7 +250,7 @@ bool RecordingReader::refused_time(const Row& row, double time) {
     last = {time, {sensor}};
     return false;
   }
-  const bool spoke = std::find(last.sensors.begin(), last.sensors.end(), sensor) != last.sensors.end();
+  const bool spoke = std::ranges::find(last.sensors, sensor) != last.sensors.end();
   if (!(time == last.time) || spoke) return true;
   last.sensors.push_back(sensor);
   return false;
@@ -265,7 +263,7 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
     const auto number = parse_number(word);
     return cell == word || (number && number == parse_number(cell));
   };
-  if (cell.empty() || std::none_of(missing_.begin(), missing_.end(), is_cell)) return row_.optional_number(column);
+  if (cell.empty() || std::ranges::none_of(missing_, is_cell)) return row_.optional_number(column);
   ++missing_cells_[column];
   return std::nullopt;
 }
@@ -466,8 +464,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
       {velocity, "give --set sigma_velocity_mps=…"},
       {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
       {true, "does not go with the others"}};
-  return std::string(
-      std::find_if(std::begin(reasons), std::end(reasons), [](const auto& reason) { return reason.first; })->second);
+  return std::string(std::ranges::find_if(reasons, [](const auto& reason) { return reason.first; })->second);
 }
 
 /// The columns that do not count in any way, and why not: those with the name of a quantity, or nearly, before others.
@@ -483,7 +480,7 @@ std::string RecordingReader::unused() const {
   const auto add = [&](std::size_t index, std::string_view reason) {
     if (done[index]) return;
     done[index] = true;
-    auto same = std::find_if(reasons.begin(), reasons.end(), [&](const auto& other) { return other.first == reason; });
+    auto same = std::ranges::find_if(reasons, [&](const auto& other) { return other.first == reason; });
     if (same == reasons.end()) same = reasons.insert(same, {std::string(reason), {}});
     same->second.push_back(names[index].empty() ? fmt::format("column {}", index + 1) : names[index]);
   };

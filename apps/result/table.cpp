@@ -48,9 +48,8 @@ std::size_t total(const Block& block) {
 void relax_headers(Block& block, std::size_t width) {
   const auto height = [](const Laid& column, std::size_t at) { return lines_of(column.header, at).size(); };
   for (;;) {
-    Laid& highest = *std::max_element(block.begin(), block.end(), [&](const Laid& a, const Laid& b) {
-      return height(a, a.header_width) < height(b, b.header_width);
-    });
+    Laid& highest = *std::ranges::max_element(
+        block, [&](const Laid& a, const Laid& b) { return height(a, a.header_width) < height(b, b.header_width); });
     const std::size_t lines = height(highest, highest.header_width), most = highest.width + width - total(block);
     std::size_t wider = highest.width + 1;
     while (wider <= most && height(highest, wider) == lines) ++wider;

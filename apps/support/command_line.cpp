@@ -112,7 +112,7 @@ Arguments with_subcommand(const CLI::App& app, const std::string& default_subcom
     return arguments;
   }
   const auto names = names_of_subcommands(app);
-  if (std::find(names.begin(), names.end(), arguments.front()) == names.end())
+  if (std::ranges::find(names, arguments.front()) == names.end())
     throw UsageError(message({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
                               .remedy = suggestion(arguments.front(), names)}));
   return arguments;
@@ -129,7 +129,7 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--")) continue;
     const std::string name = argument.substr(2, argument.find('=') - 2);
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::ranges::find(known, name) != known.end()) continue;
     const std::string nearest = nearest_word(name, known, "--");
     throw UsageError(
         message({.what = fmt::format("{} has no option {}", subcommand->get_name(), in_quotes("--" + name)),
@@ -275,7 +275,7 @@ void run_again(const std::vector<AddSubcommand>& subcommands, const std::string&
   std::string command = program;
   for (const std::string& argument : arguments) command += " " + argument;
   for (const auto add : subcommands) add(app, command);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  std::ranges::reverse(arguments);  // as CLI11 wants them
   app.parse(arguments);
 }
 
@@ -314,7 +314,7 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
     try {
       arguments = with_subcommand(app, outline.default_subcommand, std::move(arguments));
       refuse_unknown_options(app, arguments);
-      std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+      std::ranges::reverse(arguments);  // as CLI11 wants them
       app.parse(arguments);
     } catch (const CLI::ParseError& error) {
       std::ostringstream out, complaint;

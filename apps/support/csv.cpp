@@ -112,7 +112,7 @@ CsvReader::~CsvReader() = default;
 
 std::optional<std::size_t> CsvReader::find(std::string_view name) const {
   const auto& names = header_->names;
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (name.empty() || found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
 }

@@ -128,9 +128,8 @@ void refuse_beyond_ascii(std::string_view text, const Origin& origin) {
       const std::string_view line = before.substr(before.rfind('\n') + 1);
       const auto starts_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; };
       toml::source_region region;
-      region.begin.line = static_cast<toml::source_index>(1 + std::count(before.begin(), before.end(), '\n'));
-      region.begin.column =
-          static_cast<toml::source_index>(1 + std::count_if(line.begin(), line.end(), starts_character));
+      region.begin.line = static_cast<toml::source_index>(1 + std::ranges::count(before, '\n'));
+      region.begin.column = static_cast<toml::source_index>(1 + std::ranges::count_if(line, starts_character));
       throw InputError(message(
           {.where = origin.place(region), .what = "is not TOML", .remedy = "put characters beyond ASCII into quotes"}));
     }
@@ -306,7 +305,7 @@ template Matrix Settings::get(std::string_view, Matrix) const;
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> names,
                              std::string_view otherwise) const {
   std::string chosen = get(key, std::string(otherwise));
-  if (chosen != otherwise && std::find(names.begin(), names.end(), chosen) == names.end())
+  if (chosen != otherwise && std::ranges::find(names, chosen) == names.end())
     throw error(key, fmt::format("one of {}", fmt::join(names, ", ")), nearest_word(chosen, names));
   return chosen;
 }

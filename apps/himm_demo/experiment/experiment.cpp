@@ -93,8 +93,7 @@ std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
   std::optional<std::size_t> model;
   for (std::size_t j = 0; j < motions.size(); ++j)
     if (motions[j].manoeuvres()) model = j;
-  const bool all =
-      std::all_of(motions.begin(), motions.end(), [](const MotionChoice& motion) { return motion.manoeuvres(); });
+  const bool all = std::ranges::all_of(motions, [](const MotionChoice& motion) { return motion.manoeuvres(); });
   return all ? std::nullopt : model;
 }
 

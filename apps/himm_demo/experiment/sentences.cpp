@@ -191,7 +191,7 @@ Region claim_of(int scenario, int group, std::size_t phase) {
       const auto& phases = statement.phases;
       if (statement.figure == FigureOf::rmse && statement.of == Actor::himm && statement.against == Actor::imm &&
           statement.scenario == scenario && statement.group == group &&
-          std::find(phases.begin(), phases.end(), phase) != phases.end())
+          std::ranges::find(phases, phase) != phases.end())
         return statement.region;
     }
   throw std::logic_error("the paper says nothing of this phase");

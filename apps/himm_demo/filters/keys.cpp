@@ -91,8 +91,8 @@ FilterKey choice(std::string name, std::string meaning, Value Owner::*member, Na
             filter.*member = settings.choice(name, names, filter.*member);
           },
           [=](const FilterSettings& filter) {
-            const auto found = std::find_if(names.begin(), names.end(),
-                                            [&](const auto& entry) { return entry.second == filter.*member; });
+            const auto found =
+                std::ranges::find_if(names, [&](const auto& entry) { return entry.second == filter.*member; });
             return fmt::format("\"{}\"", found->first);
           }};
 }
@@ -169,8 +169,8 @@ FilterKey per_model(MotionParameter parameter) {
           },
           [=](const FilterSettings& filter) { return toml_list(values(filter)); },
           [=](const FilterSettings& filter) {
-            return std::any_of(filter.motions.begin(), filter.motions.end(),
-                               [=](const MotionChoice& motion) { return motion.known().has_parameter(parameter); });
+            return std::ranges::any_of(
+                filter.motions, [=](const MotionChoice& motion) { return motion.known().has_parameter(parameter); });
           }};
 }
 
@@ -190,8 +190,7 @@ FilterKey models() {
             const std::vector<MotionChoice> before = std::exchange(filter.motions, {});
             for (const auto& name : settings.get("models", names)) {
               if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
-              const auto same =
-                  std::find_if(before.begin(), before.end(), [&](const MotionChoice& m) { return m.name == name; });
+              const auto same = std::ranges::find(before, name, &MotionChoice::name);
               filter.motions.push_back(same == before.end() ? before.front() : *same);
               filter.motions.back().name = name;
             }
@@ -218,7 +217,7 @@ FilterKey transition(const std::string& name, std::string meaning, std::string v
             for (std::size_t i = 0; i < modes; ++i) {
               double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
               if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
-              std::fill(rows[i].begin(), rows[i].end(), fuzzy ? leaves : leaves / others);
+              std::ranges::fill(rows[i], fuzzy ? leaves : leaves / others);
               rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
             }
             rows = settings.get(name, rows);
@@ -243,8 +242,7 @@ FilterKey only(bool (*applies)(const FilterSettings&), FilterKey key) {
 }
 
 bool turns(const FilterSettings& filter) {
-  return std::any_of(filter.motions.begin(), filter.motions.end(),
-                     [](const MotionChoice& motion) { return !motion.linear(); });
+  return std::ranges::any_of(filter.motions, [](const MotionChoice& motion) { return !motion.linear(); });
 }
 bool mixes(const FilterSettings& filter) {
   return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
@@ -443,7 +441,7 @@ std::string toml_string(std::string_view text) {
 
 /// A key of TOML, in quotes where it needs them.
 std::string toml_key(const std::string& name) {
-  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
+  const bool bare = !name.empty() && std::ranges::all_of(name, [](char letter) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
            letter == '_' || letter == '-';
   });

@@ -52,9 +52,8 @@ struct FilterSettings : TargetChoice {
   }
   /// Whether an accuracy, of whatever sensor, has this.
   bool knows(std::optional<double> Accuracy::*sigma) const {
-    return (accuracy.*sigma).has_value() || std::any_of(sensors.begin(), sensors.end(), [=](const auto& own) {
-             return (own.second.*sigma).has_value();
-           });
+    return (accuracy.*sigma).has_value() ||
+           std::ranges::any_of(sensors, [=](const auto& own) { return (own.second.*sigma).has_value(); });
   }
 };
 

@@ -93,7 +93,7 @@ class Estimates {
     cells.push_back(point.nis ? Cell(*point.nis) : Cell());
     if (turns_) cells.push_back(n > whole ? Cell(point.mean[whole] / degree) : Cell());
     for (const auto& model : models_) {
-      const auto own = std::find(settings.models.begin(), settings.models.end(), model) - settings.models.begin();
+      const auto own = std::ranges::find(settings.models, model) - settings.models.begin();
       const auto j = static_cast<std::size_t>(own);
       cells.push_back(j < settings.models.size() ? Cell(point.weights[j]) : Cell());
     }
@@ -226,9 +226,8 @@ class TrackRun {
     if (!recording_.has_sensors()) return;
     ++outcome_.sensors[row.sensor];
     const auto known = [&](std::optional<double> Accuracy::*sigma) {
-      return std::any_of(filters_.begin(), filters_.end(), [&](const FilterSettings& filter) {
-        return (filter.accuracy_of(row.sensor).*sigma).has_value();
-      });
+      return std::ranges::any_of(
+          filters_, [&](const FilterSettings& filter) { return (filter.accuracy_of(row.sensor).*sigma).has_value(); });
     };
     if (is_moving(row.plot, axes_) && !known(&Accuracy::velocity_mps)) ++outcome_.velocity_unknown[row.sensor];
     if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))

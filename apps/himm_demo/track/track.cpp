@@ -89,9 +89,8 @@ class Reporter {
   void describe() {
     std::vector<std::pair<bool, std::string>> all;
     const auto say = [&](bool holds, std::string words) { all.emplace_back(holds, std::move(words)); };
-    const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
-      return filter.radar_measurement == RadarForm::polar;
-    });
+    const bool converted = std::ranges::none_of(
+        filters_, [](const FilterSettings& filter) { return filter.radar_measurement == RadarForm::polar; });
     std::vector<std::string> parts;  // of the measurements that are not positions along all axes
     if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
     if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));

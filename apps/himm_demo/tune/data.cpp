@@ -109,8 +109,7 @@ struct Extent {
 void summarize(TuneData& data) {
   const std::size_t all = data.tracks.size();
   std::erase_if(data.tracks, [](const TuneTrack& track) {
-    const auto measured =
-        std::count_if(track.rows.begin(), track.rows.end(), [](const Row& row) { return row.measured(); });
+    const auto measured = std::ranges::count_if(track.rows, [](const Row& row) { return row.measured(); });
     return static_cast<std::size_t>(measured) < fewest_measurements;
   });
   data.too_short = all - data.tracks.size();
@@ -164,12 +163,10 @@ double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objec
 
 }  // namespace
 
-bool TuneOptions::fits(std::string_view what) const {
-  return std::find(fixed.begin(), fixed.end(), what) == fixed.end();
-}
+bool TuneOptions::fits(std::string_view what) const { return std::ranges::find(fixed, what) == fixed.end(); }
 
 TuneData read_tune_data(const TuneOptions& options) {
-  if (std::count(options.files.begin(), options.files.end(), "-") > 0)
+  if (std::ranges::count(options.files, "-") > 0)
     throw UsageError("tune reads its files more than once: it takes no standard input");
   RecordingOptions first = options.recording;
   first.file = options.files.front();

@@ -225,7 +225,7 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
     auto& own = parts.emplace_back();
     const auto add = [&](const std::string& row, const InnovationTally& tally) {
       own[row] = &tally;
-      if (std::find(chart.rows.begin(), chart.rows.end(), row) == chart.rows.end()) chart.rows.push_back(row);
+      if (std::ranges::find(chart.rows, row) == chart.rows.end()) chart.rows.push_back(row);
     };
     for (const auto& sensor : diagnosis->sensors) add(sensor.name, sensor.innovations);
     for (const auto& mode : diagnosis->modes)
