@@ -603,11 +603,10 @@ void report(const Found& found, ResultFiles& files) {
   result.fact({"runs"}, experiment.runs);
   result.fact({"seed"}, experiment.seed);
   result.fact({"settings_toml"}, as_toml(experiment.filters));
-  result.say(fmt::format("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
-                         name_of(options.preset), experiment.runs, experiment.seed));
-  result.say(fmt::format("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first,
-                         phases[0].last, phases[1].name, phases[1].first, phases[1].last, phases[2].name,
-                         phases[2].first, phases[2].last));
+  result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
+             name_of(options.preset), experiment.runs, experiment.seed);
+  result.say("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first, phases[0].last,
+             phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;

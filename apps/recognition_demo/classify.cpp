@@ -180,24 +180,18 @@ struct Classified {
   std::vector<ShownRow> shown;
 };
 
-ResultTable predictions_table(const RandomVariable& pattern, bool has_truth) {
-  std::vector<ResultColumn> columns = {{.key = "line"}};
-  if (has_truth) columns.push_back({.key = "truth"});
-  for (const char* key : {"classifier", "decision", "margin"}) columns.push_back({.key = key});
-  for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({.key = pattern.label(c)});
-  return ResultTable(std::move(columns));
+std::vector<std::string> prediction_keys(const RandomVariable& pattern, bool has_truth) {
+  std::vector<std::string> keys = {"line", "truth", "classifier", "decision", "margin"};
+  if (!has_truth) keys.erase(keys.begin() + 1);
+  for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
+  return keys;
 }
 
 /// What one classifier says of one row: counts it, shows it, and writes it to the file if there is one.
 class Judge {
  public:
-  Judge(const ClassifyOptions& options, const RandomVariable& pattern, bool has_truth, AtomicFile* file)
-      : least_margin_(options.least_margin),
-        has_truth_(has_truth),
-        file_(file),
-        predictions_(predictions_table(pattern, has_truth)) {
-    if (file_) file_->write(predictions_.csv_header());
-  }
+  Judge(const ClassifyOptions& options, bool has_truth, RowFile& file)
+      : least_margin_(options.least_margin), has_truth_(has_truth), file_(file) {}
 
   template <class Kind>
   void operator()(const std::string& name, const Belief<Kind>& belief, std::optional<std::size_t> truth,
@@ -222,20 +216,19 @@ class Judge {
     const std::vector<Cell> said = {name, rejected ? Cell() : Cell(label(decision.pattern)), decision.margin};
     cells.insert(cells.end(), said.begin(), said.end());
     for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-    file_->write(predictions_.csv_line(cells));
+    file_.write(cells);
   }
 
  private:
   double least_margin_;
   bool has_truth_;
-  AtomicFile* file_;
-  ResultTable predictions_;
+  RowFile& file_;
 };
 
 Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-                        CsvReader& reader, RowReader& rows, AtomicFile* file) {
+                        CsvReader& reader, RowReader& rows, RowFile& file) {
   const auto& pattern = model.counts.pattern();
-  Judge judge(options, pattern, rows.has_truth(), file);
+  Judge judge(options, rows.has_truth(), file);
   Classified result;
   result.tallies.assign(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
@@ -350,22 +343,22 @@ void run_classify(const ClassifyOptions& options) {
 
   CsvReader reader = open_csv(options.file);
   RowReader rows(model, reader, options.unseen == "missing");
-  const Classified found = classify_all(options, model, all, reader, rows, files.open("predictions.csv"));
+  RowFile file(files, "predictions.csv", prediction_keys(pattern, rows.has_truth()));
+  const Classified found = classify_all(options, model, all, reader, rows, file);
   if (found.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
-  result.say(fmt::format("{}: {} rows, by {}", reader.file(), found.rows, options.model));
+  result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
   if (rows.unseen_cells() > 0)
-    result.say(
-        fmt::format("\n{} as missing, since the model does not know {}: {}",
-                    rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
-                    rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen()));
+    result.say("\n{} as missing, since the model does not know {}: {}",
+               rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
+               rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen());
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), all, found), {});
   for (std::size_t i = 0; i < all.size(); ++i)
     if (found.tallies[i].excluded > 0)
-      result.say(fmt::format("{}: {} rows excluded every class and were judged by the prior", all[i].name,
-                             found.tallies[i].excluded));
+      result.say("{}: {} rows excluded every class and were judged by the prior", all[i].name,
+                 found.tallies[i].excluded);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);

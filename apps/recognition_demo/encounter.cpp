@@ -188,9 +188,9 @@ std::vector<Contestant> contestants(const Counts& counts) {
 
 void say_counts(const EncounterOptions& options, const Counts& counts, Result& result) {
   result.say(
-      fmt::format("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
-                  "equally plausible before",
-                  options.file));
+      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
+      "equally plausible before",
+      options.file);
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     double samples = 0.0;
     for (const double count : counts.of(0, c)) samples += count;
@@ -216,9 +216,9 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     say_counts(options, data.counts, result);
     result.say(
-        fmt::format("{} seeded draws from the counts themselves, every feature and report independent, as sigma "
-                    "inference assumes; seed {}",
-                    draws.runs, draws.seed));
+        "{} seeded draws from the counts themselves, every feature and report independent, as sigma "
+        "inference assumes; seed {}",
+        draws.runs, draws.seed);
     result.fact({"file"}, options.file);
     result.fact({"drawn_from"}, "the counts");
     result.fact({"runs"}, draws.runs);
@@ -319,9 +319,9 @@ View view_of(const EncounterData& data, const std::vector<Contestant>& contestan
 }
 
 ResultTable reports_table(const EncounterData& data, const TrackReports& track) {
-  std::vector<ResultColumn> columns = {{.key = "time_s"}};
-  for (const auto& feature : data.counts.features()) columns.push_back({.key = feature.name()});
-  ResultTable table(std::move(columns));
+  std::vector<std::string> keys = {"time_s"};
+  for (const auto& feature : data.counts.features()) keys.push_back(feature.name());
+  auto table = ResultTable::of_keys(keys);
   for (const TrackReport& report : track.reports) {
     std::vector<Cell> cells = {report.time_s};
     for (std::size_t i = 0; i < report.readings.size(); ++i)
@@ -343,9 +343,9 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
 
   Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
   say_counts(options, data.counts, result);
-  result.say(fmt::format(
-      "{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more", options.track,
-      track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(), options.every_s));
+  result.say("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more",
+             options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(),
+             options.every_s);
   result.page.verdict = {
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",

@@ -263,12 +263,10 @@ void add_reliability(Result& result, const Outcome& outcome, std::size_t folding
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const EvaluateOptions& options, AtomicFile& file) {
-  std::vector<ResultColumn> columns = {
-      {.key = "line"}, {.key = "fold"}, {.key = "truth"}, {.key = "classifier"}, {.key = "decision"}};
-  for (const auto& name : data.classes) columns.push_back({.key = name});
-  const ResultTable table(std::move(columns));
-  file.write(table.csv_header());
+void write_predictions(const DataTable& data, const EvaluateOptions& options, ResultFiles& files) {
+  std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
+  keys.insert(keys.end(), data.classes.begin(), data.classes.end());
+  RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
   const Folds folds = folds_of(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
@@ -280,7 +278,7 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
               std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()],
                                          taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
               for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-              file.write(table.csv_line(cells));
+              file.write(cells);
             },
             by.belief);
       });
@@ -325,17 +323,16 @@ Results evaluated(const DataTable& data, const EvaluateOptions& options) {
 }
 
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
-  result.say(fmt::format("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
-                         options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
-                         options.seed, described(options.learning)));
+  result.say("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
+             options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
+             options.seed, described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
       "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
-      result.say(
-          fmt::format("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded));
+      result.say("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0,
                "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
@@ -430,7 +427,7 @@ void run_evaluate(const EvaluateOptions& options) {
   say_scores(data, results, options, result);
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
-  if (files.wanted()) write_predictions(data, options, *files.open("predictions.csv"));
+  if (files.wanted()) write_predictions(data, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }

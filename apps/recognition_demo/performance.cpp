@@ -251,18 +251,18 @@ Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge
 }
 
 void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
-  result.say(fmt::format(
+  result.say(
       "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
       "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
-      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least));
+      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least);
   for (const auto& remark : data.remarks) result.say(remark);
   result.say(
-      fmt::format("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
-                  "quantity",
-                  options.draws.runs,
-                  options.drawn_from == "density" ? "the densities: sigma inference knows them"
-                                                  : "densities in proportion to the triangles",
-                  options.draws.seed, options.bins));
+      "{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
+      "quantity",
+      options.draws.runs,
+      options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                      : "densities in proportion to the triangles",
+      options.draws.seed, options.bins);
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.

@@ -243,9 +243,9 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, const s
                   "than sigma inference, orange: more seldom; the colours end at 20 points.",
                   draws.runs, options.reports, draws.seed)};
   result.say(
-      fmt::format("Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
-                  "Differences are points ± 95 % by paired runs.",
-                  draws.runs, options.reports, draws.seed));
+      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
+      "Differences are points ± 95 % by paired runs.",
+      draws.runs, options.reports, draws.seed);
   std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
     const auto own = rest.first(regime.settings.size());

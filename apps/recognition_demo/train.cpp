@@ -48,11 +48,11 @@ void run_train(const TrainOptions& options) {
   write_model(model, options.kinds, options.model);
 
   Result result = result_of_contest("", options.output);
-  result.say(fmt::format("{}: {}\n{}", data.file, described(data), described(options.learning)));
+  result.say("{}: {}\n{}", data.file, described(data), described(options.learning));
   result.add(features_table(model), {});
   for (const auto& [classifier, pattern, dominator] : dominated(classifiers(model, options.kinds)))
-    result.say(fmt::format("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
-                           in_quotes(pattern), in_quotes(dominator)));
+    result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
+               in_quotes(pattern), in_quotes(dominator));
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 

@@ -198,8 +198,7 @@ void add_scores(Result& result, const Scores& scores, const std::string& what_is
       "of the best other.)");
   for (const Score& score : scores)
     if (score.refused > 0)
-      result.say(fmt::format("{}: {} reports excluded every pattern that was left and were passed over", score.name,
-                             score.refused));
+      result.say("{}: {} reports excluded every pattern that was left and were passed over", score.name, score.refused);
   ResultTable curves({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
   for (const Score& score : scores)
     for (std::size_t k = 0; k < score.accuracy.size(); ++k) curves.row({k + 1, score.name, score.accuracy[k]});
@@ -215,14 +214,16 @@ LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counte
   return chart;
 }
 
-void add_belief_columns(const std::vector<Contestant>& contestants, const std::vector<std::string>& patterns,
-                        std::vector<ResultColumn>& columns) {
+std::vector<std::string> with_beliefs(std::vector<std::string> keys, const std::vector<Contestant>& contestants,
+                                      const std::vector<std::string>& patterns) {
   for (const Contestant& contestant : contestants)
-    for (const std::string& pattern : patterns) columns.push_back({.key = contestant.name + ": " + pattern});
+    for (const std::string& pattern : patterns) keys.push_back(contestant.name + ": " + pattern);
+  return keys;
 }
 
-void add_beliefs(const SeenRun& run, std::vector<Cell>& cells) {
+std::vector<Cell> with_beliefs(std::vector<Cell> cells, const SeenRun& run) {
   for (const Trace& trace : run.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+  return cells;
 }
 
 }  // namespace sigmax::apps

@@ -152,6 +152,11 @@ void ResultFiles::commit() {
   fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
 }
 
+RowFile::RowFile(ResultFiles& files, const std::string& name, const std::vector<std::string>& keys)
+    : table_(ResultTable::of_keys(keys)), file_(files.open(name)) {
+  if (file_) file_->write(table_.csv_header());
+}
+
 Result::Result(const OutputOptions& options)
     : words_width(options.width()),
       options_(options),

@@ -188,6 +188,12 @@ ResultTable::ResultTable(std::vector<ResultColumn> columns) : columns_(std::move
   check(columns_, columns_);
 }
 
+ResultTable ResultTable::of_keys(const std::vector<std::string>& keys) {
+  ResultTable table;
+  for (const std::string& key : keys) table.columns_.push_back({.key = key});
+  return table;
+}
+
 void ResultTable::row(std::vector<Cell> cells) {
   check(columns_, cells);
   rows_.push_back(std::move(cells));

@@ -113,6 +113,9 @@ class ResultTable {
   /// Adds a row with a cell a column; throws std::invalid_argument for another number.
   void row(std::vector<Cell> cells);
 
+  /// One whose columns are for files only.
+  static ResultTable of_keys(const std::vector<std::string>& keys);
+
   /// A table to which all rows are added as fields: the columns are those of the first one.
   ResultTable() = default;
   void row_of(const std::vector<Field>& fields);

@@ -69,7 +69,10 @@ void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
 class Estimates {
  public:
   Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording)
-      : iso_times_(options.iso_times), recording_(recording), models_(model_names(filters)), table_(columns(filters)) {}
+      : iso_times_(options.iso_times),
+        recording_(recording),
+        models_(model_names(filters)),
+        table_(ResultTable::of_keys(keys(filters))) {}
 
   std::string header() const { return table_.csv_header(); }
 
@@ -107,7 +110,7 @@ class Estimates {
   }
 
  private:
-  std::vector<ResultColumn> columns(const std::vector<FilterSettings>& filters) {
+  std::vector<std::string> keys(const std::vector<FilterSettings>& filters) {
     std::vector<std::string> keys = {"time_s"};
     if (iso_times_) keys.emplace_back("time_utc");
     if (recording_.has_tracks()) keys.emplace_back("track");
@@ -122,9 +125,7 @@ class Estimates {
     keys.emplace_back("most_likely");
     if (recording_.geodetic())
       for (const char* key : {"latitude_deg", "longitude_deg", "altitude_m"}) keys.emplace_back(key);
-    std::vector<ResultColumn> columns;
-    for (auto& key : keys) columns.push_back({.key = std::move(key)});
-    return columns;
+    return keys;
   }
 
   bool iso_times_;

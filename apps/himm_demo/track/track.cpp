@@ -284,9 +284,9 @@ class Reporter {
           if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
         }
         result_.text += "\n";
-        result_.say(fmt::format(
-            "Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track, fmt::join(told, ", "),
-            stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""));
+        result_.say("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
+                    fmt::join(told, ", "),
+                    stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : "");
       }
   }
 
