@@ -75,10 +75,6 @@ void add_merge(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<MergeOptions>();
   options->output.command = command;
   app.option("parts", options->parts, "Directories that --shard … --out wrote").required().type("DIR");
-  app.footer(
-      "Examples:\n"
-      "  himm_demo merge part1 part2 part3 part4 --out whole\n"
-      "  himm_demo merge part* --out whole --wide");
   add_output(app, options->output);
   add_report(app, options->output);
   app.option("--out").required();

@@ -716,13 +716,6 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   add_threads(app, options->sharing.threads);
   add_seed(app, options->choice.seed);
   add_shard(app, options->sharing);
-  app.footer(
-      "With --out every finished batch of runs is on the disk at once: a command that was killed goes on from there "
-      "when it is given again.\n\n"
-      "Examples:\n"
-      "  himm_demo reproduce\n"
-      "  himm_demo reproduce --runs 100 --out results\n"
-      "  himm_demo reproduce --runs 10000 --shard 1/4 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] {

@@ -708,11 +708,6 @@ void add_simulate(CLI::App& program, const std::string& command) {
       .text("paper_text|released [paper_text]");
   app.option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]").in(1, 100000000);
   add_threads(app, options->threads);
-  app.footer(
-      "Examples:\n"
-      "  himm_demo simulate --scenario 2 --group 3 --out results\n"
-      "  himm_demo simulate --set filters=all\n"
-      "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);

@@ -692,13 +692,6 @@ void add_sweep(CLI::App& program, const std::string& command) {
   add_seed(app, options->choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
-  app.footer(
-      "With --out every finished cell, a filter in a condition, is on the disk at once: a command that was killed goes "
-      "on from there when it is given again.\n\n"
-      "Examples:\n"
-      "  himm_demo sweep --out results\n"
-      "  himm_demo sweep --scenario 1 --cross --filters imm,himm_own --out results\n"
-      "  himm_demo sweep --cross --shard 1/16 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] {

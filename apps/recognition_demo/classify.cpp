@@ -394,10 +394,6 @@ void add_classify(CLI::App& program, const std::string& command) {
       .shows_default();
   add_output(app, options->output);
   add_report(app, options->output);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
-      "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
   app.run([options] { run_classify(*options); });
 }
 

@@ -403,11 +403,6 @@ void add_encounter(CLI::App& program, const std::string& command) {
       .needs(track)
       .type("FT");
   add_draws(app, options->draws, command, 50000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo encounter encounter_features.csv\n"
-      "  recognition_demo encounter encounter_features.csv --track helicopter.csv \\\n"
-      "    --every 30");
   app.run([options] { run_encounter(*options); });
 }
 

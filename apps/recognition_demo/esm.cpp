@@ -163,10 +163,6 @@ void add_esm(CLI::App& program, const std::string& command) {
           .shows_default();
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws, command, 20000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo esm --usage dirichlet --alpha 0.5\n"
-      "  recognition_demo esm --reports 100 --runs 5000 --out results");
   app.run([options, alpha] {
     if (alpha.given() && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
     run_esm(*options);

@@ -449,11 +449,6 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   add_threads(app, options->threads);
   add_output(app, options->output);
   add_report(app, options->output);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"
-      "  recognition_demo evaluate letter.csv --label letter --categorical all \\\n"
-      "    --out results");
   app.run([options] { run_evaluate(*options); });
 }
 

@@ -1,6 +1,12 @@
 #include "recognition_demo/subcommands.hpp"
 #include "support/command_line.hpp"
 
+namespace {
+constexpr const char* usage =
+#include "recognition_demo/usage.txt"
+    ;
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
   return run_command_line(
@@ -8,6 +14,7 @@ int main(int argc, char** argv) {
        "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and "
        "sigma-max inference (both).",
        {add_esm, add_regimes, add_manoeuvre, add_encounter, add_performance, add_train, add_classify, add_evaluate},
-       "esm"},
+       "esm",
+       usage},
       argc, argv);
 }

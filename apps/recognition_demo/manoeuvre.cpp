@@ -336,10 +336,6 @@ void add_manoeuvre(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<DrawOptions>();
   Subcommand app(program, "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
   add_draws(app, *options, command, 1000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo manoeuvre\n"
-      "  recognition_demo manoeuvre --runs 20000 --out results");
   app.run([options] { run_manoeuvre(*options); });
 }
 

@@ -345,11 +345,6 @@ void add_performance(CLI::App& program, const std::string& command) {
       .number_in(0.0, 1.0)
       .shows_default();
   add_draws(app, options->draws, command, 60000);  // intervals below a tenth of the differences
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo performance openap_performance.csv\n"
-      "  recognition_demo performance openap_performance.csv --draws triangle \\\n"
-      "    --least 0.1");
   app.run([options] { run_performance(*options); });
 }
 

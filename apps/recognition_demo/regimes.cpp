@@ -295,10 +295,6 @@ void add_regimes(CLI::App& program, const std::string& command) {
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws, command, 5000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo regimes\n"
-      "  recognition_demo regimes --reports 10 --runs 5000 --out results");
   app.run([options] { run_regimes(*options); });
 }
 

@@ -70,12 +70,6 @@ void add_train(CLI::App& program, const std::string& command) {
       .text("sigma,max,sigma-max [all]");
   add_quiet(app, options->output.quiet);
   add_wide(app, options->output.wide);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo train zoo.csv --label type --ignore name --categorical all \\\n"
-      "    --model zoo.json\n"
-      "  recognition_demo train wine.csv --label class --bins 5 --kinds sigma,max \\\n"
-      "    --model wine.json");
   app.run([options] { run_train(*options); });
 }
 

@@ -94,6 +94,15 @@ class Help : public CLI::Formatter {
   }
 };
 
+/// What a text has after a line [NAME], up to the next such line.
+std::string section(std::string_view text, const std::string& name) {
+  const std::string head = "[" + name + "]\n";
+  const auto begin = text.find(head);
+  if (begin == std::string_view::npos) return "";
+  text.remove_prefix(begin + head.size());
+  return std::string(text.substr(0, text.find("\n[")));
+}
+
 bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
 
 std::vector<std::string> names_of_subcommands(const CLI::App& app) {
@@ -265,8 +274,6 @@ Option Subcommand::triple(const std::string& name, std::optional<std::array<doub
 
 Option Subcommand::option(const std::string& name) { return Option(app_.get_option(name)); }
 
-void Subcommand::footer(const std::string& text) { app_.footer(text); }
-
 void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
 
 void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
@@ -308,6 +315,8 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
   app.require_subcommand(outline.default_subcommand.empty() ? 1 : 0, 1);
   app.footer(fmt::format("{} SUBCOMMAND --help lists the options of a subcommand, with examples.", outline.name));
   for (const AddSubcommand add : outline.subcommands) add(app, command);
+  for (CLI::App* const subcommand : app.get_subcommands({}))
+    subcommand->footer(section(outline.usage, subcommand->get_name()));
 
   int code = 0;
   const int ended = run_program(outline.name.c_str(), [&] {

@@ -542,7 +542,6 @@ void add_filter_options(CLI::App& program, std::string& config, std::vector<std:
 
 void add_keys(CLI::App& program, const std::string&) {
   Subcommand app(program, "keys", "Lists the keys of --config and --set.");
-  app.footer("Examples:\n  himm_demo keys\n  himm_demo keys | grep -A 3 gate");
   app.run([] { fmt::print("{}", key_table()); });
 }
 

@@ -365,34 +365,6 @@ void add_track(CLI::App& program, const std::string& command) {
   options->output.command = command;
   app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
-  app.footer(
-      "Recordings are told apart by their columns; others are ignored:\n"
-      "  time_s,x_m[,y_m[,z_m]]                             positions in m\n"
-      "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
-      "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
-      "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
-      "  time_s,azimuth_deg                                 bearings\n"
-      "Lengths may be in m, km, ft, nmi or mi, as range_nmi; speeds in mps, kmh, kt,\n"
-      "mph, fps or fpm; angles in deg or rad; azimuth_deg_north is clockwise from\n"
-      "north. What is not used of them is said, and why. Beside them may stand\n"
-      "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
-      "accuracy of the row. Times are seconds, dates and times as\n"
-      "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
-      "without a position is a missed measurement; one with some of x_m, y_m, z_m, or a\n"
-      "place without its height, measures what it has, and a radar's row with nothing\n"
-      "but an azimuth is a bearing.\n"
-      "With sigma_velocity_mps, vx_mps,vy_mps[,vz_mps] are measurements too, or\n"
-      "groundspeed_kt,track_deg (speed_mps, course_deg) and vertical_rate_fpm; with\n"
-      "sigma_range_rate_mps a radar's range_rate_mps.\n"
-      "\n"
-      "Examples:\n"
-      "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 \\\n"
-      "    --set sigma_azimuth_deg=0.2\n"
-      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
-      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip \\\n"
-      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude \\\n"
-      "    --set sigma_w=0.05 --out results");
   app.option(
          "--predict-to",
          [options](const std::string& text) {

@@ -545,12 +545,6 @@ void add_tune(CLI::App& program, const std::string& command) {
   app.option("--report", options->page.report, "Write it as a page of charts for a browser").type("FILE.html");
   add_quiet(app, options->page.quiet);
   add_wide(app, options->page.wide);
-  app.footer(
-      "Examples:\n"
-      "  himm_demo tune flight.csv --out best.toml\n"
-      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --truth \\\n"
-      "    --radar-at=-20000,-10000,0\n"
-      "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
   app.run([options] { tune_and_write(*options); });
 }
 
