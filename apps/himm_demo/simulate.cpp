@@ -14,7 +14,7 @@
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "himm_demo/filters/keys.hpp"
+#include "himm_demo/filters/settings.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"

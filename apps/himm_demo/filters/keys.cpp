@@ -1,4 +1,4 @@
-#include "himm_demo/filters/keys.hpp"
+#include "himm_demo/filters/settings.hpp"
 
 #include <algorithm>
 #include <cmath>

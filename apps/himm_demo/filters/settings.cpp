@@ -12,7 +12,6 @@
 #include <sigmax/estimation/radar.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "himm_demo/filters/keys.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 

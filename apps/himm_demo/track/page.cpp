@@ -1,4 +1,4 @@
-#include "himm_demo/track/page.hpp"
+#include "himm_demo/track/track.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "himm_demo/track/run.hpp"
+#include "himm_demo/track/track.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -10,8 +10,6 @@
 #include <fmt/ranges.h>
 #include <Eigen/Core>
 
-#include "himm_demo/track/page.hpp"
-#include "himm_demo/track/shares.hpp"
 #include "recording/plots.hpp"
 #include "result/table.hpp"
 #include "support/numbers.hpp"

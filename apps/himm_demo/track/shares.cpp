@@ -1,4 +1,4 @@
-#include "himm_demo/track/shares.hpp"
+#include "himm_demo/track/track.hpp"
 
 #include <utility>
 

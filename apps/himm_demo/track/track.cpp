@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "himm_demo/filters/keys.hpp"
-#include "himm_demo/track/page.hpp"
-#include "himm_demo/track/run.hpp"
-#include "himm_demo/track/shares.hpp"
+#include "himm_demo/filters/settings.hpp"
+#include "himm_demo/track/track.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "support/timestamp.hpp"

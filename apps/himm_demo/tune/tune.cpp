@@ -13,7 +13,7 @@
 
 #include <sigmax/estimation/consistency.hpp>
 
-#include "himm_demo/filters/keys.hpp"
+#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/tune/tune.hpp"
 #include "result/result.hpp"
 #include "support/json.hpp"
