@@ -32,9 +32,9 @@ Journaled joined(const std::vector<std::string>& parts) {
     for (const auto& [cell, row] : own.rows) {
       const auto [there, added] = all.rows.emplace(cell, row);
       if (!added && journal_line(cell, there->second) != journal_line(cell, row))
-        throw InputError(message({.where = path.native(),
-                                  .what = fmt::format("cell {} is another one than in a shard before", cell),
-                                  .remedy = "do all shards by the same build of the program"}));
+        throw InputError(
+            "{}: cell {} is another one than in a shard before; do all shards by the same build of the program",
+            path.native(), cell);
     }
   }
   return all;
@@ -46,10 +46,8 @@ std::vector<std::string> command_of(const std::string& campaign) {
   std::string program, made_by;
   words >> program >> made_by;
   if (program != "himm_demo" || made_by != version)
-    throw InputError(message({.what = "the shards",
-                              .found = in_quotes(program + " " + made_by),
-                              .expected = fmt::format("himm_demo {}", version),
-                              .remedy = "merge them by the version that made them"}));
+    throw InputError("the shards: found {}, expected himm_demo {}; merge them by the version that made them",
+                     in_quotes(program + " " + made_by), version);
   return {std::istream_iterator<std::string>(words), {}};
 }
 

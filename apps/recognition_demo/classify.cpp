@@ -345,7 +345,7 @@ void run_classify(const ClassifyOptions& options) {
   RowReader rows(model, reader, options.unseen == "missing");
   RowFile file(files, "predictions.csv", prediction_keys(pattern, rows.has_truth()));
   const Classified found = classify_all(options, model, all, reader, rows, file);
-  if (found.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+  if (found.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);

@@ -197,9 +197,8 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions&
     if (!left_out.contains(i) && !reader.names()[i].empty())
       columns.emplace_back(i, all_categorical || categorical.contains(i));
   if (columns.empty())
-    throw InputError(message({.where = reader.file(),
-                              .what = fmt::format("there is no column beside {}", in_quotes(options.label)),
-                              .expected = "one with a feature"}));
+    throw InputError("{}: there is no column beside {}: expected one with a feature", reader.file(),
+                     in_quotes(options.label));
   return columns;
 }
 
@@ -255,8 +254,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     }
   }
   progress.finish();
-  if (table.size() == 0)
-    throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+  if (table.size() == 0) throw InputError("{}: there is no row below the header", reader.file());
   std::tie(table.classes, table.class_order_) = classes.sorted();
   if (table.classes.size() == 1)
     throw InputError(

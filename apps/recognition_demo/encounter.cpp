@@ -70,8 +70,7 @@ EncounterData read_encounter(const std::string& file) {
     layers.count.push_back(times);
   }
   if (classes.size() < 2)
-    throw InputError(message(
-        {.where = reader.file(), .found = fmt::format("{} classes", classes.size()), .expected = "at least two"}));
+    throw InputError("{}: found {} classes, expected at least two", reader.file(), classes.size());
 
   std::vector<Discretization> bins;
   std::vector<RandomVariable> variables;
@@ -137,7 +136,7 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
       throw row.error(time, fmt::format("a time not before {}", rows[rows.size() - 2].time));
     if (!std::isnan(rows.back().altitude)) lowest = std::min(lowest, rows.back().altitude);
   }
-  if (!std::isfinite(lowest)) throw InputError(message({.where = reader.file(), .what = "no row has an altitude"}));
+  if (!std::isfinite(lowest)) throw InputError("{}: no row has an altitude", reader.file());
 
   TrackReports result;
   result.rows = rows.size();
@@ -158,10 +157,9 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
     next = row.time + every_s;
   }
   if (result.reports.empty())
-    throw InputError(message(
-        {.where = reader.file(),
-         .what = fmt::format("no row is {} ft or more above the ground at {} ft", data.lowest_ft, result.ground_ft),
-         .remedy = "give the altitude of the ground by --ground"}));
+    throw InputError(
+        "{}: no row is {} ft or more above the ground at {} ft; give the altitude of the ground by --ground",
+        reader.file(), data.lowest_ft, result.ground_ft);
   return result;
 }
 

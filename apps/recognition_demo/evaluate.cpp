@@ -292,11 +292,10 @@ void refuse_rare_classes(const DataTable& data) {
     if (data.rows_of_class[c] < 2)
       rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), data.last_line_of_class[c]));
   if (rare.empty()) return;
-  throw InputError(message({.where = data.file,
-                            .what = fmt::format("column {}", in_quotes(data.label)),
-                            .found = fmt::format("a single row of {}", fmt::join(rare, ", ")),
-                            .expected = "at least two of every class: one to learn from, one to classify",
-                            .remedy = "add rows, or remove those of the class"}));
+  throw InputError(
+      "{}: column {}: found a single row of {}, expected at least two of every class: one to learn from, one to "
+      "classify; add rows, or remove those of the class",
+      data.file, in_quotes(data.label), fmt::join(rare, ", "));
 }
 
 Results evaluated(const DataTable& data, const EvaluateOptions& options) {
@@ -409,9 +408,8 @@ void run_evaluate(const EvaluateOptions& options) {
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);
   if (options.folds > data.size())
-    throw InputError(message({.where = data.file,
-                              .found = fmt::format("{} rows", data.size()),
-                              .expected = fmt::format("at least as many as the {} folds", options.folds)}));
+    throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
+                     options.folds);
   refuse_rare_classes(data);
   const Results results = evaluated(data, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);

@@ -142,8 +142,7 @@ PerformanceData read_performance(const std::string& file) {
     remember(data.variables, of_variable);
   }
   if (data.types.size() < 2)
-    throw InputError(message(
-        {.where = reader.file(), .found = fmt::format("{} types", data.types.size()), .expected = "at least two"}));
+    throw InputError("{}: found {} types, expected at least two", reader.file(), data.types.size());
   for (const auto& of_variable : data.variables) {
     auto& row = data.table.emplace_back();
     for (const auto& of_type : data.types) {

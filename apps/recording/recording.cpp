@@ -50,8 +50,7 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
   for (const auto& select : options.select) {
     const auto equals = select.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError(fmt::format("--select: '{}' is not COLUMN=VALUE", select));
+    if (equals == std::string::npos || equals == 0) throw UsageError("--select: '{}' is not COLUMN=VALUE", select);
     select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
   }
   if (!options.origin) return;
@@ -59,7 +58,7 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   try {
     origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--origin: {}", error.what()));
+    throw UsageError("--origin: {}", error.what());
   }
 }
 
@@ -100,7 +99,7 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
     if (options.azimuth_from_north == false)
-      throw UsageError(fmt::format("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix));
+      throw UsageError("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix);
     from_north_ = true;
   }
   const auto are_there = [&](Role role) { return has(role) && has(role, 1); };
@@ -119,10 +118,9 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   if (!cartesian) drop(Role::position);
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
   if (polar() && cartesian && axes_of(Role::position) != axes_)
-    throw InputError(message({.where = file() + ":1",
-                              .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
-                              .expected = "both z_m and elevation_deg, or none of them",
-                              .remedy = "give all sensors of a file as many axes"}));
+    throw InputError(
+        "{}:1: found {}, expected both z_m and elevation_deg, or none of them; give all sensors of a file as many axes",
+        file(), fmt::join(csv_.names(), ", "));
   const auto axes = static_cast<std::size_t>(axes_);
   if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
     drop(Role::course);

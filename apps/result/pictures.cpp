@@ -385,8 +385,10 @@ std::string drawn_by_gnuplot(const std::string& script) {
   const int failure = ::posix_spawnp(&child, name.c_str(), &streams, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&streams);
   if (failure != 0)
-    throw UsageError(message({.what = "gnuplot, which draws the plots, cannot be started: " + reason(failure),
-                              .remedy = "install it (Debian: gnuplot-nox), or leave the plots out"}));
+    throw UsageError(
+        "gnuplot, which draws the plots, cannot be started: {}; install it (Debian: gnuplot-nox), or leave the plots "
+        "out",
+        reason(failure));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

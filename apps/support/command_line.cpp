@@ -63,9 +63,8 @@ void flush_output() {
   const bool flushed = std::fflush(stdout) == 0;
   const int error_number = errno;
   if (flushed && std::ferror(stdout) == 0) return;
-  throw InputError(message({.where = "standard output",
-                            .what = "cannot be written: " + reason(error_number != 0 ? error_number : EIO),
-                            .remedy = "make room there, or choose another place"}));
+  throw InputError("standard output: cannot be written: {}; make room there, or choose another place",
+                   reason(error_number != 0 ? error_number : EIO));
 }
 
 using Arguments = std::vector<std::string>;

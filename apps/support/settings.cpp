@@ -254,8 +254,7 @@ Settings Settings::read(const std::filesystem::path& file, std::span<const std::
     const auto equals = set.find('=');
     const std::string_view key = trimmed(std::string_view{set}.substr(0, equals));
     const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{set}.substr(equals + 1));
-    if (key.empty() || value.empty())
-      throw UsageError(message({.where = "--set", .found = in_quotes(set), .expected = "key=value"}));
+    if (key.empty() || value.empty()) throw UsageError("--set: found {}, expected key=value", in_quotes(set));
     const std::string text = fmt::format("{} = {}", key, with_quoted_words(value));
     settings.layers_.push_back(Layer::of({"--set " + set, false}, text));
   }

@@ -514,23 +514,23 @@ class TrackRun {
   }
 
   [[noreturn]] void refuse_failure(std::size_t f, const Row& row, const std::exception& error) const {
-    throw InputError(message(
-        {.where = fmt::format("{}:{}", file(), row.line),
-         .what = fmt::format("filter '{}' at time {} s: {}", filters_[f].name, shortest(row.plot.time), error.what()),
-         .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
+    throw InputError(
+        "{}:{}: filter '{}' at time {} s: {}; look for an outlier here, and at the start and the settings of the "
+        "filter",
+        file(), row.line, filters_[f].name, shortest(row.plot.time), error.what());
   }
 
   [[noreturn]] void refuse_dates(const Row& row) const {
-    throw InputError(message({.where = fmt::format("{}:{}", file(), row.line),
-                              .what = "--iso-times writes dates, and a time of day has none",
-                              .remedy = "leave out --iso-times, or write the date before the times of the recording"}));
+    throw InputError(
+        "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date before "
+        "the times of the recording",
+        file(), row.line);
   }
 
   [[noreturn]] void refuse_nothing() const {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
-      throw InputError(message({.where = file(),
-                                .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
-                                .remedy = "see how the file writes the value"}));
+      throw InputError("{}: no row has {}; see how the file writes the value", file(),
+                       fmt::join(options_.recording.select, " and "));
     throw InputError(message(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"

@@ -317,8 +317,8 @@ void refuse_what_ranks_cannot_share(const TrackOptions& options) {
         message({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
                  .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"}));
   if (options.recording.file == "-")
-    throw UsageError(message({.what = "under mpirun every rank reads the recording, but standard input comes only once",
-                              .remedy = "give the name of a file"}));
+    throw UsageError(
+        "under mpirun every rank reads the recording, but standard input comes only once; give the name of a file");
 }
 
 void track_and_report(const TrackOptions& options, TrackShares& shares) {

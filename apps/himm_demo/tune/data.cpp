@@ -28,10 +28,10 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
                  .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options.files[0], data.axes),
                  .remedy = "tune recordings of one, two and three axes apart"}));
   if (options.objective != Objective::prequential && !options.radar.sigma && !recording.has_truth())
-    throw InputError(message({.where = file + ":1",
-                              .what = "--truth, but there is no column true_x_m",
-                              .remedy = "leave out --truth, name the columns with --columns, or take the recording as "
-                                        "the truth with --radar"}));
+    throw InputError(
+        "{}:1: --truth, but there is no column true_x_m; leave out --truth, name the columns with --columns, or take "
+        "the recording as the truth with --radar",
+        file);
   refuse_radar(options.radar, recording);
 }
 
@@ -174,12 +174,10 @@ TuneData read_tune_data(const TuneOptions& options) {
   for (const auto& file : options.files) read(file, options, data);
   summarize(data);
   if (data.measurements < fewest_in_all)
-    throw InputError(message(
-        {.where = options.files.front(),
-         .what = "there is too little to fit",
-         .found = fmt::format("{} measurements of tracks with at least {}", data.measurements, fewest_measurements),
-         .expected = fmt::format("at least {}", fewest_in_all),
-         .remedy = "give a longer recording, or several"}));
+    throw InputError(
+        "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
+        "a longer recording, or several",
+        options.files.front(), data.measurements, fewest_measurements, fewest_in_all);
   return data;
 }
 

@@ -419,16 +419,17 @@ void refuse_inputs(const TuneOptions& options) {
 
 void refuse_without_search() {
   if (!can_search())
-    throw InputError(message({.what = "this himm_demo was built without an optimiser",
-                              .remedy = "install libnlopt-cxx-dev, run cmake again and build it"}));
+    throw InputError(
+        "this himm_demo was built without an optimiser; install libnlopt-cxx-dev, run cmake again and build it");
 }
 
 /// The likelihood that has no determinant finds any measurement possible where the noise is great enough.
 void refuse_possibility(const FilterSettings& filter, Objective objective) {
   if (objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
-    throw InputError(message({.what = fmt::format("filter '{}': likelihood = \"possibility\"", filter.name),
-                              .expected = "\"density\", since a possibility never blames noise that is too great",
-                              .remedy = "tune with --truth, or with likelihood=density"}));
+    throw InputError(
+        "filter '{}': likelihood = \"possibility\": expected \"density\", since a possibility never blames noise that "
+        "is too great; tune with --truth, or with likelihood=density",
+        filter.name);
 }
 
 std::string heading(const TuneData& data, const TuneOptions& options) {
