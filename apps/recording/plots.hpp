@@ -7,10 +7,7 @@
 #include <string_view>
 
 #include "recording/recording.hpp"
-
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

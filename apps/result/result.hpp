@@ -14,12 +14,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "result/report.hpp"
+#include "support/command_line.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace sigmax::apps {
 

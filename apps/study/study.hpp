@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

@@ -12,11 +12,8 @@
 #include <sigmax/hybrid/any_target.hpp>
 
 #include "recording/recording.hpp"
+#include "support/command_line.hpp"
 #include "support/settings.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace sigmax::apps {
 
