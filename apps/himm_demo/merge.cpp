@@ -1,16 +1,10 @@
-#include <filesystem>
 #include <iterator>
-#include <memory>
 #include <sstream>
-
-#include <fmt/format.h>
 
 #include "himm_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
-#include "support/error.hpp"
-#include "support/output.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

@@ -1,19 +1,10 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

@@ -1,24 +1,15 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <map>
-#include <memory>
-#include <span>
 #include <tuple>
-
-#include <fmt/format.h>
 
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "himm_demo/filters/settings.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,21 +1,11 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
 #include <set>
-#include <span>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
-#include "support/output.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {

@@ -1,21 +1,10 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
-#include <optional>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
-#include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/progress.hpp"
 

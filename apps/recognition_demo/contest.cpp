@@ -1,12 +1,7 @@
 #include "recognition_demo/contest.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/core.h>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>

@@ -1,14 +1,11 @@
 #include "recognition_demo/data_table.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"

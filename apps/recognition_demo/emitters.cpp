@@ -1,8 +1,5 @@
 #include "recognition_demo/emitters.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <boost/math/distributions/beta.hpp>
 
 #include <sigmax/core/transform.hpp>

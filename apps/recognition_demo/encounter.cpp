@@ -1,12 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <memory>
-#include <optional>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -14,7 +6,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/numbers.hpp"

@@ -1,6 +1,4 @@
-#include <memory>
 
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/witness.hpp>
@@ -8,8 +6,6 @@
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 
 namespace sigmax::apps {
 namespace {

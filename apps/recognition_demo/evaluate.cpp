@@ -1,12 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <optional>
 #include <random>
-#include <variant>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
@@ -16,12 +8,8 @@
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 namespace {

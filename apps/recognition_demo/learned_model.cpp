@@ -1,14 +1,8 @@
 #include "recognition_demo/learned_model.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <sigmax/recognition/equal_frequency_fit.hpp>
-
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

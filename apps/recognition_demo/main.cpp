@@ -1,5 +1,4 @@
 #include "recognition_demo/subcommands.hpp"
-#include "support/command_line.hpp"
 
 namespace {
 constexpr const char* usage =

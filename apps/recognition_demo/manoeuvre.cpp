@@ -1,9 +1,4 @@
-#include <array>
-#include <cmath>
-#include <memory>
-#include <utility>
 
-#include <fmt/core.h>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
@@ -14,7 +9,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,14 +1,9 @@
-#include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "recognition_demo/learned_model.hpp"
 #include "support/input.hpp"
 #include "support/json.hpp"
-#include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {

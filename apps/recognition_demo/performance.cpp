@@ -1,16 +1,8 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <memory>
-#include <utility>
-#include <variant>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/discretization.hpp>
@@ -18,7 +10,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 

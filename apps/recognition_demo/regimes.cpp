@@ -1,9 +1,4 @@
-#include <cmath>
 #include <initializer_list>
-#include <memory>
-#include <span>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -11,7 +6,6 @@
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

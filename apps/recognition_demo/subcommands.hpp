@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "support/command_line.hpp"
 
 namespace sigmax::apps {

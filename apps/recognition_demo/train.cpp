@@ -1,14 +1,7 @@
-#include <algorithm>
-#include <memory>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,14 +1,8 @@
 #include "recognition_demo/world.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include <fmt/core.h>
-
 #include <sigmax/recognition/decision.hpp>
 
 #include "study/study.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <sigmax/core/mean_interval.hpp>
-
 #include "recognition_demo/contest.hpp"
 #include "support/random.hpp"
 

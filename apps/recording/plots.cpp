@@ -1,12 +1,5 @@
 #include "recording/plots.hpp"
 
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "support/command_line.hpp"
-#include "support/error.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/random.hpp"
 

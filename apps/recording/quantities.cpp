@@ -1,13 +1,5 @@
 #include "recording/quantities.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "support/error.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/timestamp.hpp"
 

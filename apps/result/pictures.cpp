@@ -3,19 +3,12 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <optional>
 #include <set>
-#include <span>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "result/report.hpp"
-#include "support/error.hpp"
 #include "support/output.hpp"
 #include "support/scratch.hpp"
 

@@ -1,14 +1,8 @@
 #include "result/report.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <stdexcept>
-#include <string_view>
-#include <type_traits>
-
-#include <fmt/format.h>
 
 #include "support/json.hpp"
 #include "version.hpp"

@@ -1,16 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <sigmax/core/mean_interval.hpp>
 
 #include "result/table.hpp"
 
@@ -149,7 +139,7 @@ struct HeatMap {
   std::vector<std::string> columns{};
   std::vector<std::vector<double>> values{};
   std::string value_label{};  ///< with its unit
-  bool diverging = false;   ///< zero is in the middle: below it is better
+  bool diverging = false;     ///< zero is in the middle: below it is better
   int digits = 2;
   double scale = 1.0;            ///< what is shown is scale × the number: 100 for per cent
   bool sign = false;             ///< a + before what is positive

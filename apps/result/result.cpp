@@ -1,15 +1,10 @@
 #include "result/result.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <system_error>
-
-#include <fmt/format.h>
 
 #include "result/braille.hpp"
 #include "result/pictures.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 #include "support/json.hpp"
 #include "version.hpp"
 

@@ -1,22 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
 #include <list>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "result/report.hpp"
 #include "support/command_line.hpp"
 #include "support/output.hpp"
-#include "support/text.hpp"
 
 namespace sigmax::apps {
 

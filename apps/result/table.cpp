@@ -1,13 +1,8 @@
 #include "result/table.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "support/csv.hpp"
-#include "support/error.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {

@@ -8,9 +8,6 @@
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <charconv>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "support/command_line.hpp"
 #include "support/error.hpp"

@@ -1,17 +1,9 @@
 #include "study/study.hpp"
 
 #include <charconv>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "result/result.hpp"
-#include "study/journal.hpp"
 #include "study/ranks.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 

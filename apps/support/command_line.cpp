@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -13,13 +12,8 @@
 #include <map>
 #include <memory>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
-#include <fmt/core.h>
-#include <fmt/format.h>
-
-#include "support/error.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <fstream>
 #include <iostream>
 #include <set>
 #include <system_error>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "support/input.hpp"
 

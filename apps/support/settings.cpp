@@ -1,14 +1,10 @@
 #include "support/settings.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "support/input.hpp"

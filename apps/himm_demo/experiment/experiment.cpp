@@ -1,13 +1,6 @@
 #include "himm_demo/experiment/experiment.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include <sigmax/estimation/metrics.hpp>
-
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,12 +1,7 @@
 #include "himm_demo/experiment/sentences.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 #include <sstream>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 namespace sigmax::apps {
 namespace {

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <sigmax/core/mean_interval.hpp>
 
 #include "himm_demo/filters/settings.hpp"

@@ -1,17 +1,6 @@
 #include "himm_demo/filters/settings.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/command_line.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 

@@ -1,16 +1,5 @@
 #include "himm_demo/filters/settings.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <sigmax/estimation/radar.hpp>
-
 #include "himm_demo/experiment/scenario.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"

@@ -1,13 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <sigmax/hybrid/any_target.hpp>
 

@@ -1,15 +1,6 @@
 #include "himm_demo/track/track.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include <sigmax/estimation/chi_square.hpp>
-
-#include "recording/plots.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -1,19 +1,9 @@
 #include "himm_demo/track/track.hpp"
 
-#include <algorithm>
-#include <deque>
 #include <iterator>
-#include <limits>
-#include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <Eigen/Core>
 
-#include "recording/plots.hpp"
-#include "result/table.hpp"
-#include "support/numbers.hpp"
-#include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
 #include "support/timestamp.hpp"

@@ -1,10 +1,6 @@
 #include "himm_demo/track/track.hpp"
 
-#include <utility>
-
 #include <nlohmann/json.hpp>
-
-#include "support/error.hpp"
 
 namespace sigmax::apps {
 namespace {

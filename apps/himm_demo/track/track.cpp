@@ -1,17 +1,9 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <memory>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/track/track.hpp"
 #include "result/braille.hpp"
-#include "result/result.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {

@@ -1,29 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <deque>
-#include <functional>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/root_mean_square.hpp>
-#include <sigmax/hybrid/any_target.hpp>
 
 #include "himm_demo/filters/settings.hpp"
 #include "recording/plots.hpp"
-#include "recording/recording.hpp"
-#include "result/report.hpp"
 #include "result/result.hpp"
 #include "study/ranks.hpp"
-#include "support/geodesy.hpp"
 #include "support/thinned.hpp"
 
 namespace sigmax::apps {

@@ -1,17 +1,7 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/format.h>
 #include <Eigen/Cholesky>
 
-#include "recording/plots.hpp"
-#include "support/numbers.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {

@@ -1,27 +1,17 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
-#include <limits>
 #include <numeric>
-#include <stdexcept>
-#include <utility>
 
 #ifdef SIGMAX_NLOPT
 #include <nlopt.hpp>
 #endif
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "support/numbers.hpp"
 #include "support/parallel.hpp"
-#include "support/text.hpp"
 
 namespace sigmax::apps {
 

@@ -1,23 +1,12 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <sigmax/estimation/consistency.hpp>
 
-#include "himm_demo/filters/settings.hpp"
 #include "himm_demo/tune/tune.hpp"
-#include "result/result.hpp"
 #include "support/json.hpp"
-#include "support/numbers.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "version.hpp"
