@@ -222,27 +222,28 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
   run_world(world, draws, files);
 }
 
-/// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
+/// What a classifier makes of a recording: the share of single reports by which it decides for each class, ties shared,
+/// and what it believes after each of them.
 struct TrackOutcome {
   std::string name;
   std::vector<double> single;
-  std::vector<double> belief;
+  Beliefs beliefs;
 };
 
-template <class Kind>
-TrackOutcome follow_track(const std::string& name, Classifier<Kind, Kind> classifier,
-                          const std::vector<TrackReport>& reports) {
-  TrackOutcome outcome{name, std::vector<double>(classifier.prior().size(), 0.0), {}};
+TrackOutcome follow_track(const Contestant& contestant, const std::vector<TrackReport>& reports) {
+  TrackOutcome outcome{contestant.name, {}, {}};
+  std::vector<AnyReport> all;
   for (const TrackReport& report : reports) {
-    classifier.reset();
-    classifier.observe(report.readings);
-    for (std::size_t c = 0; c < outcome.single.size(); ++c)
-      outcome.single[c] += credit_of(classifier.log_belief().logs(), c) / static_cast<double>(reports.size());
+    all.emplace_back(report.readings);
+    std::visit(
+        [&](const auto& belief) {
+          outcome.single.resize(belief.size());
+          for (std::size_t c = 0; c < belief.size(); ++c)
+            outcome.single[c] += credit_of(belief.logs(), c) / static_cast<double>(reports.size());
+        },
+        judged(contestant, report.readings).belief);
   }
-  classifier.reset();
-  for (const TrackReport& report : reports) classifier.observe(report.readings);
-  const auto belief = classifier.belief();
-  outcome.belief.assign(belief.values().begin(), belief.values().end());
+  outcome.beliefs = beliefs_over(contestant, all);
   return outcome;
 }
 
@@ -272,25 +273,22 @@ ResultTable decisions_table(const RandomVariable& pattern, const std::vector<Tra
       row.push_back({{.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"},
                      outcome.single[c]});
     for (std::size_t c = 0; c < pattern.size(); ++c)
-      row.push_back(
-          {{.header = pattern.label(c), .group = "p or π after all:"}, fmt::format("{:.2g}", outcome.belief[c])});
+      row.push_back({{.header = pattern.label(c), .group = "p or π after all:"},
+                     fmt::format("{:.2g}", outcome.beliefs.back()[c])});
     table.row_of(row);
   }
   return table;
 }
 
 /// What each classifier thinks of the classes along a recording.
-View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track) {
+View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track,
+             const std::vector<TrackOutcome>& outcomes) {
   const std::vector<std::string> classes = labels_of(data.counts.pattern());
-  std::vector<AnyReport> reports;
-  for (const TrackReport& report : track.reports) reports.emplace_back(report.readings);
-  std::vector<Beliefs> beliefs;
-  for (const Contestant& contestant : contestants) beliefs.push_back(beliefs_over(contestant, reports));
   const std::size_t columns = contestants.size() * classes.size();
   Thinned rows(columns, std::max<std::size_t>(1000, 4 * columns));
-  for (std::size_t k = 0; k < reports.size(); ++k) {
+  for (std::size_t k = 0; k < track.reports.size(); ++k) {
     std::vector<double> row;
-    for (const Beliefs& one : beliefs) row.insert(row.end(), one[k].begin(), one[k].end());
+    for (const auto& [name, single, beliefs] : outcomes) row.insert(row.end(), beliefs[k].begin(), beliefs[k].end());
     rows.add(track.reports[k].time_s - track.reports.front().time_s, row);
   }
   std::vector<Beliefs> kept(contestants.size(), Beliefs(rows.kept(), std::vector<double>(classes.size())));
@@ -325,10 +323,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
   std::vector<TrackOutcome> outcomes;
-  for (const Contestant& contestant : all)
-    outcomes.push_back(
-        std::visit([&](const auto& classifier) { return follow_track(contestant.name, classifier, track.reports); },
-                   contestant.classifier));
+  for (const Contestant& contestant : all) outcomes.push_back(follow_track(contestant, track.reports));
 
   Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
   say_counts(options, data.counts, result);
@@ -339,7 +334,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
                   track.reports.size(), options.every_s)};
-  result.page.views.push_back(view_of(data, all, track));
+  result.page.views.push_back(view_of(data, all, track, outcomes));
   const auto decisions = decisions_table(pattern, outcomes);
   result.page.last.emplace_back(ReportTable{"Decisions", decisions, "Ties share a report."});
   result.add(seen_table(data, track), {.title = "What was seen"});
@@ -355,7 +350,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   for (const TrackOutcome& outcome : outcomes)
     for (std::size_t c = 0; c < pattern.size(); ++c) {
       result.fact({"classifiers", outcome.name, "share_of_single_reports", pattern.label(c)}, outcome.single[c]);
-      result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.belief[c]);
+      result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.beliefs.back()[c]);
     }
   result.publish(files);
 }

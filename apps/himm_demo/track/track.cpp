@@ -9,14 +9,11 @@
 namespace sigmax::apps {
 namespace {
 
-std::string numbered(const std::vector<std::pair<std::string, std::size_t>>& counts) {
+template <class Counts>
+std::string numbered(const Counts& counts) {
   std::vector<std::string> parts;
   for (const auto& [name, count] : counts) parts.push_back(fmt::format("{} {}", name, count));
   return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::string numbered(const std::map<std::string, std::size_t>& counts) {
-  return numbered(std::vector<std::pair<std::string, std::size_t>>(counts.begin(), counts.end()));
 }
 
 /// Makes the report part by part.
@@ -67,12 +64,17 @@ class Reporter {
       result_.fact({"tracks", "never_started"}, outcome_.never_started);
     }
     add({"settings_toml"}, as_toml(filters_));
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      if (const std::size_t rejected = outcome_.filters[f].rejected; rejected > 0)
-        add({"rejected", filters_[f].name}, rejected);
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      if (const std::size_t restarts = outcome_.filters[f].restarts; restarts > 0)
-        add({"restarts", filters_[f].name}, restarts);
+  }
+
+  /// Which filters have some of these, and how many.
+  std::vector<std::pair<std::string, std::size_t>> counted(const char* what, std::size_t FilterOutcome::*count) {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      if (outcome_.filters[f].*count == 0) continue;
+      counts.emplace_back(filters_[f].name, outcome_.filters[f].*count);
+      result_.fact({what, filters_[f].name}, counts.back().second);
+    }
+    return counts;
   }
 
   /// What was read and how the filters started, in sentences.
@@ -106,12 +108,8 @@ class Reporter {
                     short_ones > 0 ? fmt::format(", {} of them too short for every filter to start", short_ones) : ""));
     say(recording_.skipped() > 0,
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
-    std::vector<std::pair<std::string, std::size_t>> rejected, restarts;
-    for (std::size_t f = 0; f < filters_.size(); ++f) {
-      const FilterOutcome& own = outcome_.filters[f];
-      if (own.rejected > 0) rejected.emplace_back(filters_[f].name, own.rejected);
-      if (own.restarts > 0) restarts.emplace_back(filters_[f].name, own.restarts);
-    }
+    const auto rejected = counted("rejected", &FilterOutcome::rejected);
+    const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
     say(outcome_.refused_by_all > 0, fmt::format("Turned away by every filter: {}, the first on line {}",
                                                  outcome_.refused_by_all, outcome_.first_refused_line));
