@@ -46,9 +46,14 @@ std::string message(const Complaint& complaint);
 /// Text from a file as a message may show it: in quotes, control characters as \xNN, long text cut with an ellipsis.
 std::string in_quotes(std::string_view text);
 
+/// Text in which control characters, but for those that are kept, stand as a format says.
+std::string escaped(std::string_view text, std::string_view format, std::string_view kept = {});
+
 /// Text without control characters, which may be commands to a terminal: they are shown as \xNN. Line breaks stay if
 /// they may.
-std::string printable(std::string_view text, bool keep_line_breaks = false);
+inline std::string printable(std::string_view text, bool keep_line_breaks = false) {
+  return escaped(text, "\\x{:02X}", keep_line_breaks ? "\n" : "");
+}
 
 /// The words of the operating system for an error number.
 std::string reason(int error_number);

@@ -382,21 +382,9 @@ std::string as_toml(const std::vector<Key<Owner>>& keys, const Owner& owner) {
 
 /// A string of TOML. Control characters are escaped, so that a terminal shows them, too.
 std::string toml_string(std::string_view text) {
-  std::string quoted = "\"";
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto code = static_cast<unsigned char>(text[i]);
-    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-    if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F
-      quoted += fmt::format("\\u{:04X}", next);
-      ++i;
-    } else if (code < 0x20U || code == 0x7FU) {
-      quoted += fmt::format("\\u{:04X}", code);
-    } else {
-      if (text[i] == '"' || text[i] == '\\') quoted += '\\';
-      quoted += text[i];
-    }
-  }
-  return quoted + "\"";
+  std::string quoted;
+  for (const char letter : text) quoted.append(letter == '"' || letter == '\\' ? "\\" : "").push_back(letter);
+  return "\"" + escaped(quoted, "\\u{:04X}") + "\"";
 }
 
 /// A key of TOML, in quotes where it needs them.
