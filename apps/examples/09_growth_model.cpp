@@ -50,8 +50,6 @@ int main(int argc, char** argv) {
     apps::LineChart belief{.title = "Growth model, belief after 50 steps",
                            .x_label = "x",
                            .y_label = "part of the greatest value",
-                           .x = {},
-                           .curves = {},
                            .shaded = {{x, x, "truth"}},
                            .joined = true};
     const auto random = follow<Random>(measurements, belief), fuzzy = follow<Fuzzy>(measurements, belief);

@@ -62,9 +62,9 @@ class Study {
   /// The means of both kinds: RMSE over the runs, step by step.
   sigmax::apps::LineChart chart(std::string title, std::string x_label, std::string y_label) const {
     sigmax::apps::LineChart chart{
-        .title = std::move(title), .x_label = std::move(x_label), .y_label = std::move(y_label), .x = {}, .curves = {}};
+        .title = std::move(title), .x_label = std::move(x_label), .y_label = std::move(y_label)};
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
-      chart.curves.push_back({.name = std::string(names[i]), .values = {}});
+      chart.curves.push_back({.name = std::string(names[i])});
       for (const sigmax::RunningMean& squares : by_step_[i])
         chart.curves.back().values.push_back(std::sqrt(squares.mean()));
     }

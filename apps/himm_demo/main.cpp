@@ -1,11 +1,17 @@
 #include "himm_demo/subcommands.hpp"
 
+namespace {
+constexpr const char* usage =
+#include "himm_demo/usage.txt"
+    ;
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
   return run_command_line(
       {"himm_demo",
        "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a fuzzy "
        "mode (HIMM).",
-       subcommands, "simulate"},
+       subcommands, "simulate", usage},
       argc, argv);
 }

@@ -1,16 +1,10 @@
-#include <filesystem>
 #include <iterator>
-#include <memory>
 #include <sstream>
-
-#include <fmt/format.h>
 
 #include "himm_demo/subcommands.hpp"
 #include "result/result.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
-#include "support/error.hpp"
-#include "support/output.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -32,9 +26,9 @@ Journaled joined(const std::vector<std::string>& parts) {
     for (const auto& [cell, row] : own.rows) {
       const auto [there, added] = all.rows.emplace(cell, row);
       if (!added && journal_line(cell, there->second) != journal_line(cell, row))
-        throw InputError(message({.where = path.native(),
-                                  .what = fmt::format("cell {} is another one than in a shard before", cell),
-                                  .remedy = "do all shards by the same build of the program"}));
+        throw InputError(
+            "{}: cell {} is another one than in a shard before; do all shards by the same build of the program",
+            path.native(), cell);
     }
   }
   return all;
@@ -46,10 +40,8 @@ std::vector<std::string> command_of(const std::string& campaign) {
   std::string program, made_by;
   words >> program >> made_by;
   if (program != "himm_demo" || made_by != version)
-    throw InputError(message({.what = "the shards",
-                              .found = in_quotes(program + " " + made_by),
-                              .expected = fmt::format("himm_demo {}", version),
-                              .remedy = "merge them by the version that made them"}));
+    throw InputError("the shards: found {}, expected himm_demo {}; merge them by the version that made them",
+                     in_quotes(program + " " + made_by), version);
   return {std::istream_iterator<std::string>(words), {}};
 }
 
@@ -75,10 +67,6 @@ void add_merge(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<MergeOptions>();
   options->output.command = command;
   app.option("parts", options->parts, "Directories that --shard … --out wrote").required().type("DIR");
-  app.footer(
-      "Examples:\n"
-      "  himm_demo merge part1 part2 part3 part4 --out whole\n"
-      "  himm_demo merge part* --out whole --wide");
   add_output(app, options->output);
   add_report(app, options->output);
   app.option("--out").required();

@@ -1,19 +1,10 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -125,7 +116,7 @@ class Condition {
   bool has(std::string_view filter) const {
     const auto& filters = experiment.filters;
     return filter == measurement_name ||
-           std::any_of(filters.begin(), filters.end(), [&](const FilterSettings& own) { return own.name == filter; });
+           std::ranges::any_of(filters, [&](const FilterSettings& own) { return own.name == filter; });
   }
 
   /// The mean of one column over the runs. `filter` may be "measurement" for mean square errors.
@@ -285,8 +276,8 @@ bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOpti
 
 Finding finding_of(const std::vector<Measured>& all) {
   const auto is = [](Finding finding) { return [=](const Measured& measured) { return measured.finding == finding; }; };
-  if (std::all_of(all.begin(), all.end(), is(Finding::inside))) return Finding::inside;
-  return std::any_of(all.begin(), all.end(), is(Finding::outside)) ? Finding::outside : Finding::open;
+  if (std::ranges::all_of(all, is(Finding::inside))) return Finding::inside;
+  return std::ranges::any_of(all, is(Finding::outside)) ? Finding::outside : Finding::open;
 }
 
 enum class Verdict { holds, only_against_released, does_not_hold, undecided };
@@ -395,8 +386,8 @@ std::size_t least_favourable(const std::vector<Measured>& all) {
     const double inside = std::min(measured.interval.mean - region.above, region.below - measured.interval.mean);
     return std::isnan(inside) ? 0.0 : inside / std::max(measured.interval.half_width, 1e-12);
   };
-  const auto worst = std::min_element(all.begin(), all.end(),
-                                      [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
+  const auto worst =
+      std::ranges::min_element(all, [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
   return static_cast<std::size_t>(worst - all.begin());
 }
 
@@ -444,8 +435,7 @@ ResultTable deciding_figures(const std::vector<Judged>& all) {
                      {.header = "released IMM"}});
   for (std::size_t s = 0; s < all.size(); ++s) {
     const auto& figures = all[s].against_correct;
-    const auto inside = std::count_if(figures.begin(), figures.end(),
-                                      [](const Measured& measured) { return measured.finding == Finding::inside; });
+    const auto inside = std::ranges::count(figures, Finding::inside, &Measured::finding);
     const std::size_t worst = least_favourable(figures);
     table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), place_and_subject_of(figures[worst]),
                text_of(figures[worst]), text_of(all[s].against_released[worst])});
@@ -487,7 +477,7 @@ ResultTable figures_table(const Judgements& all) {
 std::vector<std::string> names_of(std::span<const Condition> conditions, std::vector<std::string> names = {}) {
   for (const auto& condition : conditions)
     for (const auto& filter : condition.experiment.filters)
-      if (std::find(names.begin(), names.end(), filter.name) == names.end()) names.push_back(filter.name);
+      if (std::ranges::find(names, filter.name) == names.end()) names.push_back(filter.name);
   return names;
 }
 
@@ -536,8 +526,6 @@ HeatMap overview_map(const std::vector<Condition>& conditions, const std::vector
               .row_label = "filter",
               .column_label = "scenario/group",
               .rows = names,
-              .columns = {},
-              .values = {},
               .value_label = "ratio, mean over axes and phases",
               .digits = 3};
   std::vector<const Condition*> own;
@@ -568,15 +556,12 @@ std::vector<Panel> figures_of(const std::vector<Judged>& sentences, const Condit
       const Statement& statement = *measured.statement;
       if (statement.scenario != condition.scenario || statement.group != condition.group) continue;
       const std::string title = chart_of(measured);
-      auto chart =
-          std::find_if(charts.begin(), charts.end(), [&](const IntervalChart& one) { return one.title == title; });
+      auto chart = std::ranges::find(charts, title, &IntervalChart::title);
       if (chart == charts.end()) {
         charts.push_back(
             {.title = title,
              .x_label = relative(measured) ? "relative difference or share, %" : "samples, or switches a run",
-             .rows = {},
-             .series = {{.name = "with the correct IMM", .values = {}},
-                        {.name = "with the released IMM", .values = {}}},
+             .series = {{.name = "with the correct IMM"}, {.name = "with the released IMM"}},
              .reference = statement.against == Actor::nobody ? std::nullopt : std::optional(0.0),
              .wanted_label = "where the sentence wants it",
              .digits = relative(measured) ? 1 : 2,
@@ -604,11 +589,10 @@ View view_of(const Judgements& all, const Condition& condition, const std::vecto
   for (std::size_t axis = 0; axis < axis_names.size(); ++axis) {
     IntervalChart chart{.title = fmt::format("RMSE in {}", axis_names[axis]),
                         .x_label = "RMSE, m",
-                        .rows = {phase_names.begin(), phase_names.end()},
-                        .series = {}};
+                        .rows = {phase_names.begin(), phase_names.end()}};
     for (const auto& name : names) {
       if (!condition.has(name)) continue;
-      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+      IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
       for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
         series.values.push_back(condition.rmse(name, phase, axis).interval());
     }
@@ -723,13 +707,6 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   add_threads(app, options->sharing.threads);
   add_seed(app, options->choice.seed);
   add_shard(app, options->sharing);
-  app.footer(
-      "With --out every finished batch of runs is on the disk at once: a command that was killed goes on from there "
-      "when it is given again.\n\n"
-      "Examples:\n"
-      "  himm_demo reproduce\n"
-      "  himm_demo reproduce --runs 100 --out results\n"
-      "  himm_demo reproduce --runs 10000 --shard 1/4 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] {

@@ -1,24 +1,15 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <map>
-#include <memory>
-#include <span>
 #include <tuple>
-
-#include <fmt/format.h>
 
 #include <sigmax/estimation/chi_square.hpp>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "himm_demo/experiment/sentences.hpp"
-#include "himm_demo/filters/keys.hpp"
 #include "result/braille.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -245,7 +236,6 @@ class Views {
             .x_label = "sample",
             .y_label = std::move(y_label),
             .x = by_sample([](std::size_t k) { return static_cast<double>(k + 1); }),
-            .curves = {},
             .shaded = shaded_};
   }
 
@@ -305,7 +295,7 @@ class Views {
           const std::vector<double> weights = found[f + 1].told_weights(k);
           return weights.empty() ? nan : weights[j];
         };
-        const auto model = std::find(models.begin(), models.end(), own[j]) - models.begin();
+        const auto model = std::ranges::find(models, own[j]) - models.begin();
         made.curves.push_back({.name = name(f) + " " + own[j],
                                .group = name(f),
                                .values = by_sample(weight),
@@ -317,7 +307,7 @@ class Views {
 
   /// The track of a run; with an error ellipse of each filter at a few samples.
   Plan plan(const TracedRun& run, std::size_t number) const {
-    Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m", .traces = {}};
+    Plan plan{.title = fmt::format("Track of run {}", number), .x_label = "x, m", .y_label = "y, m"};
     const auto add = [&](const std::string& of, PlanTrace::Shape shape, const auto& at) {
       const auto along = [&](Eigen::Index axis) { return by_sample([&](std::size_t k) { return at(k)(axis); }); };
       plan.traces.push_back({.name = of, .group = of, .shape = shape, .x = along(0), .y = along(1), .z = along(2)});
@@ -583,7 +573,7 @@ ResultTable weights_by_sample(const Found& found) {
       std::vector<Cell> cells = {k + 1, of.name()};
       for (const auto& model : models) {
         const auto& own = of.filter()->models;
-        const auto j = static_cast<std::size_t>(std::find(own.begin(), own.end(), model) - own.begin());
+        const auto j = static_cast<std::size_t>(std::ranges::find(own, model) - own.begin());
         cells.push_back(j < weights.size() ? Cell(weights[j]) : Cell());
       }
       table.row(std::move(cells));
@@ -604,11 +594,10 @@ void report(const Found& found, ResultFiles& files) {
   result.fact({"runs"}, experiment.runs);
   result.fact({"seed"}, experiment.seed);
   result.fact({"settings_toml"}, as_toml(experiment.filters));
-  result.say(fmt::format("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
-                         name_of(options.preset), experiment.runs, experiment.seed));
-  result.say(fmt::format("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first,
-                         phases[0].last, phases[1].name, phases[1].first, phases[1].last, phases[2].name,
-                         phases[2].first, phases[2].last));
+  result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
+             name_of(options.preset), experiment.runs, experiment.seed);
+  result.say("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first, phases[0].last,
+             phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;
@@ -710,11 +699,6 @@ void add_simulate(CLI::App& program, const std::string& command) {
       .text("paper_text|released [paper_text]");
   app.option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]").in(1, 100000000);
   add_threads(app, options->threads);
-  app.footer(
-      "Examples:\n"
-      "  himm_demo simulate --scenario 2 --group 3 --out results\n"
-      "  himm_demo simulate --set filters=all\n"
-      "  himm_demo simulate --set filter.himm.sigma_w=5 --set lift=unbiased --runs 1000");
   add_seed(app, options->seed);
   add_filter_options(app, options->config, options->sets, options->print_config);
   add_output(app, options->output);

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "support/command_line.hpp"
 
 namespace sigmax::apps {

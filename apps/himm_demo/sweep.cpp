@@ -1,21 +1,11 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
 #include <set>
-#include <span>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "himm_demo/experiment/experiment.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"
 #include "study/study.hpp"
-#include "support/numbers.hpp"
-#include "support/output.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -149,7 +139,7 @@ double score(const Squares& filter, const Squares& measurement) {
 std::vector<SweepCondition> conditions_of(const SweepChoice& choice) {
   std::vector<SweepCondition> all;
   const auto add = [&](const SweepCondition& condition) {
-    if (std::find(all.begin(), all.end(), condition) == all.end()) all.push_back(condition);
+    if (std::ranges::find(all, condition) == all.end()) all.push_back(condition);
   };
   for (const int scenario : choice.scenarios) {
     if (choice.cross) {
@@ -296,8 +286,8 @@ class SweepWorld {
     own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-    own.lift = *std::find_if(swept_lifts.begin(), swept_lifts.end(),
-                             [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
+    own.lift =
+        *std::ranges::find_if(swept_lifts, [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
     return own;
   }
   Recording recording(std::size_t condition, int number) const {
@@ -334,7 +324,7 @@ class SweepWorld {
     std::set<Place> tried;
     for (auto places = grid(lattice(f)); !places.empty();) {
       const auto scores = scores_of(condition, f, places);
-      const auto least = std::min_element(scores.begin(), scores.end());
+      const auto least = std::ranges::min_element(scores);
       const bool first = tried.empty();
       tried.insert(places.begin(), places.end());
       if (!first && *least >= best_score) break;
@@ -421,8 +411,7 @@ std::string searched(const SweepWorld& world) {
 
 /// How many of the tuned filters are at the limit of the search; empty if none is.
 std::string limits(const SweepWorld& world) {
-  const auto stopped = std::count_if(world.all_tuned().begin(), world.all_tuned().end(),
-                                     [](const Tuned& tuned) { return tuned.at_the_limit; });
+  const auto stopped = std::ranges::count(world.all_tuned(), true, &Tuned::at_the_limit);
   if (stopped == 0) return "";
   return fmt::format(
       "{} of {} tuned filters {}: there may be better ones beyond.", stopped, world.all_tuned().size(),
@@ -511,7 +500,7 @@ class Maps {
     std::vector<double> sizes;
     for (std::size_t c = 0; c < world.conditions().size(); ++c)
       sizes.push_back(std::abs(world.against_imm(c, choices_.front().in(world, c)).mean));
-    std::sort(sizes.begin(), sizes.end());
+    std::ranges::sort(sizes);
     most_ = sizes[sizes.size() * 19 / 20];
   }
 
@@ -556,7 +545,7 @@ class Maps {
           const auto& conditions = world_.conditions();
           const SweepCondition here{scenario, all.mismatch[c / periods], all.period[c % periods],
                                     all.strength[r / lengths], all.length[r % lengths]};
-          const auto found = std::find(conditions.begin(), conditions.end(), here);
+          const auto found = std::ranges::find(conditions, here);
           return cell(static_cast<std::size_t>(found - conditions.begin()), choice);
         });
         view.panels.emplace_back(std::move(map));
@@ -570,9 +559,6 @@ class Maps {
     return {.title = std::move(title),
             .row_label = std::move(row_label),
             .column_label = std::move(column_label),
-            .rows = {},
-            .columns = {},
-            .values = {},
             .value_label = "% above the score of the tuned IMM",
             .diverging = true,
             .digits = 1,
@@ -696,13 +682,6 @@ void add_sweep(CLI::App& program, const std::string& command) {
   add_seed(app, options->choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
-  app.footer(
-      "With --out every finished cell, a filter in a condition, is on the disk at once: a command that was killed goes "
-      "on from there when it is given again.\n\n"
-      "Examples:\n"
-      "  himm_demo sweep --out results\n"
-      "  himm_demo sweep --scenario 1 --cross --filters imm,himm_own --out results\n"
-      "  himm_demo sweep --cross --shard 1/16 --out part1");
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] {

@@ -1,21 +1,10 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
-#include <optional>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
-#include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/progress.hpp"
 
@@ -115,7 +104,7 @@ class RowReader {
 
   /// Where a cell is among names.
   std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
-    const auto found = std::find(names.begin(), names.end(), trimmed(row[column]));
+    const auto found = std::ranges::find(names, trimmed(row[column]));
     if (found == names.end()) return unseen(row.error(column, what + shown(names), remedy));
     return static_cast<std::size_t>(found - names.begin());
   }
@@ -157,8 +146,8 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Rando
       contestant.fuzzy()
           ? reasons(std::get<MaxClassifier>(contestant.classifier), std::get<Belief<Fuzzy>>(by.belief), readings)
           : reasons(std::get<SigmaClassifier>(contestant.classifier), std::get<Belief<Random>>(by.belief), readings);
-  std::stable_sort(why.contributions.begin(), why.contributions.end(),
-                   [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
+  std::ranges::stable_sort(why.contributions,
+                           [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
   const std::string &best = pattern.label(why.pattern), &next = pattern.label(why.rival);
   ResultTable table(
       {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
@@ -180,24 +169,18 @@ struct Classified {
   std::vector<ShownRow> shown;
 };
 
-ResultTable predictions_table(const RandomVariable& pattern, bool has_truth) {
-  std::vector<ResultColumn> columns = {{.key = "line"}};
-  if (has_truth) columns.push_back({.key = "truth"});
-  for (const char* key : {"classifier", "decision", "margin"}) columns.push_back({.key = key});
-  for (std::size_t c = 0; c < pattern.size(); ++c) columns.push_back({.key = pattern.label(c)});
-  return ResultTable(std::move(columns));
+std::vector<std::string> prediction_keys(const RandomVariable& pattern, bool has_truth) {
+  std::vector<std::string> keys = {"line", "truth", "classifier", "decision", "margin"};
+  if (!has_truth) keys.erase(keys.begin() + 1);
+  for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
+  return keys;
 }
 
 /// What one classifier says of one row: counts it, shows it, and writes it to the file if there is one.
 class Judge {
  public:
-  Judge(const ClassifyOptions& options, const RandomVariable& pattern, bool has_truth, AtomicFile* file)
-      : least_margin_(options.least_margin),
-        has_truth_(has_truth),
-        file_(file),
-        predictions_(predictions_table(pattern, has_truth)) {
-    if (file_) file_->write(predictions_.csv_header());
-  }
+  Judge(const ClassifyOptions& options, bool has_truth, RowFile& file)
+      : least_margin_(options.least_margin), has_truth_(has_truth), file_(file) {}
 
   template <class Kind>
   void operator()(const std::string& name, const Belief<Kind>& belief, std::optional<std::size_t> truth,
@@ -222,20 +205,19 @@ class Judge {
     const std::vector<Cell> said = {name, rejected ? Cell() : Cell(label(decision.pattern)), decision.margin};
     cells.insert(cells.end(), said.begin(), said.end());
     for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-    file_->write(predictions_.csv_line(cells));
+    file_.write(cells);
   }
 
  private:
   double least_margin_;
   bool has_truth_;
-  AtomicFile* file_;
-  ResultTable predictions_;
+  RowFile& file_;
 };
 
 Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-                        CsvReader& reader, RowReader& rows, AtomicFile* file) {
+                        CsvReader& reader, RowReader& rows, RowFile& file) {
   const auto& pattern = model.counts.pattern();
-  Judge judge(options, pattern, rows.has_truth(), file);
+  Judge judge(options, rows.has_truth(), file);
   Classified result;
   result.tallies.assign(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
@@ -311,9 +293,7 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
       .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
       .row_label = "classifier",
       .column_label = pattern.name(),
-      .rows = {},
       .columns = labels_of(pattern),
-      .values = {},
       .value_label = "probability or possibility"};
   for (const Contestant& contestant : all) {
     support.rows.push_back(contestant.name);
@@ -352,22 +332,22 @@ void run_classify(const ClassifyOptions& options) {
 
   CsvReader reader = open_csv(options.file);
   RowReader rows(model, reader, options.unseen == "missing");
-  const Classified found = classify_all(options, model, all, reader, rows, files.open("predictions.csv"));
-  if (found.rows == 0) throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+  RowFile file(files, "predictions.csv", prediction_keys(pattern, rows.has_truth()));
+  const Classified found = classify_all(options, model, all, reader, rows, file);
+  if (found.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
-  result.say(fmt::format("{}: {} rows, by {}", reader.file(), found.rows, options.model));
+  result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
   if (rows.unseen_cells() > 0)
-    result.say(
-        fmt::format("\n{} as missing, since the model does not know {}: {}",
-                    rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
-                    rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen()));
+    result.say("\n{} as missing, since the model does not know {}: {}",
+               rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
+               rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen());
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), all, found), {});
   for (std::size_t i = 0; i < all.size(); ++i)
     if (found.tallies[i].excluded > 0)
-      result.say(fmt::format("{}: {} rows excluded every class and were judged by the prior", all[i].name,
-                             found.tallies[i].excluded));
+      result.say("{}: {} rows excluded every class and were judged by the prior", all[i].name,
+                 found.tallies[i].excluded);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
@@ -403,10 +383,6 @@ void add_classify(CLI::App& program, const std::string& command) {
       .shows_default();
   add_output(app, options->output);
   add_report(app, options->output);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
-      "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
   app.run([options] { run_classify(*options); });
 }
 

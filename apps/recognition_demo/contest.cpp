@@ -1,12 +1,7 @@
 #include "recognition_demo/contest.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/core.h>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
@@ -69,7 +64,6 @@ HeatMap relation_map(const Relation<Random, Random>& relation) {
               .column_label = relation.to().name(),
               .rows = labels_of(relation.from()),
               .columns = labels_of(relation.to()),
-              .values = {},
               .value_label = "probability of the value, given the class"};
   map.fill([&](std::size_t c, std::size_t value) {
     return HeatMap::Cell{relation(c, value),
@@ -81,9 +75,9 @@ HeatMap relation_map(const Relation<Random, Random>& relation) {
 }  // namespace
 
 double credit_of(std::span<const double> logs, std::size_t truth) {
-  const double greatest = *std::max_element(logs.begin(), logs.end());
+  const double greatest = *std::ranges::max_element(logs);
   if (!ties(logs[truth], greatest)) return 0.0;
-  const auto tied = std::count_if(logs.begin(), logs.end(), [greatest](double log) { return ties(log, greatest); });
+  const auto tied = std::ranges::count_if(logs, [greatest](double log) { return ties(log, greatest); });
   return 1.0 / static_cast<double>(tied);
 }
 
@@ -154,7 +148,6 @@ std::vector<Panel> support_charts(const std::vector<std::string>& patterns, cons
                     .x_label = x_label,
                     .y_label = "probability or possibility",
                     .x = x,
-                    .curves = {},
                     .greatest_y = 1.05};
     for (std::size_t i = 0; i < contestants.size(); ++i) {
       chart.curves.push_back({contestants[i].name, contestants[i].name, {}});
@@ -181,7 +174,7 @@ std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& le
   for (const auto& relation : learned)
     if (std::max(relation.to().size(), relation.from().size()) <= most_values)
       all.emplace_back(telling(relation), &relation);
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Panel> maps;
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i) maps.emplace_back(relation_map(*all[i].second));
   return maps;

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <span>
-#include <string>
-#include <variant>
-#include <vector>
 
 #include <sigmax/recognition/classifier.hpp>
 

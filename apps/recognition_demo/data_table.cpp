@@ -1,14 +1,11 @@
 #include "recognition_demo/data_table.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
@@ -41,10 +38,10 @@ class Vocabulary {
   std::pair<std::vector<std::string>, std::vector<Code>> sorted() const {
     std::vector<std::string> words(codes_.size());
     for (const auto& [word, code] : codes_) words[code] = word;
-    const bool numbers = std::all_of(words.begin(), words.end(), [](const auto& word) { return parse_number(word); });
+    const bool numbers = std::ranges::all_of(words, [](const auto& word) { return parse_number(word).has_value(); });
     std::vector<std::size_t> order(words.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
       if (numbers && *parse_number(words[a]) != *parse_number(words[b]))
         return *parse_number(words[a]) < *parse_number(words[b]);
       return words[a] < words[b];
@@ -197,9 +194,8 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions&
     if (!left_out.contains(i) && !reader.names()[i].empty())
       columns.emplace_back(i, all_categorical || categorical.contains(i));
   if (columns.empty())
-    throw InputError(message({.where = reader.file(),
-                              .what = fmt::format("there is no column beside {}", in_quotes(options.label)),
-                              .expected = "one with a feature"}));
+    throw InputError("{}: there is no column beside {}: expected one with a feature", reader.file(),
+                     in_quotes(options.label));
   return columns;
 }
 
@@ -209,7 +205,7 @@ MissingWords::MissingWords(std::vector<std::string> more) : more_(std::move(more
 
 bool MissingWords::operator()(std::string_view cell) const {
   const std::string_view text = trimmed(cell);
-  return text.empty() || text == "?" || std::find(more_.begin(), more_.end(), text) != more_.end();
+  return text.empty() || text == "?" || std::ranges::find(more_, text) != more_.end();
 }
 
 bool MissingWords::among_numbers(std::string_view cell) const {
@@ -218,7 +214,7 @@ bool MissingWords::among_numbers(std::string_view cell) const {
                                                       "-inf", "+inf", "infinity", "-infinity", "."};
   if (operator()(cell)) return true;
   const std::string text = lower_case(trimmed(cell));
-  return std::find(words.begin(), words.end(), text) != words.end();
+  return std::ranges::find(words, text) != words.end();
 }
 
 DataTable read_data(const std::string& file, const DataOptions& options, bool quiet) {
@@ -255,8 +251,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     }
   }
   progress.finish();
-  if (table.size() == 0)
-    throw InputError(message({.where = reader.file(), .what = "there is no row below the header"}));
+  if (table.size() == 0) throw InputError("{}: there is no row below the header", reader.file());
   std::tie(table.classes, table.class_order_) = classes.sorted();
   if (table.classes.size() == 1)
     throw InputError(

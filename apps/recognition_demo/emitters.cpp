@@ -1,8 +1,5 @@
 #include "recognition_demo/emitters.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <boost/math/distributions/beta.hpp>
 
 #include <sigmax/core/transform.hpp>
@@ -35,7 +32,7 @@ double draw_log_gamma(RandomStream& random, double shape) {
 std::vector<double> draw_dirichlet(RandomStream& random, std::size_t size, double alpha) {
   std::vector<double> shares(size);
   for (double& share : shares) share = draw_log_gamma(random, alpha);
-  const double greatest = *std::max_element(shares.begin(), shares.end());
+  const double greatest = *std::ranges::max_element(shares);
   double sum = 0.0;
   for (double& share : shares) sum += share = std::exp(share - greatest);
   for (double& share : shares) share /= sum;
@@ -124,7 +121,7 @@ EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t report
     for (double& share : usage) share = (1.0 - truth.unlisted) * share;
     for (std::size_t f = 0; f < usage.size(); ++f) {
       const auto& carried = world.carried[run.platform];
-      if (std::find(carried.begin(), carried.end(), f) == carried.end()) usage[f] = each;
+      if (std::ranges::find(carried, f) == carried.end()) usage[f] = each;
     }
   }
   // A sensor that goes astray listens to another platform for the whole run.

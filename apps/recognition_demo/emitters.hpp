@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include "recognition_demo/contest.hpp"
 #include "support/random.hpp"
 

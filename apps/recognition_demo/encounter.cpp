@@ -1,12 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <memory>
-#include <optional>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -14,7 +6,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 #include "support/numbers.hpp"
@@ -56,8 +47,8 @@ EncounterData read_encounter(const std::string& file) {
   for (CsvRow row; reader.next(row);) {
     const std::string name{trimmed(row[klass])};
     if (name.empty()) throw row.error(klass, "the name of a class");
-    if (std::find(classes.begin(), classes.end(), name) == classes.end()) classes.push_back(name);
-    const auto known = std::find(feature_names.begin(), feature_names.end(), trimmed(row[feature]));
+    if (std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+    const auto known = std::ranges::find(feature_names, trimmed(row[feature]));
     if (known == feature_names.end()) continue;
     Layers& layers = all[{name, static_cast<std::size_t>(known - feature_names.begin())}];
     const double begin = row.number(lower), end = row.number(upper), times = row.number(count);
@@ -70,8 +61,7 @@ EncounterData read_encounter(const std::string& file) {
     layers.count.push_back(times);
   }
   if (classes.size() < 2)
-    throw InputError(message(
-        {.where = reader.file(), .found = fmt::format("{} classes", classes.size()), .expected = "at least two"}));
+    throw InputError("{}: found {} classes, expected at least two", reader.file(), classes.size());
 
   std::vector<Discretization> bins;
   std::vector<RandomVariable> variables;
@@ -137,7 +127,7 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
       throw row.error(time, fmt::format("a time not before {}", rows[rows.size() - 2].time));
     if (!std::isnan(rows.back().altitude)) lowest = std::min(lowest, rows.back().altitude);
   }
-  if (!std::isfinite(lowest)) throw InputError(message({.where = reader.file(), .what = "no row has an altitude"}));
+  if (!std::isfinite(lowest)) throw InputError("{}: no row has an altitude", reader.file());
 
   TrackReports result;
   result.rows = rows.size();
@@ -158,10 +148,9 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
     next = row.time + every_s;
   }
   if (result.reports.empty())
-    throw InputError(message(
-        {.where = reader.file(),
-         .what = fmt::format("no row is {} ft or more above the ground at {} ft", data.lowest_ft, result.ground_ft),
-         .remedy = "give the altitude of the ground by --ground"}));
+    throw InputError(
+        "{}: no row is {} ft or more above the ground at {} ft; give the altitude of the ground by --ground",
+        reader.file(), data.lowest_ft, result.ground_ft);
   return result;
 }
 
@@ -188,9 +177,9 @@ std::vector<Contestant> contestants(const Counts& counts) {
 
 void say_counts(const EncounterOptions& options, const Counts& counts, Result& result) {
   result.say(
-      fmt::format("{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
-                  "equally plausible before",
-                  options.file));
+      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
+      "equally plausible before",
+      options.file);
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     double samples = 0.0;
     for (const double count : counts.of(0, c)) samples += count;
@@ -216,9 +205,9 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     say_counts(options, data.counts, result);
     result.say(
-        fmt::format("{} seeded draws from the counts themselves, every feature and report independent, as sigma "
-                    "inference assumes; seed {}",
-                    draws.runs, draws.seed));
+        "{} seeded draws from the counts themselves, every feature and report independent, as sigma "
+        "inference assumes; seed {}",
+        draws.runs, draws.seed);
     result.fact({"file"}, options.file);
     result.fact({"drawn_from"}, "the counts");
     result.fact({"runs"}, draws.runs);
@@ -233,27 +222,28 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
   run_world(world, draws, files);
 }
 
-/// The share of single reports by which a classifier decides for each class, ties shared, and its belief after all.
+/// What a classifier makes of a recording: the share of single reports by which it decides for each class, ties shared,
+/// and what it believes after each of them.
 struct TrackOutcome {
   std::string name;
   std::vector<double> single;
-  std::vector<double> belief;
+  Beliefs beliefs;
 };
 
-template <class Kind>
-TrackOutcome follow_track(const std::string& name, Classifier<Kind, Kind> classifier,
-                          const std::vector<TrackReport>& reports) {
-  TrackOutcome outcome{name, std::vector<double>(classifier.prior().size(), 0.0), {}};
+TrackOutcome follow_track(const Contestant& contestant, const std::vector<TrackReport>& reports) {
+  TrackOutcome outcome{contestant.name, {}, {}};
+  std::vector<AnyReport> all;
   for (const TrackReport& report : reports) {
-    classifier.reset();
-    classifier.observe(report.readings);
-    for (std::size_t c = 0; c < outcome.single.size(); ++c)
-      outcome.single[c] += credit_of(classifier.log_belief().logs(), c) / static_cast<double>(reports.size());
+    all.emplace_back(report.readings);
+    std::visit(
+        [&](const auto& belief) {
+          outcome.single.resize(belief.size());
+          for (std::size_t c = 0; c < belief.size(); ++c)
+            outcome.single[c] += credit_of(belief.logs(), c) / static_cast<double>(reports.size());
+        },
+        judged(contestant, report.readings).belief);
   }
-  classifier.reset();
-  for (const TrackReport& report : reports) classifier.observe(report.readings);
-  const auto belief = classifier.belief();
-  outcome.belief.assign(belief.values().begin(), belief.values().end());
+  outcome.beliefs = beliefs_over(contestant, all);
   return outcome;
 }
 
@@ -283,25 +273,22 @@ ResultTable decisions_table(const RandomVariable& pattern, const std::vector<Tra
       row.push_back({{.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"},
                      outcome.single[c]});
     for (std::size_t c = 0; c < pattern.size(); ++c)
-      row.push_back(
-          {{.header = pattern.label(c), .group = "p or π after all:"}, fmt::format("{:.2g}", outcome.belief[c])});
+      row.push_back({{.header = pattern.label(c), .group = "p or π after all:"},
+                     fmt::format("{:.2g}", outcome.beliefs.back()[c])});
     table.row_of(row);
   }
   return table;
 }
 
 /// What each classifier thinks of the classes along a recording.
-View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track) {
+View view_of(const EncounterData& data, const std::vector<Contestant>& contestants, const TrackReports& track,
+             const std::vector<TrackOutcome>& outcomes) {
   const std::vector<std::string> classes = labels_of(data.counts.pattern());
-  std::vector<AnyReport> reports;
-  for (const TrackReport& report : track.reports) reports.emplace_back(report.readings);
-  std::vector<Beliefs> beliefs;
-  for (const Contestant& contestant : contestants) beliefs.push_back(beliefs_over(contestant, reports));
   const std::size_t columns = contestants.size() * classes.size();
   Thinned rows(columns, std::max<std::size_t>(1000, 4 * columns));
-  for (std::size_t k = 0; k < reports.size(); ++k) {
+  for (std::size_t k = 0; k < track.reports.size(); ++k) {
     std::vector<double> row;
-    for (const Beliefs& one : beliefs) row.insert(row.end(), one[k].begin(), one[k].end());
+    for (const auto& [name, single, beliefs] : outcomes) row.insert(row.end(), beliefs[k].begin(), beliefs[k].end());
     rows.add(track.reports[k].time_s - track.reports.front().time_s, row);
   }
   std::vector<Beliefs> kept(contestants.size(), Beliefs(rows.kept(), std::vector<double>(classes.size())));
@@ -319,9 +306,9 @@ View view_of(const EncounterData& data, const std::vector<Contestant>& contestan
 }
 
 ResultTable reports_table(const EncounterData& data, const TrackReports& track) {
-  std::vector<ResultColumn> columns = {{.key = "time_s"}};
-  for (const auto& feature : data.counts.features()) columns.push_back({.key = feature.name()});
-  ResultTable table(std::move(columns));
+  std::vector<std::string> keys = {"time_s"};
+  for (const auto& feature : data.counts.features()) keys.push_back(feature.name());
+  auto table = ResultTable::of_keys(keys);
   for (const TrackReport& report : track.reports) {
     std::vector<Cell> cells = {report.time_s};
     for (std::size_t i = 0; i < report.readings.size(); ++i)
@@ -336,21 +323,18 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
   std::vector<TrackOutcome> outcomes;
-  for (const Contestant& contestant : all)
-    outcomes.push_back(
-        std::visit([&](const auto& classifier) { return follow_track(contestant.name, classifier, track.reports); },
-                   contestant.classifier));
+  for (const Contestant& contestant : all) outcomes.push_back(follow_track(contestant, track.reports));
 
   Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
   say_counts(options, data.counts, result);
-  result.say(fmt::format(
-      "{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more", options.track,
-      track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(), options.every_s));
+  result.say("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more",
+             options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(),
+             options.every_s);
   result.page.verdict = {
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
                   track.reports.size(), options.every_s)};
-  result.page.views.push_back(view_of(data, all, track));
+  result.page.views.push_back(view_of(data, all, track, outcomes));
   const auto decisions = decisions_table(pattern, outcomes);
   result.page.last.emplace_back(ReportTable{"Decisions", decisions, "Ties share a report."});
   result.add(seen_table(data, track), {.title = "What was seen"});
@@ -366,7 +350,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   for (const TrackOutcome& outcome : outcomes)
     for (std::size_t c = 0; c < pattern.size(); ++c) {
       result.fact({"classifiers", outcome.name, "share_of_single_reports", pattern.label(c)}, outcome.single[c]);
-      result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.belief[c]);
+      result.fact({"classifiers", outcome.name, "belief_after_all", pattern.label(c)}, outcome.beliefs.back()[c]);
     }
   result.publish(files);
 }
@@ -403,11 +387,6 @@ void add_encounter(CLI::App& program, const std::string& command) {
       .needs(track)
       .type("FT");
   add_draws(app, options->draws, command, 50000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo encounter encounter_features.csv\n"
-      "  recognition_demo encounter encounter_features.csv --track helicopter.csv \\\n"
-      "    --every 30");
   app.run([options] { run_encounter(*options); });
 }
 

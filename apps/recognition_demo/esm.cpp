@@ -1,6 +1,4 @@
-#include <memory>
 
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/witness.hpp>
@@ -8,8 +6,6 @@
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -63,7 +59,6 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
               .column_label = relation.to().name(),
               .rows = labels_of(relation.from()),
               .columns = labels_of(relation.to()),
-              .values = {},
               .value_label = "possibility by max inference"};
   map.fill([&](std::size_t c, std::size_t value) {
     const double possible = relation(c, value);
@@ -86,30 +81,21 @@ View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::siz
                          drawn.platform)};
 }
 
-/// runs.csv: a row for each run with the truth, the readings, and what each classifier believed at last.
-ResultTable runs_table(const EsmWorld& world, const std::vector<Contestant>& contestants) {
-  std::vector<ResultColumn> columns = {{.key = "run"}, {.key = "platform"}, {.key = "readings"}};
-  add_belief_columns(contestants, labels_of(world.platform), columns);
-  return ResultTable(std::move(columns));
-}
-
-std::vector<Cell> row_of_run(const EsmWorld& world, const SeenRun& run) {
+std::string readings_of(const EsmWorld& world, const SeenRun& run) {
   std::string readings;
   for (const double reading : run.numbers)
     readings += (readings.empty() ? "" : " ") + world.reading.label(static_cast<std::size_t>(reading));
-  std::vector<Cell> cells = {run.run + 1, world.platform.label(run.truth), readings};
-  add_beliefs(run, cells);
-  return cells;
+  return readings;
 }
 
 void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, std::vector<View> runs,
           Result& result) {
   const DrawOptions& draws = options.draws;
-  result.say(fmt::format(
+  result.say(
       "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports "
       "the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, "
       "seed {}",
-      sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed));
+      sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed);
   result.fact({"synthetic"}, true);
   result.fact({"usage"}, options.usage);
   if (options.usage == "dirichlet") result.fact({"alpha"}, options.alpha);
@@ -146,13 +132,12 @@ void run_esm(const EsmOptions& options) {
   World world{"Which platform is it?", {{contestants(esm, options), draw}}};
   const auto& all = world.conditions.front().contestants;
   ResultFiles files(options.draws.output);
-  const ResultTable runs = runs_table(esm, all);
-  AtomicFile* const runs_file = files.open("runs.csv");
-  if (runs_file) runs_file->write(runs.csv_header());
+  // A row for each run with the truth, the readings, and what each classifier believed at last.
+  RowFile rows(files, "runs.csv", with_beliefs({"run", "platform", "readings"}, all, labels_of(esm.platform)));
   std::vector<View> views;
   world.see = [&](const SeenRun& run) {
     if (files.report_wanted() && run.run < runs_in_page) views.push_back(view_of(esm, all, run.run, drawn(run.run)));
-    if (runs_file) runs_file->write(runs.csv_line(row_of_run(esm, run)));
+    rows.write(with_beliefs({run.run + 1, esm.platform.label(run.truth), readings_of(esm, run)}, run));
   };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     tell(esm, options, scores.front(), std::move(views), result);
@@ -174,10 +159,6 @@ void add_esm(CLI::App& program, const std::string& command) {
           .shows_default();
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws, command, 20000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo esm --usage dirichlet --alpha 0.5\n"
-      "  recognition_demo esm --reports 100 --runs 5000 --out results");
   app.run([options, alpha] {
     if (alpha.given() && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");
     run_esm(*options);

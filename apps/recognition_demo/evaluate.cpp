@@ -1,12 +1,4 @@
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <optional>
 #include <random>
-#include <variant>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
@@ -16,12 +8,8 @@
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
-#include "support/scratch.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -263,12 +251,10 @@ void add_reliability(Result& result, const Outcome& outcome, std::size_t folding
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const EvaluateOptions& options, AtomicFile& file) {
-  std::vector<ResultColumn> columns = {
-      {.key = "line"}, {.key = "fold"}, {.key = "truth"}, {.key = "classifier"}, {.key = "decision"}};
-  for (const auto& name : data.classes) columns.push_back({.key = name});
-  const ResultTable table(std::move(columns));
-  file.write(table.csv_header());
+void write_predictions(const DataTable& data, const EvaluateOptions& options, ResultFiles& files) {
+  std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
+  keys.insert(keys.end(), data.classes.begin(), data.classes.end());
+  RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
   const Folds folds = folds_of(data, options.folds, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
@@ -280,7 +266,7 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, At
               std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()],
                                          taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
               for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-              file.write(table.csv_line(cells));
+              file.write(cells);
             },
             by.belief);
       });
@@ -294,11 +280,10 @@ void refuse_rare_classes(const DataTable& data) {
     if (data.rows_of_class[c] < 2)
       rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), data.last_line_of_class[c]));
   if (rare.empty()) return;
-  throw InputError(message({.where = data.file,
-                            .what = fmt::format("column {}", in_quotes(data.label)),
-                            .found = fmt::format("a single row of {}", fmt::join(rare, ", ")),
-                            .expected = "at least two of every class: one to learn from, one to classify",
-                            .remedy = "add rows, or remove those of the class"}));
+  throw InputError(
+      "{}: column {}: found a single row of {}, expected at least two of every class: one to learn from, one to "
+      "classify; add rows, or remove those of the class",
+      data.file, in_quotes(data.label), fmt::join(rare, ", "));
 }
 
 Results evaluated(const DataTable& data, const EvaluateOptions& options) {
@@ -325,17 +310,16 @@ Results evaluated(const DataTable& data, const EvaluateOptions& options) {
 }
 
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
-  result.say(fmt::format("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
-                         options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
-                         options.seed, described(options.learning)));
+  result.say("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
+             options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
+             options.seed, described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
       "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
-      result.say(
-          fmt::format("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded));
+      result.say("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0,
                "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
@@ -352,7 +336,6 @@ HeatMap confusion_map(const std::string& classifier, const std::vector<std::stri
               .column_label = "decided class",
               .rows = classes,
               .columns = classes,
-              .values = {},
               .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
               .digits = foldings == 1 ? 0 : 1};
   map.fill([&](std::size_t truth, std::size_t c) {
@@ -365,15 +348,14 @@ HeatMap confusion_map(const std::string& classifier, const std::vector<std::stri
 /// that possibilities are.
 LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
                             std::size_t foldings) {
-  LineChart chart{.title = "Reliability of " + classifier,
-                  .x_label = fuzzy ? "possibility of a class" : "probability of a class",
-                  .y_label = "share of such classes that are the true one",
-                  .x = {},
-                  .curves = {{.name = "share, ± 95 %", .values = {}},
-                             {.name = fuzzy ? "bound: not more often than possible" : "calibrated", .values = {}}},
-                  .greatest_y = 1.15,
-                  .note = "Above each point: how many classes of rows had such a degree.",
-                  .joined = true};
+  LineChart chart{
+      .title = "Reliability of " + classifier,
+      .x_label = fuzzy ? "possibility of a class" : "probability of a class",
+      .y_label = "share of such classes that are the true one",
+      .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
+      .greatest_y = 1.15,
+      .note = "Above each point: how many classes of rows had such a degree.",
+      .joined = true};
   Curve& share = chart.curves[0];
   const auto add = [&](double degree, double value, double lower, double upper, std::string remark) {
     chart.x.push_back(degree);
@@ -414,9 +396,8 @@ void run_evaluate(const EvaluateOptions& options) {
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
   print_warnings(data);
   if (options.folds > data.size())
-    throw InputError(message({.where = data.file,
-                              .found = fmt::format("{} rows", data.size()),
-                              .expected = fmt::format("at least as many as the {} folds", options.folds)}));
+    throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
+                     options.folds);
   refuse_rare_classes(data);
   const Results results = evaluated(data, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
@@ -432,7 +413,7 @@ void run_evaluate(const EvaluateOptions& options) {
   say_scores(data, results, options, result);
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
-  if (files.wanted()) write_predictions(data, options, *files.open("predictions.csv"));
+  if (files.wanted()) write_predictions(data, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }
@@ -454,11 +435,6 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   add_threads(app, options->threads);
   add_output(app, options->output);
   add_report(app, options->output);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo evaluate mushroom.csv --label edible --ignore veil_type\n"
-      "  recognition_demo evaluate letter.csv --label letter --categorical all \\\n"
-      "    --out results");
   app.run([options] { run_evaluate(*options); });
 }
 

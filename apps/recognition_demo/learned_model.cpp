@@ -1,14 +1,8 @@
 #include "recognition_demo/learned_model.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <sigmax/recognition/discretization.hpp>
-
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -153,7 +147,7 @@ void print_warnings(const DataTable& data) {
 
 std::string described(const DataTable& data) {
   const auto features = data.columns.size();
-  const auto numeric = std::count_if(data.columns.begin(), data.columns.end(), [](const auto& c) { return c.numeric; });
+  const auto numeric = std::ranges::count_if(data.columns, [](const auto& c) { return c.numeric; });
   return fmt::format("{} rows, {} classes, {} {} ({} categorical, {} numeric)", data.size(), data.classes.size(),
                      features, features == 1 ? "feature" : "features", static_cast<long>(features) - numeric, numeric);
 }
@@ -167,7 +161,7 @@ std::string described(const LearningOptions& options) {
 }
 
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds) {
-  const auto wanted = [&](std::string_view kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
+  const auto wanted = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
   std::vector<Contestant> all;
   if (wanted("sigma")) all.push_back(sigma(model));
   for (const bool random_sensor : {false, true}) {

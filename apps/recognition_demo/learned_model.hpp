@@ -1,20 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <sigmax/recognition/counts.hpp>
 #include <sigmax/recognition/discretization.hpp>
 
 #include "recognition_demo/contest.hpp"
 #include "recognition_demo/data_table.hpp"
-#include "result/result.hpp"
 
 namespace sigmax::apps {
 

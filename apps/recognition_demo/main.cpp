@@ -1,5 +1,10 @@
 #include "recognition_demo/subcommands.hpp"
-#include "support/command_line.hpp"
+
+namespace {
+constexpr const char* usage =
+#include "recognition_demo/usage.txt"
+    ;
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
@@ -8,6 +13,7 @@ int main(int argc, char** argv) {
        "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and "
        "sigma-max inference (both).",
        {add_esm, add_regimes, add_manoeuvre, add_encounter, add_performance, add_train, add_classify, add_evaluate},
-       "esm"},
+       "esm",
+       usage},
       argc, argv);
 }

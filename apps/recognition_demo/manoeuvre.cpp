@@ -1,9 +1,4 @@
-#include <array>
-#include <cmath>
-#include <memory>
-#include <utility>
 
-#include <fmt/core.h>
 
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
@@ -14,7 +9,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -183,14 +177,14 @@ ResultTable differences_table(const Scenario& scenario, const std::vector<Scores
 }
 
 /// What a run tells of each sample: the measured position, and the weights of the filters' modes.
-std::vector<ResultColumn> sample_columns(const Scenario& scenario) {
-  std::vector<ResultColumn> columns = {{.key = "position_m"}};
+std::vector<std::string> sample_keys(const Scenario& scenario) {
+  std::vector<std::string> keys = {"target", "run", "sample", "position_m"};
   for (const char* filter : {"imm", "himm"})
-    for (const auto& mode : labels_of(scenario.mode)) columns.push_back({.key = fmt::format("{}_{}", filter, mode)});
-  return columns;
+    for (const auto& mode : labels_of(scenario.mode)) keys.push_back(fmt::format("{}_{}", filter, mode));
+  return keys;
 }
 
-/// The same as numbers, sample after sample; NaN where there is no weight.
+/// The numbers among them, sample after sample; NaN where there is no weight.
 std::vector<double> numbers_of(const Scenario& scenario, const ManoeuvreRun& run) {
   std::vector<double> numbers;
   for (std::size_t k = 0; k < Scenario::samples; ++k) {
@@ -202,45 +196,16 @@ std::vector<double> numbers_of(const Scenario& scenario, const ManoeuvreRun& run
   return numbers;
 }
 
-/// Writes samples.csv, and runs.csv, what each classifier believed at the end of every run, bit by bit.
-class FlightFiles {
- public:
-  FlightFiles(const Scenario& scenario, const std::vector<Contestant>& contestants, ResultFiles& files)
-      : scenario_(scenario), samples_file_(files.open("samples.csv")), runs_file_(files.open("runs.csv")) {
-    if (!samples_file_) return;
-    std::vector<ResultColumn> samples = {{.key = "target"}, {.key = "run"}, {.key = "sample"}};
-    const auto told = sample_columns(scenario);
-    samples.insert(samples.end(), told.begin(), told.end());
-    samples_ = ResultTable(std::move(samples));
-    std::vector<ResultColumn> runs = {{.key = "target"}, {.key = "run"}};
-    add_belief_columns(contestants, labels_of(scenario.target), runs);
-    runs_ = ResultTable(std::move(runs));
-    samples_file_->write(samples_.csv_header());
-    runs_file_->write(runs_.csv_header());
+/// Writes what a run tells of its samples.
+void write_samples(const Scenario& scenario, const SeenRun& run, RowFile& file) {
+  auto number = run.numbers.begin();
+  for (std::size_t k = 0; k < Scenario::samples && file; ++k) {
+    std::vector<Cell> cells = {scenario.target.label(run.truth), run.run + 1, k + 1};
+    for (std::size_t i = 0; i < run.numbers.size() / Scenario::samples; ++i, ++number)
+      cells.push_back(std::isnan(*number) ? Cell() : Cell(*number));
+    file.write(cells);
   }
-
-  void write(const SeenRun& run) {
-    if (!samples_file_) return;
-    const std::string& target = scenario_.target.label(run.truth);
-    auto number = run.numbers.begin();
-    for (std::size_t k = 0; k < Scenario::samples; ++k) {
-      std::vector<Cell> cells = {target, run.run + 1, k + 1};
-      for (std::size_t i = 0; i < run.numbers.size() / Scenario::samples; ++i, ++number) {
-        Cell& cell = cells.emplace_back();
-        if (!std::isnan(*number)) cell = *number;
-      }
-      samples_file_->write(samples_.csv_line(cells));
-    }
-    std::vector<Cell> cells = {target, run.run + 1};
-    add_beliefs(run, cells);
-    runs_file_->write(runs_.csv_line(cells));
-  }
-
- private:
-  const Scenario& scenario_;
-  ResultTable samples_, runs_;
-  AtomicFile *samples_file_, *runs_file_;
-};
+}
 
 ResultTable curves_of_targets(const Scenario& scenario, const std::vector<Scores>& all) {
   ResultTable table({{.key = "target"}, {.key = "sample"}, {.key = "classifier"}, {.key = "accuracy"}});
@@ -275,10 +240,9 @@ View view_of(const Scenario& scenario, const Condition& condition, const SeenRun
                     .x_label = "sample",
                     .y_label = std::move(y_label),
                     .x = counted_from(1, Scenario::samples),
-                    .curves = {},
                     .greatest_y = 1.05};
     for (std::size_t j = 0; j < modes; ++j) {
-      chart.curves.push_back({.name = scenario.mode.label(j), .values = {}});
+      chart.curves.push_back({.name = scenario.mode.label(j)});
       for (std::size_t k = 0; k < Scenario::samples; ++k)
         chart.curves.back().values.push_back(run.numbers[k * numbers + first + j]);
     }
@@ -317,8 +281,8 @@ void tell(const Scenario& scenario, const DrawOptions& options, const std::vecto
   result.add(differences_table(scenario, scores), {.title = "Differences, ± 95 % by paired runs"});
   result.say("(± 95 % by paired runs.)\n\n");
   for (const auto& [contestant, target, dominator] : dominated(contestants))
-    result.say(fmt::format("{} can never prefer the {}: whatever is seen, the {} is at least as possible", contestant,
-                           target, dominator));
+    result.say("{} can never prefer the {}: whatever is seen, the {} is at least as possible", contestant, target,
+               dominator);
   result.fact({"simulated"}, true);
   result.fact({"runs"}, options.runs);
   result.fact({"seed"}, options.seed);
@@ -337,7 +301,8 @@ void run_manoeuvre(const DrawOptions& options) {
   ResultFiles files(options.output);
   const Scenario scenario;
   const auto all = contestants(scenario);
-  FlightFiles flights(scenario, all, files);
+  RowFile samples(files, "samples.csv", sample_keys(scenario));
+  RowFile runs(files, "runs.csv", with_beliefs({"target", "run"}, all, labels_of(scenario.target)));
   World world{"Airliner, bomber or fighter?", {}};
   const std::size_t targets = scenario.target.size();
   for (std::size_t target = 0; target < targets; ++target)
@@ -348,7 +313,8 @@ void run_manoeuvre(const DrawOptions& options) {
                                 }});
   std::vector<View> views;
   world.see = [&](const SeenRun& run) {
-    flights.write(run);
+    write_samples(scenario, run, samples);
+    runs.write(with_beliefs({scenario.target.label(run.truth), run.run + 1}, run));
     if (run.run == 0 && files.report_wanted()) views.push_back(view_of(scenario, world.conditions[run.condition], run));
   };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
@@ -364,10 +330,6 @@ void add_manoeuvre(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<DrawOptions>();
   Subcommand app(program, "manoeuvre", "Airliner, bomber or fighter? From how a tracked target manoeuvres; simulated.");
   add_draws(app, *options, command, 1000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo manoeuvre\n"
-      "  recognition_demo manoeuvre --runs 20000 --out results");
   app.run([options] { run_manoeuvre(*options); });
 }
 

@@ -1,14 +1,9 @@
-#include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "recognition_demo/learned_model.hpp"
 #include "support/input.hpp"
 #include "support/json.hpp"
-#include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -26,8 +21,7 @@ class Node {
     const std::string path = path_.empty() ? key : path_ + "." + key;
     if (!json_.is_object()) throw error("an object");
     const auto found = json_.find(key);
-    if (found == json_.end())
-      throw InputError(message({.where = file_, .what = fmt::format("there is no {}", in_quotes(path))}));
+    if (found == json_.end()) throw InputError("{}: there is no {}", file_, in_quotes(path));
     return {*found, file_, path};
   }
   std::vector<Node> list(std::string_view of_what) const {
@@ -40,10 +34,7 @@ class Node {
   std::vector<Node> list(std::string_view of_what, std::size_t size) const {
     auto result = list(of_what);
     if (result.size() != size)
-      throw InputError(message({.where = file_,
-                                .what = in_quotes(path_),
-                                .found = fmt::format("{} {}", result.size(), of_what),
-                                .expected = fmt::format("{}", size)}));
+      throw InputError("{}: {}: found {} {}, expected {}", file_, in_quotes(path_), result.size(), of_what, size);
     return result;
   }
   std::string text() const {
@@ -112,11 +103,10 @@ Json parsed(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const auto first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (first < text.size() && text[first] != '{' && text[first] != '[')
-    throw InputError(message({.where = path.native(),
-                              .what = "is no model",
-                              .found = in_quotes(text.substr(first, text.find('\n', first) - first)),
-                              .expected = "JSON as `recognition_demo train` writes it",
-                              .remedy = "the model comes first, then the data"}));
+    throw InputError(
+        "{}: is no model: found {}, expected JSON as `recognition_demo train` writes it; the model comes first, then "
+        "the data",
+        path.native(), in_quotes(text.substr(first, text.find('\n', first) - first)));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
@@ -128,9 +118,9 @@ Json parsed(const std::filesystem::path& path) {
                               .expected = "a model as `recognition_demo train` writes it",
                               .remedy = "train it again if the file was cut off"}));
   } catch (const Json::exception&) {  // a number as 1e400
-    throw InputError(message({.where = path.native(),
-                              .what = "holds a number that no double can hold",
-                              .expected = "a model as `recognition_demo train` writes it"}));
+    throw InputError(
+        "{}: holds a number that no double can hold: expected a model as `recognition_demo train` writes it",
+        path.native());
   }
 }
 
@@ -163,9 +153,8 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
   try {
     text = json.dump(1);
   } catch (const Json::type_error&) {  // a name that came from the data is no UTF-8
-    throw InputError(message({.where = path.native(),
-                              .what = "cannot be written: a name in the data is not UTF-8",
-                              .remedy = "convert the data to UTF-8"}));
+    throw InputError("{}: cannot be written: a name in the data is not UTF-8; convert the data to UTF-8",
+                     path.native());
   }
   AtomicFile file{path};
   file.write(text + "\n");
@@ -176,7 +165,7 @@ ModelFile read_model(const std::filesystem::path& path) {
   const Json json = parsed(path);
   const Node root(json, path.native());
   if (!root.has("format") || root.at("format").text() != format_name)
-    throw InputError(message({.where = path.native(), .what = "is no model of recognition_demo"}));
+    throw InputError("{}: is no model of recognition_demo", path.native());
   if (root.at("version").number() != format_version)
     throw root.at("version").error(fmt::format("version {}", format_version),
                                    "train the model again with this program");
@@ -185,7 +174,7 @@ ModelFile read_model(const std::filesystem::path& path) {
   const std::string label = root.at("label").text();
   std::vector<std::string> kinds = names(root.at("kinds"), "kinds of classifiers");
   for (const Node& kind : root.at("kinds").list("kinds"))
-    if (std::find(std::begin(kind_names), std::end(kind_names), kind.text()) == std::end(kind_names))
+    if (std::ranges::find(kind_names, kind.text()) == std::end(kind_names))
       throw kind.error(fmt::format("one of {}", fmt::join(kind_names, ", ")));
   LearningOptions options;
   options.smoothing = root.at("smoothing").number(0.0, 1e9, "a number that is not negative");

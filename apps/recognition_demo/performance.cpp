@@ -1,16 +1,8 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <memory>
-#include <utility>
-#include <variant>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/discretization.hpp>
@@ -18,7 +10,6 @@
 
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 #include "support/csv.hpp"
 #include "support/input.hpp"
 
@@ -122,7 +113,7 @@ PerformanceData read_performance(const std::string& file) {
   PerformanceData data;
   std::map<std::pair<std::string, std::string>, Performance> cells;
   const auto remember = [](std::vector<std::string>& names, std::string name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   };
   for (CsvRow row; reader.next(row);) {
     for (const std::size_t column : {type, variable})
@@ -142,8 +133,7 @@ PerformanceData read_performance(const std::string& file) {
     remember(data.variables, of_variable);
   }
   if (data.types.size() < 2)
-    throw InputError(message(
-        {.where = reader.file(), .found = fmt::format("{} types", data.types.size()), .expected = "at least two"}));
+    throw InputError("{}: found {} types, expected at least two", reader.file(), data.types.size());
   for (const auto& of_variable : data.variables) {
     auto& row = data.table.emplace_back();
     for (const auto& of_type : data.types) {
@@ -251,34 +241,30 @@ Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge
 }
 
 void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
-  result.say(fmt::format(
+  result.say(
       "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
       "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
-      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least));
+      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least);
   for (const auto& remark : data.remarks) result.say(remark);
   result.say(
-      fmt::format("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
-                  "quantity",
-                  options.draws.runs,
-                  options.drawn_from == "density" ? "the densities: sigma inference knows them"
-                                                  : "densities in proportion to the triangles",
-                  options.draws.seed, options.bins));
+      "{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
+      "quantity",
+      options.draws.runs,
+      options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                      : "densities in proportion to the triangles",
+      options.draws.seed, options.bins);
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.
 LineChart quantity_chart(const Knowledge& quantity, std::size_t type) {
   const auto& [least, greatest, bins, probable, possible] = quantity;
   const std::string& name = probable.to().name();
-  LineChart chart{.title = name,
-                  .x_label = name + ", in the file's unit",
-                  .y_label = "possibility",
-                  .x = {},
-                  .curves = {},
-                  .greatest_y = 1.05};
+  LineChart chart{
+      .title = name, .x_label = name + ", in the file's unit", .y_label = "possibility", .greatest_y = 1.05};
   const double width = (greatest - least) / static_cast<double>(bins.size());
   for (std::size_t b = 0; b < bins.size(); ++b) chart.x.push_back(least + (static_cast<double>(b) + 0.5) * width);
   const auto add = [&](const std::string& curve, const auto& relation) {
-    chart.curves.push_back({.name = curve, .values = {}});
+    chart.curves.push_back({.name = curve});
     for (std::size_t b = 0; b < chart.x.size(); ++b) chart.curves.back().values.push_back(relation(type, b));
   };
   add("triangle", possible);
@@ -298,7 +284,7 @@ void fill(Report& page, const PerformanceOptions& options, const PerformanceData
   page.chooser = "Type";
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t v = 0; v < knowledge.size(); ++v) order.emplace_back(-telling(knowledge[v].probable), v);
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   for (std::size_t type = 0; type < std::min(most_types, data.types.size()); ++type) {
     View& view = page.views.emplace_back(View{data.types[type], {}});
     for (std::size_t i = 0; i < std::min(most_quantities, order.size()); ++i)
@@ -349,11 +335,6 @@ void add_performance(CLI::App& program, const std::string& command) {
       .number_in(0.0, 1.0)
       .shows_default();
   add_draws(app, options->draws, command, 60000);  // intervals below a tenth of the differences
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo performance openap_performance.csv\n"
-      "  recognition_demo performance openap_performance.csv --draws triangle \\\n"
-      "    --least 0.1");
   app.run([options] { run_performance(*options); });
 }
 

@@ -1,9 +1,4 @@
-#include <cmath>
 #include <initializer_list>
-#include <memory>
-#include <span>
-
-#include <fmt/format.h>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -11,7 +6,6 @@
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -23,7 +17,7 @@ struct RegimesOptions {
 
 /// One setting: what really happens, and what the classifiers know.
 struct Setting {
-  std::string name;
+  std::string name{};
   EsmTruth truth{};
   double hit = 0.7;        ///< what they believe of the sensor
   double elsewhere = 0.0;  ///< how possible they take emitters that a platform does not carry
@@ -99,7 +93,7 @@ std::vector<Regime> regimes() {
   const auto dirichlet = [](double alpha) { return Usage{Usage::Kind::dirichlet, alpha}; };
   all.push_back(regime("usage", "Usage is Dirichlet(α), drawn for each run; the classifiers assume it equal", "α",
                        {2.0, 1.0, 0.5, 0.2, 0.1},
-                       [&](double alpha) { return Setting{.name = {}, .truth = {.usage = dirichlet(alpha)}}; }));
+                       [&](double alpha) { return Setting{.truth = {.usage = dirichlet(alpha)}}; }));
   all.back().settings.insert(all.back().settings.begin(), Setting{"equal"});
   for (const double hit : {0.7, 0.95, 0.99})
     all.push_back(regime(
@@ -108,12 +102,10 @@ std::vector<Regime> regimes() {
                     "shares.\nThe sensor is right with probability {}, as they believe",
                     hit),
         "d", {0.5, 0.7, 0.8, 0.9, 0.95, 0.99}, [&](double share) {
-          return Setting{
-              .name = {}, .truth = {.usage = {Usage::Kind::dominant, share}, .hit = hit}, .hit = hit, .averaged = true};
+          return Setting{.truth = {.usage = {Usage::Kind::dominant, share}, .hit = hit}, .hit = hit, .averaged = true};
         }));
   all.push_back(regime("sensor", "The sensor is right with probability h; the classifiers believe 0.7", "h",
-                       {0.9, 0.7, 0.5, 0.4, 0.3},
-                       [](double hit) { return Setting{.name = {}, .truth = {.hit = hit}}; }));
+                       {0.9, 0.7, 0.5, 0.4, 0.3}, [](double hit) { return Setting{.truth = {.hit = hit}}; }));
   for (const double alpha : {0.5, 0.1})
     all.push_back(regime(
         fmt::format("learned_{}", alpha),
@@ -121,7 +113,7 @@ std::vector<Regime> regimes() {
                     "earlier draw of the usage",
                     alpha),
         "n", {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}, [&](double seen) {
-          return Setting{.name = {}, .truth = {.usage = dirichlet(alpha)}, .seen = static_cast<std::size_t>(seen)};
+          return Setting{.truth = {.usage = dirichlet(alpha)}, .seen = static_cast<std::size_t>(seen)};
         }));
   for (const double elsewhere : {0.0, 0.2})
     all.push_back(regime(
@@ -130,10 +122,10 @@ std::vector<Regime> regimes() {
                     "possible to {}",
                     elsewhere),
         "u", {0.0, 0.1, 0.2, 0.4},
-        [&](double unlisted) { return Setting{.name = {}, .truth = {.unlisted = unlisted}, .elsewhere = elsewhere}; }));
+        [&](double unlisted) { return Setting{.truth = {.unlisted = unlisted}, .elsewhere = elsewhere}; }));
   all.push_back(regime("conflict", "Two sensors; in a share s of the runs the second listens to another platform", "s",
                        {0.0, 0.25, 0.5, 1.0},
-                       [](double astray) { return Setting{.name = {}, .truth = {.astray = astray, .sensors = 2}}; }));
+                       [](double astray) { return Setting{.truth = {.astray = astray, .sensors = 2}}; }));
   return all;
 }
 
@@ -185,9 +177,6 @@ HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings
   HeatMap map{.title = fmt::format("Regime {}", regime.name),
               .row_label = "setting",
               .column_label = "classifier",
-              .rows = {},
-              .columns = {},
-              .values = {},
               .value_label = "points more than sigma inference",
               .diverging = true,
               .digits = 1,
@@ -248,9 +237,9 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, const s
                   "than sigma inference, orange: more seldom; the colours end at 20 points.",
                   draws.runs, options.reports, draws.seed)};
   result.say(
-      fmt::format("Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
-                  "Differences are points ± 95 % by paired runs.",
-                  draws.runs, options.reports, draws.seed));
+      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
+      "Differences are points ± 95 % by paired runs.",
+      draws.runs, options.reports, draws.seed);
   std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
     const auto own = rest.first(regime.settings.size());
@@ -300,10 +289,6 @@ void add_regimes(CLI::App& program, const std::string& command) {
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
   app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
   add_draws(app, options->draws, command, 5000);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo regimes\n"
-      "  recognition_demo regimes --reports 10 --runs 5000 --out results");
   app.run([options] { run_regimes(*options); });
 }
 

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

@@ -1,14 +1,7 @@
-#include <algorithm>
-#include <memory>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "result/result.hpp"
-#include "result/table.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -48,11 +41,11 @@ void run_train(const TrainOptions& options) {
   write_model(model, options.kinds, options.model);
 
   Result result = result_of_contest("", options.output);
-  result.say(fmt::format("{}: {}\n{}", data.file, described(data), described(options.learning)));
+  result.say("{}: {}\n{}", data.file, described(data), described(options.learning));
   result.add(features_table(model), {});
   for (const auto& [classifier, pattern, dominator] : dominated(classifiers(model, options.kinds)))
-    result.say(fmt::format("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
-                           in_quotes(pattern), in_quotes(dominator)));
+    result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
+               in_quotes(pattern), in_quotes(dominator));
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 
@@ -70,12 +63,6 @@ void add_train(CLI::App& program, const std::string& command) {
       .text("sigma,max,sigma-max [all]");
   add_quiet(app, options->output.quiet);
   add_wide(app, options->output.wide);
-  app.footer(
-      "Examples:\n"
-      "  recognition_demo train zoo.csv --label type --ignore name --categorical all \\\n"
-      "    --model zoo.json\n"
-      "  recognition_demo train wine.csv --label class --bins 5 --kinds sigma,max \\\n"
-      "    --model wine.json");
   app.run([options] { run_train(*options); });
 }
 

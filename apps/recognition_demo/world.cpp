@@ -1,14 +1,8 @@
 #include "recognition_demo/world.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include <fmt/core.h>
-
 #include <sigmax/recognition/decision.hpp>
 
 #include "study/study.hpp"
-#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -84,7 +78,7 @@ class Scoreboard {
       Score& score = scores[i];
       for (double& value : score.accuracy) value /= n;
       for (double* value : {&score.belief_in_truth, &score.necessity_of_truth, &score.ties}) *value /= n;
-      score.same_as = static_cast<std::size_t>(std::find(same_[i].begin(), same_[i].end(), true) - same_[i].begin());
+      score.same_as = static_cast<std::size_t>(std::ranges::find(same_[i], true) - same_[i].begin());
     }
     return scores;
   }
@@ -198,8 +192,7 @@ void add_scores(Result& result, const Scores& scores, const std::string& what_is
       "of the best other.)");
   for (const Score& score : scores)
     if (score.refused > 0)
-      result.say(fmt::format("{}: {} reports excluded every pattern that was left and were passed over", score.name,
-                             score.refused));
+      result.say("{}: {} reports excluded every pattern that was left and were passed over", score.name, score.refused);
   ResultTable curves({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
   for (const Score& score : scores)
     for (std::size_t k = 0; k < score.accuracy.size(); ++k) curves.row({k + 1, score.name, score.accuracy[k]});
@@ -210,20 +203,21 @@ LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counte
   LineChart chart{.title = "Right decisions",
                   .x_label = what_is_counted,
                   .y_label = "share of the runs that are right; ties share the credit",
-                  .x = counted_from(first, scores.front().accuracy.size()),
-                  .curves = {}};
+                  .x = counted_from(first, scores.front().accuracy.size())};
   for (const Score& score : scores) chart.curves.push_back({score.name, score.name, score.accuracy});
   return chart;
 }
 
-void add_belief_columns(const std::vector<Contestant>& contestants, const std::vector<std::string>& patterns,
-                        std::vector<ResultColumn>& columns) {
+std::vector<std::string> with_beliefs(std::vector<std::string> keys, const std::vector<Contestant>& contestants,
+                                      const std::vector<std::string>& patterns) {
   for (const Contestant& contestant : contestants)
-    for (const std::string& pattern : patterns) columns.push_back({.key = contestant.name + ": " + pattern});
+    for (const std::string& pattern : patterns) keys.push_back(contestant.name + ": " + pattern);
+  return keys;
 }
 
-void add_beliefs(const SeenRun& run, std::vector<Cell>& cells) {
+std::vector<Cell> with_beliefs(std::vector<Cell> cells, const SeenRun& run) {
   for (const Trace& trace : run.traces) cells.insert(cells.end(), trace.belief.begin(), trace.belief.end());
+  return cells;
 }
 
 }  // namespace sigmax::apps

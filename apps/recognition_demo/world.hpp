@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <sigmax/core/mean_interval.hpp>
-
 #include "recognition_demo/contest.hpp"
 #include "support/random.hpp"
 
@@ -91,9 +82,9 @@ void add_scores(Result& result, const Scores& scores, const std::string& what_is
 /// Shares of right decisions over the reports, one curve a contestant, from the report with number `first` on.
 LineChart accuracy_chart(const Scores& scores, const std::string& what_is_counted = "reports", std::size_t first = 1);
 
-/// The columns of a file of beliefs at the end of runs, and their cells.
-void add_belief_columns(const std::vector<Contestant>& contestants, const std::vector<std::string>& patterns,
-                        std::vector<ResultColumn>& columns);
-void add_beliefs(const SeenRun& run, std::vector<Cell>& cells);
+/// The columns of a file of beliefs at the end of runs, after others, and their cells.
+std::vector<std::string> with_beliefs(std::vector<std::string> keys, const std::vector<Contestant>& contestants,
+                                      const std::vector<std::string>& patterns);
+std::vector<Cell> with_beliefs(std::vector<Cell> cells, const SeenRun& run);
 
 }  // namespace sigmax::apps

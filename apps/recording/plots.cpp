@@ -1,12 +1,5 @@
 #include "recording/plots.hpp"
 
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "support/command_line.hpp"
-#include "support/error.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/random.hpp"
 
@@ -77,11 +70,10 @@ void see_by_radar(Row& row, const Position& position, const std::array<double, 3
   const Sighting seen = measured({std::hypot(ground, z), std::atan2(y, x), std::atan2(z, ground)},
                                  {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
   if (!(seen[0] > 0.0))
-    throw InputError(message({.where = fmt::format("{}:{}", file, row.line),
-                              .what = "the simulated radar",
-                              .found = fmt::format("a range of {} m", shortest(seen[0])),
-                              .expected = "a positive one",
-                              .remedy = "put the radar farther from the track with --radar-at=E,N,U"}));
+    throw InputError(
+        "{}:{}: the simulated radar: found a range of {} m, expected a positive one; put the radar farther from the "
+        "track with --radar-at=E,N,U",
+        file, row.line, shortest(seen[0]));
   row.truth = position;
   row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan});
 }

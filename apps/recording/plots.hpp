@@ -1,16 +1,7 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "recording/recording.hpp"
-
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

@@ -1,13 +1,5 @@
 #include "recording/quantities.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "support/error.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {
@@ -94,12 +86,12 @@ std::map<std::string, std::string, std::less<>> mapping_of(const std::vector<std
     const auto equals = column.find('=');
     const std::string name = column.substr(0, equals);
     if (equals == std::string::npos || equals + 1 == column.size())
-      throw UsageError(fmt::format("--columns: {} is not NAME=HEADER", in_quotes(column)));
-    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError("--columns: {} is not NAME=HEADER", in_quotes(column));
+    if (std::ranges::find(known, name) == known.end())
       throw UsageError(message(
           {.what = fmt::format("--columns: there is no name {}", in_quotes(name)), .remedy = remedy_for(name)}));
     if (!mapping.emplace(name, column.substr(equals + 1)).second)
-      throw UsageError(fmt::format("--columns: '{}' is given twice", name));
+      throw UsageError("--columns: '{}' is given twice", name);
   }
   return mapping;
 }

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/timestamp.hpp"
 
@@ -20,8 +18,7 @@ constexpr double beyond_sense = 1e30;
 /// Whether a header is that of names rather than numbers: track_id.
 bool is_a_name(std::string_view header) {
   constexpr std::string_view endings[] = {"_id", "_name", "_no", "_number", "_type"};
-  return std::any_of(std::begin(endings), std::end(endings),
-                     [&](std::string_view ending) { return header.ends_with(ending); });
+  return std::ranges::any_of(endings, [&](std::string_view ending) { return header.ends_with(ending); });
 }
 
 /// So many covariances has a matrix of so many rows, as far as their diagonal.
@@ -51,8 +48,7 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
   for (const auto& select : options.select) {
     const auto equals = select.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError(fmt::format("--select: '{}' is not COLUMN=VALUE", select));
+    if (equals == std::string::npos || equals == 0) throw UsageError("--select: '{}' is not COLUMN=VALUE", select);
     select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
   }
   if (!options.origin) return;
@@ -60,7 +56,7 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
   try {
     origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--origin: {}", error.what()));
+    throw UsageError("--origin: {}", error.what());
   }
 }
 
@@ -94,15 +90,14 @@ void RecordingReader::drop(Role role, std::size_t from) {
 }
 
 void RecordingReader::find_columns(const RecordingOptions& options) {
-  std::transform(quantities.begin(), quantities.end(), columns_.begin(),
-                 [&](const Quantity& quantity) { return find(quantity); });
+  std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
   const auto time = find("time_s");
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
     if (options.azimuth_from_north == false)
-      throw UsageError(fmt::format("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix));
+      throw UsageError("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix);
     from_north_ = true;
   }
   const auto are_there = [&](Role role) { return has(role) && has(role, 1); };
@@ -121,10 +116,9 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   if (!cartesian) drop(Role::position);
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
   if (polar() && cartesian && axes_of(Role::position) != axes_)
-    throw InputError(message({.where = file() + ":1",
-                              .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
-                              .expected = "both z_m and elevation_deg, or none of them",
-                              .remedy = "give all sensors of a file as many axes"}));
+    throw InputError(
+        "{}:1: found {}, expected both z_m and elevation_deg, or none of them; give all sensors of a file as many axes",
+        file(), fmt::join(csv_.names(), ", "));
   const auto axes = static_cast<std::size_t>(axes_);
   if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
     drop(Role::course);
@@ -180,7 +174,7 @@ bool RecordingReader::next(Row& row) {
   const auto is_selected = [&](const auto& wanted) { return trimmed(row_[wanted.first]) == wanted.second; };
   do {
     if (!csv_.next(row_)) return false;
-  } while (!std::all_of(select_.begin(), select_.end(), is_selected) || !take_time(row));
+  } while (!std::ranges::all_of(select_, is_selected) || !take_time(row));
   row.roll_deg = roll_ ? number_in(*roll_) : std::nullopt;
   row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
@@ -252,7 +246,7 @@ bool RecordingReader::refused_time(const Row& row, double time) {
     last = {time, {sensor}};
     return false;
   }
-  const bool spoke = std::find(last.sensors.begin(), last.sensors.end(), sensor) != last.sensors.end();
+  const bool spoke = std::ranges::find(last.sensors, sensor) != last.sensors.end();
   if (!(time == last.time) || spoke) return true;
   last.sensors.push_back(sensor);
   return false;
@@ -265,7 +259,7 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
     const auto number = parse_number(word);
     return cell == word || (number && number == parse_number(cell));
   };
-  if (cell.empty() || std::none_of(missing_.begin(), missing_.end(), is_cell)) return row_.optional_number(column);
+  if (cell.empty() || std::ranges::none_of(missing_, is_cell)) return row_.optional_number(column);
   ++missing_cells_[column];
   return std::nullopt;
 }
@@ -466,8 +460,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
       {velocity, "give --set sigma_velocity_mps=…"},
       {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
       {true, "does not go with the others"}};
-  return std::string(
-      std::find_if(std::begin(reasons), std::end(reasons), [](const auto& reason) { return reason.first; })->second);
+  return std::string(std::ranges::find_if(reasons, [](const auto& reason) { return reason.first; })->second);
 }
 
 /// The columns that do not count in any way, and why not: those with the name of a quantity, or nearly, before others.
@@ -483,7 +476,7 @@ std::string RecordingReader::unused() const {
   const auto add = [&](std::size_t index, std::string_view reason) {
     if (done[index]) return;
     done[index] = true;
-    auto same = std::find_if(reasons.begin(), reasons.end(), [&](const auto& other) { return other.first == reason; });
+    auto same = std::ranges::find_if(reasons, [&](const auto& other) { return other.first == reason; });
     if (same == reasons.end()) same = reasons.insert(same, {std::string(reason), {}});
     same->second.push_back(names[index].empty() ? fmt::format("column {}", index + 1) : names[index]);
   };

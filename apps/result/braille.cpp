@@ -3,20 +3,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <limits>
-#include <string_view>
 
-#include <fmt/core.h>
-
-#include "result/report.hpp"
 #include "result/result.hpp"
-#include "support/error.hpp"
-#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

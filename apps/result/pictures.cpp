@@ -3,19 +3,12 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <optional>
 #include <set>
-#include <span>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "result/report.hpp"
-#include "support/error.hpp"
 #include "support/output.hpp"
 #include "support/scratch.hpp"
 
@@ -136,7 +129,7 @@ class Script {
 
  private:
   Groups::const_iterator find(const std::string& group) const {
-    return std::find_if(groups_.begin(), groups_.end(), [&](const ReportGroup& one) { return one.name == group; });
+    return std::ranges::find(groups_, group, &ReportGroup::name);
   }
 
   /// Which of the groups that are not neutral it is; the first if it is none.
@@ -155,7 +148,7 @@ class Script {
 };
 
 bool any_finite(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
 }
 
 /// x and numbers of a curve; a joined one goes on over its gaps.
@@ -316,7 +309,7 @@ Picture drawn(const HeatMap& map, const Groups& groups) {
         cells[2].push_back(map.scale * map.values[r][c]);
       }
   if (cells[2].empty()) return {map.title, ""};
-  const auto [least, greatest] = std::minmax_element(cells[2].begin(), cells[2].end());
+  const auto [least, greatest] = std::ranges::minmax_element(cells[2]);
   const double end = map.most ? map.scale * *map.most : std::max({std::abs(*least), std::abs(*greatest), 1e-300});
   const double low = map.diverging ? -end : std::min(0.0, *least);
   const double high = map.diverging || map.most ? end : std::max(*greatest, low + 1e-300);
@@ -385,8 +378,10 @@ std::string drawn_by_gnuplot(const std::string& script) {
   const int failure = ::posix_spawnp(&child, name.c_str(), &streams, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&streams);
   if (failure != 0)
-    throw UsageError(message({.what = "gnuplot, which draws the plots, cannot be started: " + reason(failure),
-                              .remedy = "install it (Debian: gnuplot-nox), or leave the plots out"}));
+    throw UsageError(
+        "gnuplot, which draws the plots, cannot be started: {}; install it (Debian: gnuplot-nox), or leave the plots "
+        "out",
+        reason(failure));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -1,14 +1,8 @@
 #include "result/report.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <stdexcept>
-#include <string_view>
-#include <type_traits>
-
-#include <fmt/format.h>
 
 #include "support/json.hpp"
 #include "version.hpp"
@@ -206,10 +200,9 @@ std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
 void limit_axis(LineChart& chart) {
   std::vector<double> all;
   for (const Curve& curve : chart.curves)
-    std::copy_if(curve.values.begin(), curve.values.end(), std::back_inserter(all),
-                 [](double value) { return std::isfinite(value); });
+    std::ranges::copy_if(curve.values, std::back_inserter(all), [](double value) { return std::isfinite(value); });
   if (all.empty()) return;
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   double usual = 3.0 * all[all.size() / 2];
   for (const Marked& expected : chart.expected) usual = std::max(usual, 2.0 * expected.to);
   if (all.back() <= 2.0 * usual) return;

@@ -1,16 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <sigmax/core/mean_interval.hpp>
 
 #include "result/table.hpp"
 
@@ -18,7 +8,7 @@ namespace sigmax::apps {
 
 /// What a report switches on and off as one: a filter, or something neutral as the measurement, drawn in grey.
 struct ReportGroup {
-  std::string name;
+  std::string name{};
   bool neutral = false;
   bool shown = true;  ///< when the page opens
 };
@@ -36,9 +26,9 @@ struct Marked {
 
 /// One curve of a chart; NaN is a gap. `lower` and `upper`, its confidence band, are empty or as long as `values`.
 struct Curve {
-  std::string name;
+  std::string name{};
   std::string group{};  ///< its name in the report's groups; empty for none
-  std::vector<double> values;
+  std::vector<double> values{};
   std::vector<double> lower{};
   std::vector<double> upper{};
   int dash = -1;      ///< which pattern its line has; −1: that of its group
@@ -49,24 +39,24 @@ struct Curve {
 struct Stay {
   double from = 0.0;
   double to = 0.0;
-  std::string label;
+  std::string label{};
   std::size_t shade = 0;
 };
 
 /// A band below the curves of a chart that says which of several things holds when, as a history of modes.
 struct HistoryBand {
-  std::string name;
+  std::string name{};
   std::string group{};
-  std::vector<Stay> stays;
+  std::vector<Stay> stays{};
 };
 
 /// Curves over one axis, mostly time. The charts of a view are zoomed together.
 struct LineChart {
-  std::string title;
-  std::string x_label;  ///< with its unit
-  std::string y_label;
-  std::vector<double> x;
-  std::vector<Curve> curves;
+  std::string title{};
+  std::string x_label{};  ///< with its unit
+  std::string y_label{};
+  std::vector<double> x{};
+  std::vector<Curve> curves{};
   std::vector<Marked> shaded{};        ///< along x
   std::vector<Marked> expected{};      ///< along y
   std::optional<double> greatest_y{};  ///< where the y axis ends, if not at the data
@@ -83,18 +73,18 @@ void limit_axis(LineChart& chart);
 /// One trace of a map: a line or points, with a height where there is one.
 struct PlanTrace {
   enum class Shape { line, dots, crosses };
-  std::string name;
+  std::string name{};
   std::string group{};
   Shape shape = Shape::line;
-  std::vector<double> x;
-  std::vector<double> y;
+  std::vector<double> x{};
+  std::vector<double> y{};
   std::vector<double> z{};  ///< empty or as long as the others
 };
 
 /// Where an estimate is with 95 % confidence, in plan: centre, semi-axes, and the angle of the first one in degrees,
 /// counter-clockwise from x.
 struct ErrorEllipse {
-  std::string group;
+  std::string group{};
   double x, y;
   double semi_major, semi_minor;
   double angle_deg;
@@ -102,17 +92,17 @@ struct ErrorEllipse {
 
 /// A parallel or meridian, as points of the plan.
 struct GraticuleLine {
-  std::string label;
-  std::vector<double> x;
-  std::vector<double> y;
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> y{};
 };
 
 /// Traces in plan, of one scale in x and y; those with heights are shown in space as well.
 struct Plan {
-  std::string title;
-  std::string x_label;
-  std::string y_label;
-  std::vector<PlanTrace> traces;
+  std::string title{};
+  std::string x_label{};
+  std::string y_label{};
+  std::vector<PlanTrace> traces{};
   std::vector<ErrorEllipse> ellipses{};
   std::vector<GraticuleLine> graticule{};
   std::vector<double> focus{};  ///< least and greatest x and y of what it opens with; empty: of all
@@ -121,18 +111,18 @@ struct Plan {
 
 /// A number with its interval in each row of a chart, and where it should be; both may be open or missing (NaN).
 struct IntervalSeries {
-  std::string name;
+  std::string name{};
   std::string group{};  ///< its name in the report's groups; empty for none
-  std::vector<Interval> values;
+  std::vector<Interval> values{};
   std::vector<Marked> wanted{};  ///< empty or as long as the values; infinite ends are open
 };
 
 /// Numbers with their intervals below each other, those of all series side by side in each row.
 struct IntervalChart {
-  std::string title;
-  std::string x_label;  ///< with its unit
-  std::vector<std::string> rows;
-  std::vector<IntervalSeries> series;
+  std::string title{};
+  std::string x_label{};  ///< with its unit
+  std::vector<std::string> rows{};
+  std::vector<IntervalSeries> series{};
   std::optional<double> reference{};  ///< where a line stands that numbers are compared with
   std::string wanted_label{};         ///< what the shade means that says where a number should be
   int digits = 2;
@@ -142,14 +132,14 @@ struct IntervalChart {
 /// A matrix as coloured cells. `values` has a row for each of `rows`; `texts`, if any, is what a cell says beside its
 /// number.
 struct HeatMap {
-  std::string title;
-  std::string row_label;
-  std::string column_label;
-  std::vector<std::string> rows;
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> values;
-  std::string value_label;  ///< with its unit
-  bool diverging = false;   ///< zero is in the middle: below it is better
+  std::string title{};
+  std::string row_label{};
+  std::string column_label{};
+  std::vector<std::string> rows{};
+  std::vector<std::string> columns{};
+  std::vector<std::vector<double>> values{};
+  std::string value_label{};  ///< with its unit
+  bool diverging = false;     ///< zero is in the middle: below it is better
   int digits = 2;
   double scale = 1.0;            ///< what is shown is scale × the number: 100 for per cent
   bool sign = false;             ///< a + before what is positive
@@ -172,16 +162,16 @@ std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column);
 
 /// A table with a title.
 struct ReportTable {
-  std::string title;
-  ResultTable table;
+  std::string title{};
+  ResultTable table{};
   std::string note{};
   std::vector<std::string> filtered_by{};  ///< keys of columns of words, by which rows can be chosen
 };
 
 /// Text as it is: settings, an explanation.
 struct Words {
-  std::string title;
-  std::string text;
+  std::string title{};
+  std::string text{};
   bool folded = false;
 };
 
@@ -189,8 +179,8 @@ using Panel = std::variant<LineChart, Plan, IntervalChart, HeatMap, ReportTable,
 
 /// What is shown for one choice of a report's selector.
 struct View {
-  std::string name;
-  std::vector<Panel> panels;
+  std::string name{};
+  std::vector<Panel> panels{};
 };
 
 /// A report as data. The drawing code shows it and computes nothing.
@@ -199,7 +189,7 @@ struct View {
 ///     report.panels.push_back(HeatMap{…});
 ///     files.write(report_name, html(report));
 struct Report {
-  std::string title;
+  std::string title{};
   std::vector<std::string> verdict{};  ///< sentences
   std::string command{};
   std::vector<ReportGroup> groups{};

@@ -1,15 +1,10 @@
 #include "result/result.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <system_error>
-
-#include <fmt/format.h>
 
 #include "result/braille.hpp"
 #include "result/pictures.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 #include "support/json.hpp"
 #include "version.hpp"
 
@@ -21,8 +16,7 @@ void refuse_input(const std::string& option, const std::string& given, const std
   for (const std::string& input : inputs) {
     std::error_code ignored;
     if (std::filesystem::equivalent(file, input == "-" ? "/dev/stdin" : input, ignored))
-      throw UsageError(message({.what = fmt::format("{} {} would write over the input {}", option, given, input),
-                                .remedy = "choose another place"}));
+      throw UsageError("{} {} would write over the input {}; choose another place", option, given, input);
   }
 }
 
@@ -64,9 +58,8 @@ namespace {
 
 void refuse_standard_output(const char* option, const std::string& file) {
   if (file == "-")
-    throw UsageError(message({.what = std::string(option) + ": the standard output takes only what is printed",
-                              .found = "'-'",
-                              .remedy = "give a name, or /dev/stdout"}));
+    throw UsageError("{}: the standard output takes only what is printed: found '-'; give a name, or /dev/stdout",
+                     option);
 }
 
 }  // namespace
@@ -91,8 +84,8 @@ void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::st
 
 ResultFiles::ResultFiles(const OutputOptions& options) {
   if (!options.report.empty() && !has_reports())
-    throw UsageError(message({.what = "--report: this program was built without charts",
-                              .remedy = "install libjs-dygraphs and node-d3, and build again"}));
+    throw UsageError(
+        "--report: this program was built without charts; install libjs-dygraphs and node-d3, and build again");
   if (!options.plots.empty()) need_gnuplot();
   refuse_standard_output("--out", options.out);
   refuse_standard_output("--report", options.report);
@@ -150,6 +143,11 @@ void ResultFiles::commit() {
   if (!plots_.empty())
     written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_.native()));
   fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
+}
+
+RowFile::RowFile(ResultFiles& files, const std::string& name, const std::vector<std::string>& keys)
+    : table_(ResultTable::of_keys(keys)), file_(files.open(name)) {
+  if (file_) file_->write(table_.csv_header());
 }
 
 Result::Result(const OutputOptions& options)

@@ -1,25 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
 #include <list>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "result/report.hpp"
+#include "support/command_line.hpp"
 #include "support/output.hpp"
-#include "support/text.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace sigmax::apps {
 
@@ -88,6 +74,21 @@ class ResultFiles {
   std::vector<std::pair<std::string, std::string>> pictures_;  // names and contents: more than are open at a time
 };
 
+/// Rows that are too many to keep: a CSV file that is filled as they come, or nothing where no files are wanted.
+class RowFile {
+ public:
+  RowFile(ResultFiles& files, const std::string& name, const std::vector<std::string>& keys);
+
+  explicit operator bool() const { return file_ != nullptr; }
+  void write(const std::vector<Cell>& cells) {
+    if (file_) file_->write(table_.csv_line(cells));
+  }
+
+ private:
+  ResultTable table_;
+  AtomicFile* file_;
+};
+
 /// Where something stands in a summary: keys, and places in lists.
 using Path = std::vector<std::variant<std::string, std::size_t>>;
 
@@ -119,6 +120,10 @@ class Result {
 
   /// Prints words, broken to `words_width`.
   void say(std::string_view words);
+  template <class First, class... Rest>
+  void say(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) {
+    say(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
   /// Prints those words whose condition holds.
   void say(const std::vector<std::pair<bool, std::string>>& notes);

@@ -1,13 +1,8 @@
 #include "result/table.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "support/csv.hpp"
-#include "support/error.hpp"
 #include "support/output.hpp"
 
 namespace sigmax::apps {
@@ -48,9 +43,8 @@ std::size_t total(const Block& block) {
 void relax_headers(Block& block, std::size_t width) {
   const auto height = [](const Laid& column, std::size_t at) { return lines_of(column.header, at).size(); };
   for (;;) {
-    Laid& highest = *std::max_element(block.begin(), block.end(), [&](const Laid& a, const Laid& b) {
-      return height(a, a.header_width) < height(b, b.header_width);
-    });
+    Laid& highest = *std::ranges::max_element(
+        block, [&](const Laid& a, const Laid& b) { return height(a, a.header_width) < height(b, b.header_width); });
     const std::size_t lines = height(highest, highest.header_width), most = highest.width + width - total(block);
     std::size_t wider = highest.width + 1;
     while (wider <= most && height(highest, wider) == lines) ++wider;
@@ -187,6 +181,12 @@ std::string shown_in(const ResultColumn& column, const Cell& cell) {
 
 ResultTable::ResultTable(std::vector<ResultColumn> columns) : columns_(std::move(columns)) {
   check(columns_, columns_);
+}
+
+ResultTable ResultTable::of_keys(const std::vector<std::string>& keys) {
+  ResultTable table;
+  for (const std::string& key : keys) table.columns_.push_back({.key = key});
+  return table;
 }
 
 void ResultTable::row(std::vector<Cell> cells) {

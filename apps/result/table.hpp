@@ -1,16 +1,11 @@
 #pragma once
 
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -112,6 +107,9 @@ class ResultTable {
 
   /// Adds a row with a cell a column; throws std::invalid_argument for another number.
   void row(std::vector<Cell> cells);
+
+  /// One whose columns are for files only.
+  static ResultTable of_keys(const std::vector<std::string>& keys);
 
   /// A table to which all rows are added as fields: the columns are those of the first one.
   ResultTable() = default;

@@ -8,9 +8,6 @@
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <charconv>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "support/command_line.hpp"
 #include "support/error.hpp"
@@ -102,8 +99,7 @@ std::string journal_line(std::size_t cell, const std::vector<double>& row) {
 
 Journaled read_journal(const std::filesystem::path& path) {
   auto [journal, sound, damaged] = parsed(path, read_text(path));
-  if (journal.study.empty())
-    throw InputError(message({.where = path.native(), .what = "is empty", .expected = "the journal of a campaign"}));
+  if (journal.study.empty()) throw InputError("{}: is empty: expected the journal of a campaign", path.native());
   if (!damaged.empty())
     throw InputError(message({.where = fmt::format("{}:{}", path.native(), damaged.front()),
                               .what = damage,
@@ -132,9 +128,8 @@ Journal::Journal(std::filesystem::path path)
 Journal::Journal(std::filesystem::path path, std::string study) : Journal(std::move(path)) {
   if (descriptor_ < 0) fail();
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw InputError(message({.where = path_.native(),
-                              .what = "another program is writing this journal",
-                              .remedy = "wait until it ends, or give another --out"}));
+    throw InputError("{}: another program is writing this journal; wait until it ends, or give another --out",
+                     path_.native());
   auto [journal, sound, damaged] = parsed(path_, read_text(path_));
   if (sound > 0)
     require_study(path_, journal.study, study, "the directory holds another campaign",
@@ -158,9 +153,8 @@ Journal::~Journal() {
 }
 
 void Journal::fail() const {
-  throw InputError(message({.where = path_.native(),
-                            .what = "cannot be written: " + reason(errno),
-                            .remedy = "make room there, or give another --out; what is finished is kept"}));
+  throw InputError("{}: cannot be written: {}; make room there, or give another --out; what is finished is kept",
+                   path_.native(), reason(errno));
 }
 
 void Journal::write(const std::string& text) {

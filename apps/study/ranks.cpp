@@ -141,8 +141,10 @@ std::unique_ptr<Ranks> Ranks::join([[maybe_unused]] std::string_view instead) {
 #ifdef SIGMAX_MPI
   return std::make_unique<MpiRanks>();
 #else
-  throw UsageError(message({.what = "this build has no MPI, so mpirun would do the same work in every rank",
-                            .remedy = fmt::format("{}, or configure with libopenmpi-dev installed", instead)}));
+  throw UsageError(
+      "this build has no MPI, so mpirun would do the same work in every rank; {}, or configure with libopenmpi-dev "
+      "installed",
+      instead);
 #endif
 }
 

@@ -1,17 +1,9 @@
 #include "study/study.hpp"
 
 #include <charconv>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "result/result.hpp"
-#include "study/journal.hpp"
 #include "study/ranks.hpp"
-#include "support/command_line.hpp"
-#include "support/error.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 
@@ -37,7 +29,7 @@ bool run_first(const Study& study, const Sharing& sharing, Ranks* ranks, const O
     throw UsageError(
         message({.what = "--shard without --out would leave nothing to merge", .remedy = "give --out DIR"}));
   if (sharing.shards > 1 && !options.report.empty())
-    throw UsageError(message({.what = "--report shows all shards, and this is one", .remedy = "give it to merge"}));
+    throw UsageError("--report shows all shards, and this is one; give it to merge");
   { const ResultFiles trial(options); }  // refuses a place that cannot be written before the work
   std::optional<Journal> journal;
   if (!options.out.empty() && !study.description.empty()) {
@@ -54,9 +46,9 @@ bool run_first(const Study& study, const Sharing& sharing, Ranks* ranks, const O
     if (!waiting.contains(cell)) open.push_back(cell);
   }
   if (sharing.finished && !open.empty())
-    throw InputError(message({.what = fmt::format("{} of {} cells are missing, the first is number {}", open.size(),
-                                                  study.cells, open.front()),
-                              .remedy = "finish all shards and give all their directories"}));
+    throw InputError(
+        "{} of {} cells are missing, the first is number {}; finish all shards and give all their directories",
+        open.size(), study.cells, open.front());
   Progress progress(study.name, share, options.quiet);
   progress.advance(share - open.size());
   const auto take = [&](CellRows rows) {

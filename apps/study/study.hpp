@@ -1,13 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <string>
-#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "support/command_line.hpp"
 
 namespace sigmax::apps {
 

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -13,13 +12,8 @@
 #include <map>
 #include <memory>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
-#include <fmt/core.h>
-#include <fmt/format.h>
-
-#include "support/error.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
@@ -63,9 +57,8 @@ void flush_output() {
   const bool flushed = std::fflush(stdout) == 0;
   const int error_number = errno;
   if (flushed && std::ferror(stdout) == 0) return;
-  throw InputError(message({.where = "standard output",
-                            .what = "cannot be written: " + reason(error_number != 0 ? error_number : EIO),
-                            .remedy = "make room there, or choose another place"}));
+  throw InputError("standard output: cannot be written: {}; make room there, or choose another place",
+                   reason(error_number != 0 ? error_number : EIO));
 }
 
 using Arguments = std::vector<std::string>;
@@ -94,6 +87,15 @@ class Help : public CLI::Formatter {
   }
 };
 
+/// What a text has after a line [NAME], up to the next such line.
+std::string section(std::string_view text, const std::string& name) {
+  const std::string head = "[" + name + "]\n";
+  const auto begin = text.find(head);
+  if (begin == std::string_view::npos) return "";
+  text.remove_prefix(begin + head.size());
+  return std::string(text.substr(0, text.find("\n[")));
+}
+
 bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
 
 std::vector<std::string> names_of_subcommands(const CLI::App& app) {
@@ -112,7 +114,7 @@ Arguments with_subcommand(const CLI::App& app, const std::string& default_subcom
     return arguments;
   }
   const auto names = names_of_subcommands(app);
-  if (std::find(names.begin(), names.end(), arguments.front()) == names.end())
+  if (std::ranges::find(names, arguments.front()) == names.end())
     throw UsageError(message({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
                               .remedy = suggestion(arguments.front(), names)}));
   return arguments;
@@ -129,7 +131,7 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--")) continue;
     const std::string name = argument.substr(2, argument.find('=') - 2);
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::ranges::find(known, name) != known.end()) continue;
     const std::string nearest = nearest_word(name, known, "--");
     throw UsageError(
         message({.what = fmt::format("{} has no option {}", subcommand->get_name(), in_quotes("--" + name)),
@@ -265,8 +267,6 @@ Option Subcommand::triple(const std::string& name, std::optional<std::array<doub
 
 Option Subcommand::option(const std::string& name) { return Option(app_.get_option(name)); }
 
-void Subcommand::footer(const std::string& text) { app_.footer(text); }
-
 void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
 
 void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
@@ -275,7 +275,7 @@ void run_again(const std::vector<AddSubcommand>& subcommands, const std::string&
   std::string command = program;
   for (const std::string& argument : arguments) command += " " + argument;
   for (const auto add : subcommands) add(app, command);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  std::ranges::reverse(arguments);  // as CLI11 wants them
   app.parse(arguments);
 }
 
@@ -308,13 +308,15 @@ int run_command_line(const ProgramOutline& outline, int argc, char** argv) {
   app.require_subcommand(outline.default_subcommand.empty() ? 1 : 0, 1);
   app.footer(fmt::format("{} SUBCOMMAND --help lists the options of a subcommand, with examples.", outline.name));
   for (const AddSubcommand add : outline.subcommands) add(app, command);
+  for (CLI::App* const subcommand : app.get_subcommands({}))
+    subcommand->footer(section(outline.usage, subcommand->get_name()));
 
   int code = 0;
   const int ended = run_program(outline.name.c_str(), [&] {
     try {
       arguments = with_subcommand(app, outline.default_subcommand, std::move(arguments));
       refuse_unknown_options(app, arguments);
-      std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+      std::ranges::reverse(arguments);  // as CLI11 wants them
       app.parse(arguments);
     } catch (const CLI::ParseError& error) {
       std::ostringstream out, complaint;

@@ -105,7 +105,6 @@ class Subcommand {
   /// One that was added before.
   Option option(const std::string& name);
 
-  void footer(const std::string& text);
   void run(const std::function<void()>& work);
 
  private:
@@ -131,6 +130,7 @@ struct ProgramOutline {
   std::string description;
   std::vector<AddSubcommand> subcommands;
   std::string default_subcommand;  ///< what runs without a subcommand, with all options
+  std::string_view usage = {};     ///< what help says below the options: after a line [NAME] that of a subcommand
 };
 
 /// Reads the command line, runs the subcommand under `run_program` and returns the exit code. An option or a subcommand

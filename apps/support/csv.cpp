@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <fstream>
 #include <iostream>
 #include <set>
 #include <system_error>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "support/input.hpp"
 
@@ -112,7 +108,7 @@ CsvReader::~CsvReader() = default;
 
 std::optional<std::size_t> CsvReader::find(std::string_view name) const {
   const auto& names = header_->names;
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (name.empty() || found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -133,15 +129,13 @@ void CsvReader::read_header() {
   const std::string_view start{buffer_.data(), filled_};
   if (start.starts_with("\xEF\xBB\xBF")) position_ = 3;
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
-    throw InputError(message({.where = file(), .found = "UTF-16 text", .expected = "UTF-8", .remedy = "convert it"}));
+    throw InputError("{}: found UTF-16 text, expected UTF-8; convert it", file());
 
   separator_ = separator_of(start.substr(position_));
   CsvRow row;
   if (!read_record(row))
-    throw InputError(message({.where = file(),
-                              .what = "is empty",
-                              .expected = "a line with the names of the columns",
-                              .remedy = "see whether it was written whole"}));
+    throw InputError("{}: is empty: expected a line with the names of the columns; see whether it was written whole",
+                     file());
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::string_view name = trimmed(row[i]);
@@ -253,7 +247,7 @@ bool CsvReader::fill() {
     filled_ = static_cast<std::size_t>(size);
     if (size == 0 && stream_->get(buffer_[0])) filled_ = 1;
   }
-  if (stream_->bad()) throw InputError(message({.where = file(), .what = "cannot be read: " + reason(errno)}));
+  if (stream_->bad()) throw InputError("{}: cannot be read: {}", file(), reason(errno));
   return filled_ > 0;
 }
 

@@ -39,16 +39,16 @@ std::string in_quotes(std::string_view text) {
   return "'" + printable(text) + (cut ? "…'" : "'");
 }
 
-std::string printable(std::string_view text, bool keep_line_breaks) {
+std::string escaped(std::string_view text, std::string_view format, std::string_view kept) {
   std::string shown;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto code = static_cast<unsigned char>(text[i]);
     const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
     if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F are control characters too
-      shown += fmt::format("\\x{:02X}", next);
+      shown += fmt::format(fmt::runtime(format), next);
       ++i;
-    } else if ((code < 0x20U || code == 0x7FU) && !(keep_line_breaks && text[i] == '\n')) {
-      shown += fmt::format("\\x{:02X}", code);
+    } else if ((code < 0x20U || code == 0x7FU) && kept.find(text[i]) == std::string_view::npos) {
+      shown += fmt::format(fmt::runtime(format), unsigned{code});
     } else {
       shown += text[i];
     }

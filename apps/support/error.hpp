@@ -3,19 +3,32 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace sigmax::apps {
 
-/// Bad data, a bad setting or an output that cannot be written; the program exits with 3.
-class InputError : public std::runtime_error {
+/// What the user is told, as `message` puts it together: "where: what: found …, expected …; remedy".
+class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+
+  template <class First, class... Rest>
+  explicit UserError(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest)
+      : runtime_error(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+};
+
+/// Bad data, a bad setting or an output that cannot be written; the program exits with 3.
+class InputError : public UserError {
+ public:
+  using UserError::UserError;
 };
 
 /// A command line that means nothing; the program exits with 2.
-class UsageError : public std::runtime_error {
+class UsageError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 /// The parts of a message to the user; empty parts are left out.
@@ -33,9 +46,14 @@ std::string message(const Complaint& complaint);
 /// Text from a file as a message may show it: in quotes, control characters as \xNN, long text cut with an ellipsis.
 std::string in_quotes(std::string_view text);
 
+/// Text in which control characters, but for those that are kept, stand as a format says.
+std::string escaped(std::string_view text, std::string_view format, std::string_view kept = {});
+
 /// Text without control characters, which may be commands to a terminal: they are shown as \xNN. Line breaks stay if
 /// they may.
-std::string printable(std::string_view text, bool keep_line_breaks = false);
+inline std::string printable(std::string_view text, bool keep_line_breaks = false) {
+  return escaped(text, "\\x{:02X}", keep_line_breaks ? "\n" : "");
+}
 
 /// The words of the operating system for an error number.
 std::string reason(int error_number);

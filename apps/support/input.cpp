@@ -13,16 +13,12 @@ namespace sigmax::apps {
 std::ifstream open_input(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown))
-    throw InputError(message({.where = path.native(),
-                              .found = "a directory",
-                              .expected = "a file",
-                              .remedy = "name one of the files in it"}));
+    throw InputError("{}: found a directory, expected a file; name one of the files in it", path.native());
   errno = 0;
   std::ifstream stream{path, std::ios::binary};
   if (!stream)
-    throw InputError(message({.where = path.native(),
-                              .what = "cannot be read: " + reason(errno),
-                              .remedy = "see whether its name and permissions are right"}));
+    throw InputError("{}: cannot be read: {}; see whether its name and permissions are right", path.native(),
+                     reason(errno));
   return stream;
 }
 
@@ -33,7 +29,7 @@ std::string read_text(const std::filesystem::path& path) {
   errno = 0;
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) throw InputError(message({.where = path.native(), .what = "cannot be read: " + reason(errno)}));
+  if (stream.bad()) throw InputError("{}: cannot be read: {}", path.native(), reason(errno));
   return text;
 }
 

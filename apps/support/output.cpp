@@ -11,7 +11,6 @@
 #include <climits>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 #include <system_error>
 
 #include "support/error.hpp"

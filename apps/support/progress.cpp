@@ -2,13 +2,8 @@
 
 #include <sys/ioctl.h>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include <fmt/core.h>
-
-#include "support/error.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 

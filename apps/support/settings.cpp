@@ -1,14 +1,10 @@
 #include "support/settings.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "support/input.hpp"
@@ -128,9 +124,8 @@ void refuse_beyond_ascii(std::string_view text, const Origin& origin) {
       const std::string_view line = before.substr(before.rfind('\n') + 1);
       const auto starts_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; };
       toml::source_region region;
-      region.begin.line = static_cast<toml::source_index>(1 + std::count(before.begin(), before.end(), '\n'));
-      region.begin.column =
-          static_cast<toml::source_index>(1 + std::count_if(line.begin(), line.end(), starts_character));
+      region.begin.line = static_cast<toml::source_index>(1 + std::ranges::count(before, '\n'));
+      region.begin.column = static_cast<toml::source_index>(1 + std::ranges::count_if(line, starts_character));
       throw InputError(message(
           {.where = origin.place(region), .what = "is not TOML", .remedy = "put characters beyond ASCII into quotes"}));
     }
@@ -255,8 +250,7 @@ Settings Settings::read(const std::filesystem::path& file, std::span<const std::
     const auto equals = set.find('=');
     const std::string_view key = trimmed(std::string_view{set}.substr(0, equals));
     const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{set}.substr(equals + 1));
-    if (key.empty() || value.empty())
-      throw UsageError(message({.where = "--set", .found = in_quotes(set), .expected = "key=value"}));
+    if (key.empty() || value.empty()) throw UsageError("--set: found {}, expected key=value", in_quotes(set));
     const std::string text = fmt::format("{} = {}", key, with_quoted_words(value));
     settings.layers_.push_back(Layer::of({"--set " + set, false}, text));
   }
@@ -306,7 +300,7 @@ template Matrix Settings::get(std::string_view, Matrix) const;
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> names,
                              std::string_view otherwise) const {
   std::string chosen = get(key, std::string(otherwise));
-  if (chosen != otherwise && std::find(names.begin(), names.end(), chosen) == names.end())
+  if (chosen != otherwise && std::ranges::find(names, chosen) == names.end())
     throw error(key, fmt::format("one of {}", fmt::join(names, ", ")), nearest_word(chosen, names));
   return chosen;
 }

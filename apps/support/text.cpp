@@ -1,11 +1,7 @@
 #include "support/text.hpp"
 
-#include <algorithm>
 #include <clocale>
 #include <cwchar>
-#include <utility>
-
-#include "support/error.hpp"
 
 namespace sigmax::apps {
 

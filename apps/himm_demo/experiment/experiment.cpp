@@ -1,13 +1,6 @@
 #include "himm_demo/experiment/experiment.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include <sigmax/estimation/metrics.hpp>
-
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -93,8 +86,7 @@ std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
   std::optional<std::size_t> model;
   for (std::size_t j = 0; j < motions.size(); ++j)
     if (motions[j].manoeuvres()) model = j;
-  const bool all =
-      std::all_of(motions.begin(), motions.end(), [](const MotionChoice& motion) { return motion.manoeuvres(); });
+  const bool all = std::ranges::all_of(motions, [](const MotionChoice& motion) { return motion.manoeuvres(); });
   return all ? std::nullopt : model;
 }
 

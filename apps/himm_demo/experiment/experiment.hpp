@@ -1,13 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include <sigmax/estimation/gaussian.hpp>
 
 #include "himm_demo/experiment/scenario.hpp"

@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "recording/plots.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <sigmax/core/mean_interval.hpp>
 
 #include "himm_demo/filters/settings.hpp"
@@ -59,14 +51,13 @@ struct Statement {
 
 /// A sentence of section VI of the paper.
 struct Sentence {
-  std::string_view place;
-  std::string_view words;
-  std::vector<Statement> statements;
+  std::string place;
+  std::string words{};
+  std::vector<Statement> statements{};
 };
 
-/// Differences of less than a tenth of the reference are called competitive here, and less than a twentieth close.
+/// Differences of less than a tenth of the reference are called competitive here.
 inline constexpr double competitive_fraction = 0.1;
-inline constexpr double close_fraction = 0.05;
 
 /// What sections VI.D and VI.E say that can be checked, in the order of the paper.
 const std::vector<Sentence>& sentences();

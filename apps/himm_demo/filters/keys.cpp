@@ -1,17 +1,6 @@
-#include "himm_demo/filters/keys.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "himm_demo/filters/settings.hpp"
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/command_line.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 
@@ -19,39 +8,6 @@ namespace sigmax::apps {
 namespace {
 
 using FilterKey = Key<FilterSettings>;
-
-template <class Value>
-using Names = std::initializer_list<std::pair<std::string_view, Value>>;
-
-const Names<Scheme> schemes = {{"interacting", Scheme::interacting},
-                               {"common_start", Scheme::common_start},
-                               {"second_order", Scheme::second_order},
-                               {"independent", Scheme::independent},
-                               {"histories", Scheme::histories}};
-const Names<MemberType> members = {
-    {"kf", MemberType::kf}, {"ekf", MemberType::ekf}, {"ukf", MemberType::ukf}, {"ckf", MemberType::ckf}};
-const Names<MixedCovariance> mixed_covariances = {{"selected", MixedCovariance::selected},
-                                                  {"own", MixedCovariance::own},
-                                                  {"own_recentred", MixedCovariance::own_recentred},
-                                                  {"released", MixedCovariance::released},
-                                                  {"envelope", MixedCovariance::envelope}};
-const Names<MixingWeights> mixing_weights = {{"correct", MixingWeights::correct},
-                                             {"released", MixingWeights::released}};
-const Names<Lift> lifts = {{"zero", Lift::zero},
-                           {"borrowed_variance", Lift::borrowed_variance},
-                           {"unbiased", Lift::unbiased},
-                           {"prior", Lift::prior}};
-const Names<Tie> ties = {{"stay", Tie::stay}, {"first", Tie::first}, {"last", Tie::last}};
-const Names<LikelihoodForm> likelihoods = {{"density", LikelihoodForm::density},
-                                           {"possibility", LikelihoodForm::possibility}};
-const Names<OutputSpread> spreads = {{"included", OutputSpread::included}, {"omitted", OutputSpread::omitted}};
-const Names<bool> outputs = {{"mixed", false}, {"most_likely", true}};
-const Names<StartRule> starts = {
-    {"points", StartRule::points}, {"released", StartRule::released}, {"given", StartRule::given}};
-const Names<RadarForm> radar_forms = {{"standard", RadarForm::standard},
-                                      {"unbiased", RadarForm::unbiased},
-                                      {"debiased", RadarForm::debiased},
-                                      {"polar", RadarForm::polar}};
 
 /// The numbers in TOML.
 std::string toml_list(const std::vector<double>& numbers) {
@@ -81,20 +37,21 @@ const Range flag{"true, false", any};
 
 constexpr std::string_view small_sigma = "a covariance is positive definite: give a small one rather than 0";
 
-/// One out of several names.
+/// One out of several names, which are those of the enumerators in their order.
 template <class Owner, class Value>
-FilterKey choice(std::string name, std::string meaning, Value Owner::*member, Names<Value> names) {
-  std::vector<std::string_view> values;
-  for (const auto& [word, value] : names) values.push_back(word);
-  return {name, std::move(meaning), fmt::format("{}", fmt::join(values, ", ")),
+FilterKey choice(std::string name, std::string meaning, Value Owner::*member, std::string_view names) {
+  std::vector<std::string_view> all;
+  for (std::size_t at = 0, end = 0; end < names.size(); at = end + 2) {
+    end = std::min(names.find(", ", at), names.size());
+    all.push_back(names.substr(at, end - at));
+  }
+  const auto name_of = [=](const FilterSettings& filter) { return all[static_cast<std::size_t>(filter.*member)]; };
+  return {name, std::move(meaning), std::string(names),
           [=](const Settings& settings, FilterSettings& filter) {
-            filter.*member = settings.choice(name, names, filter.*member);
+            const std::string chosen = settings.choice(name, all, name_of(filter));
+            filter.*member = static_cast<Value>(std::ranges::find(all, chosen) - all.begin());
           },
-          [=](const FilterSettings& filter) {
-            const auto found = std::find_if(names.begin(), names.end(),
-                                            [&](const auto& entry) { return entry.second == filter.*member; });
-            return fmt::format("\"{}\"", found->first);
-          }};
+          [=](const FilterSettings& filter) { return fmt::format("\"{}\"", name_of(filter)); }};
 }
 
 /// @{
@@ -169,8 +126,8 @@ FilterKey per_model(MotionParameter parameter) {
           },
           [=](const FilterSettings& filter) { return toml_list(values(filter)); },
           [=](const FilterSettings& filter) {
-            return std::any_of(filter.motions.begin(), filter.motions.end(),
-                               [=](const MotionChoice& motion) { return motion.known().has_parameter(parameter); });
+            return std::ranges::any_of(
+                filter.motions, [=](const MotionChoice& motion) { return motion.known().has_parameter(parameter); });
           }};
 }
 
@@ -190,8 +147,7 @@ FilterKey models() {
             const std::vector<MotionChoice> before = std::exchange(filter.motions, {});
             for (const auto& name : settings.get("models", names)) {
               if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
-              const auto same =
-                  std::find_if(before.begin(), before.end(), [&](const MotionChoice& m) { return m.name == name; });
+              const auto same = std::ranges::find(before, name, &MotionChoice::name);
               filter.motions.push_back(same == before.end() ? before.front() : *same);
               filter.motions.back().name = name;
             }
@@ -218,7 +174,7 @@ FilterKey transition(const std::string& name, std::string meaning, std::string v
             for (std::size_t i = 0; i < modes; ++i) {
               double leaves = fuzzy ? filter.leaving_possibility : filter.leaving_probability;
               if (filter.motions[i].manoeuvres()) leaves = filter.leaving_a_manoeuvre.value_or(leaves);
-              std::fill(rows[i].begin(), rows[i].end(), fuzzy ? leaves : leaves / others);
+              std::ranges::fill(rows[i], fuzzy ? leaves : leaves / others);
               rows[i][i] = fuzzy || modes == 1 ? 1.0 : 1.0 - leaves;
             }
             rows = settings.get(name, rows);
@@ -243,8 +199,7 @@ FilterKey only(bool (*applies)(const FilterSettings&), FilterKey key) {
 }
 
 bool turns(const FilterSettings& filter) {
-  return std::any_of(filter.motions.begin(), filter.motions.end(),
-                     [](const MotionChoice& motion) { return !motion.linear(); });
+  return std::ranges::any_of(filter.motions, [](const MotionChoice& motion) { return !motion.linear(); });
 }
 bool mixes(const FilterSettings& filter) {
   return filter.scheme == Scheme::interacting || filter.scheme == Scheme::common_start;
@@ -257,7 +212,8 @@ bool given(const FilterSettings& filter) { return filter.start == StartRule::giv
 std::vector<FilterKey> mode_keys() {
   using F = FilterSettings;
   return {
-      choice("scheme", "When several modes become one Gaussian.", &F::scheme, schemes),
+      choice("scheme", "When several modes become one Gaussian.", &F::scheme,
+             "interacting, common_start, second_order, independent, histories"),
       models(),
       per_model(MotionParameter::sigma_w),
       per_model(MotionParameter::tau),
@@ -267,7 +223,7 @@ std::vector<FilterKey> mode_keys() {
            choice("member",
                   "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
                   "have the Kalman filter, and kf refuses others.",
-                  &F::member, members)),
+                  &F::member, "kf, ekf, ukf, ckf")),
       only([](const F& f) { return f.scheme != Scheme::independent; },
            value<F>("sojourn_s",
                     "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
@@ -281,17 +237,17 @@ std::vector<FilterKey> mode_keys() {
                  "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
       only([](const F& f) { return f.fuzzy && mixes(f); },
            choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
-                  mixed_covariances)),
+                  "selected, own, own_recentred, released, envelope")),
       only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
            choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
-                  ties)),
+                  "stay, first, last")),
       only([](const F& f) { return !f.fuzzy && mixes(f); },
-           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, mixing_weights)),
+           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, "correct, released")),
       only([](const F& f) { return !f.fuzzy; },
            choice("output_spread",
                   "Whether the output's covariance (68) has the spread of the means, or omits it as printed. For a "
                   "random mode.",
-                  &F::output_spread, spreads))};
+                  &F::output_spread, "included, omitted"))};
 }
 
 /// Likelihoods, what a model lacks, histories, and the output.
@@ -299,8 +255,9 @@ std::vector<FilterKey> estimate_keys() {
   using F = FilterSettings;
   return {
       choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
-             &F::likelihood, likelihoods),
-      choice("lift", "What stands for a component that a model lacks.", &F::lift, lifts),
+             &F::likelihood, "density, possibility"),
+      choice("lift", "What stands for a component that a model lacks.", &F::lift,
+             "zero, borrowed_variance, unbiased, prior"),
       only(has_prior,
            value<F>("entry_scales",
                     "Standard deviations of a component that begins, if lift is prior: of accelerations in m/s². "
@@ -326,8 +283,9 @@ std::vector<FilterKey> estimate_keys() {
       only(keeps_histories,
            value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
                     &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
-      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output, outputs),
-      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, ties)};
+      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output,
+             "mixed, most_likely"),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, "stay, first, last")};
 }
 
 /// Start, gate, restart; smoothing, and how radar measurements are taken.
@@ -337,7 +295,7 @@ std::vector<FilterKey> life_keys() {
       choice("start",
              "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
              "given.",
-             &F::start, starts),
+             &F::start, "points, released, given"),
       only(turns,
            value<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
                     &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
@@ -376,7 +334,7 @@ std::vector<FilterKey> life_keys() {
       choice("radar_measurement",
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
              "own space.",
-             &F::radar_measurement, radar_forms)};
+             &F::radar_measurement, "standard, unbiased, debiased, polar")};
 }
 
 std::vector<FilterKey> made_filter_keys() {
@@ -424,26 +382,14 @@ std::string as_toml(const std::vector<Key<Owner>>& keys, const Owner& owner) {
 
 /// A string of TOML. Control characters are escaped, so that a terminal shows them, too.
 std::string toml_string(std::string_view text) {
-  std::string quoted = "\"";
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto code = static_cast<unsigned char>(text[i]);
-    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-    if (code == 0xC2U && next >= 0x80U && next < 0xA0U) {  // U+0080 … U+009F
-      quoted += fmt::format("\\u{:04X}", next);
-      ++i;
-    } else if (code < 0x20U || code == 0x7FU) {
-      quoted += fmt::format("\\u{:04X}", code);
-    } else {
-      if (text[i] == '"' || text[i] == '\\') quoted += '\\';
-      quoted += text[i];
-    }
-  }
-  return quoted + "\"";
+  std::string quoted;
+  for (const char letter : text) quoted.append(letter == '"' || letter == '\\' ? "\\" : "").push_back(letter);
+  return "\"" + escaped(quoted, "\\u{:04X}") + "\"";
 }
 
 /// A key of TOML, in quotes where it needs them.
 std::string toml_key(const std::string& name) {
-  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
+  const bool bare = !name.empty() && std::ranges::all_of(name, [](char letter) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
            letter == '_' || letter == '-';
   });
@@ -544,7 +490,6 @@ void add_filter_options(CLI::App& program, std::string& config, std::vector<std:
 
 void add_keys(CLI::App& program, const std::string&) {
   Subcommand app(program, "keys", "Lists the keys of --config and --set.");
-  app.footer("Examples:\n  himm_demo keys\n  himm_demo keys | grep -A 3 gate");
   app.run([] { fmt::print("{}", key_table()); });
 }
 

@@ -1,18 +1,6 @@
 #include "himm_demo/filters/settings.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <sigmax/estimation/radar.hpp>
-
 #include "himm_demo/experiment/scenario.hpp"
-#include "himm_demo/filters/keys.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 
@@ -71,8 +59,7 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"static_fuzzy", true, [](FilterSettings& own) { own.scheme = Scheme::independent; }}};
 
 const KnownFilter* known_filter(std::string_view name) {
-  const auto found = std::find_if(known_filters.begin(), known_filters.end(),
-                                  [&](const KnownFilter& filter) { return filter.name == name; });
+  const auto found = std::ranges::find(known_filters, name, &KnownFilter::name);
   return found == known_filters.end() ? nullptr : &*found;
 }
 
@@ -297,7 +284,7 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
   for (const auto& name : tables.names()) read(name);  // also what is not run must be right
   std::vector<FilterSettings> filters;
   for (const auto& name : names) {
-    if (std::count(names.begin(), names.end(), name) > 1) throw settings.error("filters", "each name once");
+    if (std::ranges::count(names, name) > 1) throw settings.error("filters", "each name once");
     if (name == "measurement") throw settings.error("filters", "names other than measurement, which is the raw one's");
     filters.push_back(read(name));
   }
@@ -318,7 +305,7 @@ std::vector<std::string> model_names(const std::vector<FilterSettings>& filters)
   std::vector<std::string> names;
   for (const auto& filter : filters)
     for (const auto& model : filter.models)
-      if (std::find(names.begin(), names.end(), model) == names.end()) names.push_back(model);
+      if (std::ranges::find(names, model) == names.end()) names.push_back(model);
   return names;
 }
 

@@ -1,15 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <sigmax/hybrid/any_target.hpp>
 
+#include "recording/recording.hpp"
+#include "support/command_line.hpp"
 #include "support/settings.hpp"
 
 namespace sigmax::apps {
@@ -52,9 +48,8 @@ struct FilterSettings : TargetChoice {
   }
   /// Whether an accuracy, of whatever sensor, has this.
   bool knows(std::optional<double> Accuracy::*sigma) const {
-    return (accuracy.*sigma).has_value() || std::any_of(sensors.begin(), sensors.end(), [=](const auto& own) {
-             return (own.second.*sigma).has_value();
-           });
+    return (accuracy.*sigma).has_value() ||
+           std::ranges::any_of(sensors, [=](const auto& own) { return (own.second.*sigma).has_value(); });
   }
 };
 
@@ -93,5 +88,36 @@ std::vector<std::string> model_names(const std::vector<FilterSettings>& filters)
 
 /// The settings of all filters in TOML: what is in force. It reads back as the same.
 std::string as_toml(const std::vector<FilterSettings>& filters);
+
+/// Everything that is known of one key: reading, writing, and the table of keys are loops over these.
+template <class Owner>
+struct Key {
+  std::string name;
+  std::string meaning;
+  std::string values;  ///< what may be given
+  /// Leaves the owner's value where the key is absent; throws InputError for what cannot be.
+  std::function<void(const Settings&, Owner&)> read;
+  /// The value in TOML; empty if there is none.
+  std::function<std::string(const Owner&)> write;
+  /// Whether it changes anything; only then it is written.
+  std::function<bool(const Owner&)> applies = [](const Owner&) { return true; };
+  std::string by_default = {};  ///< in words, where no value can say it
+};
+
+/// The keys of a filter in the order in which they are read, written and listed.
+const std::vector<Key<FilterSettings>>& filter_keys();
+
+/// Those of a sensor, which a filter has too.
+const std::vector<Key<Accuracy>>& accuracy_keys();
+
+/// The filters that --config and --set name for a recording: a radar is as accurate as the simulated one, if there is
+/// one. What they know the accuracy of, velocities and range rates, is asked of the recording. Throws InputError for
+/// what cannot be, and for keys that nobody knows.
+std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::string& config,
+                                        const std::vector<std::string>& sets,
+                                        const std::optional<std::array<double, 3>>& radar);
+
+/// --config, --set and --print-config.
+void add_filter_options(CLI::App& app, std::string& config, std::vector<std::string>& sets, bool& print_config);
 
 }  // namespace sigmax::apps

@@ -1,15 +1,6 @@
-#include "himm_demo/track/page.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
+#include "himm_demo/track/track.hpp"
 
 #include <sigmax/estimation/chi_square.hpp>
-
-#include "recording/plots.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -45,14 +36,14 @@ std::vector<double> since(double first, std::vector<double> times) {
 }
 
 bool any(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+  return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
 }
 
 /// A round number of degrees that parts a range into three to seven.
 double round_step(double range) {
   constexpr std::array steps = {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05,
                                 0.1,    0.2,    0.5,    1.0,   2.0,   5.0,   10.0, 20.0};
-  const auto step = std::find_if(steps.begin(), steps.end(), [&](double one) { return range / one <= 7.0; });
+  const auto step = std::ranges::find_if(steps, [&](double one) { return range / one <= 7.0; });
   return step == steps.end() ? 30.0 : *step;
 }
 
@@ -162,8 +153,8 @@ void TrackPage::estimated(const Row& row, std::size_t filter, const TargetPoint&
   if (point.nis) numbers[quantities_at] = measured;
   const auto& own = filters_[filter].models;
   for (std::size_t j = 0; j < own.size(); ++j)
-    numbers[weights_at + static_cast<std::size_t>(std::find(models_.begin(), models_.end(), own[j]) -
-                                                  models_.begin())] = point.weights[j];
+    numbers[weights_at + static_cast<std::size_t>(std::ranges::find(models_, own[j]) - models_.begin())] =
+        point.weights[j];
   track->estimates[filter].add(point.time, numbers);
 }
 
@@ -220,7 +211,7 @@ void add_usual_nis(const std::vector<double>& measured, LineChart& chart) {
   const char* const name = "95 % if consistent";
   std::vector<double> usual;
   for (const double number : measured) usual.push_back(std::isnan(number) ? number : chi_square_quantile(0.95, number));
-  const auto first = std::find_if(usual.begin(), usual.end(), [](double value) { return !std::isnan(value); });
+  const auto first = std::ranges::find_if(usual, [](double value) { return !std::isnan(value); });
   if (first == usual.end()) return;
   if (std::all_of(first, usual.end(), [&](double value) { return std::isnan(value) || value == *first; }))
     chart.expected = {{0.0, *first, name}};
@@ -235,17 +226,14 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
     const auto times = since(track.first_time, estimates.times());
     all.insert(all.end(), times.begin(), times.end());
   }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   const auto of = [&](const Thinned& rows, std::size_t column) {
     return at_times(all, since(track.first_time, rows.times()), rows.column(column));
   };
   const auto chart = [&](std::string title, std::string y_label) {
-    LineChart made{.title = std::move(title),
-                   .x_label = "time since the first row, s",
-                   .y_label = std::move(y_label),
-                   .x = all,
-                   .curves = {}};
+    LineChart made{
+        .title = std::move(title), .x_label = "time since the first row, s", .y_label = std::move(y_label), .x = all};
     made.joined = true;
     add_restarts(track, made);
     return made;
@@ -329,7 +317,7 @@ void TrackPage::add_histories(const Track& track, LineChart& weights) const {
     HistoryBand band{"best history of " + filters_[f].name, filters_[f].name, {}};
     for (std::size_t i = 0; i < stays.size(); ++i) {
       const std::string& model = filters_[f].models[stays[i].mode];
-      const auto shade = std::find(models_.begin(), models_.end(), model) - models_.begin();
+      const auto shade = std::ranges::find(models_, model) - models_.begin();
       band.stays.push_back({stays[i].since - track.first_time,
                             i + 1 < stays.size() ? stays[i + 1].since - track.first_time : weights.x.back(), model,
                             static_cast<std::size_t>(shade)});
@@ -341,10 +329,8 @@ void TrackPage::add_histories(const Track& track, LineChart& weights) const {
 Plan TrackPage::plan(const std::string& name, const Track& track) const {
   const bool geodetic = track.anchor.has_value();
   const bool high = recording_.axes() == 3;
-  Plan plan{.title = "Track " + name,
-            .x_label = geodetic ? "east, m" : "x, m",
-            .y_label = geodetic ? "north, m" : "y, m",
-            .traces = {}};
+  Plan plan{
+      .title = "Track " + name, .x_label = geodetic ? "east, m" : "x, m", .y_label = geodetic ? "north, m" : "y, m"};
   if (name == "all rows") plan.title = "Track";
   const auto add = [&](const std::string& of, const std::string& group, PlanTrace::Shape shape, const Thinned& rows,
                        std::size_t from) {
@@ -360,9 +346,7 @@ Plan TrackPage::plan(const std::string& name, const Track& track) const {
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       PlanTrace trace{.name = fmt::format("{} {}", what, filters_[f].name),
                       .group = filters_[f].name,
-                      .shape = PlanTrace::Shape::crosses,
-                      .x = {},
-                      .y = {}};
+                      .shape = PlanTrace::Shape::crosses};
       for (const Mark& mark : marks)
         if (mark.filter == f) {
           trace.x.push_back(mark.position[0]);

@@ -1,21 +1,9 @@
-#include "himm_demo/track/run.hpp"
+#include "himm_demo/track/track.hpp"
 
-#include <algorithm>
-#include <deque>
 #include <iterator>
-#include <limits>
-#include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <Eigen/Core>
 
-#include "himm_demo/track/page.hpp"
-#include "himm_demo/track/shares.hpp"
-#include "recording/plots.hpp"
-#include "result/table.hpp"
-#include "support/numbers.hpp"
-#include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/random.hpp"
 #include "support/timestamp.hpp"
@@ -69,7 +57,10 @@ void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
 class Estimates {
  public:
   Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording)
-      : iso_times_(options.iso_times), recording_(recording), models_(model_names(filters)), table_(columns(filters)) {}
+      : iso_times_(options.iso_times),
+        recording_(recording),
+        models_(model_names(filters)),
+        table_(ResultTable::of_keys(keys(filters))) {}
 
   std::string header() const { return table_.csv_header(); }
 
@@ -93,7 +84,7 @@ class Estimates {
     cells.push_back(point.nis ? Cell(*point.nis) : Cell());
     if (turns_) cells.push_back(n > whole ? Cell(point.mean[whole] / degree) : Cell());
     for (const auto& model : models_) {
-      const auto own = std::find(settings.models.begin(), settings.models.end(), model) - settings.models.begin();
+      const auto own = std::ranges::find(settings.models, model) - settings.models.begin();
       const auto j = static_cast<std::size_t>(own);
       cells.push_back(j < settings.models.size() ? Cell(point.weights[j]) : Cell());
     }
@@ -107,7 +98,7 @@ class Estimates {
   }
 
  private:
-  std::vector<ResultColumn> columns(const std::vector<FilterSettings>& filters) {
+  std::vector<std::string> keys(const std::vector<FilterSettings>& filters) {
     std::vector<std::string> keys = {"time_s"};
     if (iso_times_) keys.emplace_back("time_utc");
     if (recording_.has_tracks()) keys.emplace_back("track");
@@ -122,9 +113,7 @@ class Estimates {
     keys.emplace_back("most_likely");
     if (recording_.geodetic())
       for (const char* key : {"latitude_deg", "longitude_deg", "altitude_m"}) keys.emplace_back(key);
-    std::vector<ResultColumn> columns;
-    for (auto& key : keys) columns.push_back({.key = std::move(key)});
-    return columns;
+    return keys;
   }
 
   bool iso_times_;
@@ -226,9 +215,8 @@ class TrackRun {
     if (!recording_.has_sensors()) return;
     ++outcome_.sensors[row.sensor];
     const auto known = [&](std::optional<double> Accuracy::*sigma) {
-      return std::any_of(filters_.begin(), filters_.end(), [&](const FilterSettings& filter) {
-        return (filter.accuracy_of(row.sensor).*sigma).has_value();
-      });
+      return std::ranges::any_of(
+          filters_, [&](const FilterSettings& filter) { return (filter.accuracy_of(row.sensor).*sigma).has_value(); });
     };
     if (is_moving(row.plot, axes_) && !known(&Accuracy::velocity_mps)) ++outcome_.velocity_unknown[row.sensor];
     if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))
@@ -516,23 +504,23 @@ class TrackRun {
   }
 
   [[noreturn]] void refuse_failure(std::size_t f, const Row& row, const std::exception& error) const {
-    throw InputError(message(
-        {.where = fmt::format("{}:{}", file(), row.line),
-         .what = fmt::format("filter '{}' at time {} s: {}", filters_[f].name, shortest(row.plot.time), error.what()),
-         .remedy = "look for an outlier here, and at the start and the settings of the filter"}));
+    throw InputError(
+        "{}:{}: filter '{}' at time {} s: {}; look for an outlier here, and at the start and the settings of the "
+        "filter",
+        file(), row.line, filters_[f].name, shortest(row.plot.time), error.what());
   }
 
   [[noreturn]] void refuse_dates(const Row& row) const {
-    throw InputError(message({.where = fmt::format("{}:{}", file(), row.line),
-                              .what = "--iso-times writes dates, and a time of day has none",
-                              .remedy = "leave out --iso-times, or write the date before the times of the recording"}));
+    throw InputError(
+        "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date before "
+        "the times of the recording",
+        file(), row.line);
   }
 
   [[noreturn]] void refuse_nothing() const {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
-      throw InputError(message({.where = file(),
-                                .what = fmt::format("no row has {}", fmt::join(options_.recording.select, " and ")),
-                                .remedy = "see how the file writes the value"}));
+      throw InputError("{}: no row has {}; see how the file writes the value", file(),
+                       fmt::join(options_.recording.select, " and "));
     throw InputError(message(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"

@@ -1,32 +1,19 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <memory>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "himm_demo/filters/keys.hpp"
-#include "himm_demo/track/page.hpp"
-#include "himm_demo/track/run.hpp"
-#include "himm_demo/track/shares.hpp"
+#include "himm_demo/track/track.hpp"
 #include "result/braille.hpp"
-#include "result/result.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {
 
-std::string numbered(const std::vector<std::pair<std::string, std::size_t>>& counts) {
+template <class Counts>
+std::string numbered(const Counts& counts) {
   std::vector<std::string> parts;
   for (const auto& [name, count] : counts) parts.push_back(fmt::format("{} {}", name, count));
   return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::string numbered(const std::map<std::string, std::size_t>& counts) {
-  return numbered(std::vector<std::pair<std::string, std::size_t>>(counts.begin(), counts.end()));
 }
 
 /// Makes the report part by part.
@@ -77,21 +64,25 @@ class Reporter {
       result_.fact({"tracks", "never_started"}, outcome_.never_started);
     }
     add({"settings_toml"}, as_toml(filters_));
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      if (const std::size_t rejected = outcome_.filters[f].rejected; rejected > 0)
-        add({"rejected", filters_[f].name}, rejected);
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      if (const std::size_t restarts = outcome_.filters[f].restarts; restarts > 0)
-        add({"restarts", filters_[f].name}, restarts);
+  }
+
+  /// Which filters have some of these, and how many.
+  std::vector<std::pair<std::string, std::size_t>> counted(const char* what, std::size_t FilterOutcome::*count) {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    for (std::size_t f = 0; f < filters_.size(); ++f) {
+      if (outcome_.filters[f].*count == 0) continue;
+      counts.emplace_back(filters_[f].name, outcome_.filters[f].*count);
+      result_.fact({what, filters_[f].name}, counts.back().second);
+    }
+    return counts;
   }
 
   /// What was read and how the filters started, in sentences.
   void describe() {
     std::vector<std::pair<bool, std::string>> all;
     const auto say = [&](bool holds, std::string words) { all.emplace_back(holds, std::move(words)); };
-    const bool converted = std::none_of(filters_.begin(), filters_.end(), [](const FilterSettings& filter) {
-      return filter.radar_measurement == RadarForm::polar;
-    });
+    const bool converted = std::ranges::none_of(
+        filters_, [](const FilterSettings& filter) { return filter.radar_measurement == RadarForm::polar; });
     std::vector<std::string> parts;  // of the measurements that are not positions along all axes
     if (outcome_.partial > 0) parts.push_back(fmt::format("{} along some axes only", outcome_.partial));
     if (outcome_.bearings > 0) parts.push_back(fmt::format("{} bearings", outcome_.bearings));
@@ -117,12 +108,8 @@ class Reporter {
                     short_ones > 0 ? fmt::format(", {} of them too short for every filter to start", short_ones) : ""));
     say(recording_.skipped() > 0,
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
-    std::vector<std::pair<std::string, std::size_t>> rejected, restarts;
-    for (std::size_t f = 0; f < filters_.size(); ++f) {
-      const FilterOutcome& own = outcome_.filters[f];
-      if (own.rejected > 0) rejected.emplace_back(filters_[f].name, own.rejected);
-      if (own.restarts > 0) restarts.emplace_back(filters_[f].name, own.restarts);
-    }
+    const auto rejected = counted("rejected", &FilterOutcome::rejected);
+    const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
     say(outcome_.refused_by_all > 0, fmt::format("Turned away by every filter: {}, the first on line {}",
                                                  outcome_.refused_by_all, outcome_.first_refused_line));
@@ -285,9 +272,9 @@ class Reporter {
           if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
         }
         result_.text += "\n";
-        result_.say(fmt::format(
-            "Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track, fmt::join(told, ", "),
-            stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : ""));
+        result_.say("Best history by {}{}: {}{}", filters_[f].name, track.empty() ? "" : " of " + track,
+                    fmt::join(told, ", "),
+                    stays.size() > shown ? fmt::format(", and {} changes more", stays.size() - shown) : "");
       }
   }
 
@@ -320,8 +307,8 @@ void refuse_what_ranks_cannot_share(const TrackOptions& options) {
         message({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
                  .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"}));
   if (options.recording.file == "-")
-    throw UsageError(message({.what = "under mpirun every rank reads the recording, but standard input comes only once",
-                              .remedy = "give the name of a file"}));
+    throw UsageError(
+        "under mpirun every rank reads the recording, but standard input comes only once; give the name of a file");
 }
 
 void track_and_report(const TrackOptions& options, TrackShares& shares) {
@@ -366,34 +353,6 @@ void add_track(CLI::App& program, const std::string& command) {
   options->output.command = command;
   app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
-  app.footer(
-      "Recordings are told apart by their columns; others are ignored:\n"
-      "  time_s,x_m[,y_m[,z_m]]                             positions in m\n"
-      "  time_s,latitude_deg,longitude_deg[,altitude_m]     or altitude_gnss_ft, altitude_ft\n"
-      "  time_s,range_m,azimuth_deg[,elevation_deg]         a radar's measurements\n"
-      "  time_s,sensor,x_m,y_m[,z_m],range_m,azimuth_deg…   rows of several sensors\n"
-      "  time_s,azimuth_deg                                 bearings\n"
-      "Lengths may be in m, km, ft, nmi or mi, as range_nmi; speeds in mps, kmh, kt,\n"
-      "mph, fps or fpm; angles in deg or rad; azimuth_deg_north is clockwise from\n"
-      "north. What is not used of them is said, and why. Beside them may stand\n"
-      "true_x_m,true_y_m[,true_z_m], roll_deg, and sigma_x_m … or sigma_range_m …, the\n"
-      "accuracy of the row. Times are seconds, dates and times as\n"
-      "2016-01-12T13:02:11.218Z, or times of day as 10:15:08. Tabs may separate. A row\n"
-      "without a position is a missed measurement; one with some of x_m, y_m, z_m, or a\n"
-      "place without its height, measures what it has, and a radar's row with nothing\n"
-      "but an azimuth is a bearing.\n"
-      "With sigma_velocity_mps, vx_mps,vy_mps[,vz_mps] are measurements too, or\n"
-      "groundspeed_kt,track_deg (speed_mps, course_deg) and vertical_rate_fpm; with\n"
-      "sigma_range_rate_mps a radar's range_rate_mps.\n"
-      "\n"
-      "Examples:\n"
-      "  himm_demo track flight.csv --set sigma_position_m=25 --out results\n"
-      "  himm_demo track plots.csv --azimuth-from north --set sigma_range_m=50 \\\n"
-      "    --set sigma_azimuth_deg=0.2\n"
-      "  himm_demo track flight.csv --radar 50,0.1,0.1 --radar-at=-20000,-10000,0\n"
-      "  himm_demo track ais.csv --track-id MMSI --on-bad-time skip \\\n"
-      "    --columns time_s=Time,latitude_deg=Latitude,longitude_deg=Longitude \\\n"
-      "    --set sigma_w=0.05 --out results");
   app.option(
          "--predict-to",
          [options](const std::string& text) {

@@ -1,17 +1,7 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <stdexcept>
-#include <utility>
-
-#include <fmt/format.h>
 #include <Eigen/Cholesky>
 
-#include "recording/plots.hpp"
-#include "support/numbers.hpp"
 #include "support/random.hpp"
 
 namespace sigmax::apps {
@@ -28,10 +18,10 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
                  .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options.files[0], data.axes),
                  .remedy = "tune recordings of one, two and three axes apart"}));
   if (options.objective != Objective::prequential && !options.radar.sigma && !recording.has_truth())
-    throw InputError(message({.where = file + ":1",
-                              .what = "--truth, but there is no column true_x_m",
-                              .remedy = "leave out --truth, name the columns with --columns, or take the recording as "
-                                        "the truth with --radar"}));
+    throw InputError(
+        "{}:1: --truth, but there is no column true_x_m; leave out --truth, name the columns with --columns, or take "
+        "the recording as the truth with --radar",
+        file);
   refuse_radar(options.radar, recording);
 }
 
@@ -109,8 +99,7 @@ struct Extent {
 void summarize(TuneData& data) {
   const std::size_t all = data.tracks.size();
   std::erase_if(data.tracks, [](const TuneTrack& track) {
-    const auto measured =
-        std::count_if(track.rows.begin(), track.rows.end(), [](const Row& row) { return row.measured(); });
+    const auto measured = std::ranges::count_if(track.rows, [](const Row& row) { return row.measured(); });
     return static_cast<std::size_t>(measured) < fewest_measurements;
   });
   data.too_short = all - data.tracks.size();
@@ -164,12 +153,10 @@ double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objec
 
 }  // namespace
 
-bool TuneOptions::fits(std::string_view what) const {
-  return std::find(fixed.begin(), fixed.end(), what) == fixed.end();
-}
+bool TuneOptions::fits(std::string_view what) const { return std::ranges::find(fixed, what) == fixed.end(); }
 
 TuneData read_tune_data(const TuneOptions& options) {
-  if (std::count(options.files.begin(), options.files.end(), "-") > 0)
+  if (std::ranges::count(options.files, "-") > 0)
     throw UsageError("tune reads its files more than once: it takes no standard input");
   RecordingOptions first = options.recording;
   first.file = options.files.front();
@@ -177,12 +164,10 @@ TuneData read_tune_data(const TuneOptions& options) {
   for (const auto& file : options.files) read(file, options, data);
   summarize(data);
   if (data.measurements < fewest_in_all)
-    throw InputError(message(
-        {.where = options.files.front(),
-         .what = "there is too little to fit",
-         .found = fmt::format("{} measurements of tracks with at least {}", data.measurements, fewest_measurements),
-         .expected = fmt::format("at least {}", fewest_in_all),
-         .remedy = "give a longer recording, or several"}));
+    throw InputError(
+        "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
+        "a longer recording, or several",
+        options.files.front(), data.measurements, fewest_measurements, fewest_in_all);
   return data;
 }
 

@@ -1,27 +1,17 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
-#include <limits>
 #include <numeric>
-#include <stdexcept>
-#include <utility>
 
 #ifdef SIGMAX_NLOPT
 #include <nlopt.hpp>
 #endif
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
 
-#include "support/numbers.hpp"
 #include "support/parallel.hpp"
-#include "support/text.hpp"
 
 namespace sigmax::apps {
 
@@ -126,8 +116,7 @@ void leave(FilterSettings& settings, double factor) {
     auto& row = settings.transition[i];
     for (std::size_t j = 0; j < row.size(); ++j)
       if (j != i) row[j] *= factor;
-    const double total =
-        settings.fuzzy ? *std::max_element(row.begin(), row.end()) : std::accumulate(row.begin(), row.end(), 0.0);
+    const double total = settings.fuzzy ? *std::ranges::max_element(row) : std::accumulate(row.begin(), row.end(), 0.0);
     for (double& value : row) value /= total;
   }
 }
@@ -401,7 +390,7 @@ class Fitter {
     const auto other = [&](const MotionChoice& motion) {
       return motion.known().derivatives != motions[0].known().derivatives || motion.linear() != motions[0].linear();
     };
-    if (std::none_of(motions.begin(), motions.end(), other)) return;
+    if (std::ranges::none_of(motions, other)) return;
     for (const Lift lift : {Lift::zero, Lift::borrowed_variance, Lift::unbiased}) {
       FilterSettings next = best.settings;
       next.lift = lift;
@@ -438,7 +427,7 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
     for (const auto& motion : settings.motions) motions.push_back(motion.name);
     names = {fmt::format("{}", fmt::join(motions, "+"))};
     for (const auto& motion : motions)
-      if (std::find(names.begin(), names.end(), motion) == names.end()) names.push_back(motion);
+      if (std::ranges::find(names, motion) == names.end()) names.push_back(motion);
   }
   std::vector<ModelSet> sets;
   for (const auto& name : names) sets.push_back({name, with_models(settings, name)});

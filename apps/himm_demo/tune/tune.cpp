@@ -1,23 +1,12 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <sigmax/estimation/consistency.hpp>
 
-#include "himm_demo/filters/keys.hpp"
 #include "himm_demo/tune/tune.hpp"
-#include "result/result.hpp"
 #include "support/json.hpp"
-#include "support/numbers.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
 #include "version.hpp"
@@ -225,7 +214,7 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
     auto& own = parts.emplace_back();
     const auto add = [&](const std::string& row, const InnovationTally& tally) {
       own[row] = &tally;
-      if (std::find(chart.rows.begin(), chart.rows.end(), row) == chart.rows.end()) chart.rows.push_back(row);
+      if (std::ranges::find(chart.rows, row) == chart.rows.end()) chart.rows.push_back(row);
     };
     for (const auto& sensor : diagnosis->sensors) add(sensor.name, sensor.innovations);
     for (const auto& mode : diagnosis->modes)
@@ -233,7 +222,7 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const char* const name = diagnoses(findings)[i].first;
-    IntervalSeries series{.name = name, .group = name, .values = {}};
+    IntervalSeries series{.name = name, .group = name};
     for (const auto& row : chart.rows) {
       const auto found = parts[i].find(row);
       const bool any = found != parts[i].end() && found->second->count() > 0;
@@ -249,12 +238,10 @@ IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings
 IntervalChart fold_chart(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
   IntervalChart chart{.title = "Held out, by fold",
                       .x_label = fmt::format("{}; less is better", unit_of(options.objective)),
-                      .rows = {},
-                      .series = {},
                       .digits = 4};
   for (std::size_t fold = 0; fold <= options.folds; ++fold) chart.rows.push_back(name_of_fold(fold, options));
   for (const auto& [name, figures] : by_fold(tuned, options, data)) {
-    auto& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name, .values = {}});
+    auto& series = chart.series.emplace_back(IntervalSeries{.name = name, .group = name});
     for (const double figure : figures) series.values.push_back({figure, 0.0});
   }
   return chart;
@@ -282,7 +269,7 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
   for (std::size_t i = 0; i < all.size(); ++i)
     view.panels.emplace_back(Words{fmt::format("What the innovations say, {}", when(i)),
                                    fmt::format("{}", fmt::join(advice_of(*all[i].second), "\n"))});
-  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1", .rows = {}, .series = {}};
+  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1"};
   nis.reference = 1.0;
   nis.digits = 3;
   view.panels.emplace_back(innovation_chart(
@@ -397,8 +384,6 @@ Report page_of(const std::string& heading, const TuneOptions& options, const Tun
   Report page{.title = fmt::format("Settings for {}", fmt::join(options.files, ", ")),
               .verdict = {heading},
               .command = options.page.command,
-              .groups = {},
-              .panels = {},
               .chooser = "Filter"};
   std::set<std::string> names;
   for (const TuneFindings& findings : all) {
@@ -423,16 +408,17 @@ void refuse_inputs(const TuneOptions& options) {
 
 void refuse_without_search() {
   if (!can_search())
-    throw InputError(message({.what = "this himm_demo was built without an optimiser",
-                              .remedy = "install libnlopt-cxx-dev, run cmake again and build it"}));
+    throw InputError(
+        "this himm_demo was built without an optimiser; install libnlopt-cxx-dev, run cmake again and build it");
 }
 
 /// The likelihood that has no determinant finds any measurement possible where the noise is great enough.
 void refuse_possibility(const FilterSettings& filter, Objective objective) {
   if (objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
-    throw InputError(message({.what = fmt::format("filter '{}': likelihood = \"possibility\"", filter.name),
-                              .expected = "\"density\", since a possibility never blames noise that is too great",
-                              .remedy = "tune with --truth, or with likelihood=density"}));
+    throw InputError(
+        "filter '{}': likelihood = \"possibility\": expected \"density\", since a possibility never blames noise that "
+        "is too great; tune with --truth, or with likelihood=density",
+        filter.name);
 }
 
 std::string heading(const TuneData& data, const TuneOptions& options) {
@@ -549,12 +535,6 @@ void add_tune(CLI::App& program, const std::string& command) {
   app.option("--report", options->page.report, "Write it as a page of charts for a browser").type("FILE.html");
   add_quiet(app, options->page.quiet);
   add_wide(app, options->page.wide);
-  app.footer(
-      "Examples:\n"
-      "  himm_demo tune flight.csv --out best.toml\n"
-      "  himm_demo tune flight.csv --radar 50,0.1,0.1 --truth \\\n"
-      "    --radar-at=-20000,-10000,0\n"
-      "  himm_demo tune a.csv b.csv --models dwna,dwna+dwpa,dwna+ct --set filters=imm");
   app.run([options] { tune_and_write(*options); });
 }
 

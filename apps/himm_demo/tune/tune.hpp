@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <string>
-#include <vector>
-
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"

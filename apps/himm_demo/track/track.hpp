@@ -1,0 +1,243 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+
+#include <sigmax/estimation/consistency.hpp>
+#include <sigmax/estimation/root_mean_square.hpp>
+
+#include "himm_demo/filters/settings.hpp"
+#include "recording/plots.hpp"
+#include "result/result.hpp"
+#include "study/ranks.hpp"
+#include "support/thinned.hpp"
+
+namespace sigmax::apps {
+
+/// What one filter says of a row, in the frame that begins at a place if the recording is geodetic.
+struct Said {
+  std::size_t filter = 0;
+  TargetPoint point;
+  std::optional<Geodetic> frame;
+};
+
+/// How often a filter of a target turned measurements away and started, up to now.
+struct Tally {
+  std::size_t rejected = 0;
+  std::size_t starts = 0;
+};
+
+/// What the filters of a target make of one row, or of all when they have been read.
+struct News {
+  std::vector<Said> said;
+  std::vector<Tally> tallies;                    ///< of each filter, after a row
+  std::vector<std::vector<ModeStay>> histories;  ///< of each filter, at the end
+  std::optional<std::string> failure;            ///< why there are none, from another rank
+};
+
+/// Which rank of an MPI job follows which track. All ranks read the recording; the first one takes everything down, row
+/// by row, as if it had followed all tracks itself, and so writes the bytes of a process alone.
+class TrackShares {
+ public:
+  /// Joins the other ranks, if there are any.
+  TrackShares();
+
+  bool alone() const { return ranks_ == nullptr; }
+  bool first() const { return rank_ == 0; }
+
+  /// The rank that follows the track that is the n-th to appear.
+  int rank_of(std::size_t n) const { return static_cast<int>(n % unheard_.size()); }
+
+  /// Whether this rank follows the tracks of that one, and whether it has anything to do with them.
+  bool follows(int rank) const { return rank == rank_; }
+  bool concerns(int rank) const { return first() || follows(rank); }
+
+  /// The news that the work of a rank gives, in the first rank; nothing elsewhere. The first rank must ask for all
+  /// works of a rank in the order in which that does them. Throws what a work threw, as InputError.
+  std::optional<News> by(int rank, const std::function<News()>& work);
+
+  /// Does all the work of this rank. What the first rank throws ends all; what another one throws, the first learns
+  /// where it asks for the work that failed, or at the end.
+  void run(const std::function<void()>& all);
+
+  /// Tells that this rank has done everything, and waits for all that the first rank is to learn.
+  void finish();
+
+ private:
+  News heard(int rank);
+  void tell(News news);
+  void send();
+
+  std::unique_ptr<Ranks> ranks_;
+  int rank_ = 0;
+  std::vector<News> untold_;
+  std::vector<std::deque<News>> unheard_;  // of each rank
+};
+
+/// Collects what the page of a recording shows, in memory that does not grow with its rows: some tracks, thinned.
+class TrackPage {
+ public:
+  TrackPage(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool truth_known);
+
+  /// What a row measured, as a position where the others are counted from, and where that begins if the recording is
+  /// geodetic.
+  void measured(const Row& row, const std::optional<Position>& position, const std::optional<Geodetic>& anchor);
+
+  /// What a filter said of the row, of which it took so many quantities, in the same coordinates.
+  void estimated(const Row& row, std::size_t filter, const TargetPoint& point, int quantities);
+
+  /// That a filter's gate turned the row's measurement away, or that a filter started once more.
+  void rejected(const Row& row, std::size_t filter) { mark(row, filter, true); }
+  void restarted(const Row& row, std::size_t filter) { mark(row, filter, false); }
+
+  /// The best history of a track's modes, once all rows were read.
+  void explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays);
+
+  /// Of the first track: the first axis' errors, or standard deviations, and the weights.
+  std::vector<LineChart> charts_of_the_first() const;
+
+  /// The tracks as views of a page, with the groups and the words that go with them.
+  void add_to(Report& page) const;
+
+ private:
+  struct Mark {
+    double time;
+    std::size_t filter;
+    Position position;
+  };
+  struct Track {
+    double first_time;
+    Thinned plots;  // x, y, z, their errors, and the truth
+    std::vector<Thinned> estimates;
+    std::vector<std::vector<ModeStay>> histories;  // of each filter
+    std::optional<Geodetic> anchor{};
+    std::optional<Position> last_position{};  // measured
+    std::vector<Mark> rejections{};
+    std::vector<Mark> restarts{};
+  };
+
+  Track* track_of(const Row& row);
+  void mark(const Row& row, std::size_t filter, bool rejection);
+  std::vector<Panel> charts(const Track& track) const;
+  void add_restarts(const Track& track, LineChart& chart) const;
+  void add_histories(const Track& track, LineChart& weights) const;
+  Plan plan(const std::string& name, const Track& track) const;
+
+  const std::vector<FilterSettings>& filters_;
+  const RecordingReader& recording_;
+  bool truth_known_;
+  std::vector<std::string> models_;
+  std::map<std::string, Track> tracks_;
+  std::size_t not_shown_ = 0;  // rows of tracks beyond
+};
+
+class AtomicFile;
+
+/// The options of `himm_demo track`.
+struct TrackOptions {
+  RecordingOptions recording;
+  RadarOptions radar;
+  std::uint64_t seed = 1;
+  std::string config;
+  std::vector<std::string> sets;
+  bool print_config = false;
+  std::optional<double> predict_to;     ///< a time, up to which targets that ended before are predicted
+  bool predict_to_time_of_day = false;  ///< whether that is one, so of the last day
+  bool iso_times = false;               ///< a column with dates and times beside the seconds
+  OutputOptions output;
+};
+
+/// Rows that are judged together: all, or by the aircraft's bank where the recording tells it.
+struct Part {
+  std::string_view name;
+  bool (*holds)(std::optional<double> roll_deg);
+};
+inline constexpr std::array<Part, 3> parts = {{
+    {"all", [](std::optional<double>) { return true; }},
+    {"|roll| > 15°", [](std::optional<double> roll) { return roll && std::abs(*roll) > 15.0; }},
+    {"|roll| < 3°", [](std::optional<double> roll) { return roll && std::abs(*roll) < 3.0; }},
+}};
+
+/// What is added up over the rows of one part.
+struct Sums {
+  std::array<RootMeanSquare, 3> error;
+  std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
+  std::vector<double> weights;
+  InnovationTally innovations;
+  /// The variance of positions' innovations, and what of it is the prediction's: the rest is the sensor's.
+  double innovation_variance = 0.0, predicted_variance = 0.0;
+  std::size_t count = 0;
+};
+using SumsByPart = std::array<Sums, parts.size()>;
+
+/// What one filter made of the recording.
+struct FilterOutcome {
+  SumsByPart sums;
+  std::size_t rejected = 0;                                ///< by the gate
+  std::size_t restarts = 0;                                ///< after a gap
+  std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
+};
+
+/// Measurements out of the validity of their standard conversion, r σ_α² / σ_r < 0.4, of all of a radar's.
+struct Validity {
+  static constexpr double limit = 0.4;
+  std::size_t outside = 0;
+  std::size_t measurements = 0;
+  std::size_t first_line = 0;
+  double first_value = 0.0;
+  double first_range = 0.0;
+  double sigma_range_needed = 0.0;
+};
+
+/// Measurements that no filter expects: an NIS above 30 is beyond the 0.999998 quantile of χ² with three degrees of
+/// freedom.
+struct Outliers {
+  static constexpr double limit = 30.0;
+  std::size_t count = 0;
+  std::size_t worst_line = 0;
+  double worst_nis = 0.0;
+};
+
+/// Tracks of which a filter's gate turned many measurements away: a fifth, and at least five; and the worst of them.
+struct Refusals {
+  std::size_t many = 0;  ///< filters on tracks
+  std::string track;
+  const FilterSettings* filter = nullptr;
+  std::size_t rejected = 0;
+  std::size_t measurements = 1;
+};
+
+/// What all filters made of all targets of one recording.
+struct TrackOutcome {
+  std::vector<FilterOutcome> filters;
+  SumsByPart raw;  ///< of the measurements, where the truth is known
+  std::size_t rows = 0;
+  std::size_t measurements = 0;
+  std::size_t partial = 0;  ///< of these with a position along some axes only
+  std::size_t bearings = 0;
+  std::size_t tracks = 0;
+  std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;             ///< the rows of each
+  std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
+  std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
+  std::size_t refused_by_all = 0;                         ///< measurements that every filter's gate turned away
+  std::size_t first_refused_line = 0;                     ///< of the first of them
+  std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
+  std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
+  Validity validity;
+  Outliers outliers;
+  Refusals refusals;
+};
+
+/// Where a run puts what it finds row by row; null where nobody wants it.
+struct TrackSinks {
+  AtomicFile* estimates = nullptr;  ///< estimates.csv
+  TrackPage* page = nullptr;
+};
+
+/// Runs all filters over a recording, or over the tracks of this rank: then the outcome is the first rank's, and
+/// without meaning in others. Throws InputError with file and line.
+TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
+                       const std::vector<FilterSettings>& filters, TrackSinks sinks, TrackShares& shares);
+
+}  // namespace sigmax::apps
