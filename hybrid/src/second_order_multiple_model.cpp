@@ -19,45 +19,37 @@ SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, 
       predecessor_(modes(), modes()) {}
 
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
-  this->require(dt, &seen);
-  bool taken = false;
-  this->located(dt, [&] {
-    branch(dt);
-    for (std::size_t j = 0; j < modes(); ++j) {
-      for (std::size_t l = 0; l < modes(); ++l) {
-        log_fit_[pair(l, j)] = log_zero;
-        if (!lives(l, j)) continue;
-        AnyInnovation& innovation = pair_innovations_[l];
-        this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
-        log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
-        joint_(j, l) += innovation.log_likelihood;
-      }
-      summarize(j);
+bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double gate) {
+  branch(dt);
+  for (std::size_t j = 0; j < modes(); ++j) {
+    for (std::size_t l = 0; l < modes(); ++l) {
+      log_fit_[pair(l, j)] = log_zero;
+      if (!lives(l, j)) continue;
+      AnyInnovation& innovation = pair_innovations_[l];
+      this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
+      log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
+      joint_(j, l) += innovation.log_likelihood;
     }
-    const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
-    taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
-    if (taken) merge(pairs_);
-  });
-  if (!taken) return step(dt);
-  this->conclude(true);
+    summarize(j);
+  }
+  const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
+  const bool taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
+  if (taken) merge(pairs_);
+  return taken;
 }
 
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::step(double dt) {
-  this->require(dt, nullptr);
-  this->located(dt, [&] {
-    branch(dt);
-    merge(predicted_);
-  });
-  this->conclude(false);
+void SecondOrderFilter<Kind>::miss(double dt) {
+  branch(dt);
+  merge(predicted_);
 }
 
+/// Those of its predecessors, by their weights after the measurement.
 template <ScalableUncertainty Kind>
-RecordedStep<Kind> SecondOrderFilter<Kind>::recorded(double dt, const Seen& seen) const {
+Estimates SecondOrderFilter<Kind>::predicted() const {
   Estimates predicted = estimates();
   collapse_predecessors(predicted_, predicted);
-  return this->recorded_by(dt, &seen, predicted);
+  return predicted;
 }
 
 /// Every pair predicts from its predecessor's estimate, read in the components of the mode's model.

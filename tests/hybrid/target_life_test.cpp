@@ -73,7 +73,7 @@ TEST(TargetLife, OfLatePlotsIsThatOfTheRightOrderToTheBit) {
     for (const Plot& plot : all) in_order.take(plot);
     ASSERT_GE(in_order.starts(), 2U);
     std::vector<std::size_t> tags;
-    std::vector<std::decay_t<decltype(filter.by_modes())>> expected;
+    std::vector<std::decay_t<decltype(filter.state())>> expected;
     in_order.smoothed([&](const auto& kept, const auto& state) {
       tags.push_back(kept.tag);
       expected.push_back(state);
@@ -132,8 +132,8 @@ TEST(TargetLife, InOtherCoordinatesItIsThatOfMeasurementsInThem) {
       }
       ASSERT_TRUE(there);
       ASSERT_EQ(target.starts(), 1U);
-      require_same_state(target.filter().by_modes(), expected.filter().by_modes(), 1e-8);
-      std::vector<std::decay_t<decltype(filter.by_modes())>> smoothed;
+      require_same_state(target.filter().state(), expected.filter().state(), 1e-8);
+      std::vector<std::decay_t<decltype(filter.state())>> smoothed;
       expected.smoothed([&](const auto&, const auto& state) { smoothed.push_back(state); });
       std::size_t k = 0;
       target.smoothed([&](const auto&, const auto& state) { require_same_state(state, smoothed[k++], 1e-7); });

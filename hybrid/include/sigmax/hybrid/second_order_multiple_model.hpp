@@ -20,13 +20,7 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                     const Interaction<Kind>& interaction = {});
 
-  void step(double dt, const Seen& seen, double gate = no_gate);
-  void step(double dt);
-
-  /// A non-linear measurement is linearised about what the mode predicted: that of its predecessors, by their weights
-  /// after the measurement.
-  RecordedStep<Kind> recorded(double dt, const Seen& seen) const;
-  RecordedStep<Kind> recorded(double dt) const { return this->recorded_by(dt, nullptr, estimates()); }
+  std::unique_ptr<Filter> clone() const override { return std::make_unique<SecondOrderFilter>(*this); }
 
  private:
   using Filter::innovations_;
@@ -35,6 +29,9 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   using Filter::prior_;
   using Filter::system_;
 
+  bool measure(double dt, const Seen& seen, double gate) override;
+  void miss(double dt) override;
+  Estimates predicted() const override;
   void branch(double dt);
   void merge(const Estimates& pairs);
   void collapse_predecessors(const Estimates& pairs, Estimates& merged) const;
