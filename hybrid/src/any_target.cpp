@@ -181,9 +181,7 @@ AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
   if (plot.sensor == polar) return PolarSensor<3>(origin);
   if (plot.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
   if (plot.sensor == doppler) return DopplerSensor<3>(origin);
-  if (axes == 1) return PositionSensor<1>{};
-  if (axes == 2) return PositionSensor<2>{};
-  return PositionSensor<3>{};
+  return detail::position_sensor(axes);
 }
 
 Plot chosen_plot(const AnyPlot& plot, int axes) {

@@ -20,17 +20,6 @@ HistorySet::HistorySet(const Estimates& starts, std::size_t room) : histories_(r
   resize(starts.size());
 }
 
-HistorySet& HistorySet::operator=(const HistorySet& other) {
-  if (this == &other) return *this;
-  histories_ = other.histories_;
-  sizes_ = other.sizes_;
-  stride_ = other.stride_;
-  numbers_.resize(other.numbers_.size());
-  resize(other.size());
-  for (std::size_t h = 0; h < size(); ++h) detail::copy(other.view(h), view(h));
-  return *this;
-}
-
 std::size_t best_of(std::span<const History> histories) {
   std::size_t best = 0;
   for (std::size_t h = 1; h < histories.size(); ++h)

@@ -96,7 +96,10 @@ void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& stat
     read_weights(state.belief, of_state);
     weights = of_state;
   }
-  if (shortcut_.output(rule, state.estimates, weights, state.most_likely_mode, result)) return;
+  constexpr bool selects = std::is_same_v<Rule, Selection>;
+  bool short_form = true;
+  if constexpr (!selects) short_form = rule.output_spread == OutputSpread::included;
+  if (short_form && shortcut_.output(selects, state.estimates, weights, state.most_likely_mode, result)) return;
   const int n = component_count();
   detail::Scratch mean(n), covariance(n * n);
   const View receiver{mean, covariance, n};
@@ -324,16 +327,4 @@ std::string MultipleModelFilter<Kind>::this_step(double dt) const {
 template class MultipleModelFilter<Random>;
 template class MultipleModelFilter<Fuzzy>;
 
-namespace detail {
-
-SensorOfModels position_sensor(int axes) {
-  static constexpr PositionSensor<1> line;
-  static constexpr PositionSensor<2> plane;
-  static constexpr PositionSensor<3> space;
-  using Models = std::vector<AnyModel>;
-  if (axes == 1) return sensor_of_models<Models>(line);
-  return axes == 2 ? sensor_of_models<Models>(plane) : sensor_of_models<Models>(space);
-}
-
-}  // namespace detail
 }  // namespace sigmax

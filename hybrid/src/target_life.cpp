@@ -13,7 +13,7 @@ namespace {
 
 std::optional<Seen> seen_of(const Plot& plot) {
   if (!plot.seen()) return std::nullopt;
-  return Seen{plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())};
+  return Seen{plot.measurement(), sensor_of_models(plot.sensor())};
 }
 
 }  // namespace

@@ -65,11 +65,12 @@ class BankFilter : public Filter {
     Filter::step(dt, &seen, gate);
   }
 
-  /// One cycle without a measurement: the models predict and the mode moves on.
-  void step(double dt) { Filter::step(dt); }
+  /// One cycle without a measurement, `step(dt)`: the models predict and the mode moves on.
+  using Filter::step;
 
   /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
   /// as missed. Throws std::logic_error without a measurement if the step had one.
+  using Filter::recorded;
   template <Sensing Sensor>
   RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
     const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
@@ -79,7 +80,6 @@ class BankFilter : public Filter {
     const Seen seen = seen_at(z);
     return Filter::recorded(dt, &seen);
   }
-  RecordedStep<kind> recorded(double dt) const { return Filter::recorded(dt); }
 
   /// @{
   /// As of MultipleModelFilter, from estimates of the models or one of them all.
@@ -137,7 +137,7 @@ class BankFilter : public Filter {
   }
 
   static Seen seen_at(const Measurement& z) {
-    return {detail::view(z), detail::position_sensor(static_cast<int>(z.size()))};
+    return {detail::view(z), detail::sensor_of_models(detail::position_sensor(static_cast<int>(z.size())))};
   }
 };
 

@@ -25,10 +25,6 @@ class HistorySet {
   HistorySet() = default;
   /// Room for so many histories of these models; it starts with one for each mode.
   HistorySet(const Estimates& starts, std::size_t room);
-  HistorySet(const HistorySet&) = default;
-
-  /// Copies what is there; allocates nothing if there is as much room.
-  HistorySet& operator=(const HistorySet& other);
 
   std::size_t size() const { return size_; }
   std::size_t room() const { return histories_.size(); }
