@@ -120,9 +120,6 @@ class MultipleModelFilter {
   /// asks, with the weights before the measurement. Throws std::logic_error if the last step had no measurement.
   double nis() const;
 
-  /// What was believed of the mode before the last measurement.
-  const Belief<Kind>& predicted_belief() const { return prior_; }
-
   /// How well the last measurement was predicted, log ⊕ⱼ w_j ⊗ Λ_j, with the weights before it and the likelihoods of
   /// `innovations()`. With a random mode it is log p(z_k | z_1:k−1), which summed over the steps is the prequential
   /// log-likelihood. With a fuzzy mode it is the maximum, which is no density of z: it only grows with the weights, and
