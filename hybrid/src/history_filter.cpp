@@ -294,7 +294,7 @@ void HistoriesOfModes<Kind>::show_innovations() {
     for (std::size_t h = set.size(); h-- > 0;)
       if (set[h].mode == j && log_prior_[h] >= greatest) {
         greatest = log_prior_[h];
-        innovations_[j] = innovation_of_[h];
+        this->innovations_[j] = innovation_of_[h];
       }
   }
 }

@@ -49,7 +49,7 @@ void InteractingFilter<Kind>::miss(double dt) {
 /// By the short form for motions along independent axes, with a measurement of the position or none.
 template <ScalableUncertainty Kind>
 bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate) {
-  if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
+  if (!this->shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
   if (!this->shortens(dt)) return false;
   detail::kinematic::Told told;
   for (std::size_t j = 0; j < modes(); ++j) {
@@ -61,12 +61,13 @@ bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate
     told.S[j] = innovations_[j].covariance_numbers.data();
   }
   const auto take = [&](const double* z, const double* R) {
-    return shortcut_.step(estimates(), weights_.data(), this->most_likely_mode(), z, R, told);
+    return this->shortcut_.step(estimates(), this->weights_.data(), this->most_likely_mode(), z, R, told);
   };
   if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
   const auto prior = prior_.logs(detail::ByLaw{});
   for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
-  predicted_mode_ = detail::select(modes(), Filter::logs_of(prior_), this->most_likely_mode(), interaction_.output_tie);
+  this->predicted_mode_ =
+      detail::select(modes(), Filter::logs_of(prior_), this->most_likely_mode(), interaction_.output_tie);
   bool taken = seen != nullptr;
   if (seen) {
     for (std::size_t j = 0; j < modes(); ++j) {

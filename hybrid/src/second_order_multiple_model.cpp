@@ -56,7 +56,7 @@ Estimates SecondOrderFilter<Kind>::predicted() const {
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::branch(double dt) {
   this->predict_mode(dt);
-  const auto& transition = system_.transition();
+  const auto& transition = this->system_.transition();
   detail::Parts parts(static_cast<int>(modes()));
   for (std::size_t j = 0; j < modes(); ++j) {
     for (std::size_t l = 0; l < modes(); ++l) joint_(j, l) = belief().log(l) + std::log(transition(l, j));
@@ -108,7 +108,7 @@ void SecondOrderFilter<Kind>::weigh(std::size_t j) {
 template <ScalableUncertainty Kind>
 std::size_t SecondOrderFilter<Kind>::best(std::size_t j) const {
   Tie tie = Tie::stay;
-  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = interaction_.collapse.mixing_tie;
+  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = this->interaction_.collapse.mixing_tie;
   return detail::select(
       modes(), [&](std::size_t l) { return std::log(predecessor_(j, l)); }, j, tie);
 }
@@ -117,7 +117,7 @@ std::size_t SecondOrderFilter<Kind>::best(std::size_t j) const {
 /// then on its predecessors have those after it.
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::summarize(std::size_t j) {
-  AnyInnovation& innovation = innovations_[j];
+  AnyInnovation& innovation = this->innovations_[j];
   const std::size_t winner = best(j);
   const double before = log_weight_[j], own = pair_innovations_[j].log_likelihood;
   innovation = Filter::collapsed(pair_innovations_, predecessor_.row(j).data(), winner);

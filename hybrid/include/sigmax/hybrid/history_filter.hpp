@@ -51,7 +51,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   using Filter::output;
 
  private:
-  using Filter::innovations_;
   using Filter::interaction_;
   using Filter::next;
   using Filter::now;

@@ -28,11 +28,8 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   using Filter::innovations_;
   using Filter::interaction_;
   using Filter::next;
-  using Filter::predicted_mode_;
   using Filter::prior_;
-  using Filter::shortcut_;
   using Filter::system_;
-  using Filter::weights_;
 
   bool measure(double dt, const Seen& seen, double gate) override;
   void miss(double dt) override;

@@ -23,11 +23,7 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   std::unique_ptr<Filter> clone() const override { return std::make_unique<SecondOrderFilter>(*this); }
 
  private:
-  using Filter::innovations_;
-  using Filter::interaction_;
   using Filter::next;
-  using Filter::prior_;
-  using Filter::system_;
 
   bool measure(double dt, const Seen& seen, double gate) override;
   void miss(double dt) override;
@@ -38,7 +34,7 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   void weigh(std::size_t j);
   void summarize(std::size_t j);
 
-  bool unreachable(std::size_t j) const { return prior_.log(j) == log_zero; }
+  bool unreachable(std::size_t j) const { return this->prior_.log(j) == log_zero; }
   bool lives(std::size_t l, std::size_t j) const { return joint_(j, l) != log_zero || (l == j && unreachable(j)); }
   std::size_t best(std::size_t j) const;
   std::size_t pair(std::size_t l, std::size_t j) const { return j * modes() + l; }
