@@ -142,7 +142,7 @@ typename MultipleModelFilter<Kind>::Predictors HistoriesOfModes<Kind>::predictor
 template <ScalableUncertainty Kind>
 Estimates HistoriesOfModes<Kind>::predicted() const {
   Estimates predicted = estimates();
-  collapse_modes(state().histories, predicted_, predicted);
+  collapse_modes(this->state().histories, predicted_, predicted);
   return predicted;
 }
 
@@ -163,7 +163,7 @@ void HistoriesOfModes<Kind>::branch(double dt, HistorySet& predicted) {
   this->predict_mode(dt);
   propose();
   keep();
-  const HistorySet& before = state().histories;
+  const HistorySet& before = this->state().histories;
   const HistorySet& after = next().histories;
   predicted.resize(after.size());
   for (std::size_t h = 0; h < after.size(); ++h) {
@@ -187,7 +187,7 @@ void HistoriesOfModes<Kind>::propose() {
   const auto& transition = system_.transition();
   for (std::size_t l = 0; l < modes(); ++l)
     for (std::size_t j = 0; j < modes(); ++j) log_transition_(l, j) = std::log(transition(l, j));
-  const HistorySet& before = state().histories;
+  const HistorySet& before = this->state().histories;
   const double share = SelectiveAlgebra<AlgebraOf<Kind>> ? 0.0 : std::log(static_cast<double>(branches_));
   candidates_.clear();
   for (std::size_t j = 0; j < modes(); ++j) {
@@ -210,7 +210,7 @@ void HistoriesOfModes<Kind>::propose() {
 /// The best of the histories that end in mode j.
 template <ScalableUncertainty Kind>
 std::size_t HistoriesOfModes<Kind>::last_of(std::size_t j) const {
-  const HistorySet& set = state().histories;
+  const HistorySet& set = this->state().histories;
   std::size_t best = set.size();
   for (std::size_t h = 0; h < set.size(); ++h)
     if (set[h].mode == j && (best == set.size() || set[h].log_weight > set[best].log_weight)) best = h;

@@ -28,7 +28,6 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   using Filter::belief;
   using Filter::estimates;
   using Filter::modes;
-  using Filter::state;
 
   HistoriesOfModes(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                    const HistoryRules<Kind>& rules = {}, const Interaction<Kind>& interaction = {Lift::prior});
