@@ -1,4 +1,4 @@
-#include <sigmax/estimation/any_model.hpp>
+#include <sigmax/estimation/any_sensor.hpp>
 
 #include <stdexcept>
 #include <utility>
@@ -14,6 +14,11 @@ AnyModel::AnyModel(std::shared_ptr<const void> motion, const detail::ModelRef& r
   if (size_ > max_state_size)
     throw std::invalid_argument("model '" + name_ + "' has " + std::to_string(size_) + " states; a bank takes " +
                                 std::to_string(max_state_size) + " at most");
+}
+
+const AnySensor& detail::position_sensor(int axes) {
+  static const AnySensor all[]{PositionSensor<1>{}, PositionSensor<2>{}, PositionSensor<3>{}};
+  return all[axes - 1];
 }
 
 }  // namespace sigmax

@@ -32,27 +32,13 @@ int seen_of(const SensorRef& sensor, const ModelRef& model, int n, int m) {
   return seen == 0 ? n : seen;
 }
 
-/// F, Q and the known input of a linear motion.
-void linear_motion(const ModelRef& model, double dt, double* F, double* Q, double* input) {
-  if (!model.table->law) return model.table->linear(model.motion, dt, F, Q, input);
-  AxisLaw law;
-  model.table->law(model.motion, dt, law);
-  spread_over_axes(law.F, law.order, model.table->axes, F);
-  spread_over_axes(law.Q, law.order, model.table->axes, Q);
-  std::copy_n(law.input, law.order * model.table->axes, input);
-}
-
 /// f(x), ∂f/∂x and the noise's covariance. Throws std::domain_error unless they are finite.
 void moved_from(const ModelRef& model, const double* x, double dt, double* image, double* F, double* Q) {
   const int n = model.size();
-  if (model.linear()) {
-    Scratch moved(n);
-    linear_motion(model, dt, F, Q, moved);
-    multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
-    std::copy_n(moved.data(), n, image);
-  } else {
-    model.table->tangent(model.motion, x, dt, image, F, Q);
-  }
+  Scratch moved(n);
+  model.table->tangent(model.motion, x, dt, moved, F, Q);
+  if (model.linear()) multiply(F, n, columns_of(x, n), moved, n, n, n, 1, Into::plus);
+  std::copy_n(moved.data(), n, image);
   require_finite(image, n, 1, "f(x)", model, x);
   require_finite(F, n * n, 1, "the Jacobian of f", model, x);
 }

@@ -9,8 +9,11 @@
 
 #include <sigmax/estimation/doppler_sensor.hpp>
 #include <sigmax/estimation/start.hpp>
+#include <sigmax/hybrid/history_filter.hpp>
+#include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/known_model.hpp>
 #include <sigmax/hybrid/mode_transition.hpp>
+#include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/target_life.hpp>
 
 namespace sigmax {
@@ -121,41 +124,39 @@ class ChosenStart {
 };
 
 /// The filter of a choice; what it holds before it starts means nothing.
-template <class Filter>
-Filter chosen_filter(const TargetChoice& choice, const std::vector<AnyModel>& models, const Estimates& nowhere) {
-  using Kind = typename Filter::kind;
+template <ScalableUncertainty Kind>
+std::unique_ptr<MultipleModelFilter<Kind>> chosen_filter(const TargetChoice& choice,
+                                                         const std::vector<AnyModel>& models,
+                                                         const Estimates& nowhere) {
   const auto interaction = chosen_interaction<Kind>(choice);
-  if constexpr (KeepsHistories<Filter>)
-    return {models,
-            chosen_transition<Kind>(choice),
-            nowhere,
-            {.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering},
-            interaction};
-  else
-    return {models, chosen_transition<Kind>(choice), nowhere, interaction};
+  const auto transition = chosen_transition<Kind>(choice);
+  if (choice.scheme == Scheme::histories) {
+    const HistoryRules<Kind> rules{.histories = choice.histories, .cut = choice.cut, .tempering = choice.tempering};
+    return std::make_unique<HistoriesOfModes<Kind>>(models, transition, nowhere, rules, interaction);
+  }
+  if (choice.scheme == Scheme::second_order)
+    return std::make_unique<SecondOrderFilter<Kind>>(models, transition, nowhere, interaction);
+  return std::make_unique<InteractingFilter<Kind>>(models, transition, nowhere, interaction);
 }
 
-template <class Filter>
+template <ScalableUncertainty Kind>
 struct Followed {
-  Filter filter;
-  detail::TargetLife<Filter> life;
+  std::unique_ptr<MultipleModelFilter<Kind>> filter;
+  detail::TargetLife<Kind> life;
 
   Followed(const TargetChoice& choice, const std::vector<AnyModel>& models, const ChosenStart& start)
-      : filter(chosen_filter<Filter>(choice, models, start.nowhere())), life(filter, start, choice.rules) {}
+      : filter(chosen_filter<Kind>(choice, models, start.nowhere())), life(*filter, start, choice.rules) {}
+  Followed(const Followed& other) : filter(other.filter->clone()), life(other.life) {}
 };
 
-using AnyFollowed = std::variant<Followed<InteractingFilter<Random>>, Followed<InteractingFilter<Fuzzy>>,
-                                 Followed<SecondOrderFilter<Random>>, Followed<SecondOrderFilter<Fuzzy>>,
-                                 Followed<HistoriesOfModes<Random>>, Followed<HistoriesOfModes<Fuzzy>>>;
+using AnyFollowed = std::variant<Followed<Random>, Followed<Fuzzy>>;
 
-template <ScalableUncertainty Kind>
 AnyFollowed followed(const TargetChoice& choice) {
   std::vector<AnyModel> models;
   for (const auto& motion : choice.motions) models.push_back(known_model(motion, choice.axes, choice.member));
   const ChosenStart start(choice, models);
-  if (choice.scheme == Scheme::histories) return Followed<HistoriesOfModes<Kind>>(choice, models, start);
-  if (choice.scheme == Scheme::second_order) return Followed<SecondOrderFilter<Kind>>(choice, models, start);
-  return Followed<InteractingFilter<Kind>>(choice, models, start);
+  if (choice.fuzzy) return AnyFollowed(std::in_place_index<1>, choice, models, start);
+  return AnyFollowed(std::in_place_index<0>, choice, models, start);
 }
 
 /// The sensor of a plot that has one; a branch here is all that a new one needs beside its name in AnyPlot. Throws
@@ -180,9 +181,7 @@ AnySensor chosen_sensor(const AnyPlot& plot, int axes) {
   if (plot.sensor == polar) return PolarSensor<3>(origin);
   if (plot.sensor == doppler && axes == 2) return DopplerSensor<2>(below);
   if (plot.sensor == doppler) return DopplerSensor<3>(origin);
-  if (axes == 1) return PositionSensor<1>{};
-  if (axes == 2) return PositionSensor<2>{};
-  return PositionSensor<3>{};
+  return detail::position_sensor(axes);
 }
 
 Plot chosen_plot(const AnyPlot& plot, int axes) {
@@ -212,9 +211,7 @@ struct AnyTarget::Chosen {
   bool compared = false;  ///< whether the last step had a measurement, taken or not
 
   explicit Chosen(const TargetChoice& choice)
-      : followed(choice.fuzzy ? sigmax::followed<Fuzzy>(choice) : sigmax::followed<Random>(choice)),
-        axes(choice.axes),
-        most_likely_output(choice.most_likely_output) {}
+      : followed(sigmax::followed(choice)), axes(choice.axes), most_likely_output(choice.most_likely_output) {}
 
   template <class Visit>
   decltype(auto) visit(const Visit& act) {
@@ -225,23 +222,20 @@ struct AnyTarget::Chosen {
     return std::visit([](const auto& target) -> const detail::Life& { return target.life.now(); }, followed);
   }
 
-  /// Writes an output of the filter, its own or that of another state by modes.
-  template <class Filter>
-  void tell(const Filter& filter, const HybridEstimate<typename Filter::kind>* state, TargetPoint& result) const {
+  /// Writes the output of a state, the filter's own or another.
+  template <class Filter, class State>
+  void tell(const Filter& filter, const State& state, TargetPoint& result) const {
     const auto n = static_cast<std::size_t>(filter.component_count());
     result.mean.resize(n);
     result.covariance.resize(n * n);
     const detail::View output{result.mean.data(), result.covariance.data(), filter.component_count()};
-    const auto& by_modes = state ? *state : filter.by_modes();
     if (most_likely_output)
-      filter.most_likely_output(by_modes, output);
-    else if (state)
-      filter.output(*state, output);
+      filter.most_likely_output(state, output);
     else
-      filter.output(output);
-    result.weights.resize(by_modes.belief.size());
-    for (std::size_t j = 0; j < result.weights.size(); ++j) result.weights[j] = by_modes.belief[j];
-    result.most_likely_mode = by_modes.most_likely_mode;
+      filter.output(state, output);
+    result.weights.resize(state.belief.size());
+    for (std::size_t j = 0; j < result.weights.size(); ++j) result.weights[j] = state.belief[j];
+    result.most_likely_mode = state.most_likely_mode;
   }
 };
 
@@ -257,7 +251,7 @@ AnyTarget::~AnyTarget() = default;
 Verdict AnyTarget::take(const AnyPlot& plot, const Stepped& stepped) {
   const Plot own = chosen_plot(plot, chosen_->axes);
   return chosen_->visit([&](auto& target) {
-    return target.life.take(target.filter, own, [&](const Plot& taken, bool is_start) {
+    return target.life.take(*target.filter, own, [&](const Plot& taken, bool is_start) {
       chosen_->compared = !is_start && taken.seen();
       if (stepped) stepped(taken.tag, is_start);
     });
@@ -270,7 +264,7 @@ std::size_t AnyTarget::rejected() const { return chosen_->now().rejected; }
 double AnyTarget::time() const { return chosen_->now().time; }
 double AnyTarget::accepted_time() const { return chosen_->now().accepted_time; }
 const std::vector<std::string>& AnyTarget::components() const {
-  return chosen_->visit([](const auto& target) -> const auto& { return target.filter.components(); });
+  return chosen_->visit([](const auto& target) -> const auto& { return target.filter->components(); });
 }
 
 bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) {
@@ -281,7 +275,8 @@ bool AnyTarget::transform(std::span<const double> A, std::span<const double> b) 
   double by_columns[9];
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) by_columns[i + k * n] = A[i * n + k];
-  return chosen_->visit([&](auto& target) { return target.life.transform(target.filter, by_columns, b.data(), axes); });
+  return chosen_->visit(
+      [&](auto& target) { return target.life.transform(*target.filter, by_columns, b.data(), axes); });
 }
 
 TargetPoint AnyTarget::output() const {
@@ -292,7 +287,7 @@ TargetPoint AnyTarget::output() const {
 
 void AnyTarget::output(TargetPoint& result) const {
   chosen_->visit([&](const auto& target) {
-    const auto& filter = target.filter;
+    const auto& filter = *target.filter;
     result.time = target.life.now().time;
     result.nis.reset();
     result.normalized_innovation.clear();
@@ -304,7 +299,7 @@ void AnyTarget::output(TargetPoint& result) const {
     }
     result.log_evidence = chosen_->compared ? std::optional(filter.log_evidence()) : std::nullopt;
     result.log_score = chosen_->compared ? std::optional(filter.log_score()) : std::nullopt;
-    chosen_->tell(filter, nullptr, result);
+    chosen_->tell(filter, filter.state(), result);
   });
 }
 
@@ -318,10 +313,10 @@ void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
       point.tag = kept.tag;
       point.is_start = kept.is_start;
       point.nis = kept.nis;
-      chosen_->tell(target.filter, &state, point);
+      chosen_->tell(*target.filter, state, point);
       visit(point);
     };
-    target.life.smoothed(target.filter, tell_point, [&](const auto& kept, const Table& log_pairs, bool is_last) {
+    target.life.smoothed(*target.filter, tell_point, [&](const auto& kept, const Table& log_pairs, bool is_last) {
       if (paired) paired({kept.tag, kept.step.dt, is_last, {log_pairs.data(), log_pairs.size()}});
     });
   });
@@ -329,11 +324,10 @@ void AnyTarget::smoothed(const std::function<void(const TargetPoint&)>& visit,
 
 std::vector<ModeStay> AnyTarget::explained() const {
   std::vector<ModeStay> stays;
-  chosen_->visit([&]<class Target>(const Target& target) {
-    if constexpr (KeepsHistories<decltype(target.filter)>)
-      target.life.explained([&](const auto& kept, std::size_t mode) {
-        stays.push_back({kept.time, kept.tag, mode, kept.is_start});
-      });
+  chosen_->visit([&](const auto& target) {
+    target.life.explained([&](const auto& kept, std::size_t mode) {
+      stays.push_back({kept.time, kept.tag, mode, kept.is_start});
+    });
   });
   return stays;
 }

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include <boost/math/special_functions/erf.hpp>
-
-#include <sigmax/estimation/covariance_root.hpp>
+#include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/estimation/dense.hpp>
 
 namespace sigmax {
@@ -36,7 +33,7 @@ const double* normal_points(int n) {
       const double step = std::pow(ratio, -(i + 1));
       for (int k = 0; k < points / 2; ++k) {
         const double u = std::fmod(0.5 + (k + 1) * step, 1.0);
-        const double x = std::numbers::sqrt2 * boost::math::erf_inv(2.0 * u - 1.0);
+        const double x = std::copysign(std::sqrt(chi_square_quantile(std::abs(2.0 * u - 1.0), 1.0)), u - 0.5);
         lattice[static_cast<std::size_t>(i + k * n)] = x;
         lattice[static_cast<std::size_t>(i + (points / 2 + k) * n)] = -x;
       }

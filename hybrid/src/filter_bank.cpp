@@ -199,10 +199,8 @@ void TrackBank<Kind, Number>::step_generally(double dt, std::size_t track, const
   double mean[3], covariance[9];
   const detail::View z{mean, covariance, general.shortcut().axes()};
   try {
-    if (scan.get(track, z))
-      general.step(dt, {z, detail::position_sensor(z.n)});
-    else
-      general.step(dt);
+    const Seen seen{z, detail::sensor_of_models(detail::position_sensor(z.n))};
+    general.step(dt, scan.get(track, z) ? &seen : nullptr);
   } catch (const std::domain_error& error) {
     throw std::domain_error("track " + std::to_string(track) + ", " + error.what());
   }

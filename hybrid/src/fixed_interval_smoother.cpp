@@ -29,7 +29,7 @@ FixedIntervalSmoother<Kind>::FixedIntervalSmoother(const MultipleModelFilter<Kin
       interaction_(filter.interaction()),
       components_(system_.models()),
       entries_(filter.lenders(filter.estimates())),
-      state_(filter.by_modes()),
+      state_(filter.state()),
       pairs_(detail::pairs_of(filter.estimates())),
       filtered_(filter.estimates()),
       log_weight_(modes()),

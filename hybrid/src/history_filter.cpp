@@ -20,18 +20,6 @@ HistorySet::HistorySet(const Estimates& starts, std::size_t room) : histories_(r
   resize(starts.size());
 }
 
-HistorySet& HistorySet::operator=(const HistorySet& other) {
-  if (this == &other) return *this;
-  histories_ = other.histories_;
-  sizes_ = other.sizes_;
-  stride_ = other.stride_;
-  numbers_.resize(other.numbers_.size());
-  resize(other.size());
-  most_likely_mode = other.most_likely_mode;
-  for (std::size_t h = 0; h < size(); ++h) detail::copy(other.view(h), view(h));
-  return *this;
-}
-
 std::size_t best_of(std::span<const History> histories) {
   std::size_t best = 0;
   for (std::size_t h = 1; h < histories.size(); ++h)
@@ -54,8 +42,8 @@ HistoriesOfModes<Kind>::HistoriesOfModes(const std::vector<AnyModel>& models, Mo
       compared_(modes()),
       weight_(rules.histories),
       log_of_mode_(modes()),
-      sets_{State{start, std::max(rules.histories, modes())}, State{start, std::max(rules.histories, modes())}},
-      predicted_(sets_[0]) {
+      predicted_(start, std::max(rules.histories, modes())) {
+  now().histories = next().histories = predicted_;
   require_rules();
   candidates_.reserve(rules.histories * modes() * branches_ + modes());
   for (std::size_t s = 0; s < branches_; ++s)
@@ -83,65 +71,51 @@ void HistoriesOfModes<Kind>::require_rules() const {
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::step(double dt, const Seen& seen, double gate) {
-  this->require(dt, &seen);
-  bool taken = false;
-  this->located(dt, [&] {
-    branch(dt, predicted_);
-    State& next = next_set();
-    compared_ = next.size();
-    for (std::size_t h = 0; h < next.size(); ++h) {
-      AnyInnovation& innovation = innovation_of_[h];
-      this->update_model(next[h].mode, predicted_.view(h), seen, next.view(h), innovation);
-      log_prior_[h] = next[h].log_weight;
-      next[h].log_weight += rules_.tempering * innovation.log_likelihood;
-    }
-    taken = this->passes(gate);
-    if (!taken) return;
-    normalize(next);
-    summarize(next);
-  });
-  if (!taken) return step(dt);
+bool HistoriesOfModes<Kind>::measure(double dt, const Seen& seen, double gate) {
+  branch(dt, predicted_);
+  HistorySet& set = next().histories;
+  compared_ = set.size();
+  for (std::size_t h = 0; h < set.size(); ++h) {
+    AnyInnovation& innovation = innovation_of_[h];
+    this->update_model(set[h].mode, predicted_.view(h), seen, set.view(h), innovation);
+    log_prior_[h] = set[h].log_weight;
+    set[h].log_weight += rules_.tempering * innovation.log_likelihood;
+  }
+  if (!this->passes(gate)) return false;
+  summarize();
   show_innovations();
-  conclude(true);
+  return true;
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::step(double dt) {
-  this->require(dt, nullptr);
-  this->located(dt, [&] {
-    branch(dt, next_set());
-    normalize(next_set());
-    summarize(next_set());
-  });
-  conclude(false);
+void HistoriesOfModes<Kind>::miss(double dt) {
+  branch(dt, next().histories);
+  summarize();
 }
 
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::restore(const State& state) {
-  if (state.room() != rules_.histories)
-    throw std::invalid_argument("a state with room for " + std::to_string(state.room()) +
+  if (state.histories.room() != rules_.histories)
+    throw std::invalid_argument("a state with room for " + std::to_string(state.histories.room()) +
                                 " histories; the filter has " + std::to_string(rules_.histories));
-  sets_[current_] = state;
-  summarize(sets_[current_]);
-  this->next().most_likely_mode = state.most_likely_mode;
-  Filter::restore(this->next());
+  Filter::restore(state);
 }
 
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::transform(const double* A, const double* b, int axes) {
   Filter::transform(A, b, axes);
-  State& set = sets_[current_];
+  HistorySet& set = now().histories;
   for (std::size_t h = 0; h < set.size(); ++h) detail::transform(A, b, axes, set.view(h));
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::output(View result) const {
-  const State& set = state();
+void HistoriesOfModes<Kind>::output(const State& state, View result) const {
+  const HistorySet& set = state.histories;
   const auto count = static_cast<int>(set.size());
+  if (count == 0) return Filter::output(state, result);
   detail::Scratch mean(result.n), covariance(result.n * result.n);
   const View receiver{mean, covariance, result.n};
-  this->output_receiver(this->by_modes(), receiver);
+  this->output_receiver(state, receiver);
   const double greatest = set[best_of(set.all())].log_weight;
   detail::OfModes weights(count);
   detail::Parts parts(count);
@@ -164,19 +138,19 @@ typename MultipleModelFilter<Kind>::Predictors HistoriesOfModes<Kind>::predictor
           static_cast<std::size_t>(best - log_prior_.begin())};
 }
 
+/// Those of its histories, by their weights after the measurement.
 template <ScalableUncertainty Kind>
-RecordedStep<Kind> HistoriesOfModes<Kind>::recorded(double dt, const Seen& seen) const {
+Estimates HistoriesOfModes<Kind>::predicted() const {
   Estimates predicted = estimates();
-  collapse_modes(state(), predicted_, predicted);
-  return this->recorded_by(dt, &seen, predicted);
+  collapse_modes(this->state().histories, predicted_, predicted);
+  return predicted;
 }
 
 /// One history for each mode, as each starts.
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::begin() {
-  State& set = sets_[current_];
+  HistorySet& set = now().histories;
   set.resize(modes());
-  set.most_likely_mode = most_likely_mode();
   for (std::size_t j = 0; j < modes(); ++j) {
     set[j] = {j, j, belief().log(j)};
     detail::copy(estimates().view(j), set.view(j));
@@ -185,12 +159,12 @@ void HistoriesOfModes<Kind>::begin() {
 
 /// Every history goes on into every mode; the greatest are kept and predict.
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::branch(double dt, State& predicted) {
+void HistoriesOfModes<Kind>::branch(double dt, HistorySet& predicted) {
   this->predict_mode(dt);
   propose();
   keep();
-  const State& before = state();
-  const State& after = next_set();
+  const HistorySet& before = this->state().histories;
+  const HistorySet& after = next().histories;
   predicted.resize(after.size());
   for (std::size_t h = 0; h < after.size(); ++h) {
     const std::size_t j = after[h].mode, parent = after[h].parent, l = before[parent].mode;
@@ -213,7 +187,7 @@ void HistoriesOfModes<Kind>::propose() {
   const auto& transition = system_.transition();
   for (std::size_t l = 0; l < modes(); ++l)
     for (std::size_t j = 0; j < modes(); ++j) log_transition_(l, j) = std::log(transition(l, j));
-  const State& before = state();
+  const HistorySet& before = this->state().histories;
   const double share = SelectiveAlgebra<AlgebraOf<Kind>> ? 0.0 : std::log(static_cast<double>(branches_));
   candidates_.clear();
   for (std::size_t j = 0; j < modes(); ++j) {
@@ -236,7 +210,7 @@ void HistoriesOfModes<Kind>::propose() {
 /// The best of the histories that end in mode j.
 template <ScalableUncertainty Kind>
 std::size_t HistoriesOfModes<Kind>::last_of(std::size_t j) const {
-  const State& set = state();
+  const HistorySet& set = this->state().histories;
   std::size_t best = set.size();
   for (std::size_t h = 0; h < set.size(); ++h)
     if (set[h].mode == j && (best == set.size() || set[h].log_weight > set[best].log_weight)) best = h;
@@ -262,22 +236,24 @@ void HistoriesOfModes<Kind>::keep() {
     return std::tie(x.mode, x.parent, a.entry) < std::tie(y.mode, y.parent, b.entry);
   });
   candidates_.erase(last, candidates_.end());
-  State& next = next_set();
-  next.resize(candidates_.size());
-  for (std::size_t h = 0; h < next.size(); ++h) next[h] = candidates_[h].history;
-  normalize(next);
+  HistorySet& set = next().histories;
+  set.resize(candidates_.size());
+  for (std::size_t h = 0; h < set.size(); ++h) set[h] = candidates_[h].history;
+  normalize(set);
 }
 
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::normalize(State& set) const {
+void HistoriesOfModes<Kind>::normalize(HistorySet& set) const {
   const double total = detail::log_total<Kind>(set.size(), [&](std::size_t h) { return set[h].log_weight; });
   if (total == log_zero) check::excluded(system_.mode_variable());
   for (std::size_t h = 0; h < set.size(); ++h) set[h].log_weight -= total;
 }
 
-/// The histories by modes: what the other filters have.
+/// The next histories, normalised, and by modes: what the other filters have.
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::summarize(const State& set) {
+void HistoriesOfModes<Kind>::summarize() {
+  HistorySet& set = next().histories;
+  normalize(set);
   for (std::size_t j = 0; j < modes(); ++j)
     log_of_mode_[j] = detail::log_total<Kind>(
         set.size(), [&](std::size_t h) { return set[h].mode == j ? set[h].log_weight : log_zero; });
@@ -285,14 +261,15 @@ void HistoriesOfModes<Kind>::summarize(const State& set) {
     const double log_mode = log_of_mode_[set[h].mode];
     weight_[h] = log_mode == log_zero ? 1.0 : std::exp(set[h].log_weight - log_mode);
   }
-  this->next().belief.assign([&](std::size_t j) { return log_of_mode_[j]; });
-  collapse_modes(set, set, this->next().estimates);
+  next().belief.assign([&](std::size_t j) { return log_of_mode_[j]; });
+  collapse_modes(set, set, next().estimates);
   for (std::size_t h = 0; h < set.size(); ++h) check::sound(this->model(set[h].mode), set.view(h));
 }
 
 /// One estimate for the histories of each mode, which `source` has, by sum and moments or by selection.
 template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::collapse_modes(const State& set, const State& source, Estimates& collapsed) const {
+void HistoriesOfModes<Kind>::collapse_modes(const HistorySet& set, const HistorySet& source,
+                                            Estimates& collapsed) const {
   detail::Parts parts(static_cast<int>(set.size()));
   detail::OfModes weights(static_cast<int>(set.size()));
   for (std::size_t j = 0; j < modes(); ++j) {
@@ -311,22 +288,15 @@ void HistoriesOfModes<Kind>::collapse_modes(const State& set, const State& sourc
 /// The innovation of a mode is that of the history that was its best before the measurement.
 template <ScalableUncertainty Kind>
 void HistoriesOfModes<Kind>::show_innovations() {
-  const State& set = next_set();
+  const HistorySet& set = next().histories;
   for (std::size_t j = 0; j < modes(); ++j) {
     double greatest = log_zero;
     for (std::size_t h = set.size(); h-- > 0;)
       if (set[h].mode == j && log_prior_[h] >= greatest) {
         greatest = log_prior_[h];
-        innovations_[j] = innovation_of_[h];
+        this->innovations_[j] = innovation_of_[h];
       }
   }
-}
-
-template <ScalableUncertainty Kind>
-void HistoriesOfModes<Kind>::conclude(bool measured) {
-  Filter::conclude(measured);
-  current_ = 1 - current_;
-  sets_[current_].most_likely_mode = most_likely_mode();
 }
 
 template class HistoriesOfModes<Random>;

@@ -1,5 +1,7 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
+#include <numbers>
+
 #include <sigmax/core/compose.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -18,42 +20,72 @@ InteractingFilter<Kind>::InteractingFilter(const std::vector<AnyModel>& models, 
 }
 
 template <ScalableUncertainty Kind>
-void InteractingFilter<Kind>::step(double dt, const Seen& seen, double gate) {
-  this->require(dt, &seen);
-  if (this->shortened(dt, &seen, gate, predicted_)) return;
-  bool taken = false;
-  this->located(dt, [&] {
-    mix(dt);                                     // step 1, (51)–(59)
-    for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
-      this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
-      this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
-    }
-    taken = this->passes(gate);
-    if (!taken) return;
-    for (std::size_t j = 0; j < modes(); ++j) {
-      check::sound(this->model(j), next().estimates.view(j));
-      likelihood_.set_log(j, innovations_[j].log_likelihood);
-    }
-    update(prior_, likelihood_, next().belief);  // step 3, (62), (63)
-  });
-  if (!taken) return step(dt);
-  this->conclude(true);  // (64); step 4 is `output`
+bool InteractingFilter<Kind>::measure(double dt, const Seen& seen, double gate) {
+  mix(dt);                                     // step 1, (51)–(59)
+  for (std::size_t j = 0; j < modes(); ++j) {  // step 2, (60), (61)
+    this->predict_model(j, next().estimates.view(j), dt, predicted_.view(j));
+    this->update_model(j, predicted_.view(j), seen, next().estimates.view(j), innovations_[j]);
+  }
+  if (!this->passes(gate)) return false;
+  for (std::size_t j = 0; j < modes(); ++j) {
+    check::sound(this->model(j), next().estimates.view(j));
+    likelihood_.set_log(j, innovations_[j].log_likelihood);
+  }
+  update(prior_, likelihood_, next().belief);  // step 3, (62), (63)
+  return true;                                 // (64) is `conclude`, step 4 `output`
 }
 
 template <ScalableUncertainty Kind>
-void InteractingFilter<Kind>::step(double dt) {
-  this->require(dt, nullptr);
-  if (this->shortened(dt, nullptr, no_gate, predicted_)) return;
-  this->located(dt, [&] {
-    mix(dt);
+void InteractingFilter<Kind>::miss(double dt) {
+  mix(dt);
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const detail::View estimate = next().estimates.view(j);
+    this->predict_model(j, estimate, dt, estimate);
+    check::sound(this->model(j), estimate);
+  }
+  next().belief = prior_;
+}
+
+/// By the short form for motions along independent axes, with a measurement of the position or none.
+template <ScalableUncertainty Kind>
+bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate) {
+  if (!this->shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
+  if (!this->shortens(dt)) return false;
+  detail::kinematic::Told told;
+  for (std::size_t j = 0; j < modes(); ++j) {
+    const detail::View result = next().estimates.view(j);
+    told.mean[j] = result.mean;
+    told.covariance[j] = result.covariance;
+    told.predicted[j] = predicted_.view(j).mean;
+    told.residual[j] = innovations_[j].residual_numbers.data();
+    told.S[j] = innovations_[j].covariance_numbers.data();
+  }
+  const auto take = [&](const double* z, const double* R) {
+    return this->shortcut_.step(estimates(), this->weights_.data(), this->most_likely_mode(), z, R, told);
+  };
+  if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
+  const auto prior = prior_.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
+  this->predicted_mode_ =
+      detail::select(modes(), Filter::logs_of(prior_), this->most_likely_mode(), interaction_.output_tie);
+  bool taken = seen != nullptr;
+  if (seen) {
     for (std::size_t j = 0; j < modes(); ++j) {
-      const detail::View estimate = next().estimates.view(j);
-      this->predict_model(j, estimate, dt, estimate);
-      check::sound(this->model(j), estimate);
+      AnyInnovation& innovation = innovations_[j];
+      innovation.size = seen->z.n;
+      innovation.squared_distance = told.squared_distance[j];
+      innovation.log_likelihood = -0.5 * told.squared_distance[j];
+      if (interaction_.likelihood == LikelihoodForm::density)
+        innovation.log_likelihood -=
+            0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
     }
-    next().belief = prior_;
-  });
-  this->conclude(false);
+    taken = this->passes(gate);
+  }
+  if (seen && !taken && !take(nullptr, nullptr)) return false;
+  const auto posterior = next().belief.logs(detail::ByLaw{});
+  for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
+  this->conclude(taken);
+  return true;
 }
 
 /// Step 1: prior and move-in weights of the mode, (51), (52) or (53), (54), and the mixed starts.

@@ -1,7 +1,5 @@
 #include "multiple_model_filter.hpp"
 
-#include <numbers>
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/hybrid/sound.hpp>
 
@@ -18,10 +16,10 @@ MultipleModelFilter<Kind>::MultipleModelFilter(const std::vector<AnyModel>& mode
       components_(models),
       innovations_(modes()),
       prior_(uninformative(system_.mode_variable())),
-      entries_(detail::estimates_of(models)),
-      laws_(modes()),
       weights_(modes()),
       shortcut_(models, interaction),
+      entries_(detail::estimates_of(models)),
+      laws_(modes()),
       states_{State{start, prior_}, State{start, prior_}} {
   check::starts(models, start);
   check::prior(interaction_.entry);
@@ -98,7 +96,10 @@ void MultipleModelFilter<Kind>::write_output(const Rule& rule, const State& stat
     read_weights(state.belief, of_state);
     weights = of_state;
   }
-  if (shortcut_.output(rule, state.estimates, weights, state.most_likely_mode, result)) return;
+  constexpr bool selects = std::is_same_v<Rule, Selection>;
+  bool short_form = true;
+  if constexpr (!selects) short_form = rule.output_spread == OutputSpread::included;
+  if (short_form && shortcut_.output(selects, state.estimates, weights, state.most_likely_mode, result)) return;
   const int n = component_count();
   detail::Scratch mean(n), covariance(n * n);
   const View receiver{mean, covariance, n};
@@ -229,52 +230,29 @@ bool MultipleModelFilter<Kind>::shortens(double dt) {
 }
 
 template <ScalableUncertainty Kind>
-bool MultipleModelFilter<Kind>::shortened(double dt, const Seen* seen, double gate, Estimates& predicted) {
-  if (!shortcut_.takes(seen ? &seen->sensor : nullptr, seen ? seen->z.n : 0)) return false;
-  if (!shortens(dt)) return false;
-  detail::kinematic::Told told;
-  for (std::size_t j = 0; j < modes(); ++j) {
-    const View result = next().estimates.view(j);
-    told.mean[j] = result.mean;
-    told.covariance[j] = result.covariance;
-    told.predicted[j] = predicted.view(j).mean;
-    told.residual[j] = innovations_[j].residual_numbers.data();
-    told.S[j] = innovations_[j].covariance_numbers.data();
+void MultipleModelFilter<Kind>::step(double dt, const Seen* seen, double gate) {
+  require(dt, seen);
+  if (shortened(dt, seen, gate)) return;
+  bool taken = false;
+  try {
+    if (seen)
+      taken = measure(dt, *seen, gate);
+    else
+      miss(dt);
+  } catch (const std::domain_error& error) {
+    throw std::domain_error(this_step(dt) + ": " + error.what());
   }
-  const auto take = [&](const double* z, const double* R) {
-    return shortcut_.step(estimates(), weights_.data(), most_likely_mode(), z, R, told);
-  };
-  if (!(seen ? take(seen->z.mean, seen->z.covariance) : take(nullptr, nullptr))) return false;
-  const auto prior = prior_.logs(detail::ByLaw{});
-  for (std::size_t j = 0; j < modes(); ++j) prior[j] = std::log(told.prior[j]);
-  predicted_mode_ = detail::select(modes(), logs_of(prior_), most_likely_mode(), interaction_.output_tie);
-  bool taken = seen != nullptr;
-  if (seen) {
-    for (std::size_t j = 0; j < modes(); ++j) {
-      AnyInnovation& innovation = innovations_[j];
-      innovation.size = seen->z.n;
-      innovation.squared_distance = told.squared_distance[j];
-      innovation.log_likelihood = -0.5 * told.squared_distance[j];
-      if (interaction_.likelihood == LikelihoodForm::density)
-        innovation.log_likelihood -=
-            0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
-    }
-    taken = passes(gate);
-  }
-  if (seen && !taken && !take(nullptr, nullptr)) return false;
-  const auto posterior = next().belief.logs(detail::ByLaw{});
-  for (std::size_t j = 0; j < modes(); ++j) posterior[j] = taken ? std::log(told.posterior[j]) : prior[j];
+  if (seen && !taken) return step(dt);
   conclude(taken);
-  return true;
 }
 
 template <ScalableUncertainty Kind>
-RecordedStep<Kind> MultipleModelFilter<Kind>::recorded_by(double dt, const Seen* seen,
-                                                          const Estimates& predicted) const {
+RecordedStep<Kind> MultipleModelFilter<Kind>::recorded(double dt, const Seen* seen) const {
   if (!seen && measured_)
     throw std::logic_error("recorded(dt) after a step with a measurement; expected recorded(dt, z)");
-  RecordedStep<Kind> result{dt, state(), {}};
+  RecordedStep<Kind> result{dt, {estimates(), belief(), most_likely_mode()}, {}};
   if (!measured_) return result;
+  const Estimates predicted = this->predicted();
   const int m = seen->z.n;
   for (std::size_t j = 0; j < modes(); ++j) {
     const ConstView before = predicted.view(j), after = estimates().view(j);
@@ -349,16 +327,4 @@ std::string MultipleModelFilter<Kind>::this_step(double dt) const {
 template class MultipleModelFilter<Random>;
 template class MultipleModelFilter<Fuzzy>;
 
-namespace detail {
-
-SensorOfModels position_sensor(int axes) {
-  static constexpr PositionSensor<1> line;
-  static constexpr PositionSensor<2> plane;
-  static constexpr PositionSensor<3> space;
-  using Models = std::vector<AnyModel>;
-  if (axes == 1) return sensor_of_models<Models>(line);
-  return axes == 2 ? sensor_of_models<Models>(plane) : sensor_of_models<Models>(space);
-}
-
-}  // namespace detail
 }  // namespace sigmax

@@ -25,15 +25,4 @@ double log_total(std::size_t count, const LogWeight& log_weight) {
 }
 
 }  // namespace detail
-
-template <ScalableUncertainty Kind>
-template <class Action>
-void MultipleModelFilter<Kind>::located(double dt, const Action& action) const {
-  try {
-    action();
-  } catch (const std::domain_error& error) {
-    throw std::domain_error(this_step(dt) + ": " + error.what());
-  }
-}
-
 }  // namespace sigmax

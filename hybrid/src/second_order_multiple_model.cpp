@@ -19,52 +19,44 @@ SecondOrderFilter<Kind>::SecondOrderFilter(const std::vector<AnyModel>& models, 
       predecessor_(modes(), modes()) {}
 
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::step(double dt, const Seen& seen, double gate) {
-  this->require(dt, &seen);
-  bool taken = false;
-  this->located(dt, [&] {
-    branch(dt);
-    for (std::size_t j = 0; j < modes(); ++j) {
-      for (std::size_t l = 0; l < modes(); ++l) {
-        log_fit_[pair(l, j)] = log_zero;
-        if (!lives(l, j)) continue;
-        AnyInnovation& innovation = pair_innovations_[l];
-        this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
-        log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
-        joint_(j, l) += innovation.log_likelihood;
-      }
-      summarize(j);
+bool SecondOrderFilter<Kind>::measure(double dt, const Seen& seen, double gate) {
+  branch(dt);
+  for (std::size_t j = 0; j < modes(); ++j) {
+    for (std::size_t l = 0; l < modes(); ++l) {
+      log_fit_[pair(l, j)] = log_zero;
+      if (!lives(l, j)) continue;
+      AnyInnovation& innovation = pair_innovations_[l];
+      this->update_model(j, predicted_.view(pair(l, j)), seen, pairs_.view(pair(l, j)), innovation);
+      log_fit_[pair(l, j)] = joint_(j, l) - 0.5 * innovation.squared_distance;
+      joint_(j, l) += innovation.log_likelihood;
     }
-    const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
-    taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
-    if (taken) merge(pairs_);
-  });
-  if (!taken) return step(dt);
-  this->conclude(true);
+    summarize(j);
+  }
+  const auto log_fit = [this](std::size_t each) { return log_fit_[each]; };
+  const bool taken = this->passes(gate, -2.0 * detail::log_total<Kind>(log_fit_.size(), log_fit));
+  if (taken) merge(pairs_);
+  return taken;
 }
 
 template <ScalableUncertainty Kind>
-void SecondOrderFilter<Kind>::step(double dt) {
-  this->require(dt, nullptr);
-  this->located(dt, [&] {
-    branch(dt);
-    merge(predicted_);
-  });
-  this->conclude(false);
+void SecondOrderFilter<Kind>::miss(double dt) {
+  branch(dt);
+  merge(predicted_);
 }
 
+/// Those of its predecessors, by their weights after the measurement.
 template <ScalableUncertainty Kind>
-RecordedStep<Kind> SecondOrderFilter<Kind>::recorded(double dt, const Seen& seen) const {
+Estimates SecondOrderFilter<Kind>::predicted() const {
   Estimates predicted = estimates();
   collapse_predecessors(predicted_, predicted);
-  return this->recorded_by(dt, &seen, predicted);
+  return predicted;
 }
 
 /// Every pair predicts from its predecessor's estimate, read in the components of the mode's model.
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::branch(double dt) {
   this->predict_mode(dt);
-  const auto& transition = system_.transition();
+  const auto& transition = this->system_.transition();
   detail::Parts parts(static_cast<int>(modes()));
   for (std::size_t j = 0; j < modes(); ++j) {
     for (std::size_t l = 0; l < modes(); ++l) joint_(j, l) = belief().log(l) + std::log(transition(l, j));
@@ -116,7 +108,7 @@ void SecondOrderFilter<Kind>::weigh(std::size_t j) {
 template <ScalableUncertainty Kind>
 std::size_t SecondOrderFilter<Kind>::best(std::size_t j) const {
   Tie tie = Tie::stay;
-  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = interaction_.collapse.mixing_tie;
+  if constexpr (SelectiveAlgebra<AlgebraOf<Kind>>) tie = this->interaction_.collapse.mixing_tie;
   return detail::select(
       modes(), [&](std::size_t l) { return std::log(predecessor_(j, l)); }, j, tie);
 }
@@ -125,7 +117,7 @@ std::size_t SecondOrderFilter<Kind>::best(std::size_t j) const {
 /// then on its predecessors have those after it.
 template <ScalableUncertainty Kind>
 void SecondOrderFilter<Kind>::summarize(std::size_t j) {
-  AnyInnovation& innovation = innovations_[j];
+  AnyInnovation& innovation = this->innovations_[j];
   const std::size_t winner = best(j);
   const double before = log_weight_[j], own = pair_innovations_[j].log_likelihood;
   innovation = Filter::collapsed(pair_innovations_, predecessor_.row(j).data(), winner);

@@ -11,12 +11,15 @@
 namespace sigmax::detail {
 namespace {
 
-Seen seen_of(const Plot& plot) { return {plot.measurement(), sensor_of_models<std::vector<AnyModel>>(plot.sensor())}; }
+std::optional<Seen> seen_of(const Plot& plot) {
+  if (!plot.seen()) return std::nullopt;
+  return Seen{plot.measurement(), sensor_of_models(plot.sensor())};
+}
 
 }  // namespace
 
-template <class Filter>
-TargetLife<Filter>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
+template <ScalableUncertainty Kind>
+TargetLife<Kind>::TargetLife(const Filter& filter, StartRule start, const TargetRules& rules)
     : start_(std::move(start)), rules_(rules) {
   if (!(rules.longest_gap > 0.0)) throw std::invalid_argument("the longest gap of a target is not positive");
   for (int m = 1; m <= max_measurement_size; ++m)
@@ -27,19 +30,19 @@ TargetLife<Filter>::TargetLife(const Filter& filter, StartRule start, const Targ
   for (Entry& entry : buffer_) entry.life.waiting.reserve(room());
 }
 
-template <class Filter>
-std::size_t TargetLife<Filter>::room() const {
+template <ScalableUncertainty Kind>
+std::size_t TargetLife<Kind>::room() const {
   return std::max({rules_.waiting, rules_.rejections, std::size_t{1}});
 }
 
-template <class Filter>
-void TargetLife<Filter>::begin_at(const Filter& filter, double time) {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::begin_at(const Filter& filter, double time) {
   if (!std::isfinite(time)) throw std::invalid_argument("a target starts at a time that is not finite");
   begin(filter, time, Plot(time));
 }
 
-template <class Filter>
-Verdict TargetLife<Filter>::take(Filter& filter, const Plot& plot, const Stepped& stepped) {
+template <ScalableUncertainty Kind>
+Verdict TargetLife<Kind>::take(Filter& filter, const Plot& plot, const Stepped& stepped) {
   if (!std::isfinite(plot.time)) throw std::invalid_argument("a measurement of a time that is not finite");
   std::size_t place = kept_;  // behind all that is not later
   while (place > 0 && entry(place - 1).plot.time > plot.time) --place;
@@ -70,24 +73,24 @@ Verdict TargetLife<Filter>::take(Filter& filter, const Plot& plot, const Stepped
   return verdict;
 }
 
-template <class Filter>
-void TargetLife<Filter>::restore(Filter& filter, const Entry& before) {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::restore(Filter& filter, const Entry& before) {
   filter.restore(before.state);
   now_ = before.life;
   record_.erase(record_.begin() + static_cast<std::ptrdiff_t>(now_.recorded), record_.end());
 }
 
 /// Takes an entry of the buffer, from where the target stands.
-template <class Filter>
-Verdict TargetLife<Filter>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
+template <ScalableUncertainty Kind>
+Verdict TargetLife<Kind>::replay(Filter& filter, std::size_t k, const Stepped& stepped) {
   Entry& event = entry(k);
   event.state = filter.state();
   event.life = now_;
   return process(filter, event.plot, stepped);
 }
 
-template <class Filter>
-Verdict TargetLife<Filter>::process(Filter& filter, const Plot& plot, const Stepped& stepped) {
+template <ScalableUncertainty Kind>
+Verdict TargetLife<Kind>::process(Filter& filter, const Plot& plot, const Stepped& stepped) {
   if (now_.running && plot.time - now_.accepted_time > rules_.longest_gap) {
     now_.running = false;
     now_.waiting.clear();
@@ -109,13 +112,11 @@ Verdict TargetLife<Filter>::process(Filter& filter, const Plot& plot, const Step
   return verdict;
 }
 
-template <class Filter>
-Verdict TargetLife<Filter>::step(Filter& filter, const Plot& plot) {
+template <ScalableUncertainty Kind>
+Verdict TargetLife<Kind>::step(Filter& filter, const Plot& plot) {
   const double dt = plot.time - now_.time;
-  if (plot.seen())
-    filter.step(dt, seen_of(plot), gates_[static_cast<std::size_t>(plot.size())]);
-  else
-    filter.step(dt);
+  const auto seen = seen_of(plot);
+  filter.step(dt, seen ? &*seen : nullptr, gates_[static_cast<std::size_t>(plot.size())]);
   now_.time = plot.time;
   if (filter.measured()) {
     now_.accepted_time = plot.time;
@@ -129,8 +130,8 @@ Verdict TargetLife<Filter>::step(Filter& filter, const Plot& plot) {
 }
 
 /// Asks for a start with the plots that wait; those that are not in it are steps after it.
-template <class Filter>
-Verdict TargetLife<Filter>::try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped) {
+template <ScalableUncertainty Kind>
+Verdict TargetLife<Kind>::try_to_start(Filter& filter, const Plot& plot, const Stepped& stepped) {
   const bool again = now_.starts > 0;
   const auto start = start_(now_.waiting, now_.starts);
   if (!start) return Verdict::waiting;
@@ -150,8 +151,8 @@ Verdict TargetLife<Filter>::try_to_start(Filter& filter, const Plot& plot, const
 }
 
 /// Where there is no room, a miss goes first, and then the oldest.
-template <class Filter>
-void TargetLife<Filter>::keep_waiting(const Plot& plot) {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::keep_waiting(const Plot& plot) {
   auto& waiting = now_.waiting;
   if (waiting.size() == room()) {
     const auto miss = std::find_if(waiting.begin(), waiting.end(), [](const Plot& each) { return !each.seen(); });
@@ -160,33 +161,30 @@ void TargetLife<Filter>::keep_waiting(const Plot& plot) {
   waiting.push_back(plot);
 }
 
-template <class Filter>
-void TargetLife<Filter>::begin(const Filter& filter, double time, const Plot& plot) {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::begin(const Filter& filter, double time, const Plot& plot) {
   now_.running = true;
   now_.time = now_.accepted_time = time;
   ++now_.starts;
   record(filter, 0.0, plot, true);
 }
 
-template <class Filter>
-void TargetLife<Filter>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::record(const Filter& filter, double dt, const Plot& plot, bool is_start) {
   if (!rules_.record) return;
-  const bool measured = filter.measured();
+  const auto seen = filter.measured() ? seen_of(plot) : std::nullopt;
+  const auto histories = filter.state().histories.all();
   record_.push_back({now_.time,
                      plot.tag,
                      is_start,
-                     measured ? std::optional(filter.nis()) : std::nullopt,
-                     measured ? filter.recorded(dt, seen_of(plot)) : filter.recorded(dt),
-                     {}});
-  if constexpr (KeepsHistories<Filter>) {
-    const auto all = filter.state().all();
-    record_.back().histories.assign(all.begin(), all.end());
-  }
+                     seen ? std::optional(filter.nis()) : std::nullopt,
+                     filter.recorded(dt, seen ? &*seen : nullptr),
+                     {histories.begin(), histories.end()}});
   now_.recorded = record_.size();
 }
 
-template <class Filter>
-bool TargetLife<Filter>::transform(Filter& filter, const double* A, const double* b, int axes) {
+template <ScalableUncertainty Kind>
+bool TargetLife<Kind>::transform(Filter& filter, const double* A, const double* b, int axes) {
   if (!now_.running || !now_.waiting.empty() || rules_.buffer > 0) return false;
   filter.transform(A, b, axes);
   std::size_t k = record_.size();
@@ -201,10 +199,10 @@ bool TargetLife<Filter>::transform(Filter& filter, const double* A, const double
   return true;
 }
 
-template <class Filter>
-void TargetLife<Filter>::smoothed(const Filter& filter,
-                                  const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
-                                  const std::function<void(const Kept&, const Table&, bool)>& paired) const {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::smoothed(const Filter& filter,
+                                const std::function<void(const Kept&, const HybridEstimate<Kind>&)>& visit,
+                                const std::function<void(const Kept&, const Table&, bool)>& paired) const {
   FixedIntervalSmoother<Kind> smoother(filter);
   std::vector<HybridEstimate<Kind>> states;
   for (std::size_t first = 0, end = 0; first < record_.size(); first = end) {
@@ -226,12 +224,13 @@ void TargetLife<Filter>::smoothed(const Filter& filter,
   }
 }
 
-template <class Filter>
-void TargetLife<Filter>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
+template <ScalableUncertainty Kind>
+void TargetLife<Kind>::explained(const std::function<void(const Kept&, std::size_t)>& visit) const {
   std::vector<std::size_t> modes(record_.size());
   std::size_t h = 0;
   for (std::size_t k = record_.size(); k-- > 0;) {
     const std::vector<History>& histories = record_[k].histories;
+    if (histories.empty()) return;
     if (k + 1 == record_.size() || record_[k + 1].is_start) h = best_of(histories);
     modes[k] = histories[h].mode;
     h = histories[h].parent;
@@ -240,11 +239,7 @@ void TargetLife<Filter>::explained(const std::function<void(const Kept&, std::si
     if (record_[k].is_start || modes[k] != modes[k - 1]) visit(record_[k], modes[k]);
 }
 
-template class TargetLife<InteractingFilter<Random>>;
-template class TargetLife<InteractingFilter<Fuzzy>>;
-template class TargetLife<SecondOrderFilter<Random>>;
-template class TargetLife<SecondOrderFilter<Fuzzy>>;
-template class TargetLife<HistoriesOfModes<Random>>;
-template class TargetLife<HistoriesOfModes<Fuzzy>>;
+template class TargetLife<Random>;
+template class TargetLife<Fuzzy>;
 
 }  // namespace sigmax::detail

@@ -67,14 +67,6 @@ TEST(AnyModel, RefusesAnEstimateOfAnotherSize) {
   }
 }
 
-TEST(AnyModel, RefusesASensorOfMoreThanThereIs) {
-  const AnyModel dwna_now = dwna<2>(3.0);
-  EstimateOf<AnyModel> x{Vector<4>::Zero(), SquareMatrix<4>::Identity()};
-  const LinearSensor<1, 5> acceleration{RectangularMatrix<1, 5>(0.0, 0.0, 0.0, 0.0, 1.0)};
-  const Gaussian<1> z{Vector<1>(0.0), SquareMatrix<1>(1.0)};
-  EXPECT_INVALID(("sees 5", "dwna", "4"), update(dwna_now, x, z, acceleration, x));
-}
-
 TEST(AnyModel, HasAtMost32States) {
   Draws draws(2);
   const auto of_size = [&](std::size_t n) { return OwnMotion{drawn_model(draws, n, 1, n, 0.3), n}; };

@@ -108,14 +108,6 @@ TEST(ConvertedMeasurement, TheDebiasedOneTakesTheMeanBiasAndTheMeanCovariance) {
   }
 }
 
-TEST(ConvertedMeasurement, RefusesWhatTheStandardOneRefuses) {
-  const Polar behind{-5.0, 0.1, 0.1}, there{5.0, 0.1, 0.1}, sigma{1.0, 0.1, 0.1}, negative{1.0, -0.1, 0.1};
-  for (const auto how : {Conversion::standard, Conversion::unbiased, Conversion::debiased}) {
-    EXPECT_INVALID(("range", "-5.0"), to_cartesian(behind, sigma, how));
-    EXPECT_INVALID(("deviations"), to_cartesian(there, negative, how));
-  }
-}
-
 /// Mean NEES of the three conversions of a target at the start of the second scenario.
 struct Study {
   std::array<double, 3> plane{}, space{};

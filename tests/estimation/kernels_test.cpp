@@ -120,23 +120,26 @@ TEST(Kernels, PredictionIsThatOfTheWholeMatrices) {
   });
 }
 
-/// Also beyond the ten rows, and the terms of a sum, that are held at once.
+/// Also beyond the ten rows, and the terms of a sum, that are held at once; in columns that are two numbers longer than
+/// they need be, of which the last two are not touched.
 TEST(Kernels, ProductsAreEigens) {
   with_each_instruction_set([](const detail::Kernels& kernels) {
-    for (const int rows : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 23})
+    for (const int rows : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 23})
       for (const int inner : {1, 2, 31, 32, 33, 70})
-        for (const int columns : {1, 4}) {
-          const Matrix A = Matrix::Random(rows, inner), B = Matrix::Random(inner, columns),
-                       C = Matrix::Random(rows, columns);
-          const auto found = [&](detail::Into into) {
+        for (const int columns : {1, 2, 7}) {
+          const Matrix A = Matrix::Random(rows + 2, inner), B = Matrix::Random(inner, columns), by_rows = B.transpose(),
+                       C = Matrix::Random(rows + 2, columns), product = A.topRows(rows) * B, before = C.topRows(rows);
+          const auto found = [&](detail::Strided of_B, detail::Into into) {
             Matrix result = C;
-            kernels.product(A.data(), rows, detail::columns_of(B.data(), inner), result.data(), rows, rows, inner,
-                            columns, into);
-            return result;
+            kernels.product(A.data(), rows + 2, of_B, result.data(), rows + 2, rows, inner, columns, into);
+            EXPECT_EQ(result.bottomRows(2), C.bottomRows(2));
+            return Matrix(result.topRows(rows));
           };
-          EXPECT_PRED_FORMAT3(near_matrix, found(detail::Into::only), A * B, 1e-13);
-          EXPECT_PRED_FORMAT3(near_matrix, found(detail::Into::plus), C + A * B, 1e-13);
-          EXPECT_PRED_FORMAT3(near_matrix, found(detail::Into::minus), C - A * B, 1e-13);
+          const auto plain = detail::columns_of(B.data(), inner), turned = detail::transposed(by_rows.data(), columns);
+          EXPECT_PRED_FORMAT3(near_matrix, found(plain, detail::Into::only), product, 1e-13);
+          EXPECT_PRED_FORMAT3(near_matrix, found(turned, detail::Into::only), product, 1e-13);
+          EXPECT_PRED_FORMAT3(near_matrix, found(plain, detail::Into::plus), before + product, 1e-13);
+          EXPECT_PRED_FORMAT3(near_matrix, found(turned, detail::Into::minus), before - product, 1e-13);
         }
   });
 }

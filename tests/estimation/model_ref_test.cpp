@@ -22,9 +22,9 @@ TEST(ModelRef, AsksAMotionByTheFunctionsThatItHas) {
   const KnownTurn<2> known{0.1, 1.0};
   const Extended extended{CoordinatedTurn<3>{1.0, 0.1}};
   const auto law = detail::model_ref(motion), linear = detail::model_ref(known), tangent = detail::model_ref(extended);
-  EXPECT_TRUE(law.table->law && !law.table->linear && !law.table->tangent);
-  EXPECT_TRUE(!linear.table->law && linear.table->linear && !linear.table->tangent);
-  EXPECT_TRUE(!tangent.table->law && !tangent.table->linear && tangent.table->tangent);
+  EXPECT_TRUE(law.table->law && law.linear());
+  EXPECT_TRUE(!linear.table->law && linear.linear());
+  EXPECT_TRUE(!tangent.table->law && !tangent.linear());
   EXPECT_EQ(law.size(), 9);
   EXPECT_EQ(linear.table->axes, 2);
   EXPECT_EQ(tangent.name(), "coordinated_turn");

@@ -42,17 +42,14 @@ TEST(Radar, TheValidityOfTheConversionIsThatOfTheScenarios) {
   EXPECT_NEAR(conversion_validity(far_range, {200.0, 1.8 * degree, 1.8 * degree}), 0.72, 5e-3);
 }
 
-TEST(Radar, RefusesARangeThatIsNotPositive) {
-  const Polar sigma{10.0, 0.001, 0.001};
-  for (const double range : {0.0, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
-    const Polar seen{range, 0.1, 0.1};
-    EXPECT_INVALID(("range", std::to_string(range)), to_cartesian(seen, sigma));
+TEST(Radar, RefusesARangeThatIsNotPositiveAndANegativeDeviation) {
+  const Polar there{10.0, 0.1, 0.1}, good{10.0, 0.001, 0.001};
+  for (const auto how : {Conversion::standard, Conversion::unbiased, Conversion::debiased}) {
+    for (const double range : {0.0, -5.0, std::numeric_limits<double>::quiet_NaN()})
+      EXPECT_INVALID(("range", std::to_string(range)), to_cartesian({range, 0.1, 0.1}, good, how));
+    for (const Polar& sigma : {Polar{-1.0, 0.0, 0.0}, Polar{1.0, -1e-3, 0.0}, Polar{1.0, 0.0, -1e-3}})
+      EXPECT_INVALID(("deviations"), to_cartesian(there, sigma, how));
   }
-}
-
-TEST(Radar, RefusesANegativeDeviation) {
-  for (const Polar& sigma : {Polar{-1.0, 0.0, 0.0}, Polar{1.0, -1e-3, 0.0}, Polar{1.0, 0.0, -1e-3}})
-    EXPECT_INVALID(("deviations"), to_cartesian({10.0, 0.1, 0.1}, sigma));
 }
 
 }  // namespace

@@ -106,16 +106,6 @@ TEST(Sensing, ASensorOfMoreThanARunTimeModelHasIsRefused) {
   EXPECT_TRUE(throws<std::invalid_argument>([&] { seen(six, acceleration, x); }, words));
 }
 
-TEST(Sensing, WhatASensorSeesIsTheLeadingPartOfTheState) {
-  const CoordinatedTurn<3> turn{0.5, 0.1};
-  const PolarSensor<2> radar{Vector<2>(500.0, 600.0)};
-  const Vector<7> x(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0);
-  EXPECT_EQ(-seen(turn, radar, x).residual, radar.measure(x.head<2>()));
-  RectangularMatrix<2, 7> H = RectangularMatrix<2, 7>::Zero();
-  H.leftCols<2>() = radar.measurement_jacobian(x.head<2>());
-  EXPECT_EQ(seen(turn, radar, x).H, H);
-}
-
 /// Says its matrix row by row.
 struct ByRows {
   static constexpr int seen_size = 4;

@@ -38,14 +38,4 @@ TEST(Bank, IsOneVectorWhateverItWasFilledBy) {
   EXPECT_EQ(detail::bank_of(of_vector)[0].ref().motion, of_vector[0].ref().motion) << "a handle";
 }
 
-template <int N>
-FixedStepMotion<N> unmoving() {
-  return {"unmoving", std::vector<std::string>(N, "x"), 1.0, SquareMatrix<N>::Identity(), SquareMatrix<N>::Identity()};
-}
-
-TEST(Bank, HoldsModelsOf32StatesAndNoMore) {
-  EXPECT_EQ(AnyModel(unmoving<32>()).size(), 32);
-  EXPECT_TRUE(support::throws<std::invalid_argument>([] { AnyModel(unmoving<33>()); }, {"unmoving", "33", "32"}));
-}
-
 }  // namespace

@@ -64,7 +64,7 @@ void equals_the_restatement(const HistoryRules<Kind>& rules, const std::vector<S
   for (const Scan& scan : scans) {
     take(filter, scan);
     step(expected, scan);
-    ASSERT_EQ(filter.state().size(), expected.histories().size());
+    ASSERT_EQ(filter.state().histories.size(), expected.histories().size());
     const auto logs = expected.log_weights();
     ASSERT_CLOSE(filter.belief().logs(), std::span<const double>(logs), 1e-9);
     ASSERT_EQ(filter.most_likely_mode(), expected.winner());

@@ -37,18 +37,4 @@ TEST(HistorySet, KnowsTheFirstOfItsBestAndWhereEachCameFrom) {
   EXPECT_EQ(set.all()[0].parent, 1U);
 }
 
-TEST(HistorySet, IsCopiedAsFarAsItIsFilled) {
-  HistorySet set(one_and_two(), 4), other = set;
-  set.view(0).mean[0] = 3.0;
-  set.most_likely_mode = 1;
-  other = set;
-  EXPECT_EQ(other.estimate(0).mean(0), 3.0);
-  EXPECT_EQ(other.most_likely_mode, 1U);
-  other.view(0).mean[0] = 4.0;
-  EXPECT_EQ(set.estimate(0).mean(0), 3.0);
-  HistorySet& same = set;
-  set = same;
-  EXPECT_EQ(set.estimate(0).mean(0), 3.0);
-}
-
 }  // namespace

@@ -89,24 +89,6 @@ TEST(Target, StartsAgainAfterAGap) {
   EXPECT_EQ(target.take(Plot(10.75, z)), Verdict::accepted) << "a gap of 5 s is not longer than 5 s";
 }
 
-/// Whatever comes late by no more than the buffer: the result is that of the right order, to the bit.
-TEST(Target, LateMeasurementsWithinTheBufferGiveWhatTheRightOrderGivesToTheBit) {
-  const auto all = plots(32);
-  with_every_filter([&](const auto& filter) {
-    const Target fresh{filter, 0.0, one_point_start, TargetRules{0.999, 2, 1.5, 4}};
-    auto in_order = fresh;
-    for (const Plot& plot : all) in_order.take(plot);
-    std::mt19937 generator(1);
-    for (int shuffle = 0; shuffle < 40; ++shuffle) {
-      auto shuffled = fresh;
-      for (const Plot& plot : late(all, 0, 4, [&] { return generator() % 4; })) shuffled.take(plot);
-      ASSERT_PRED_FORMAT2(same_filter, shuffled.filter(), in_order.filter());
-      ASSERT_EQ(shuffled.time(), in_order.time());
-      ASSERT_EQ(shuffled.accepted_time(), in_order.accepted_time());
-    }
-  });
-}
-
 /// What comes late changes which rejections stand in a row.
 TEST(Target, RejectionsInARowAreCountedInTheOrderOfTheirTimes) {
   auto target = target_with({0.999, 3, 1e9, 5});
@@ -141,14 +123,20 @@ TEST(Target, WhatIsOlderThanTheBufferIsRefusedWithBothTimes) {
 }
 
 TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
-  auto target = target_with({0.999, 3, 1e9, 3});
+  auto target = target_with({.gate_probability = 0.999, .buffer = 3, .record = true});
   const auto all = plots(8);
   for (std::size_t k = 0; k < 6; ++k) target.take(all[k]);
+  const auto tags_of = [](const auto& one) {
+    std::vector<std::size_t> tags;
+    one.smoothed([&](const auto& kept, const auto&) { tags.push_back(kept.tag); });
+    return tags;
+  };
   auto before = target;
   for (const double time : {all[4].time, all[7].time}) {
     EXPECT_REFUSED(std::domain_error, ("not positive"), target.take(Plot(time, at(12000, 7990, -1e6))));
     EXPECT_PRED_FORMAT2(same_filter, target.filter(), before.filter());
     EXPECT_EQ(target.time(), before.time());
+    EXPECT_EQ(tags_of(target), tags_of(before));
   }
   for (auto* each : {&target, &before}) {  // and it goes on, with its buffer
     each->take(all[6]);

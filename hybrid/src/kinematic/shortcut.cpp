@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include <sigmax/hybrid/kinematic_step.hpp>
 
@@ -7,21 +6,6 @@
 
 namespace sigmax::detail::kinematic {
 namespace {
-
-struct Available {
-  std::array<const Kernels*, 3> kernels{&baseline()};
-  std::size_t count = 1;
-
-  Available() {
-#ifdef SIGMAX_X86_KERNELS
-    const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (fma) kernels[count++] = &avx2();
-    if (fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq"))
-      kernels[count++] = &avx512();
-#endif
-  }
-};
 
 const Kernels*& chosen() {
   static const Kernels* kernels = available().back();
@@ -68,8 +52,17 @@ Track track_of(const Estimates& estimates, const double* weights, std::size_t mo
 }  // namespace
 
 std::span<const Kernels* const> available() {
-  static const Available all;
-  return {all.kernels.data(), all.count};
+  static const Kernels* const all[]{&baseline(),
+#ifdef SIGMAX_X86_KERNELS
+                                    &avx2(), &avx512()
+#endif
+  };
+#ifdef SIGMAX_X86_KERNELS
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return {all, 1};
+  if (!__builtin_cpu_supports("avx512f") || !__builtin_cpu_supports("avx512vl") || !__builtin_cpu_supports("avx512dq"))
+    return {all, 2};
+#endif
+  return all;
 }
 
 void choose(const Kernels& kernels) { chosen() = &kernels; }
@@ -131,21 +124,15 @@ unsigned Shortcut::step_block(float* block, const float* measurements) const {
   return chosen()->step_block_of_floats[plan_.axes - 1][selects_](plan_, block, measurements);
 }
 
-template <class Rule>
-bool Shortcut::output([[maybe_unused]] const Rule& rule, const Estimates& estimates, const double* weights,
-                      std::size_t most_likely, View result) const {
-  constexpr bool selects = std::is_same_v<Rule, Selection>;
+bool Shortcut::output(bool selects, const Estimates& estimates, const double* weights, std::size_t most_likely,
+                      View result) const {
   if (!outputs_) return false;
-  if constexpr (!selects)
-    if (rule.output_spread != OutputSpread::included) return false;
-  const Track track = track_of(estimates, weights, most_likely);
-  chosen()->output[plan_.axes - 1][selects](plan_, track, result.mean, result.covariance);
+  chosen()->output[plan_.axes - 1][selects](plan_, track_of(estimates, weights, most_likely), result.mean,
+                                            result.covariance);
   return true;
 }
 
 template Shortcut::Shortcut(const std::vector<AnyModel>&, const Interaction<Random>&);
 template Shortcut::Shortcut(const std::vector<AnyModel>&, const Interaction<Fuzzy>&);
-template bool Shortcut::output(const Selection&, const Estimates&, const double*, std::size_t, View) const;
-template bool Shortcut::output(const MomentMatching&, const Estimates&, const double*, std::size_t, View) const;
 
 }  // namespace sigmax::detail::kinematic

@@ -82,4 +82,9 @@ class AnySensor {
   std::shared_ptr<const void> shared_;
 };
 
+namespace detail {
+/// That of the position along one, two or three axes, which leads the state of every model.
+const AnySensor& position_sensor(int axes);
+}  // namespace detail
+
 }  // namespace sigmax

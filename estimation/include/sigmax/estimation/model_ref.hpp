@@ -53,22 +53,23 @@ struct FunctionsOf {
       law.input[i] = gain[i / Moves::axes] * own.input()(i % Moves::axes);
   }
 
-  static void linear(const void* pointer, double dt, double* F, double* Q, double* input) {
-    const auto& own = motion(pointer);
-    if constexpr (ComputesItself<Moves>) {
-      own.compute(dt, F, Q);
-      for (int i = 0; i < Moves::state_size; ++i) input[i] = 0.0;
-    } else {
-      write<StateMatrixOf<Moves>>(own.transition(dt), F);
-      write<StateMatrixOf<Moves>>(own.process_covariance(dt), Q);
-      write<StateOf<Moves>>(own.known_input(dt), input);
-    }
-  }
-
   static void tangent(const void* pointer, const double* x, double dt, double* image, double* F, double* Q) {
     const auto& own = motion(pointer);
-    if constexpr (ComputesItself<Moves>) {
+    if constexpr (AxisMotion<Moves>::value) {
+      AxisLaw one;
+      law(pointer, dt, one);
+      spread_over_axes(one.F, one.order, Moves::axes, F);
+      spread_over_axes(one.Q, one.order, Moves::axes, Q);
+      for (int i = 0; i < Moves::state_size; ++i) image[i] = one.input[i];
+    } else if constexpr (ComputesItself<Moves> && LinearMotion<Moves>) {
+      own.compute(dt, F, Q);
+      for (int i = 0; i < Moves::state_size; ++i) image[i] = 0.0;
+    } else if constexpr (ComputesItself<Moves>) {
       own.compute(x, dt, image, F, Q);
+    } else if constexpr (LinearMotion<Moves>) {
+      write<StateMatrixOf<Moves>>(own.transition(dt), F);
+      write<StateMatrixOf<Moves>>(own.process_covariance(dt), Q);
+      write<StateOf<Moves>>(own.known_input(dt), image);
     } else {
       const auto state = read<StateOf<Moves>>(x, own.size());
       write<StateOf<Moves>>(own.propagate(state, dt), image);
@@ -82,13 +83,8 @@ struct FunctionsOf {
 template <class Moves, bool Differentiates>
 inline constexpr MotionTable motion_table = [] {
   using Functions = FunctionsOf<Moves, Differentiates>;
-  MotionTable table{axes_of<Moves>, Functions::size, Functions::name};
-  if constexpr (AxisMotion<Moves>::value)
-    table.law = Functions::law;
-  else if constexpr (LinearMotion<Moves>)
-    table.linear = Functions::linear;
-  else
-    table.tangent = Functions::tangent;
+  MotionTable table{axes_of<Moves>, LinearMotion<Moves>, Functions::size, Functions::name, Functions::tangent};
+  if constexpr (AxisMotion<Moves>::value) table.law = Functions::law;
   return table;
 }();
 

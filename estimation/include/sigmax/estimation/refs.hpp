@@ -42,18 +42,17 @@ struct AxisLaw {
   double input[9];
 };
 
-/// The functions of one type of motion; of the last three it has one.
+/// The functions of one type of motion.
 struct MotionTable {
-  int axes = 0;  ///< along which its position leads the state, or 0
+  int axes = 0;         ///< along which its position leads the state, or 0
+  bool linear = false;  ///< `tangent` writes what a known input adds, instead of f(x)
   int (*size)(const void* motion) = nullptr;
   std::string (*name)(const void* motion) = nullptr;
 
-  /// Along independent axes.
-  void (*law)(const void* motion, double dt, AxisLaw& law) = nullptr;
-  /// Linear: F, Q, and what a known input adds.
-  void (*linear)(const void* motion, double dt, double* F, double* Q, double* input) = nullptr;
-  /// Not linear: f(x), and ∂f/∂x and the noise's covariance where they are asked for.
+  /// f(x), and ∂f/∂x and the noise's covariance where they are asked for; of a linear motion they are.
   void (*tangent)(const void* motion, const double* x, double dt, double* image, double* F, double* Q) = nullptr;
+  /// The same of a motion along independent axes, in short.
+  void (*law)(const void* motion, double dt, AxisLaw& law) = nullptr;
 };
 
 /// A motion, and how its filter replaces functions that are not linear. A view.
@@ -64,7 +63,7 @@ struct ModelRef {
 
   int size() const { return table->size(motion); }
   std::string name() const { return table->name(motion); }
-  bool linear() const { return !table->tangent; }
+  bool linear() const { return table->linear; }
   bool by_points() const { return points.spread > 0.0; }
 };
 

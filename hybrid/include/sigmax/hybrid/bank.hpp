@@ -101,16 +101,13 @@ struct TablesOf<Sensor, std::vector<Model>> {
 
 template <class Models, class Sensor>
 SensorOfModels sensor_of_models(const Sensor& sensor) {
-  if constexpr (std::is_same_v<Sensor, AnySensor>) {
-    return {sensor.sensor(), &sensor.table(), true, true};
-  } else {
-    using Tables = TablesOf<Sensor, Models>;
-    return {&sensor, Tables::tables, Tables::one, Tables::asks_any};
-  }
+  using Tables = TablesOf<Sensor, Models>;
+  return {&sensor, Tables::tables, Tables::one, Tables::asks_any};
 }
-
-/// That of the position along so many axes, which leads the state of every model.
-SensorOfModels position_sensor(int axes);
+template <class...>
+SensorOfModels sensor_of_models(const AnySensor& sensor) {
+  return {sensor.sensor(), &sensor.table(), true, true};
+}
 
 }  // namespace detail
 

@@ -17,7 +17,6 @@ template <class Models, class Filter>
 class BankFilter : public Filter {
  public:
   using kind = typename Filter::kind;
-  using FilterType = Filter;
   using State = typename Filter::State;
   /// Along how many axes the models have their position; Eigen::Dynamic if they are chosen at run time.
   static constexpr int axes = Bank<Models>::axes;
@@ -56,27 +55,31 @@ class BankFilter : public Filter {
   /// is not positive definite or every mode is excluded. The filter's state is then what it was before.
   template <SensorOfBank<Models> Sensor>
   void step(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor, double gate = no_gate) {
-    Filter::step(dt, {detail::view(z), detail::sensor_of_models<Models>(sensor)}, gate);
+    const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
+    Filter::step(dt, &seen, gate);
   }
 
   /// The same with a measurement of the position, which leads the state of every model.
   void step(double dt, const Measurement& z, double gate = no_gate) requires(axes != 0) {
-    Filter::step(dt, seen(z), gate);
+    const Seen seen = seen_at(z);
+    Filter::step(dt, &seen, gate);
   }
 
-  /// One cycle without a measurement: the models predict and the mode moves on.
-  void step(double dt) { Filter::step(dt); }
+  /// One cycle without a measurement, `step(dt)`: the models predict and the mode moves on.
+  using Filter::step;
 
   /// What the last step left for a smoother; it takes what the step took. A measurement that the gate rejected counts
   /// as missed. Throws std::logic_error without a measurement if the step had one.
+  using Filter::recorded;
   template <Sensing Sensor>
   RecordedStep<kind> recorded(double dt, const MeasurementOf<Sensor>& z, const Sensor& sensor) const {
-    return Filter::recorded(dt, {detail::view(z), detail::sensor_of_models<Models>(sensor)});
+    const Seen seen{detail::view(z), detail::sensor_of_models<Models>(sensor)};
+    return Filter::recorded(dt, &seen);
   }
   RecordedStep<kind> recorded(double dt, const Measurement& z) const requires(axes != 0) {
-    return Filter::recorded(dt, seen(z));
+    const Seen seen = seen_at(z);
+    return Filter::recorded(dt, &seen);
   }
-  RecordedStep<kind> recorded(double dt) const { return Filter::recorded(dt); }
 
   /// @{
   /// As of MultipleModelFilter, from estimates of the models or one of them all.
@@ -86,19 +89,18 @@ class BankFilter : public Filter {
   void restart(const Gaussian<N, MaxN>& start) {
     Filter::restart(detail::view(start));
   }
+  using Filter::transform;
   void transform(const SquareMatrix<Eigen::Dynamic, 3>& A, const Vector<Eigen::Dynamic, 3>& b) {
     Filter::transform(A.data(), b.data(), static_cast<int>(b.size()));
   }
   /// @}
 
   /// The output: of the filter's own state, of another by modes, say a smoothed one, and of the most likely mode alone.
-  Estimate estimate() const {
-    return written([this](detail::View result) { Filter::output(result); });
-  }
+  Estimate estimate() const { return estimate(this->state()); }
   Estimate estimate(const HybridEstimate<kind>& state) const {
     return written([&](detail::View result) { Filter::output(state, result); });
   }
-  Estimate most_likely_estimate() const { return most_likely_estimate(this->by_modes()); }
+  Estimate most_likely_estimate() const { return most_likely_estimate(this->state()); }
   Estimate most_likely_estimate(const HybridEstimate<kind>& state) const {
     return written([&](detail::View result) { Filter::most_likely_output(state, result); });
   }
@@ -134,8 +136,8 @@ class BankFilter : public Filter {
     return result;
   }
 
-  static Seen seen(const Measurement& z) {
-    return {detail::view(z), detail::position_sensor(static_cast<int>(z.size()))};
+  static Seen seen_at(const Measurement& z) {
+    return {detail::view(z), detail::sensor_of_models(detail::position_sensor(static_cast<int>(z.size())))};
   }
 };
 

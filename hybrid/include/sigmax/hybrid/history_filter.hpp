@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include <sigmax/core/table.hpp>
 #include <sigmax/hybrid/bank_filter.hpp>
-#include <sigmax/hybrid/history_set.hpp>
 
 namespace sigmax {
 
@@ -26,44 +24,35 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   using Filter = MultipleModelFilter<Kind>;
 
  public:
-  using State = HistorySet;
+  using State = HybridEstimate<Kind>;
   using Filter::belief;
   using Filter::estimates;
   using Filter::modes;
-  using Filter::most_likely_mode;
 
   HistoriesOfModes(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                    const HistoryRules<Kind>& rules = {}, const Interaction<Kind>& interaction = {Lift::prior});
 
   const HistoryRules<Kind>& rules() const { return rules_; }
 
-  void step(double dt, const Seen& seen, double gate = no_gate);
-  void step(double dt);
-
-  /// The histories that are kept, and all that the next step depends on.
-  const State& state() const { return sets_[current_]; }
+  std::unique_ptr<Filter> clone() const override { return std::make_unique<HistoriesOfModes>(*this); }
 
   /// @{
   /// As of the other filters.
-  void restore(const State& state);
-  void transform(const double* A, const double* b, int axes);
+  void restore(const State& state) override;
+  void transform(const double* A, const double* b, int axes) override;
   /// @}
 
   /// The mean, with its spread, of the histories in the α-cut: those whose weight is `cut` times the best one's or
   /// more, by their weights on the ratio scale, (34). With cut = 1 it is the best history's, (64)–(66); of a random
-  /// mode with cut = 0, (67) and (68) over all histories.
-  void output(detail::View result) const;
-  /// That of another state by modes, say a smoothed one: as of the other filters.
+  /// mode with cut = 0, (67) and (68) over all histories. Of a state without histories, say a smoothed one: as of the
+  /// other filters.
+  void output(const State& state, detail::View result) const override;
   using Filter::output;
 
-  /// A non-linear measurement is linearised about what the mode predicted: that of its histories, by their weights
-  /// after the measurement.
-  RecordedStep<Kind> recorded(double dt, const Seen& seen) const;
-  RecordedStep<Kind> recorded(double dt) const { return this->recorded_by(dt, nullptr, estimates()); }
-
  private:
-  using Filter::innovations_;
   using Filter::interaction_;
+  using Filter::next;
+  using Filter::now;
   using Filter::system_;
 
   /// A history and a mode that it may go on with.
@@ -76,17 +65,18 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   void require_rules() const;
   /// The histories: of the innovation's distance, the evidence and the score, in which tempering does not enter.
   typename Filter::Predictors predictors() const override;
-  State& next_set() { return sets_[1 - current_]; }
   void begin() override;
-  void branch(double dt, State& predicted);
+  bool measure(double dt, const Seen& seen, double gate) override;
+  void miss(double dt) override;
+  Estimates predicted() const override;
+  void branch(double dt, HistorySet& predicted);
   void propose();
   std::size_t last_of(std::size_t j) const;
   void keep();
-  void normalize(State& set) const;
-  void summarize(const State& set);
-  void collapse_modes(const State& set, const State& source, Estimates& collapsed) const;
+  void normalize(HistorySet& set) const;
+  void summarize();
+  void collapse_modes(const HistorySet& set, const HistorySet& source, Estimates& collapsed) const;
   void show_innovations();
-  void conclude(bool measured);
 
   HistoryRules<Kind> rules_;
   std::size_t branches_;            ///< so many where a component begins
@@ -99,9 +89,7 @@ class HistoriesOfModes : public MultipleModelFilter<Kind> {
   std::size_t compared_;                      ///< so many predicted the last measurement
   std::vector<double> weight_;                ///< of each, given its mode
   std::vector<double> log_of_mode_;
-  std::array<State, 2> sets_;
-  std::size_t current_ = 0;
-  State predicted_;
+  HistorySet predicted_;
 };
 
 extern template class HistoriesOfModes<Random>;

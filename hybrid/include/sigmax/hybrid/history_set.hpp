@@ -19,16 +19,12 @@ struct History {
 /// The first of the greatest weight.
 std::size_t best_of(std::span<const History> histories);
 
-/// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true: all that its next step
-/// depends on.
+/// The histories that a HistoryFilter keeps, each with the estimate of the state if it is true.
 class HistorySet {
  public:
+  HistorySet() = default;
   /// Room for so many histories of these models; it starts with one for each mode.
   HistorySet(const Estimates& starts, std::size_t room);
-  HistorySet(const HistorySet&) = default;
-
-  /// Copies what is there; allocates nothing if there is as much room.
-  HistorySet& operator=(const HistorySet& other);
 
   std::size_t size() const { return size_; }
   std::size_t room() const { return histories_.size(); }
@@ -53,8 +49,6 @@ class HistorySet {
     return {at, at + n, n};
   }
   /// @}
-
-  std::size_t most_likely_mode = 0;  ///< where the output rule has broken ties
 
  private:
   std::vector<History> histories_;

@@ -6,6 +6,7 @@
 #include <sigmax/core/belief.hpp>
 #include <sigmax/hybrid/estimates.hpp>
 #include <sigmax/hybrid/future_evidence.hpp>
+#include <sigmax/hybrid/history_set.hpp>
 
 namespace sigmax {
 
@@ -16,6 +17,7 @@ struct HybridEstimate {
   Estimates estimates;
   Belief<Kind> belief;
   std::size_t most_likely_mode = 0;  ///< (64), where the output rule has broken ties
+  HistorySet histories = {};         ///< of a filter that keeps them
 };
 
 /// What one step of a multiple-model filter left, for smoothing.

@@ -22,11 +22,7 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   InteractingFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                     const Interaction<Kind>& interaction = {});
 
-  void step(double dt, const Seen& seen, double gate = no_gate);
-  void step(double dt);
-
-  RecordedStep<Kind> recorded(double dt, const Seen& seen) const { return this->recorded_by(dt, &seen, predicted_); }
-  RecordedStep<Kind> recorded(double dt) const { return this->recorded_by(dt, nullptr, predicted_); }
+  std::unique_ptr<Filter> clone() const override { return std::make_unique<InteractingFilter>(*this); }
 
  private:
   using Filter::innovations_;
@@ -35,6 +31,10 @@ class InteractingFilter : public MultipleModelFilter<Kind> {
   using Filter::prior_;
   using Filter::system_;
 
+  bool measure(double dt, const Seen& seen, double gate) override;
+  void miss(double dt) override;
+  bool shortened(double dt, const Seen* seen, double gate) override;
+  Estimates predicted() const override { return predicted_; }
   void mix(double dt);
 
   Estimates predicted_;  ///< before the measurement

@@ -37,8 +37,7 @@ class Shortcut {
   /// @}
 
   /// The output of a state by selection or by moment matching; false if it must be the general one.
-  template <class Rule>
-  bool output(const Rule& rule, const Estimates& estimates, const double* weights, std::size_t most_likely,
+  bool output(bool selects, const Estimates& estimates, const double* weights, std::size_t most_likely,
               View result) const;
 
   int axes() const { return plan_.axes; }

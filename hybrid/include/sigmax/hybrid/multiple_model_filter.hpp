@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,7 +41,7 @@ struct Seen {
 };
 
 /// What the multiple-model filters share: models and mode, the estimates, and the output, in plain numbers. They differ
-/// in their `step`. What users write is a BankFilter of one of them, with the types of their models.
+/// in how they `measure` and `miss`. What users write is a BankFilter of one of them, with the types of their models.
 ///
 /// Mode weights are kept as logarithms. References to estimates, innovations and states live as long as the filter, and
 /// show what the last step left.
@@ -49,6 +50,8 @@ class MultipleModelFilter {
  public:
   using kind = Kind;
   using State = HybridEstimate<Kind>;
+
+  virtual ~MultipleModelFilter() = default;
 
   std::size_t modes() const { return system_.models().size(); }
   const JumpMarkovSystem<Kind>& system() const { return system_; }
@@ -66,12 +69,9 @@ class MultipleModelFilter {
   /// All that the next step depends on.
   const State& state() const { return states_[current_]; }
 
-  /// The same by modes: of filters that keep more, as the state of the others.
-  const HybridEstimate<Kind>& by_modes() const { return states_[current_]; }
-
   /// Goes on from another state, as a step back or a smoother may want. Throws std::invalid_argument if it does not fit
   /// the models or is not finite.
-  void restore(const State& state);
+  virtual void restore(const State& state);
 
   /// Starts again as if new, and nothing is known of the mode: every model from its own estimate, or from the
   /// components that it has of one estimate, given in the order of `components()`. Throws std::invalid_argument if a
@@ -82,7 +82,16 @@ class MultipleModelFilter {
   /// Tells the state in other coordinates, p → A p + b of the position along the axes, A p of its derivatives; further
   /// components stay. A by columns. For models whose components are ordered by derivative. Goes on as if it had been
   /// told so from the start, but for Lift::borrowed_variance, which borrows along the axes.
-  void transform(const double* A, const double* b, int axes);
+  virtual void transform(const double* A, const double* b, int axes);
+
+  /// One cycle, with a measurement or without; see BankFilter.
+  void step(double dt, const Seen* seen = nullptr, double gate = no_gate);
+
+  /// What the last step left for a smoother; it takes what the step took. A measurement that is not linear is
+  /// linearised where its mode predicted it. Throws std::logic_error without a measurement if the step had one.
+  RecordedStep<Kind> recorded(double dt, const Seen* seen = nullptr) const;
+
+  virtual std::unique_ptr<MultipleModelFilter> clone() const = 0;
 
   /// The names of all components, those of the largest model first.
   const std::vector<std::string>& components() const { return components_.names(); }
@@ -91,7 +100,7 @@ class MultipleModelFilter {
   /// Step 4: the selected model's estimate if the mode is fuzzy, (65), (66); the moment-matched one if it is random,
   /// (67), (68) with the spread of the means that the print omits, if nothing else was chosen. In `components()`,
   /// lifted by the rule in force. Of a state: the filter's own, or another, say a smoothed one.
-  void output(const State& state, detail::View result) const;
+  virtual void output(const State& state, detail::View result) const;
   void output(detail::View result) const { output(state(), result); }
 
   /// The estimate of the most likely mode alone, whatever the mode's kind.
@@ -110,9 +119,6 @@ class MultipleModelFilter {
   /// Normalised innovation squared of the predicted measurement, its mixture over the mode collapsed as the mode's kind
   /// asks, with the weights before the measurement. Throws std::logic_error if the last step had no measurement.
   double nis() const;
-
-  /// What was believed of the mode before the last measurement.
-  const Belief<Kind>& predicted_belief() const { return prior_; }
 
   /// How well the last measurement was predicted, log ⊕ⱼ w_j ⊗ Λ_j, with the weights before it and the likelihoods of
   /// `innovations()`. With a random mode it is log p(z_k | z_1:k−1), which summed over the steps is the prequential
@@ -149,15 +155,24 @@ class MultipleModelFilter {
  protected:
   MultipleModelFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                       const Interaction<Kind>& interaction);
-  virtual ~MultipleModelFilter() = default;
   MultipleModelFilter(const MultipleModelFilter&) = default;
   MultipleModelFilter& operator=(const MultipleModelFilter&) = default;
 
   const AnyModel& model(std::size_t j) const { return system_.models()[j]; }
 
+  /// @{
+  /// The four steps, with a measurement, if it passes the gate, or without one, into `next`.
+  virtual bool measure(double dt, const Seen& seen, double gate) = 0;
+  virtual void miss(double dt) = 0;
+  /// The same by a shorter way; false if there is none, and nothing has changed then.
+  virtual bool shortened(double, const Seen*, double) { return false; }
+  /// What each mode predicted of the last measurement, with its weights.
+  virtual Estimates predicted() const = 0;
   /// After a restart.
   virtual void begin() {}
+  /// @}
 
+  State& now() { return states_[current_]; }
   /// What the step is writing: until `conclude`, all that is public shows the state before.
   State& next() { return states_[1 - current_]; }
 
@@ -189,14 +204,6 @@ class MultipleModelFilter {
   };
   virtual Predictors predictors() const { return {innovations_, prior_.logs(), predicted_mode_}; }
 
-  /// A step by the short form for motions along independent axes, with a measurement of the position or none. False if
-  /// it must be the general one; nothing has changed then.
-  bool shortened(double dt, const Seen* seen, double gate, Estimates& predicted);
-
-  /// The state with what a measurement tells each mode, linearised where the mode predicted it; without one, if the
-  /// step had none. Throws std::logic_error if it had one and `seen` is null.
-  RecordedStep<Kind> recorded_by(double dt, const Seen* seen, const Estimates& predicted) const;
-
   /// What a lift of the output borrows: for each component from the most likely model that has it.
   void output_receiver(const State& state, detail::View result) const;
 
@@ -209,12 +216,6 @@ class MultipleModelFilter {
   /// positive definite.
   static double normalize(const AnyInnovation& innovation, double* numbers);
 
-  /// Runs `action`; a domain_error is rethrown with the number of the step.
-  template <class Action>
-  void located(double dt, const Action& action) const;
-
-  void require(double dt, const Seen* seen) const;
-
   static auto logs_of(const Belief<Kind>& belief) {
     return [&belief](std::size_t j) { return belief.log(j); };
   }
@@ -224,6 +225,9 @@ class MultipleModelFilter {
   detail::Components components_;
   std::vector<AnyInnovation> innovations_;
   Belief<Kind> prior_;
+  std::vector<double> weights_;  ///< of the belief, linear
+  detail::kinematic::Shortcut shortcut_;
+  std::size_t predicted_mode_ = 0;
 
  private:
   template <class Rule>
@@ -233,17 +237,15 @@ class MultipleModelFilter {
   void read_weights(const Belief<Kind>& belief, double* weights) const {
     for (std::size_t j = 0; j < modes(); ++j) weights[j] = belief[j];
   }
+  void require(double dt, const Seen* seen) const;
   void describe_models(double dt);
   std::string this_step(double dt) const;
 
   Estimates entries_;                  ///< what Lift::prior knows of each model's components
   std::vector<detail::AxisLaw> laws_;  ///< of the models along independent axes, for steps of laws_dt_ seconds
-  std::vector<double> weights_;        ///< of the belief, linear
   double laws_dt_ = std::numeric_limits<double>::quiet_NaN();
-  detail::kinematic::Shortcut shortcut_;
   std::array<State, 2> states_;
   std::size_t current_ = 0;
-  std::size_t predicted_mode_ = 0;
   std::size_t steps_ = 0;
   std::optional<double> gate_distance_ = 0.0;  ///< empty if not computed yet
   bool measured_ = false;

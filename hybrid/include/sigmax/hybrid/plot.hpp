@@ -29,7 +29,7 @@ class Plot {
   template <int N, int MaxN>
     requires(MaxN <= 3)
   Plot(double t, const Gaussian<N, MaxN>& z, std::size_t number = 0)
-      : Plot(t, detail::view(z), position_sensor(z.size()), number) {}
+      : Plot(t, detail::view(z), detail::position_sensor(static_cast<int>(z.size())), number) {}
 
   /// The same with numbers.
   Plot(double t, detail::ConstView z, AnySensor sensor, std::size_t number = 0)
@@ -59,12 +59,6 @@ class Plot {
   }
 
  private:
-  static AnySensor position_sensor(Eigen::Index axes) {
-    if (axes == 1) return PositionSensor<1>{};
-    if (axes == 2) return PositionSensor<2>{};
-    return PositionSensor<3>{};
-  }
-
   int size_ = 0;
   std::array<double, max_measurement_size> z_{};
   std::array<double, max_measurement_size * max_measurement_size> covariance_{};

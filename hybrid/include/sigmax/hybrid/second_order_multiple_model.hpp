@@ -20,28 +20,21 @@ class SecondOrderFilter : public MultipleModelFilter<Kind> {
   SecondOrderFilter(const std::vector<AnyModel>& models, ModeTransition<Kind> transition, const Estimates& start,
                     const Interaction<Kind>& interaction = {});
 
-  void step(double dt, const Seen& seen, double gate = no_gate);
-  void step(double dt);
-
-  /// A non-linear measurement is linearised about what the mode predicted: that of its predecessors, by their weights
-  /// after the measurement.
-  RecordedStep<Kind> recorded(double dt, const Seen& seen) const;
-  RecordedStep<Kind> recorded(double dt) const { return this->recorded_by(dt, nullptr, estimates()); }
+  std::unique_ptr<Filter> clone() const override { return std::make_unique<SecondOrderFilter>(*this); }
 
  private:
-  using Filter::innovations_;
-  using Filter::interaction_;
   using Filter::next;
-  using Filter::prior_;
-  using Filter::system_;
 
+  bool measure(double dt, const Seen& seen, double gate) override;
+  void miss(double dt) override;
+  Estimates predicted() const override;
   void branch(double dt);
   void merge(const Estimates& pairs);
   void collapse_predecessors(const Estimates& pairs, Estimates& merged) const;
   void weigh(std::size_t j);
   void summarize(std::size_t j);
 
-  bool unreachable(std::size_t j) const { return prior_.log(j) == log_zero; }
+  bool unreachable(std::size_t j) const { return this->prior_.log(j) == log_zero; }
   bool lives(std::size_t l, std::size_t j) const { return joint_(j, l) != log_zero || (l == j && unreachable(j)); }
   std::size_t best(std::size_t j) const;
   std::size_t pair(std::size_t l, std::size_t j) const { return j * modes() + l; }

@@ -26,8 +26,7 @@ namespace sigmax {
 /// target.
 template <class Filter>
 class Target {
-  using Core = typename Filter::FilterType;
-  using Life = detail::TargetLife<Core>;
+  using Life = detail::TargetLife<typename Filter::kind>;
 
  public:
   using Measurement = typename Filter::Measurement;
@@ -97,9 +96,10 @@ class Target {
   }
 
   /// When did the mode change? Calls visit(kept, mode) for the first step of each mode in the history that is the most
-  /// possible or probable by all that was recorded, in order; of each start its own.
+  /// possible or probable by all that was recorded, in order; of each start its own. For a HistoryFilter; of others
+  /// nothing.
   template <class Visit>
-  void explained(const Visit& visit) const requires KeepsHistories<Filter> {
+  void explained(const Visit& visit) const {
     life_.explained(std::cref(visit));
   }
 

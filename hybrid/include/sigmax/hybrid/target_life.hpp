@@ -7,21 +7,13 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include <sigmax/hybrid/fixed_interval_smoother.hpp>
-#include <sigmax/hybrid/history_filter.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
 #include <sigmax/hybrid/plot.hpp>
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
 #include <sigmax/hybrid/target_rules.hpp>
 
 namespace sigmax {
-
-/// A filter whose state is the histories of its mode.
-template <class Filter>
-concept KeepsHistories = std::is_same_v<typename Filter::State, HistorySet>;
 
 /// What is kept of a step or a start, for smoothing.
 template <ScalableUncertainty Kind>
@@ -50,11 +42,12 @@ struct Life {
   double latest() const { return waiting.empty() ? time : std::max(time, waiting.back().time); }
 };
 
-/// The life of a target, compiled once for each filter; see Target. The filter is the caller's, always the same.
-template <class Filter>
+/// The life of a target, compiled once for each kind; see Target. The filter is the caller's, always the same.
+template <ScalableUncertainty Kind>
 class TargetLife {
+  using Filter = MultipleModelFilter<Kind>;
+
  public:
-  using Kind = typename Filter::kind;
   using Kept = KeptStep<Kind>;
   using Stepped = std::function<void(const Plot&, bool)>;
   using StartRule = std::function<std::optional<StartAt<Estimates>>(std::span<const Plot>, std::size_t)>;
@@ -75,7 +68,7 @@ class TargetLife {
 
  private:
   struct Entry {
-    typename Filter::State state;  ///< before the plot, and the life then
+    HybridEstimate<Kind> state;  ///< before the plot, and the life then
     Life life;
     Plot plot;
   };
@@ -102,12 +95,8 @@ class TargetLife {
   std::size_t kept_ = 0;
 };
 
-extern template class TargetLife<InteractingFilter<Random>>;
-extern template class TargetLife<InteractingFilter<Fuzzy>>;
-extern template class TargetLife<SecondOrderFilter<Random>>;
-extern template class TargetLife<SecondOrderFilter<Fuzzy>>;
-extern template class TargetLife<HistoriesOfModes<Random>>;
-extern template class TargetLife<HistoriesOfModes<Fuzzy>>;
+extern template class TargetLife<Random>;
+extern template class TargetLife<Fuzzy>;
 
 }  // namespace detail
 }  // namespace sigmax
