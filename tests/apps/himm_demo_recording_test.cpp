@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/peak_memory.hpp"
 #include "apps/recordings.hpp"
 #include "support/geodesy.hpp"
 
@@ -361,7 +360,7 @@ TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
     return (directory.path() / name).string();
   };
   const auto peak = [&](const std::string& file) {
-    return peak_memory(SIGMAX_HIMM_DEMO, {"track", file, "--set", "filters=[\"imm\"]", "--set", "models=[\"dwna\"]"});
+    return program::peak_memory(SIGMAX_HIMM_DEMO, Arguments{"track", file} + setting({"filters=imm", "models=dwna"}));
   };
   const long small = peak(file_of("small.csv", 10'000));
   const std::string large = file_of("large.csv", 200'000);

@@ -59,21 +59,21 @@ TEST_F(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoo
   recognition_demo_succeeds({"encounter", data, "--track", track, "--ground", "100", "--every", "10", "--quiet",
                              "--out", directory.path() / "out"});
   const auto reports = rows_of(directory.path() / "out" / "reports.csv");
-  const std::vector<NamedRow> expected = {{{"time_s", "4"},
-                                           {"altitude_layer_ft_agl", "below 1000"},
-                                           {"airspeed_kt", "below 100"},
-                                           {"vertical_rate_ft_per_min", "0 and above"},
-                                           {"turn_rate_deg_per_s", "2 and above"}},
-                                          {{"time_s", "14"},
-                                           {"altitude_layer_ft_agl", "1000 and above"},
-                                           {"airspeed_kt", "below 100"},
-                                           {"vertical_rate_ft_per_min", "below 0"},
-                                           {"turn_rate_deg_per_s", "2 and above"}},
-                                          {{"time_s", "41"},
-                                           {"altitude_layer_ft_agl", "1000 and above"},
-                                           {"airspeed_kt", "100 and above"},
-                                           {"vertical_rate_ft_per_min", ""},
-                                           {"turn_rate_deg_per_s", "below 2"}}};
+  const std::vector<TextRow> expected = {{{"time_s", "4"},
+                                          {"altitude_layer_ft_agl", "below 1000"},
+                                          {"airspeed_kt", "below 100"},
+                                          {"vertical_rate_ft_per_min", "0 and above"},
+                                          {"turn_rate_deg_per_s", "2 and above"}},
+                                         {{"time_s", "14"},
+                                          {"altitude_layer_ft_agl", "1000 and above"},
+                                          {"airspeed_kt", "below 100"},
+                                          {"vertical_rate_ft_per_min", "below 0"},
+                                          {"turn_rate_deg_per_s", "2 and above"}},
+                                         {{"time_s", "41"},
+                                          {"altitude_layer_ft_agl", "1000 and above"},
+                                          {"airspeed_kt", "100 and above"},
+                                          {"vertical_rate_ft_per_min", ""},
+                                          {"turn_rate_deg_per_s", "below 2"}}};
   EXPECT_EQ(reports, expected);
 
   Numbers p(2, 1.0), ratio(2, 1.0), dubois_prade(2, 1.0);

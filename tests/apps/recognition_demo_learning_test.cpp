@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "apps/peak_memory.hpp"
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/text.hpp"
@@ -125,7 +124,7 @@ class Restatement {
 };
 
 /// Compares the rows of a predictions.csv of one line with the restatement.
-void compare(const NamedRow& row, const Restatement& learned, const Tree& tree) {
+void compare(const TextRow& row, const Restatement& learned, const Tree& tree) {
   const std::map<std::string, Numbers> expected = {
       {"sigma", learned.sigma(tree)},
       {"max, ratio scale", learned.fuzzy(tree, by_ratio, false)},
@@ -405,7 +404,7 @@ TEST_F(RecognitionDemo, MemoryDoesNotGrowWithTheTable) {
   const auto growth = [&](std::vector<std::string> arguments) {
     const auto peak = [&](const std::filesystem::path& table) {
       arguments[1] = table.native();
-      return peak_memory(SIGMAX_RECOGNITION_DEMO, arguments);
+      return program::peak_memory(SIGMAX_RECOGNITION_DEMO, arguments);
     };
     const long before = peak(small);
     return peak(large) - before;

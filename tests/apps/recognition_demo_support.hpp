@@ -1,12 +1,11 @@
 #pragma once
 
-#include "support/csv.hpp"
+#include "apps/rows.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
 
 using Matrix = std::vector<Numbers>;
-using NamedRow = std::map<std::string, std::string>;
 
 inline program::Ending recognition_demo(const std::vector<std::string>& arguments) {
   return program::run(SIGMAX_RECOGNITION_DEMO, arguments);
@@ -14,17 +13,6 @@ inline program::Ending recognition_demo(const std::vector<std::string>& argument
 
 inline program::Ending recognition_demo_succeeds(const std::vector<std::string>& arguments) {
   return program::succeeds(SIGMAX_RECOGNITION_DEMO, arguments);
-}
-
-/// The rows of a CSV file, each by the names of its columns.
-inline std::vector<NamedRow> rows_of(const std::filesystem::path& path) {
-  CsvReader reader{path};
-  std::vector<NamedRow> rows;
-  for (CsvRow row; reader.next(row);) {
-    auto& named = rows.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) named[reader.names()[i]] = row[i];
-  }
-  return rows;
 }
 
 // Plain restatements, which share no code with the library.

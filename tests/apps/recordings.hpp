@@ -1,31 +1,10 @@
 #pragma once
 
-#include "apps/temporary_directory.hpp"
-#include "support/csv.hpp"
+#include "apps/rows.hpp"
 #include "support/matrices.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
-
-using TextRow = std::map<std::string, std::string>;
-
-/// The rows of a CSV text, each by the names of its columns.
-inline std::vector<TextRow> rows(const std::string& text) {
-  std::istringstream stream(text);
-  CsvReader reader(stream, "rows");
-  std::vector<TextRow> result;
-  for (CsvRow row; reader.next(row);) {
-    auto& named = result.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) named[reader.names()[i]] = row[i];
-  }
-  return result;
-}
-
-/// Those of one filter.
-inline std::vector<TextRow> of_filter(std::vector<TextRow> all, const std::string& filter) {
-  std::erase_if(all, [&](const TextRow& row) { return row.at("filter") != filter; });
-  return all;
-}
 
 /// A number as it reads back.
 inline std::string exact(double value) {
