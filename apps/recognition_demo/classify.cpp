@@ -406,7 +406,7 @@ void add_classify(CLI::App& program, const std::string& command) {
   app.footer(
       "Examples:\n"
       "  recognition_demo classify zoo.json zoo.csv --explain --rows 1\n"
-      "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out results");
+      "  recognition_demo classify wine.json cellar.csv --least-margin 0.5 --out out");
   app.run([options] { run_classify(*options); });
 }
 

@@ -374,9 +374,8 @@ TEST_F(RecognitionDemoLearning, AnExplanationShowsTheWinningValuesAndTheirProduc
   recognition_demo_succeeds({"train", data, "--label", "coin", "--model", model, "--kinds", "sigma,max"});
   const auto ending = recognition_demo_succeeds({"classify", model, data, "--explain", "--rows", "1"});
   // Laplace's rule on two values: 2/4 and 3/4 of fair, 3/4 and 1/4 of false.
-  for (const char* line : {"p(side = heads|coin = fair) = 0.5", "p(weight = light|coin = fair) = 0.75",
-                           "π(side = heads|coin = fair) = 1", "π(weight = light|coin = fair) = 1"})
-    EXPECT_TRUE(says(ending.output, {line}));
+  EXPECT_TRUE(says(ending.output, {"p(side = heads|coin = fair) = 0.5", "p(weight = light|coin = fair) = 0.75",
+                                   "π(side = heads|coin = fair) = 1", "π(weight = light|coin = fair) = 1"}));
   // ½ ½ ¾ against ½ ¾ ¼: 2/3, and the logarithm of 2; and 1 against 1 · ⅓.
   EXPECT_TRUE(says(ending.output, {"fair = 0.6667", "0.693", "1.1"}));
 }
