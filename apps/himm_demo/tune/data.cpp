@@ -1,6 +1,7 @@
 #include "himm_demo/tune/tune.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,7 +9,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
+
+#include <sigmax/estimation/dense.hpp>
 
 #include "recording/plots.hpp"
 #include "support/numbers.hpp"
@@ -151,15 +153,21 @@ double volume_for(const Row& row, const TuneData& data) {
 
 /// Of the true position, by the estimate's leading components.
 double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objective objective) {
-  const auto n = static_cast<Eigen::Index>(now.mean.size());
-  const Eigen::VectorXd error =
-      Eigen::Map<const Eigen::VectorXd>(now.mean.data(), axes) - Eigen::Map<const Eigen::VectorXd>(truth.data(), axes);
-  if (objective == Objective::rmse) return error.squaredNorm();
-  const Eigen::Map<const Eigen::MatrixXd> covariance(now.covariance.data(), n, n);
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance.topLeftCorner(axes, axes));
-  if (root.info() != Eigen::Success) throw std::domain_error("the covariance of an estimate is not positive definite");
-  return 0.5 * root.matrixL().solve(error).squaredNorm() + root.matrixLLT().diagonal().array().log().sum() +
-         0.5 * axes * std::log(2.0 * std::numbers::pi);
+  const auto size = static_cast<std::size_t>(axes), n = now.mean.size();
+  std::array<double, 3> error{};
+  std::array<double, 9> covariance{}, root{};
+  for (std::size_t i = 0; i < size; ++i) {
+    error[i] = now.mean[i] - truth[i];
+    for (std::size_t k = 0; k < size; ++k) covariance[i + k * size] = now.covariance[i + k * n];
+  }
+  const auto squared = [&] { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; };
+  if (objective == Objective::rmse) return squared();
+  if (!detail::cholesky_factor(covariance.data(), axes, root.data()))
+    throw std::domain_error("the covariance of an estimate is not positive definite");
+  detail::lower_solve(root.data(), axes, error.data());
+  double log_root = 0.0;
+  for (std::size_t i = 0; i < size; ++i) log_root += std::log(root[i + i * size]);
+  return 0.5 * squared() + log_root + 0.5 * axes * std::log(2.0 * std::numbers::pi);
 }
 
 }  // namespace
