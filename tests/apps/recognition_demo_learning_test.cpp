@@ -210,13 +210,18 @@ TEST_P(Learning, EveryFoldIsClassifiedByWhatTheOthersTeach) {
 INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Learning, testing::Values("0", "0.2"),
                          [](const auto& test) { return test.param == "0" ? "NeverMisread" : "OftenMisread"; });
 
+/// Files of what another subcommand draws, too.
 TEST_F(RecognitionDemoLearning, TheNumberOfThreadsChangesNoByte) {
-  const auto data = directory.write("forest.csv", csv(forest(60)));
-  for (const std::string threads : {"1", "3"})
-    recognition_demo_succeeds(Arguments{"evaluate", data, "--threads", threads, "--out", directory.path() / threads} +
-                              columns);
-  for (const char* file : {"predictions.csv", "confusion.csv"})
-    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+  const Arguments forest_csv = {"evaluate", directory.write("forest.csv", csv(forest(60)))};
+  for (const auto& [command, files] : {std::pair{forest_csv + columns, "predictions.csv confusion.csv"},
+                                       {words("esm --usage dirichlet --runs 300 --reports 3"), "runs.csv curves.csv"},
+                                       {words("manoeuvre --runs 20"), "samples.csv runs.csv curves.csv"}}) {
+    for (const std::string threads : {"1", "3"})
+      recognition_demo_succeeds(command +
+                                Arguments{"--quiet", "--threads", threads, "--out", directory.path() / threads});
+    for (const auto& file : words(files))
+      EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+  }
 }
 
 /// A table of one numeric column, where some cells are `gap`, and of one of words.

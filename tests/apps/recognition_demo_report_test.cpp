@@ -29,6 +29,11 @@ class RecognitionReport : public InDirectory {
   Json summary_;
 };
 
+/// The numbers of two places of a page or a summary are near.
+void expect_close(const Json& found, const Json& expected, double tolerance) {
+  EXPECT_CLOSE(found.get<double>(), expected.get<double>(), tolerance);
+}
+
 Json panel_called(const Json& panels, const std::string& title) {
   for (const auto& panel : panels)
     if (panel.at("title") == title) return panel;
@@ -46,10 +51,10 @@ TEST_F(RecognitionReport, OfEvaluateHasConfusionMatricesAndReliabilityOfTheSumma
     double statements = 0.0;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const Json& bin = bins[i];
-      EXPECT_CLOSE(chart.at("x")[i + 1].get<double>(), bin.at("mean_degree").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("values")[i + 1].get<double>(), bin.at("share_that_is_true").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("lower")[i + 1].get<double>(), bin.at("lower").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("upper")[i + 1].get<double>(), bin.at("upper").get<double>(), 1e-6);
+      expect_close(chart.at("x")[i + 1], bin.at("mean_degree"), 1e-6);
+      expect_close(share.at("values")[i + 1], bin.at("share_that_is_true"), 1e-6);
+      expect_close(share.at("lower")[i + 1], bin.at("lower"), 1e-6);
+      expect_close(share.at("upper")[i + 1], bin.at("upper"), 1e-6);
       EXPECT_CLOSE(std::stod(chart.at("remarks")[i + 1].get<std::string>()), bin.at("statements").get<double>(), 0.06);
       statements += bin.at("statements").get<double>();
     }
@@ -148,7 +153,7 @@ TEST_F(RecognitionReport, OfRegimesHasTheDifferencesOfTheSummary) {
         const Json& found = settings.at(map.at("rows")[r].get<std::string>())
                                 .at(map.at("columns")[c].get<std::string>())
                                 .at("accuracy_minus_that_of_the_first");
-        EXPECT_CLOSE(map.at("values")[r][c].get<double>(), found.at("mean").get<double>(), 1e-12);
+        expect_close(map.at("values")[r][c], found.at("mean"), 1e-12);
       }
   }
   expect_drawn(page());
@@ -161,8 +166,7 @@ TEST_F(RecognitionReport, OfManoeuvreHasTheScoresOfTheSummaryAndAFlightOfEachTar
     const Json chart = panel_called(data.at("views")[0].at("panels"), "Right decisions about the " + target);
     EXPECT_EQ(chart.at("x").back(), 30.0);
     for (const auto& curve : chart.at("curves"))
-      EXPECT_CLOSE(curve.at("values").back().get<double>(),
-                   classifiers.at(curve.at("name").get<std::string>()).at("accuracy").get<double>(), 1e-6);
+      expect_close(curve.at("values").back(), classifiers.at(curve.at("name").get<std::string>()).at("accuracy"), 1e-6);
   }
   // What the page shows of the first flight is what samples.csv and runs.csv say of it.
   const auto samples = rows_of(directory.path() / "samples.csv");
@@ -196,12 +200,8 @@ TEST_F(RecognitionReport, OfARecordingFollowsTheSupportOfEachClass) {
   EXPECT_TRUE(says(panels[0].at("note").get<std::string>(), {"of 2000 reports"}));
   const Json slow = panel_called(panels, "slow");  // a temporary would not outlive the loop's head
   for (const auto& curve : slow.at("curves"))
-    EXPECT_CLOSE(curve.at("values").back().get<double>(),
-                 summary_.at("classifiers")
-                     .at(curve.at("name").get<std::string>())
-                     .at("belief_after_all")
-                     .at("slow")
-                     .get<double>(),
+    expect_close(curve.at("values").back(),
+                 summary_.at("classifiers").at(curve.at("name").get<std::string>()).at("belief_after_all").at("slow"),
                  1e-6);
   expect_drawn(page());
 }
