@@ -63,7 +63,8 @@ std::string tracked_as_told(const Case& test) {
   const auto ending = program::succeeds(
       "/bin/sh", {"-c", "cd \"$1\"; exec \"$0\" track real.csv --quiet --out out " + test.text("with"),
                   program::chosen(SIGMAX_HIMM_DEMO), directory.path()});
-  const std::string output = ending.on_one_line(), written = contents(directory.path() / "out" / "estimates.csv");
+  const std::string output = ending.on_one_line();
+  std::string written = contents(directory.path() / "out" / "estimates.csv");
   for (const auto& words : test.words("says")) EXPECT_TRUE(says(output, {words}));
   for (const auto& words : test.words("never")) EXPECT_FALSE(says(output, {words})) << output;
   for (const auto& words : test.words("once")) EXPECT_EQ(output.find(words), output.rfind(words)) << output;
