@@ -1,9 +1,6 @@
 #pragma once
 
-#include <fcntl.h>
-#include <signal.h>
-
-#include "apps/temporary_directory.hpp"
+#include "apps/rows.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
@@ -30,62 +27,22 @@ inline long lines_of(const std::filesystem::path& file) {
   return std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
 }
 
-/// A program that runs beside the test.
-class Running {
- public:
-  explicit Running(Arguments words) {
-    std::vector<char*> argv;
-    for (auto& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    const int nowhere = ::open("/dev/null", O_RDWR);
-    for (const int stream : {0, 1, 2}) ::dup2(nowhere, stream);
-    ::execvp(argv.front(), argv.data());
-    ::_exit(127);
+/// Waits until the file has so many lines; false if the program ends before.
+inline bool has_written(const program::Running& running, const std::filesystem::path& file, long lines) {
+  while (lines_of(file) < lines) {
+    if (running.has_ended()) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-  ~Running() {
-    if (pid_ > 0) end(SIGKILL);
-  }
-
-  pid_t pid() const { return pid_; }
-
-  /// Waits until the file has so many lines; false if the program ends before.
-  bool has_written(const std::filesystem::path& file, long lines) const {
-    using namespace std::chrono_literals;
-    for (int i = 0; i < 60'000; ++i) {
-      if (lines_of(file) >= lines) return true;
-      siginfo_t ended = {};
-      if (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == pid_)
-        return false;
-      std::this_thread::sleep_for(1ms);
-    }
-    return false;
-  }
-
-  /// Waits for the end, after a signal if there is one; 128 and the signal's number if that ended it.
-  int end(int signal = 0) {
-    if (signal != 0) ::kill(pid_, signal);
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_;
-};
+  return true;
+}
 
 /// Kills the command as soon as it has finished some cells, again and again, and lets it end at last.
 inline void campaign_with_kills(const std::filesystem::path& out, const Arguments& arguments) {
   std::filesystem::create_directories(out);
   const auto journal = out / "cells.journal";
   for (const long lines : {3L, 6L}) {
-    Running running(Arguments{program::chosen(SIGMAX_HIMM_DEMO)} + arguments + Arguments{"--quiet", "--out", out});
-    ASSERT_TRUE(running.has_written(journal, lines)) << "the work ended before it could be interrupted";
+    program::Running running(SIGMAX_HIMM_DEMO, arguments + Arguments{"--quiet", "--out", out});
+    ASSERT_TRUE(has_written(running, journal, lines)) << "the work ended before it could be interrupted";
     ASSERT_EQ(running.end(SIGKILL), 128 + SIGKILL);
     std::ofstream(journal, std::ios::app) << "7,0.25,0.1";  // as if killed in the middle of a line
   }

@@ -19,6 +19,16 @@ Records records(const std::string& text) {
   return all;
 }
 
+/// A reader of a text, at its first row.
+struct Read {
+  explicit Read(const std::string& text) : stream{text} { at_end = !reader.next(row); }
+
+  std::istringstream stream;
+  CsvReader reader{stream, "f.csv"};
+  CsvRow row;
+  bool at_end;
+};
+
 std::string refusal(const std::string& text) {
   return message_of<InputError>([&] { records(text); });
 }
@@ -65,15 +75,13 @@ TEST(Csv, ReadsQuotedFields) {
 }
 
 TEST(Csv, CountsTheLinesInsideQuotes) {
-  std::istringstream stream{"a,b\n\"1\n2\r\n3\r4\",x\n5,6\n"};
-  CsvReader reader{stream, "f.csv"};
-  CsvRow row;
-  ASSERT_TRUE(reader.next(row));
+  Read read{"a,b\n\"1\n2\r\n3\r4\",x\n5,6\n"};
+  auto& row = read.row;
   EXPECT_EQ(row[0], "1\n2\r\n3\r4");
   EXPECT_EQ(row.line(), 2U);
-  ASSERT_TRUE(reader.next(row));
+  ASSERT_TRUE(read.reader.next(row));
   EXPECT_EQ(row.line(), 6U);
-  EXPECT_FALSE(reader.next(row));
+  EXPECT_FALSE(read.reader.next(row));
 }
 
 TEST(Csv, RefusesWhatHasNoHeader) {
@@ -131,28 +139,24 @@ TEST(Csv, RefusesWhatIsNotText) {
 }
 
 TEST(Csv, FindsColumnsByName) {
-  std::istringstream stream{"time_s,\"altitude (m)\",\n1,2,3"};
-  const CsvReader reader{stream, "f.csv"};
-  EXPECT_EQ(reader.column("altitude (m)"), 1U);
-  EXPECT_EQ(reader.find("time_s"), 0U);
-  EXPECT_EQ(reader.find("Time_s"), std::nullopt);
-  EXPECT_EQ(reader.find(""), std::nullopt);
-  EXPECT_EQ(message_of<InputError>([&] { reader.column("x_m"); }),
+  const Read read{"time_s,\"altitude (m)\",\n1,2,3"};
+  EXPECT_EQ(read.reader.column("altitude (m)"), 1U);
+  EXPECT_EQ(read.reader.find("time_s"), 0U);
+  EXPECT_EQ(read.reader.find("Time_s"), std::nullopt);
+  EXPECT_EQ(read.reader.find(""), std::nullopt);
+  EXPECT_EQ(message_of<InputError>([&] { read.reader.column("x_m"); }),
             "f.csv: there is no column 'x_m'; the columns are time_s, altitude (m), ");
 }
 
 TEST(Csv, NoticesAnotherSeparator) {
-  std::istringstream stream{"time_s;x_m\n1;2"};
-  const CsvReader reader{stream, "f.csv"};
-  EXPECT_EQ(message_of<InputError>([&] { reader.column("x_m"); }),
+  const Read read{"time_s;x_m\n1;2"};
+  EXPECT_EQ(message_of<InputError>([&] { read.reader.column("x_m"); }),
             "f.csv: there is no column 'x_m'; the fields seem to be separated by ';': separate them by commas or tabs");
 }
 
 TEST(Csv, ReadsNumbers) {
-  std::istringstream stream{"a,b,c\n +1.5 ,-2e3,\"7\"\n"};
-  CsvReader reader{stream, "f.csv"};
-  CsvRow row;
-  ASSERT_TRUE(reader.next(row));
+  Read read{"a,b,c\n +1.5 ,-2e3,\"7\"\n"};
+  auto& row = read.row;
   EXPECT_EQ(row.number(0), 1.5);
   EXPECT_EQ(row.number(1), -2000.0);
   EXPECT_EQ(row.number(2), 7.0);
@@ -176,10 +180,8 @@ TEST(Csv, RefusesWhatIsNoNumberWithFileLineAndColumn) {
 }
 
 TEST(Csv, AnOptionalNumberMayBeAbsentButNotWrong) {
-  std::istringstream stream{"x,y,z\n, 2 ,two\n"};
-  CsvReader reader{stream, "f.csv"};
-  CsvRow row;
-  ASSERT_TRUE(reader.next(row));
+  Read read{"x,y,z\n, 2 ,two\n"};
+  auto& row = read.row;
   EXPECT_EQ(row.optional_number(0), std::nullopt);
   EXPECT_EQ(row.optional_number(1), 2.0);
   EXPECT_EQ(
@@ -189,10 +191,8 @@ TEST(Csv, AnOptionalNumberMayBeAbsentButNotWrong) {
 }
 
 TEST(Csv, LetsTheCallerRefuseAField) {
-  std::istringstream stream{"range_m\n-1\n"};
-  CsvReader reader{stream, "f.csv"};
-  CsvRow row;
-  ASSERT_TRUE(reader.next(row));
+  Read read{"range_m\n-1\n"};
+  auto& row = read.row;
   EXPECT_EQ(std::string{row.error(0, "a range above zero", "drop the row").what()},
             "f.csv:2: column 'range_m': found '-1', expected a range above zero; drop the row");
 }

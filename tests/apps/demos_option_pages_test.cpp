@@ -2,6 +2,7 @@
 
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
+#include "support/text.hpp"
 
 namespace {
 
@@ -15,10 +16,20 @@ TEST(OptionPages, AreWhatTheProgramsPrint) {
 }
 
 TEST(OptionPages, EverySubcommandHasTwoExamplesThatCanBeCopied) {
-  const std::regex examples(R"(\nExamples:(\n  himm_demo [^\n\\]+(\\\n    -[^\n\\]+)*){2,}\n*$)");
-  for (const std::string subcommand : {"simulate", "reproduce", "sweep", "merge", "track", "tune"}) {
-    const std::string help = program::run(SIGMAX_HIMM_DEMO, {subcommand, "--help"}).output;
-    EXPECT_TRUE(std::regex_search(help, examples)) << help;
+  const auto examples_of = [](const std::string& program) {
+    return std::regex("\\nExamples:(\\n  " + program + R"( [^\n\\]+(\\\n    -[^\n\\]+)*){2,}\n*$)");
+  };
+  for (const std::filesystem::path program : {SIGMAX_HIMM_DEMO, SIGMAX_RECOGNITION_DEMO}) {
+    const std::string name = program.filename();
+    const bool tracks = name == "himm_demo";
+    for (const auto& subcommand :
+         words(tracks ? "simulate reproduce sweep merge track tune"
+                      : "esm regimes manoeuvre encounter performance train classify evaluate")) {
+      const std::string help = program::succeeds(program, {subcommand, "--help"}).output;
+      EXPECT_TRUE(std::regex_search(help, examples_of(name))) << help;
+      for (const std::string& line : lines_of(help, any_width)) EXPECT_LE(display_width(line), 80U) << line;
+    }
+    EXPECT_TRUE(program::run(program, {"--version"}).output.starts_with(name + " "));
   }
 }
 

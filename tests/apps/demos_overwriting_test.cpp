@@ -30,6 +30,7 @@ const std::vector<Command> commands = {
     {SIGMAX_HIMM_DEMO, "summary.json", {"simulate", "--config", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "rmse.csv", {"simulate", "--config", "FILE", "--out", "DIR"}},
     {SIGMAX_HIMM_DEMO, "estimates.csv", {"track", "FILE", "--out", "DIR"}},
+    {SIGMAX_HIMM_DEMO, "f.csv", {"track", "FILE", "--report", "FILE"}},
     {SIGMAX_HIMM_DEMO, "positions.pdf", {"track", "FILE", "--plots", "DIR"}},
     {SIGMAX_HIMM_DEMO, "cells.journal", {"merge", "DIR", "--out", "DIR/whole", "--report", "LINK"}},
 };

@@ -6,9 +6,7 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "apps/manoeuvring_targets.hpp"
-#include "apps/temporary_directory.hpp"
 #include "support/enveloped.hpp"
-#include "support/program.hpp"
 
 namespace {
 
@@ -20,69 +18,41 @@ struct Named {
 };
 
 std::vector<Named> named_filters() {
-  using restatement::Kind, restatement::Lift, restatement::MixedCovariance, restatement::Options, restatement::Order,
-      restatement::Weights;
-  const auto filter = [](Kind kind, auto change) {
-    Options options;
-    options.kind = kind;
-    options.mixed_covariance = MixedCovariance::own_recentred;
-    options.lift = Lift::borrowed_variance;
-    change(options);
-    return options;
+  using restatement::MixedCovariance, restatement::Options;
+  const auto filter = [](restatement::Kind kind) {
+    return [kind](auto change) {
+      Options options = usual(kind);
+      change(options);
+      return options;
+    };
   };
-  const auto imm = [&](auto change) { return filter(Kind::imm, change); };
-  const auto himm = [&](auto change) { return filter(Kind::himm, change); };
+  const auto imm = filter(restatement::Kind::imm), himm = filter(restatement::Kind::himm);
   const auto as_it_is = [](Options&) {};
-  const auto second_order = [](Options& own) { own.order = Order::second_order; };
+  const auto second_order = [](Options& own) { own.order = restatement::Order::second_order; };
+  const auto common_start = [](Options& own) { own.common_start = true; };
+  const auto reading = [&](MixedCovariance of) { return himm([of](Options& own) { own.mixed_covariance = of; }); };
   return {
       {"imm", imm(as_it_is)},
       {"imm_correct", imm(as_it_is)},
-      {"imm_released", imm([](Options& own) { own.mixing_weights = Weights::released; })},
+      {"imm_released", imm([](Options& own) { own.mixing_weights = restatement::Weights::released; })},
       {"imm_as_printed", imm([](Options& own) { own.output_spread_omitted = true; })},
-      {"gpb1", imm([](Options& own) { own.common_start = true; })},
+      {"gpb1", imm(common_start)},
       {"gpb2", imm(second_order)},
       {"static_random", imm(as_it_is), true},
       {"himm", himm(as_it_is)},
-      {"himm_selected", himm([](Options& own) { own.mixed_covariance = MixedCovariance::selected; })},
-      {"himm_own", himm([](Options& own) { own.mixed_covariance = MixedCovariance::own; })},
+      {"himm_selected", reading(MixedCovariance::selected)},
+      {"himm_own", reading(MixedCovariance::own)},
       {"himm_own_recentred", himm(as_it_is)},
-      {"himm_released", himm([](Options& own) { own.mixed_covariance = MixedCovariance::released; })},
+      {"himm_released", reading(MixedCovariance::released)},
       {"himm_envelope", himm([](Options& own) {
          own.mixed_covariance = MixedCovariance::envelope;
          own.envelope = support::enveloped;
        })},
-      {"himm_global", himm([](Options& own) { own.common_start = true; })},
+      {"himm_global", himm(common_start)},
       {"himm_possibility", himm([](Options& own) { own.possibilistic = true; })},
       {"viterbi", himm(second_order)},
       {"static_fuzzy", himm(as_it_is), true},
   };
-}
-
-void expect_restated(const Named& named, const std::vector<Point>& points, const std::vector<TextRow>& found) {
-  using restatement::Index;
-  const std::vector starts = {restated_start(6), restated_start(9)};
-  const bool fuzzy = named.options.kind == restatement::Kind::himm;
-  const restatement::Matrix transition =
-      named.independent
-          ? restatement::identity(2)
-          : restatement::Matrix(2, 2, fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9});
-  restatement::Filter filter({restatement::dwna(3, 3.0), restatement::dwpa(3, 4.0)}, transition, starts, {1.0, 1.0},
-                             named.options);
-  restatement::Matrix R(3, 3);
-  for (Index i = 0; i < 3; ++i) R(i, i) = 100.0;
-
-  ASSERT_EQ(found.size(), points.size());
-  double time = start_time;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    filter.step(points[k].time - time, points[k].z, R);
-    time = points[k].time;
-    const auto estimate = filter.estimate();
-    SCOPED_TRACE(named.name + ", step " + std::to_string(k));
-    expect_row(found[k], estimate, 3);
-    ASSERT_CLOSE(std::stod(found[k].at("nis")), *filter.nis(), 1e-9);
-    ASSERT_CLOSE(number(found[k].at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
-    ASSERT_CLOSE(number(found[k].at("weight_dwpa")), std::exp(filter.log_weights()[1]), 1e-9);
-  }
 }
 
 program::Ending himm_demo(const Arguments& arguments, const Arguments& sets = {}) {
@@ -91,15 +61,12 @@ program::Ending himm_demo(const Arguments& arguments, const Arguments& sets = {}
 
 TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
   const auto points = accelerating_target();
-  const TemporaryDirectory directory;
-  const auto out = directory.path() / "out";
-  program::succeeded(
-      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
-                {"filters=all", "start=given", "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
-                 "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]", "start_time_s=2.5", "sigma_w=[3,4]",
-                 "transition_probability=[[0.95,0.05],[0.1,0.9]]", "transition_possibility=[[1,0.5],[0.25,1]]"}));
-  const auto found = rows(contents(out / "estimates.csv"));
-  for (const auto& named : named_filters()) expect_restated(named, points, of_filter(found, named.name));
+  const auto found = estimates(csv(points), given + Arguments{"filters=all"});
+  for (const auto& [name, options, independent] : named_filters()) {
+    SCOPED_TRACE(name);
+    const auto filter = restated(options, {}, 3, independent ? restatement::identity(2) : restatement::Matrix{});
+    expect_restated(of_filter(found, name), filter, start_time, plots(points));
+  }
   // The one that the restatement does not know: the estimate of the more likely mode, with the IMM's weights.
   const auto imm = of_filter(found, "imm");
   const auto likely = of_filter(found, "imm_most_likely");
@@ -110,13 +77,9 @@ TEST(HimmDemoFilters, EveryNamedOneEqualsThePlainRestatement) {
 
 TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
   const auto points = turning_target();
-  const TemporaryDirectory directory;
-  const auto out = directory.path() / "out";
-  program::succeeded(
-      himm_demo({"track", directory.write("recording.csv", csv(points)), "--quiet", "--out", out},
-                {"filters=imm", "models=[dwna,ct]", "member=ukf", "sigma_w=[1,0.5]", "turn_drift_deg_s=0.3",
-                 "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"}));
-  const auto found = rows(contents(out / "estimates.csv"));
+  const auto found = estimates(
+      csv(points), {"filters=imm", "models=[dwna,ct]", "member=ukf", "sigma_w=[1,0.5]", "turn_drift_deg_s=0.3",
+                    "start_sigma_turn_deg_s=4", "sigma_position_m=5", "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
   ASSERT_EQ(found.size(), points.size() - 3);
 
   const auto measured = [&](std::size_t k) {
@@ -145,12 +108,7 @@ TEST(HimmDemoFilters, ACoordinatedTurnByTheUnscentedFilterEqualsTheLibrary) {
   }
 }
 
-std::string estimates_of(const std::string& text, const std::vector<std::string>& sets) {
-  const TemporaryDirectory directory;
-  const auto out = directory.path() / "out";
-  program::succeeded(himm_demo({"track", directory.write("recording.csv", text), "--quiet", "--out", out}, sets));
-  return contents(out / "estimates.csv");
-}
+std::string estimates_of(const std::string& text, const Arguments& sets) { return tracked(text, sets).estimates; }
 
 TEST(HimmDemoFilters, AMeasurementThatTheGateTurnsAwayIsAsOneThatWasMissed) {
   auto points = turning_target();
@@ -192,27 +150,20 @@ TEST(HimmDemoFilters, AltitudesOutOfThisWorldDoNotMoveTheTrack) {
 }
 
 TEST(HimmDemoFilters, EveryModelWithEveryMemberTracksOnTwoAxesAndThree) {
-  const TemporaryDirectory directory;
   for (const auto& points : {turning_target(), accelerating_target()})
     for (const std::string member : {"ekf", "ukf", "ckf"}) {
-      const auto ending = program::succeeded(
-          himm_demo({"track", directory.write("recording.csv", csv(points))},
-                    {"models=[dwna,dwpa,cwna,cwpa,singer,ou_position,ou_velocity,known_turn,ct]",
-                     "sigma_w=[1,1,1,1,5,1000,100,1,1]", "member=" + member, "filters=[imm,himm,gpb2,viterbi]"}));
-      EXPECT_EQ(ending.output.find("nan"), std::string::npos) << ending.output;
+      const auto found = tracked(
+          csv(points), {"models=[dwna,dwpa,cwna,cwpa,singer,ou_position,ou_velocity,known_turn,ct]",
+                        "sigma_w=[1,1,1,1,5,1000,100,1,1]", "member=" + member, "filters=[imm,himm,gpb2,viterbi]"});
+      EXPECT_FALSE(says(found.output, {"nan"})) << found.output;
     }
 }
 
 TEST(HimmDemoFilters, ALinearModelIsTheSameWhateverTheMember) {
-  const TemporaryDirectory directory;
-  const auto input = directory.write("recording.csv", csv(turning_target()));
-  const auto estimates = [&](const std::string& member) {
-    program::succeeded(
-        himm_demo({"track", input, "--out", directory.path() / member}, {"models=[cwna,singer]", "member=" + member}));
-    return contents(directory.path() / member / "estimates.csv");
+  const auto by = [text = csv(turning_target())](const std::string& member) {
+    return estimates_of(text, {"models=[cwna,singer]", "member=" + member});
   };
-  const auto kf = estimates("kf");
-  for (const std::string member : {"ekf", "ukf", "ckf"}) EXPECT_EQ(estimates(member), kf);
+  for (const std::string member : {"ekf", "ukf", "ckf"}) EXPECT_EQ(by(member), by("kf"));
 }
 
 TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
@@ -234,9 +185,8 @@ TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
     EXPECT_EQ(again.output, first.output);
   }
   const auto turns = himm_demo({"simulate", "--print-config"}, cases[3]);
-  for (const std::string line : {"models = [\"ct\", \"cwpa\"]\n", "turn_drift_deg_s = [0.3, 0.3]\n",
-                                 "member = \"ckf\"\n", "start_sigma_turn_deg_s = 4.1\n"})
-    EXPECT_TRUE(says(turns.output, {line}));
+  EXPECT_TRUE(says(turns.output, {"models = [\"ct\", \"cwpa\"]\n", "turn_drift_deg_s = [0.3, 0.3]\n",
+                                  "member = \"ckf\"\n", "start_sigma_turn_deg_s = 4.1\n"}));
 }
 
 }  // namespace

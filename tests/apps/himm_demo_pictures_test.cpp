@@ -11,8 +11,7 @@ TEST_F(HimmDemoPictures, AskForGnuplotWhereItIsNotInstalled) {
   const auto ending = program::run("/usr/bin/env", {"PATH=/nowhere", program::chosen(SIGMAX_HIMM_DEMO), "simulate",
                                                     "--quiet", "--runs", "2", "--plots", plots});
   EXPECT_EQ(ending.status, 2);
-  for (const char* part : {"gnuplot", "cannot be started", "install it", "gnuplot-nox"})
-    EXPECT_TRUE(says(ending.on_one_line(), {part}));
+  EXPECT_TRUE(says(ending.on_one_line(), {"gnuplot", "cannot be started", "install it", "gnuplot-nox"}));
   EXPECT_FALSE(std::filesystem::exists(plots));
 }
 

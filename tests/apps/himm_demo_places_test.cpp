@@ -1,19 +1,10 @@
 // Tracks on the Earth: wherever they are and however far they go, places, speeds and climbs are those there.
 
 #include "apps/recordings.hpp"
-#include "apps/temporary_directory.hpp"
-#include "support/program.hpp"
 
 namespace {
 
 constexpr double equator = 6378137.0;
-
-std::vector<TextRow> estimates(const std::string& recording, std::vector<std::string> options) {
-  const TemporaryDirectory directory;
-  const std::string file = directory.write("places.csv", recording);
-  program::succeeds(SIGMAX_HIMM_DEMO, Arguments{"track", file, "--quiet", "--out", directory.path() / "out"} + options);
-  return rows(contents(directory.path() / "out" / "estimates.csv"));
-}
 
 TEST(HimmDemoPlaces, TwoShipsOfOneFileAreOnTheirHemispheres) {
   std::string text = "time_s,ship,latitude_deg,longitude_deg\n";
@@ -21,7 +12,7 @@ TEST(HimmDemoPlaces, TwoShipsOfOneFileAreOnTheirHemispheres) {
     text += exact(10.0 * k) + ",north," + exact(50.0 + 0.0009 * k) + ",-1\n";
     text += exact(10.0 * k) + ",south," + exact(-36.0 - 0.0009 * k) + ",175\n";
   }
-  const auto found = estimates(text, {"--track-id", "ship", "--set", "sigma_position_m=1", "--set", "sigma_w=0.1"});
+  const auto found = estimates(text, {"sigma_position_m=1", "sigma_w=0.1"}, {"--track-id", "ship"});
   ASSERT_EQ(found.size(), 2U * 2U * 37U);
   for (const auto& row : found) {
     const bool north = row.at("track") == "north";
@@ -35,9 +26,9 @@ TEST(HimmDemoPlaces, TwoShipsOfOneFileAreOnTheirHemispheres) {
 }
 
 TEST(HimmDemoPlaces, AnOriginFarAwayMovesNoShip) {
-  std::string text = "time_s,latitude_deg,longitude_deg\n";
-  for (int k = 0; k < 40; ++k) text += exact(10.0 * k) + ",0," + exact(120.0 + 0.0009 * k) + "\n";
-  for (const auto& row : estimates(text, {"--origin", "0,0,0", "--set", "sigma_position_m=1"})) {
+  const auto text = recording("time_s,latitude_deg,longitude_deg",
+                              [](int k) { return exact(10.0 * k) + ",0," + exact(120.0 + 0.0009 * k); });
+  for (const auto& row : estimates(text, {"sigma_position_m=1"}, {"--origin", "0,0,0"})) {
     EXPECT_NEAR(number(row.at("longitude_deg")), 120.0 + 0.00009 * number(row.at("time_s")), 5e-5);
     EXPECT_NEAR(number(row.at("latitude_deg")), 0.0, 1e-6);
     EXPECT_NEAR(number(row.at("vx_mps")), 10.02, 0.6);
@@ -46,9 +37,10 @@ TEST(HimmDemoPlaces, AnOriginFarAwayMovesNoShip) {
 }
 
 TEST(HimmDemoPlaces, AShipThatGoesAroundTheEarthKeepsItsSpeed) {
-  std::string text = "time_s,latitude_deg,longitude_deg\n";
-  for (int k = 0; k < 450; ++k) text += exact(1000.0 * k) + ",0," + exact(1e4 * k / equator / degree) + "\n";
-  const auto found = estimates(text, {"--set", "sigma_w=0.0001", "--set", "models=dwna"});
+  const auto text = recording(
+      "time_s,latitude_deg,longitude_deg",
+      [](int k) { return exact(1000.0 * k) + ",0," + exact(1e4 * k / equator / degree); }, 450);
+  const auto found = estimates(text, {"sigma_w=0.0001", "models=dwna"});
   ASSERT_EQ(found.size(), 2U * 447U);
   for (const auto& row : found) {
     EXPECT_NEAR(number(row.at("vx_mps")), 10.0, 0.02) << row.at("time_s");
@@ -62,7 +54,7 @@ TEST(HimmDemoPlaces, LevelFlightClimbsNowhere) {
   for (int k = 0; k < 400; ++k)  // 800 km along a parallel at 60°
     text += exact(10.0 * k) + ",60," + exact(2000.0 * k / (equator * 0.5) / degree) + ",10000\n";
   for (const char* smooth : {"false", "true"})
-    for (const auto& row : estimates(text, {"--set", "sigma_w=0.05", "--set", std::string("smooth=") + smooth})) {
+    for (const auto& row : estimates(text, {"sigma_w=0.05", std::string("smooth=") + smooth})) {
       EXPECT_NEAR(number(row.at("vz_mps")), 0.0, 0.6) << row.at("time_s");
       EXPECT_NEAR(number(row.at("altitude_m")), 10000.0, 30.0);
       EXPECT_NEAR(number(row.at("latitude_deg")), 60.0, 5e-4);

@@ -11,8 +11,6 @@
 #include <sigmax/hybrid/interacting_multiple_model.hpp>
 
 #include "apps/recordings.hpp"
-#include "apps/temporary_directory.hpp"
-#include "support/program.hpp"
 
 namespace {
 
@@ -69,15 +67,11 @@ std::string csv(const std::vector<Row>& rows, int axes) {
   return text;
 }
 
-std::vector<TextRow> tracked(const std::string& text, const Arguments& sets) {
-  const TemporaryDirectory directory;
-  const auto out = directory.path() / "out";
-  const Arguments all = sets + Arguments{"filters=imm", "sigma_range_m=20", "sigma_azimuth_deg=2",
-                                         "sigma_elevation_deg=1.5", "sigma_position_m=15"};
-  program::succeeds(
-      SIGMAX_HIMM_DEMO,
-      Arguments{"track", directory.write("rows.csv", text), "--radar-at=400,-300,10", "--out", out} + setting(all));
-  return apps::rows(contents(out / "estimates.csv"));
+std::vector<TextRow> followed(const std::string& text, const Arguments& settings) {
+  return estimates(text,
+                   settings + Arguments{"filters=imm", "sigma_range_m=20", "sigma_azimuth_deg=2",
+                                        "sigma_elevation_deg=1.5", "sigma_position_m=15"},
+                   {"--radar-at=400,-300,10"});
 }
 
 template <int Axes>
@@ -101,7 +95,7 @@ void expect_near(const TextRow& found, const Gaussian<2 * Axes>& expected, doubl
 template <int Axes, class Take>
 void equals_by_hand(const std::vector<Row>& rows, const std::vector<std::string>& sets, Conversion start,
                     const Take& take) {
-  const auto found = tracked(csv(rows, Axes), sets);
+  const auto found = followed(csv(rows, Axes), sets);
   ASSERT_EQ(found.size(), rows.size() - 3);
   const auto model = dwna<Axes>(2.0);
   auto estimate = two_point_start<Axes>({rows[1].time, converted<Axes>(rows[1], start)},
@@ -156,9 +150,9 @@ TEST(HimmDemoRadar, InItsOwnSpaceBesidePositionsIsTheMemberOfEachRow) {
 
 TEST(HimmDemoRadar, InItsOwnSpaceEveryModelOfAFilterSeesIt) {
   const auto rows = passing_target(2, false);
-  const auto found = tracked(csv(rows, 2), {"models=[dwna,ct]", "member=ukf", "radar_measurement=polar",
-                                            "sigma_w=[2,0.5]", "turn_drift_deg_s=0.3", "start_sigma_turn_deg_s=4",
-                                            "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
+  const auto found = followed(csv(rows, 2), {"models=[dwna,ct]", "member=ukf", "radar_measurement=polar",
+                                             "sigma_w=[2,0.5]", "turn_drift_deg_s=0.3", "start_sigma_turn_deg_s=4",
+                                             "transition_probability=[[0.9,0.1],[0.2,0.8]]"});
   ASSERT_EQ(found.size(), rows.size() - 3);
   const PolarSensor<2> radar{Vector<2>(radar_at.head<2>())};
   const std::tuple models{Unscented{dwna<2>(2.0)}, Unscented{CoordinatedTurn<2>(0.25, 0.09 * degree * degree)}};
@@ -200,9 +194,9 @@ TEST(HimmDemoRadar, InItsOwnSpaceAMissedRowIsAPredictionAndAfterAGapItStartsAgai
   text.replace(missed, text.find('\n', missed + 1) - missed, "\n" + exact(rows[60].time) + ",radar,,,,");
   const std::vector<std::string> sets = {"models=[dwna,ct]", "member=ckf", "radar_measurement=polar",
                                          "restart_after_s=50"};
-  auto all = tracked(text, sets);
+  auto all = followed(text, sets);
   std::erase_if(all, [&](const TextRow& row) { return std::stod(row.at("time_s")) < again; });
-  EXPECT_EQ(all, tracked(later(text, again), sets));
+  EXPECT_EQ(all, followed(later(text, again), sets));
   ASSERT_EQ(all.size(), rows.size() - 45 - 3);
   EXPECT_EQ(all[60 - 48].at("nis"), "");
   EXPECT_NE(all[61 - 48].at("nis"), "");

@@ -38,14 +38,14 @@ program::Ending in_ranks(const Arguments& arguments, std::string& skipped) {
   return ending;
 }
 
-class TrackInRanks : public testing::TestWithParam<Arguments> {};
+class TrackInRanks : public testing::TestWithParam<const char*> {};
 
 TEST_P(TrackInRanks, PrintsAndWritesTheBytesOfOneProcess) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
   const Arguments arguments =
       Arguments{"track", directory.write("seven.csv", seven_tracks()), "--track-id", "id", "--quiet", "--out", out} +
-      GetParam();
+      words(GetParam()) + setting({"gate_probability=0.999"});
   const auto alone = program::succeeds(SIGMAX_HIMM_DEMO, arguments);
   EXPECT_TRUE(says(alone.output, {"7 tracks by id, 1 of them too short"}));
   const auto files = results(out);
@@ -61,12 +61,9 @@ TEST_P(TrackInRanks, PrintsAndWritesTheBytesOfOneProcess) {
 
 INSTANTIATE_TEST_SUITE_P(
     HimmDemo, TrackInRanks,
-    testing::Values(Arguments{"--set", "gate_probability=0.999", "--set", "restart_after_s=20"},
-                    Arguments{"--set", "smooth=true", "--set", "restart_after_s=20", "--set", "gate_probability=0.999"},
-                    Arguments{"--set", "filters=[imm,imm_smoothed]", "--set", "filter.imm_smoothed.smooth=true",
-                              "--set", "gate_probability=0.999", "--predict-to", "300"},
-                    Arguments{"--set", "scheme=histories", "--set", "explain=true", "--set", "gate_probability=0.999"},
-                    Arguments{"--radar", "20,0.1,0.1", "--set", "gate_probability=0.999"}),
+    testing::Values("--set restart_after_s=20", "--set restart_after_s=20 --set smooth=true",
+                    "--set filters=[imm,imm_smoothed] --set filter.imm_smoothed.smooth=true --predict-to 300",
+                    "--set scheme=histories --set explain=true", "--radar 20,0.1,0.1"),
     [](const auto& test) {
       return (std::vector<std::string>{"Filtered", "Smoothed", "TwoFilters", "Histories", "Radar"})[test.index];
     });

@@ -2,11 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/peak_memory.hpp"
 #include "apps/recordings.hpp"
-#include "apps/temporary_directory.hpp"
 #include "support/geodesy.hpp"
-#include "support/restatement.hpp"
 
 namespace {
 
@@ -59,70 +56,27 @@ Position converted(const std::array<double, 3>& z, const Sigma& sigma, std::size
   return position;
 }
 
-/// One row as the filters ought to see it.
-struct Expected {
-  double time;
-  std::optional<Position> z;
-};
-
 /// Every estimate of both filters equals that of the plain restatement with the default settings.
-void expect_restated(const std::string& estimates, const std::vector<Expected>& expected, std::size_t axes) {
+void expect_by_default(const std::string& estimates, const std::vector<Plot>& all, std::size_t axes) {
+  using restatement::Kind, restatement::Matrix;
   const auto found = rows(estimates);
-  for (const std::string name : {"imm", "himm"}) {
-    SCOPED_TRACE(name);
-    std::vector<TextRow> own;
-    for (const auto& row : found)
-      if (row.at("filter") == name) own.push_back(row);
-    restatement::Options options;
-    options.lift = restatement::Lift::borrowed_variance;
-    options.mixed_covariance = restatement::MixedCovariance::own_recentred;
-    if (name == "himm") options.kind = restatement::Kind::himm;
-    const restatement::Matrix transition = name == "himm" ? restatement::Matrix(2, 2, {1, 0.5, 0.5, 1})
-                                                          : restatement::Matrix(2, 2, {0.95, 0.05, 0.05, 0.95});
-    const double T12 = expected[1].time - expected[0].time;
-    const double T23 = expected[2].time - expected[1].time;
-    restatement::Filter filter(
-        {restatement::dwna(axes, 3.0), restatement::dwpa(axes, 3.0)}, transition,
-        {restatement::two_point_start(*expected[1].z, *expected[2].z, T23),
-         restatement::three_point_start(*expected[0].z, *expected[1].z, *expected[2].z, T12, T23)},
-        {1.0, 1.0}, options);
-    ASSERT_EQ(own.size(), expected.size() - 3);
-    double time = expected[2].time;
-    for (std::size_t k = 3; k < expected.size(); ++k) {
-      const auto& [now, z] = expected[k];
-      if (z)
-        filter.step(now - time, z->z, z->R);
-      else
-        filter.step(now - time);
-      time = now;
-      const TextRow& row = own[k - 3];
-      SCOPED_TRACE("row " + std::to_string(k));
-      ASSERT_EQ(std::stod(row.at("time_s")), now);
-      const auto estimate = filter.estimate();
-      expect_row(row, estimate, axes);
-      ASSERT_EQ(row.at("nis").empty(), !z);
-      if (z) {
-        ASSERT_CLOSE(std::stod(row.at("nis")), *filter.nis(), 1e-9);
-      }
-      ASSERT_CLOSE(std::stod(row.at("weight_dwna")), std::exp(filter.log_weights()[0]), 1e-9);
-    }
+  const double T12 = all[1].time - all[0].time, T23 = all[2].time - all[1].time;
+  for (const auto& [name, kind, transition] : {std::tuple{"imm", Kind::imm, Matrix(2, 2, {0.95, 0.05, 0.05, 0.95})},
+                                               std::tuple{"himm", Kind::himm, Matrix(2, 2, {1, 0.5, 0.5, 1})}}) {
+    const restatement::Options options{.kind = kind,
+                                       .mixed_covariance = restatement::MixedCovariance::own_recentred,
+                                       .lift = restatement::Lift::borrowed_variance};
+    const restatement::Filter filter({restatement::dwna(axes, 3.0), restatement::dwpa(axes, 3.0)}, transition,
+                                     {restatement::two_point_start(*all[1].z, *all[2].z, T23),
+                                      restatement::three_point_start(*all[0].z, *all[1].z, *all[2].z, T12, T23)},
+                                     {1.0, 1.0}, options);
+    expect_restated(of_filter(found, name), filter, all[2].time, {all.begin() + 3, all.end()});
   }
 }
 
-/// Runs `track` on a text and gives back estimates.csv.
-std::string estimates(const std::string& text, std::vector<std::string> more = {}, std::string* output = nullptr) {
-  const TemporaryDirectory directory;
-  const auto ending = program::succeeds(
-      SIGMAX_HIMM_DEMO,
-      Arguments{"track", directory.write("input.csv", text), "--out", directory.path() / "out"} + more);
-  if (output) *output = ending.output;
-  return contents(directory.path() / "out" / "estimates.csv");
-}
-
-std::vector<std::string> radar_settings(const Sigma& sigma) {
-  return {"--set", "sigma_range_m=" + exact(sigma.range),
-          "--set", "sigma_azimuth_deg=" + exact(sigma.azimuth_deg),
-          "--set", "sigma_elevation_deg=" + exact(sigma.elevation_deg)};
+Arguments radar_settings(const Sigma& sigma) {
+  return {"sigma_range_m=" + exact(sigma.range), "sigma_azimuth_deg=" + exact(sigma.azimuth_deg),
+          "sigma_elevation_deg=" + exact(sigma.elevation_deg)};
 }
 
 struct RadarCase {
@@ -143,7 +97,7 @@ TEST_P(RadarInput, IsConvertedAsTheStandardConversionHasIt) {
   const Sigma sigma{20.0, 0.3, 0.2};
   std::mt19937_64 engine(5);
   std::string text = axes == 3 ? "time_s,range_m,azimuth_deg,elevation_deg\n" : "time_s,range_m,azimuth_deg\n";
-  std::vector<Expected> expected;
+  std::vector<Plot> expected;
   std::size_t k = 0;
   for (const auto& [time, x] : flight(axes)) {
     if (++k % 11 == 0) {  // missed
@@ -156,10 +110,9 @@ TEST_P(RadarInput, IsConvertedAsTheStandardConversionHasIt) {
     text += axes == 3 ? "," + exact(z[2]) + "\n" : "\n";
     expected.push_back({time, converted({z[0], z[1], axes == 3 ? z[2] : 0.0}, sigma, axes, at)});
   }
-  auto arguments = radar_settings(sigma);
-  if (from_north) arguments.insert(arguments.end(), {"--azimuth-from", "north"});
-  arguments.push_back("--radar-at=" + exact(at[0]) + "," + exact(at[1]) + "," + exact(at[2]));
-  expect_restated(estimates(text, arguments), expected, axes);
+  Arguments options = {"--radar-at=" + exact(at[0]) + "," + exact(at[1]) + "," + exact(at[2])};
+  if (from_north) options.insert(options.end(), {"--azimuth-from", "north"});
+  expect_by_default(tracked(text, radar_settings(sigma), options).estimates, expected, axes);
 }
 
 INSTANTIATE_TEST_SUITE_P(HimmDemo, RadarInput,
@@ -183,8 +136,8 @@ TEST(HimmDemoRecording, ARoundPathAboutARadarEqualsItsConvertedMeasurements) {
     cartesian += std::to_string(k) + "," + exact(range * std::cos(azimuth * degree)) + "," +
                  exact(range * std::sin(azimuth * degree)) + "\n";
   }
-  const auto by_radar = rows(estimates(polar, radar_settings({sigma_range, sigma_azimuth_deg, 1.0})));
-  const auto by_position = rows(estimates(cartesian, {"--set", "sigma_position_m=" + exact(sigma_range)}));
+  const auto by_radar = estimates(polar, radar_settings({sigma_range, sigma_azimuth_deg, 1.0}));
+  const auto by_position = estimates(cartesian, {"sigma_position_m=" + exact(sigma_range)});
   ASSERT_EQ(by_radar.size(), 2U * 197U);
   ASSERT_EQ(by_radar.size(), by_position.size());
   for (std::size_t k = 0; k < by_radar.size(); ++k)
@@ -206,7 +159,7 @@ TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
     std::normal_distribution<double> noise(0.0, 5.0);
     std::string text = axes == 3 ? "time_s,sensor,x_m,y_m,z_m,range_m,azimuth_deg,elevation_deg\n"
                                  : "time_s,sensor,x_m,y_m,range_m,azimuth_deg\n";
-    std::vector<Expected> expected;
+    std::vector<Plot> expected;
     std::size_t k = 0;
     for (const auto& [time, x] : flight(axes)) {
       if (k % 3 == 0) {
@@ -235,9 +188,9 @@ TEST(HimmDemoRecording, EachSensorOfAFileHasItsAccuracy) {
                         "[sensor.\"old radar\"]\nsigma_azimuth_deg = 0.6\n"
                         "[sensor.new]\nsigma_azimuth_deg = 0.1\n[filter.imm.sensor.new]\nsigma_range_m = 15\n"
                         "[filter.himm.sensor.new]\nsigma_range_m = 15\n");
-    std::string output;
-    expect_restated(estimates(text, {"--config", settings}, &output), expected, axes);
-    EXPECT_TRUE(says(output, {"Rows by sensor: lidar 40, new 40, old radar 40"}));
+    const auto found = tracked(text, {}, {"--config", settings});
+    expect_by_default(found.estimates, expected, axes);
+    EXPECT_TRUE(says(found.output, {"Rows by sensor: lidar 40, new 40, old radar 40"}));
 
     const auto printed = program::run(SIGMAX_HIMM_DEMO, {"track", "any", "--print-config", "--config", settings});
     const auto again = directory.write("again.toml", printed.output);
@@ -253,7 +206,7 @@ TEST(HimmDemoRecording, EachRowMayTellItsWholeCovariance) {
     std::normal_distribution<double> noise;
     std::string text = axes == 3 ? "time_s,x_m,y_m,z_m,cov_xx,cov_xy,cov_yy_m2,cov_xz,cov_yz,cov_zz_m2\n"
                                  : "time_s,x_m,y_m,cov_xx,cov_xy,cov_yy_m2\n";
-    std::vector<Expected> expected;
+    std::vector<Plot> expected;
     for (const auto& [time, x] : flight(axes)) {
       Position z{restatement::Vector(axes), restatement::Matrix(axes, axes)};
       text += exact(time);
@@ -270,15 +223,8 @@ TEST(HimmDemoRecording, EachRowMayTellItsWholeCovariance) {
       text += "\n";
       expected.push_back({time, z});
     }
-    expect_restated(estimates(text), expected, axes);
+    expect_by_default(tracked(text).estimates, expected, axes);
   }
-}
-
-TEST(HimmDemoRecording, ASensorOfTheSettingsThatIsInNoRowIsWarnedOf) {
-  std::string output;
-  estimates("time_s,sensor,x_m,y_m,range_m,azimuth_deg\n0,a,1,2,,\n1,a,2,3,,\n2,a,3,4,,\n3,a,4,5,,\n",
-            {"--set", "sensor.b.sigma_range_m=1"}, &output);
-  EXPECT_TRUE(says(output, {"warning: key 'sensor.b' of filter 'imm': no row of"}));
 }
 
 TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
@@ -289,11 +235,9 @@ TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
   for (const auto& [time, x] : points)
     text += exact(time) + "," + exact(x[0] + noise(engine)) + "," + exact(x[1] + noise(engine)) + "," + exact(x[0]) +
             "," + exact(x[1]) + "\n";
-  const TemporaryDirectory directory;
-  const auto input = directory.write("input.csv", text);
-  program::succeeds(SIGMAX_HIMM_DEMO, {"track", input, "--out", directory.path()});
-  const auto results = nlohmann::json::parse(contents(directory.path() / "summary.json")).at("results").at("all");
-  const auto found = rows(contents(directory.path() / "estimates.csv"));
+  const auto track = tracked(text);
+  const auto results = nlohmann::json::parse(track.summary).at("results").at("all");
+  const auto found = rows(track.estimates);
   const auto measured = rows(text);
   for (const std::string filter : {"measurement", "imm", "himm"})
     for (const auto& [axis, index] : {std::pair{"x", 0U}, {"y", 1U}}) {
@@ -317,28 +261,6 @@ TEST(HimmDemoRecording, ErrorsAreThoseAgainstTheTruthWhereItIsGiven) {
     }
 }
 
-TEST(HimmDemoRecording, WarnsOnceWhereTheConversionIsOutOfItsValidity) {
-  // r σ_α²/σ_r is 0.4 at 1313 m: lines 4 and 6 are beyond.
-  const double sigma_azimuth_deg = std::sqrt(0.4 * 10.0 / 1313.0) / degree;
-  const std::string text = "time_s,range_m,azimuth_deg\n0,1200,10\n1,1300,10\n2,1400,10\n3,1312,10\n4,1900,10\n";
-  std::string output;
-  estimates(text, radar_settings({10.0, sigma_azimuth_deg, 1.0}), &output);
-  const auto at = output.find("input.csv:4: r σ_α²/σ_r is 0.43 at a range of 1400 m");
-  ASSERT_NE(at, std::string::npos) << output;
-  EXPECT_EQ(output.find("σ_α²", at + 40), std::string::npos) << "once\n" << output;
-  EXPECT_TRUE(says(output, {"in 2 of 5 measurements", "set sigma_range_m above 15,"}));  // 10 · 1900/1313 = 14.47
-  estimates(text, radar_settings({15.0, sigma_azimuth_deg, 1.0}), &output);
-  EXPECT_EQ(output.find("σ_α²"), std::string::npos) << output;
-}
-
-TEST(HimmDemoRecording, AMeasurementThatNoFilterExpectsIsNamed) {
-  std::string text = "time_s,x_m,y_m\n";
-  for (int k = 0; k < 40; ++k) text += std::to_string(k) + "," + (k == 20 ? "5000" : std::to_string(10 * k)) + ",0\n";
-  std::string output;
-  estimates(text, {}, &output);
-  EXPECT_TRUE(says(output, {"warning: ", "input.csv:22: no filter expects this measurement"}));
-}
-
 TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
   const LocalFrame frame({50.8, -1.1, 0.0}, 2);
   std::string geodetic = "time_s,latitude_deg,longitude_deg\n", cartesian = "time_s,x_m,y_m\n";
@@ -348,8 +270,7 @@ TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
     geodetic += std::to_string(10 * k) + "," + exact(latitude) + "," + exact(longitude) + "\n";
     cartesian += std::to_string(10 * k) + "," + exact(x) + "," + exact(y) + "\n";
   }
-  const auto found = rows(estimates(geodetic));
-  const auto expected = rows(estimates(cartesian));
+  const auto found = estimates(geodetic), expected = estimates(cartesian);
   ASSERT_EQ(found.size(), 2U * 57U);
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -364,21 +285,6 @@ TEST(HimmDemoRecording, TwoAxesOfGeodeticInputEqualThoseOfItsLocalPositions) {
     EXPECT_NEAR(x, std::stod(found[k].at("x_m")), 1e-6);
     EXPECT_NEAR(y, std::stod(found[k].at("y_m")), 1e-6);
   }
-}
-
-TEST(HimmDemoRecording, DatesEqualSeconds) {
-  std::string dates = "when,x_m,y_m\n", seconds = "when,x_m,y_m\n";
-  for (int k = 0; k < 100; ++k) {
-    const int total = 59 + k;  // over the end of a year
-    const std::string rest = "," + std::to_string(7 * k) + "," + std::to_string(k * k) + "\n";
-    const bool next = total >= 60;
-    const std::string second = std::to_string(100 + total % 60).substr(1) + ".25";
-    const std::string minute = next ? std::to_string(100 + total / 60 - 1).substr(1) : "59";
-    dates += (next ? "2017-01-01T00:" : "2016-12-31 23:") + minute + ":" + second + (k % 2 ? "Z" : "") + rest;
-    seconds += std::to_string(1483228740 + total) + ".25" + rest;  // 1483228800 begins 2017
-  }
-  const std::vector<std::string> mapped = {"--columns", "time_s=when"};
-  EXPECT_EQ(estimates(dates, mapped), estimates(seconds, mapped));
 }
 
 /// Three tracks of one file, whose rows lie between each other's in time; `axes` columns of positions.
@@ -417,54 +323,21 @@ std::string lines_of(const std::string& text, const std::string& track) {
 
 TEST(HimmDemoRecording, TracksOfOneFileEqualEachAlone) {
   const auto [all, alone] = interleaved(2);
-  std::string output;
-  const std::string together = estimates(all, {"--track-id", "ship"}, &output);
-  EXPECT_TRUE(says(output, {"3 tracks by ship\n"}));
+  const auto together = tracked(all, {}, {"--track-id", "ship"});
+  EXPECT_TRUE(says(together.output, {"3 tracks by ship  all"}));
   for (const auto& [ship, text] : alone) {
-    EXPECT_EQ(lines_of(together, ship), estimates(text)) << ship;
-    EXPECT_EQ(lines_of(together, ship), estimates(all, {"--select", "ship=" + ship})) << ship;
+    const std::string own = lines_of(together.estimates, ship);
+    EXPECT_EQ(own, tracked(text).estimates) << ship;
+    EXPECT_EQ(own, tracked(all, {}, {"--select", "ship=" + ship}).estimates) << ship;
   }
 }
 
 TEST(HimmDemoRecording, TheSimulatedRadarSeesATrackAlikeWhicheverOthersThereAre) {
   const auto [all, alone] = interleaved(3);
-  const std::vector<std::string> radar = {"--track-id", "ship", "--radar", "10,0.1,0.1"};
-  const std::string together = estimates(all, radar);
-  for (const auto& [ship, text] : alone) EXPECT_EQ(lines_of(together, ship), lines_of(estimates(text, radar), ship));
-}
-
-TEST(HimmDemoRecording, ATrackTooShortToStartIsCountedAndTheOthersGoOn) {
-  std::string output;
-  const std::string found =
-      estimates("time_s,id,x_m,y_m\n0,a,0,0\n1,a,1,0\n1,b,5,5\n2,a,2,0\n3,a,3,0\n", {"--track-id", "id"}, &output);
-  EXPECT_TRUE(says(output, {"2 tracks by id, 1 of them too short for every filter to start\n"}));
-  EXPECT_EQ(rows(found).size(), 2U);
-}
-
-TEST(HimmDemoRecording, TheNameOfATrackIsQuotedWhereItNeedsIt) {
-  const std::string found = estimates("time_s,id,x_m,y_m\n0,\"a,b\",0,0\n1,\"a,b\",1,0\n2,\"a,b\",2,0\n3,\"a,b\",3,0\n",
-                                      {"--track-id", "id"});
-  EXPECT_TRUE(says(found, {"\n3,\"a,b\",imm,"}));
-}
-
-TEST(HimmDemoRecording, SelectionsHoldAllAtOnce) {
-  const std::string header = "time_s,a,b,x_m,y_m\n";
-  const std::string chosen = "0,1,u,0,0\n2,1,u,2,1\n4,1,u,4,2\n6,1,u,6,3\n8,1,u,8,5\n";
-  std::string mixed = header;
-  for (std::size_t begin = 0; begin < chosen.size();) {
-    const std::size_t end = chosen.find('\n', begin) + 1;
-    mixed += "1,1,v,bad,\n" + chosen.substr(begin, end - begin) + "nonsense,2,u,9,9\n";
-    begin = end;
-  }
-  EXPECT_EQ(estimates(mixed, {"--select", "a=1", "--select", "b=u"}), estimates(header + chosen));
-}
-
-TEST(HimmDemoRecording, BadTimesAreSkippedOnRequest) {
-  std::string output;
-  EXPECT_EQ(estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n1,99,99\n2,2,0\n0.5,99,99\n3,3,1\n4,4,1\n",
-                      {"--on-bad-time", "skip"}, &output),
-            estimates("time_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n3,3,1\n4,4,1\n"));
-  EXPECT_TRUE(says(output, {"Skipped 2 rows"}));
+  const Arguments radar = {"--track-id", "ship", "--radar", "10,0.1,0.1"};
+  const std::string together = tracked(all, {}, radar).estimates;
+  for (const auto& [ship, text] : alone)
+    EXPECT_EQ(lines_of(together, ship), lines_of(tracked(text, {}, radar).estimates, ship));
 }
 
 TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
@@ -475,7 +348,7 @@ TEST(HimmDemoRecording, TheStandardInputEqualsTheFile) {
   const auto ending = program::succeeds("/bin/sh", {"-c", "exec \"$1\" track - --track-id ship --out \"$2\" < \"$3\"",
                                                     "sh", program::chosen(SIGMAX_HIMM_DEMO), out, input});
   EXPECT_TRUE(ending.output.starts_with("standard input: 300 rows")) << ending.output;
-  EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), estimates(text, {"--track-id", "ship"}));
+  EXPECT_EQ(contents(directory.path() / "out" / "estimates.csv"), tracked(text, {}, {"--track-id", "ship"}).estimates);
 }
 
 TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
@@ -487,7 +360,7 @@ TEST(HimmDemoRecording, MemoryDoesNotGrowWithTheFile) {
     return (directory.path() / name).string();
   };
   const auto peak = [&](const std::string& file) {
-    return peak_memory(SIGMAX_HIMM_DEMO, {"track", file, "--set", "filters=[\"imm\"]", "--set", "models=[\"dwna\"]"});
+    return program::peak_memory(SIGMAX_HIMM_DEMO, Arguments{"track", file} + setting({"filters=imm", "models=dwna"}));
   };
   const long small = peak(file_of("small.csv", 10'000));
   const std::string large = file_of("large.csv", 200'000);

@@ -4,51 +4,16 @@
 
 namespace {
 
-using Rows = std::vector<std::map<std::string, std::string>>;
-
-/// A CSV without quotes, by the names of its columns.
-Rows csv(const std::filesystem::path& file) {
-  std::istringstream lines(contents(file));
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> result(1);
-    for (const char letter : line)
-      if (letter == ',')
-        result.emplace_back();
-      else
-        result.back() += letter;
-    return result;
-  };
-  std::string line;
-  std::getline(lines, line);
-  const auto names = cells(line);
-  Rows rows;
-  while (std::getline(lines, line)) {
-    const auto values = cells(line);
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = values.at(i);
-  }
-  return rows;
-}
-
-std::map<std::string, std::string> row_of(const Rows& rows, const std::map<std::string, std::string>& keys) {
-  for (const auto& row : rows) {
-    bool same = true;
-    for (const auto& [key, value] : keys) same = same && row.at(key) == value;
-    if (same) return row;
-  }
-  throw std::runtime_error("there is no such row");
-}
-
 class HimmDemoReproduce : public InDirectory {};
 
 TEST_F(HimmDemoReproduce, ItsErrorsAreThoseOfSimulate) {
-  campaign(directory.path() / "all", {"reproduce", "--runs", "6", "--seed", "3"});
-  const auto rows = csv(directory.path() / "all" / "filters.csv");
+  campaign(directory.path() / "all", words("reproduce --runs 6 --seed 3"));
+  const auto rows = rows_of(directory.path() / "all" / "filters.csv");
   for (const std::string preset : {"paper_text", "released"}) {
     campaign(directory.path() / preset,
-             {"simulate", "--runs", "6", "--seed", "3", "--scenario", "2", "--group", "1", "--preset", preset, "--set",
-              "filters=[imm_correct,imm_released,himm,himm_selected,himm_5,gpb2,viterbi]", "--set",
-              "filter.imm_correct.imm_mixing=correct", "--set", "filter.himm_5.sigma_w=5"});
+             words("simulate --runs 6 --seed 3 --scenario 2 --group 1 --preset " + preset) +
+                 setting({"filters=[imm_correct,imm_released,himm,himm_selected,himm_5,gpb2,viterbi]",
+                          "filter.imm_correct.imm_mixing=correct", "filter.himm_5.sigma_w=5"}));
     const auto simulated = nlohmann::json::parse(contents(directory.path() / preset / "summary.json")).at("results");
     const std::string reading = preset == "released" ? "released" : "own";
     const std::map<std::string, std::string> names = {{"measurement", "measurement"},
@@ -60,7 +25,7 @@ TEST_F(HimmDemoReproduce, ItsErrorsAreThoseOfSimulate) {
                                                       {"gpb2", "gpb2"},
                                                       {"viterbi", "viterbi"}};
     for (const auto& [name, simulated_as] : names) {
-      const auto row = row_of(rows, {{"preset", preset}, {"scenario", "2"}, {"group", "1"}, {"filter", name}});
+      const auto row = row_with(rows, {{"preset", preset}, {"scenario", "2"}, {"group", "1"}, {"filter", name}});
       for (const std::string key : {"rmse_before_x_m", "rmse_during_y_m", "rmse_after_z_m"}) {
         const double expected = simulated.at(simulated_as).at(key);
         EXPECT_NEAR(std::stod(row.at(key)), expected, 1e-9 * expected) << preset << " " << name << " " << key;
@@ -71,23 +36,23 @@ TEST_F(HimmDemoReproduce, ItsErrorsAreThoseOfSimulate) {
 
 TEST_F(HimmDemoReproduce, AFigureIsOfThoseErrorsAndTheirIntervalsHoldTogether) {
   campaign(directory.path(), {"reproduce", "--runs", "8"});
-  const auto errors = csv(directory.path() / "filters.csv");
-  const auto figures = csv(directory.path() / "figures.csv");
+  const auto errors = rows_of(directory.path() / "filters.csv");
+  const auto figures = rows_of(directory.path() / "figures.csv");
   const std::map<std::string, std::string> where = {{"preset", "released"}, {"scenario", "1"}, {"group", "1"}};
   const auto error = [&](const std::string& filter) {
     auto keys = where;
     keys["filter"] = filter;
-    return std::stod(row_of(errors, keys).at("rmse_during_y_m"));
+    return std::stod(row_with(errors, keys).at("rmse_during_y_m"));
   };
   auto keys = where;
   keys.insert({{"sentence", "1"}, {"reading", "released"}, {"imm", "released"}, {"phase", "during"}, {"axis", "y"}});
-  const auto figure = row_of(figures, keys);
+  const auto figure = row_with(figures, keys);
   EXPECT_NEAR(std::stod(figure.at("value")), error("himm_released") / error("imm_released") - 1.0, 1e-9);
 
   // The same figure is one of 9 of sentence 1 and one of 18 of the first of section VI.E: wider by the quantiles of
   // Student's t with 7 degrees of freedom, 4.7309 at 1 − 0.025/18 (and 4.0294 at 1 − 0.025/9).
   keys["sentence"] = "31";
-  const auto wider = row_of(figures, keys);
+  const auto wider = row_with(figures, keys);
   const auto width = [](const auto& row) {
     return std::stod(row.at("value_upper")) - std::stod(row.at("value_lower"));
   };
@@ -98,7 +63,7 @@ TEST_F(HimmDemoReproduce, AFigureIsOfThoseErrorsAndTheirIntervalsHoldTogether) {
 
 TEST_F(HimmDemoReproduce, ASeededPartIsAsRecorded) {
   campaign(directory.path(), {"reproduce", "--runs", "10"});
-  const auto rows = csv(directory.path() / "filters.csv");
+  const auto rows = rows_of(directory.path() / "filters.csv");
   struct Recorded {
     const char *preset, *scenario, *group, *filter;
     double before_x, during_y, after_z;
@@ -113,13 +78,14 @@ TEST_F(HimmDemoReproduce, ASeededPartIsAsRecorded) {
         Recorded{"released", "2", "3", "himm_selected", 709.8293, 731.2975, 739.8275},
         Recorded{"released", "2", "4", "viterbi", 1690.3, 2178.498, 1394.644},
         Recorded{"released", "1", "4", "imm_released_most_likely", 17.88785, 28.8118, 17.72906}}) {
-    const auto row = row_of(rows, {{"preset", recorded.preset},
-                                   {"scenario", recorded.scenario},
-                                   {"group", recorded.group},
-                                   {"filter", recorded.filter}});
-    EXPECT_NEAR(std::stod(row.at("rmse_before_x_m")), recorded.before_x, 1e-4 * recorded.before_x) << recorded.filter;
-    EXPECT_NEAR(std::stod(row.at("rmse_during_y_m")), recorded.during_y, 1e-4 * recorded.during_y) << recorded.filter;
-    EXPECT_NEAR(std::stod(row.at("rmse_after_z_m")), recorded.after_z, 1e-4 * recorded.after_z) << recorded.filter;
+    const auto row = row_with(rows, {{"preset", recorded.preset},
+                                     {"scenario", recorded.scenario},
+                                     {"group", recorded.group},
+                                     {"filter", recorded.filter}});
+    for (const auto& [key, value] : {std::pair{"rmse_before_x_m", recorded.before_x},
+                                     {"rmse_during_y_m", recorded.during_y},
+                                     {"rmse_after_z_m", recorded.after_z}})
+      EXPECT_NEAR(std::stod(row.at(key)), value, 1e-4 * value) << recorded.filter;
   }
 }
 

@@ -5,26 +5,18 @@
 namespace {
 
 /// Nine conditions, two filters, four settings each.
-const Arguments small = {"sweep", "--scenario",    "2",   "--filters", "imm,himm_own", "--probability",
-                         "0.05",  "--possibility", "0.5", "--sigma-w", "3,9",          "--lift",
-                         "zero",  "--tuning-runs", "4",   "--runs",    "40",           "--mismatch",
-                         "1,2"};
+const Arguments small = words(
+    "sweep --scenario 2 --filters imm,himm_own --probability 0.05 --possibility 0.5 --sigma-w 3,9 --lift zero "
+    "--tuning-runs 4 --runs 40 --mismatch 1,2");
 
-/// The cells of tuned.csv by column, for one scenario and filter.
-std::vector<std::string> row_of(const std::filesystem::path& out, const std::string& beginning) {
-  std::istringstream lines(contents(out / "tuned.csv"));
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with(beginning)) continue;
-    std::vector<std::string> cells(1);
-    for (const char letter : line)
-      if (letter == ',')
-        cells.emplace_back();
-      else
-        cells.back() += letter;
-    return cells;
-  }
-  throw std::runtime_error("no row begins with " + beginning);
+/// The row of tuned.csv about a filter where nothing is mismatched.
+TextRow tuned(const std::filesystem::path& out, const std::string& filter) {
+  return row_with(rows_of(out / "tuned.csv"),
+                  {{"noise", "1"}, {"period", "1"}, {"strength", "1"}, {"length", "1"}, {"filter", filter}});
 }
+
+/// Its condition alone.
+const std::string alone = " --mismatch 1 --period 1 --strength 1 --length 1 ";
 
 nlohmann::json simulated(const std::filesystem::path& out, const Arguments& sets) {
   program::succeeds(SIGMAX_HIMM_DEMO,
@@ -45,35 +37,12 @@ double score_of(const nlohmann::json& results, const std::string& filter) {
 class HimmDemoSweep : public InDirectory {};
 
 TEST_F(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
-  campaign(directory.path() / "sweep", {"sweep",
-                                        "--scenario",
-                                        "2",
-                                        "--filters",
-                                        "imm,himm_own",
-                                        "--mismatch",
-                                        "1",
-                                        "--period",
-                                        "1",
-                                        "--strength",
-                                        "1",
-                                        "--length",
-                                        "1",
-                                        "--tuning-runs",
-                                        "10",
-                                        "--runs",
-                                        "4",
-                                        "--probability",
-                                        "0.05",
-                                        "--possibility",
-                                        "0.2,0.5",
-                                        "--sigma-w",
-                                        "1,9",
-                                        "--lift",
-                                        "zero,unbiased",
-                                        "--beyond",
-                                        "0"});
+  campaign(directory.path() / "sweep",
+           words("sweep --scenario 2 --filters imm,himm_own --tuning-runs 10 --runs 4 --probability 0.05 "
+                 "--possibility 0.2,0.5 --sigma-w 1,9 --lift zero,unbiased --beyond 0" +
+                 alone));
   double least = 1e9;
-  std::vector<std::string> best;
+  TextRow best;
   for (const std::string leaving : {"0.2", "0.5"})
     for (const std::string returning : {"0.2", "0.5"})
       for (const std::string dwna : {"1", "9"})
@@ -85,61 +54,57 @@ TEST_F(HimmDemoSweep, TheSettingsWithTheLeastScoreOfSimulateAreChosen) {
                            "sigma_w=[" + dwna + "," + dwpa + "]", "lift=" + lift});
             if (score_of(results, "himm_own") < least) {
               least = score_of(results, "himm_own");
-              best = {leaving, returning, dwna, dwpa, lift};
+              best = {{"leaving", leaving},
+                      {"returning", returning},
+                      {"sigma_w_dwna", dwna},
+                      {"sigma_w_dwpa", dwpa},
+                      {"lift", lift}};
             }
           }
-  const auto row = row_of(directory.path() / "sweep", "2,1,1,1,1,himm_own,");
-  EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 11), best);
-  EXPECT_NEAR(std::stod(row.at(13)), least, 1e-9);
+  const auto row = tuned(directory.path() / "sweep", "himm_own");
+  for (const auto& [key, value] : best) EXPECT_EQ(row.at(key), value) << key;
+  EXPECT_NEAR(std::stod(row.at("tuning_score")), least, 1e-9);
 }
 
-/// One condition, two filters, of which only the off-diagonals are searched.
-const Arguments off_diagonals = {"sweep",      "--scenario", "1",
-                                 "--mismatch", "1",          "--period",
-                                 "1",          "--strength", "1",
-                                 "--length",   "1",          "--tuning-runs",
-                                 "4",          "--runs",     "2",
-                                 "--sigma-w",  "3",          "--lift",
-                                 "zero",       "--filters",  "imm,himm_own_recentred"};
+/// Two filters, of which only the off-diagonals are searched.
+const Arguments off_diagonals = words(
+    "sweep --scenario 1 --tuning-runs 4 --runs 2 --sigma-w 3 --lift zero --filters imm,himm_own_recentred" + alone);
 
 TEST_F(HimmDemoSweep, BeyondItsListsItFindsTheBestOfLongerOnes) {
   const auto far = directory.path() / "far", longer = directory.path() / "longer";
-  const auto said = campaign(far, off_diagonals + Arguments{"--probability", "0.16,0.32", "--possibility", "0.4,0.8"});
+  const auto said = campaign(far, off_diagonals + words("--probability 0.16,0.32 --possibility 0.4,0.8"));
   EXPECT_EQ(said.find("tuned filters stopped"), std::string::npos) << said;
-  campaign(longer, off_diagonals + Arguments{"--beyond", "0", "--probability",
-                                             "0.0025,0.005,0.01,0.02,0.04,0.08,0.16,0.32,0.64,0.9", "--possibility",
-                                             "0.00625,0.0125,0.025,0.05,0.1,0.2,0.4,0.8,1"});
-  for (const std::string beginning : {"1,1,1,1,1,imm,", "1,1,1,1,1,himm_own_recentred,"}) {
-    auto found = row_of(far, beginning), best = row_of(longer, beginning);
-    EXPECT_LT(std::stod(found.at(12)), std::stod(best.at(12))) << "fewer settings were tried";
-    found.erase(found.begin() + 12);
-    best.erase(best.begin() + 12);
+  campaign(longer, off_diagonals + words("--beyond 0 --probability 0.0025,0.005,0.01,0.02,0.04,0.08,0.16,0.32,0.64,0.9 "
+                                         "--possibility 0.00625,0.0125,0.025,0.05,0.1,0.2,0.4,0.8,1"));
+  for (const std::string filter : {"imm", "himm_own_recentred"}) {
+    auto found = tuned(far, filter), best = tuned(longer, filter);
+    EXPECT_LT(std::stod(found.at("settings_tried")), std::stod(best.at("settings_tried")));
+    found["settings_tried"] = best["settings_tried"];
     EXPECT_EQ(found, best);
   }
 }
 
 TEST_F(HimmDemoSweep, ItStopsAtTheLimitAndSaysSo) {
-  const Arguments far = {"--probability", "0.16,0.32", "--possibility", "0.4,0.8"};
-  const auto said = campaign(directory.path(), off_diagonals + far + Arguments{"--beyond", "2"});
+  const auto said =
+      campaign(directory.path(), off_diagonals + words("--probability 0.16,0.32 --possibility 0.4,0.8 --beyond 2"));
   EXPECT_TRUE(says(said, {"2 of 2 tuned filters stopped at the limit beyond a list"}));
-  const auto row = row_of(directory.path(), "1,1,1,1,1,imm,");
-  EXPECT_EQ(std::vector<std::string>(row.begin() + 6, row.begin() + 8), (std::vector<std::string>{"0.04", "0.04"}));
-  EXPECT_EQ(row.at(11), "1");
+  const auto row = tuned(directory.path(), "imm");
+  EXPECT_EQ(row.at("leaving"), "0.04");
+  EXPECT_EQ(row.at("returning"), "0.04");
+  EXPECT_EQ(row.at("at_the_limit"), "1");
 }
 
 TEST_F(HimmDemoSweep, TheyAreJudgedOnOtherRuns) {
-  const Arguments one = {"sweep",    "--scenario", "2",          "--filters", "imm",      "--mismatch", "1",
-                         "--period", "1",          "--strength", "1",         "--length", "1",          "--probability",
-                         "0.05",     "--sigma-w",  "3",          "--lift",    "zero"};
-  campaign(directory.path() / "early", one + Arguments{"--tuning-runs", "4", "--runs", "6"});
-  campaign(directory.path() / "all", one + Arguments{"--tuning-runs", "10", "--runs", "6"});
-  const auto score = [&](const char* run, std::size_t column) {
-    return std::stod(row_of(directory.path() / run, "2,1,1,1,1,imm,").at(column));
-  };
+  const auto one =
+      words("sweep --scenario 2 --filters imm --probability 0.05 --sigma-w 3 --lift zero --runs 6" + alone);
+  const auto early = directory.path() / "early", all = directory.path() / "all";
+  campaign(early, one + words("--tuning-runs 4"));
+  campaign(all, one + words("--tuning-runs 10"));
+  const auto score = [](const auto& run, const char* key) { return std::stod(tuned(run, "imm").at(key)); };
   // Runs 5 to 10 are judged first, and are among the ten that tune then: mean squares add up.
-  EXPECT_NE(score("early", 14), score("all", 13));
-  EXPECT_NE(score("early", 14), score("all", 14));
-  EXPECT_NEAR(score("all", 13), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
+  EXPECT_NE(score(early, "score"), score(all, "tuning_score"));
+  EXPECT_NE(score(early, "score"), score(all, "score"));
+  EXPECT_NEAR(score(all, "tuning_score"), score_of(simulated(directory.path() / "s", {"filters=imm"}), "imm"), 1e-9);
 }
 
 TEST_F(HimmDemoSweep, TheNumberOfThreadsChangesNoByte) {
@@ -190,11 +155,12 @@ TEST_F(HimmDemoSweep, ADigitOfAShardThatChangedIsNeverMerged) {
 TEST_F(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
   if (!has_mpirun()) GTEST_SKIP() << "there is no mpirun";
   const auto out = directory.path() / "ranks";
-  const auto words = mpirun(small + Arguments{"--quiet", "--out", out});
+  const auto command = mpirun(small + Arguments{"--quiet", "--out", out});
+  const Arguments ranked(command.begin() + 1, command.end());
   campaign(directory.path() / "whole", small);
-  Running running(words);
-  if (!running.has_written(out / "cells.journal", 3)) {
-    const auto ending = program::run(words.front(), {words.begin() + 1, words.end()});
+  program::Running running(command.front(), ranked);
+  if (!has_written(running, out / "cells.journal", 3)) {
+    const auto ending = program::run(command.front(), ranked);
     ASSERT_NE(ending.output.find("this build has no MPI"), std::string::npos) << ending.output;
     GTEST_SKIP() << "this build has no MPI, and says so";
   }
@@ -203,7 +169,7 @@ TEST_F(HimmDemoSweep, ARankIsKilledAndTheRestGoesOnFromThere) {
   ::kill(ranks.back(), SIGKILL);
   EXPECT_NE(running.end(), 0);
   EXPECT_LT(lines_of(out / "cells.journal"), lines_of(directory.path() / "whole" / "cells.journal"));
-  program::succeeds(words.front(), {words.begin() + 1, words.end()});
+  program::succeeds(command.front(), ranked);
   EXPECT_EQ(results(out), results(directory.path() / "whole"));
 }
 

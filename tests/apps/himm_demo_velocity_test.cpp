@@ -2,8 +2,6 @@
 // Kalman filter of one model, restated, with a numerical Jacobian.
 
 #include "apps/recordings.hpp"
-#include "apps/temporary_directory.hpp"
-#include "support/program.hpp"
 
 namespace {
 
@@ -49,9 +47,8 @@ Quantity component(std::size_t i, double value, double sigma) {
   return {value, sigma, [i](const auto& x) { return x[i]; }};
 }
 
-void expect_filtered(const Recording& recording, std::vector<std::string> more, double tolerance,
-                     const std::vector<std::string>& options = {}) {
-  const TemporaryDirectory directory;
+void expect_filtered(const Recording& recording, const Arguments& more, double tolerance,
+                     const Arguments& options = {}) {
   const Arguments known = {"filters=[imm]",
                            "models=[dwna]",
                            "sigma_w=2",
@@ -60,10 +57,7 @@ void expect_filtered(const Recording& recording, std::vector<std::string> more, 
                            "start_covariance_diagonal=[400,400,1,25,25,1,1,1,1]",
                            "start_time_s=0",
                            "sigma_position_m=12"};
-  program::succeeds(SIGMAX_HIMM_DEMO, Arguments{"track", directory.write("input.csv", recording.text), "--out",
-                                                directory.path() / "out"} +
-                                          setting(known) + setting(more) + options);
-  const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
+  const auto found = estimates(recording.text, known + more, options);
   ASSERT_EQ(found.size(), recording.rows.size());
   restatement::State expected{{5000.0, -3000.0, -60.0, 80.0},
                               restatement::Matrix(4, 4, {400, 0, 0, 0, 0, 400, 0, 0, 0, 0, 25, 0, 0, 0, 0, 25})};
@@ -180,13 +174,13 @@ TEST(HimmDemoVelocity, BearingsCountBetweenPositionsAndAlone) {
 
 /// An aircraft that flies east round the pole, far from where its frame began: its east is that where it is.
 TEST(HimmDemoVelocity, OfAPlaceIsAlongItsOwnEastAndNorth) {
-  const TemporaryDirectory directory;
-  std::string text = "time_s,latitude_deg,longitude_deg,speed_kt,course_deg\n";
-  for (int k = 0; k < 400; ++k)  // 600 kt along the parallel of 60° north, said without an error
-    text += exact(10.0 * k) + ",60," + exact(10.0 * k * 600.0 / 3600.0 / 60.0 / std::cos(60.0 * degree)) + ",600,90\n";
-  program::succeeds(SIGMAX_HIMM_DEMO, {"track", directory.write("input.csv", text), "--out", directory.path() / "out",
-                                       "--set", "sigma_velocity_mps=0.1", "--set", "sigma_position_m=1000"});
-  for (const auto& row : rows(contents(directory.path() / "out" / "estimates.csv"))) {
+  const auto text = recording(
+      "time_s,latitude_deg,longitude_deg,speed_kt,course_deg",
+      [](int k) {  // 600 kt along the parallel of 60° north, said without an error
+        return exact(10.0 * k) + ",60," + exact(10.0 * k * 600.0 / 3600.0 / 60.0 / std::cos(60.0 * degree)) + ",600,90";
+      },
+      400);
+  for (const auto& row : estimates(text, {"sigma_velocity_mps=0.1", "sigma_position_m=1000"})) {
     EXPECT_NEAR(number(row.at("vx_mps")), 600.0 * knot, 1.0);
     EXPECT_NEAR(number(row.at("vy_mps")), 0.0, 1.0);
   }
@@ -194,31 +188,13 @@ TEST(HimmDemoVelocity, OfAPlaceIsAlongItsOwnEastAndNorth) {
 
 /// Where a truth is told, all positions are about one point; the first rows come before there is an estimate.
 TEST(HimmDemoVelocity, OfAPlaceIsTakenBeforeTheStartToo) {
-  const TemporaryDirectory directory;
-  std::string text = "time_s,latitude_deg,longitude_deg,true_x_m,true_y_m,vx_mps,vy_mps\n";
-  for (int k = 0; k < 20; ++k)
-    text += exact(k) + "," + exact(50.0 + k * 1e-4) + ",1,0," + exact(k * 11.1229) + ",0,11.1229\n";
-  const auto ending =
-      program::succeeds(SIGMAX_HIMM_DEMO, {"track", directory.write("input.csv", text), "--out",
-                                           directory.path() / "out", "--set", "sigma_velocity_mps=0.1"});
-  const auto found = rows(contents(directory.path() / "out" / "estimates.csv"));
+  const auto text = recording(
+      "time_s,latitude_deg,longitude_deg,true_x_m,true_y_m,vx_mps,vy_mps",
+      [](int k) { return exact(k) + "," + exact(50.0 + k * 1e-4) + ",1,0," + exact(k * 11.1229) + ",0,11.1229"; }, 20);
+  const auto found = estimates(text, {"sigma_velocity_mps=0.1"});
   ASSERT_EQ(found.size(), 2U * 17U);
   EXPECT_NEAR(number(found.back().at("vy_mps")), 11.1229, 0.01);
   EXPECT_NEAR(number(found.back().at("y_m")), 19 * 11.1229, 0.5);
-}
-
-TEST(HimmDemoVelocity, IsRefusedWhereItMakesNoSense) {
-  const TemporaryDirectory directory;
-  const auto run = [&](const std::string& text) {
-    return program::run(SIGMAX_HIMM_DEMO,
-                        {"track", directory.write("input.csv", text), "--set", "sigma_velocity_mps=1"});
-  };
-  const auto course = run("time_s,x_m,y_m,speed_mps,course_deg\n1,0,0,5,400\n");
-  EXPECT_EQ(course.status, 3);
-  EXPECT_TRUE(says(course.output, {"input.csv:2", "course_deg"}));
-  const auto word = run("time_s,x_m,y_m,vx_mps,vy_mps\n1,0,0,fast,4\n");
-  EXPECT_EQ(word.status, 3);
-  EXPECT_TRUE(says(word.output, {"vx_mps"}));
 }
 
 }  // namespace

@@ -21,6 +21,14 @@ inline std::string csv(const std::vector<Point>& points) {
   return text;
 }
 
+/// As a restatement takes them, with an accuracy of 10 m.
+inline std::vector<Plot> plots(const std::vector<Point>& points, std::size_t from = 0) {
+  std::vector<Plot> result;
+  for (std::size_t k = from; k < points.size(); ++k)
+    result.push_back({points[k].time, {{points[k].z, 100.0 * restatement::identity(points[k].z.size())}}});
+  return result;
+}
+
 /// A target that flies straight, accelerates for 50 scans and flies on, seen to 10 m at irregular times.
 inline std::vector<Point> accelerating_target(std::size_t axes = 3) {
   std::mt19937_64 engine(7);
@@ -60,27 +68,41 @@ inline std::vector<Point> turning_target() {
   return points;
 }
 
-/// A start of nine components, for `start = "given"`, and a time before that of `accelerating_target`.
-inline const std::vector<double> start_mean = {1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0};
-inline const std::vector<double> start_variance = {400, 500, 600, 100, 110, 120, 25, 16, 9};
+/// A given start, before the times of `accelerating_target`, and other settings.
 inline constexpr double start_time = 2.5;
+inline const Arguments given = {"start=given",
+                                "start_mean=[1200,800,300,-95,-85,1,0.5,-0.25,0]",
+                                "start_covariance_diagonal=[400,500,600,100,110,120,25,16,9]",
+                                "start_time_s=2.5",
+                                "sigma_w=[3,4]",
+                                "transition_probability=[[0.95,0.05],[0.1,0.9]]",
+                                "transition_possibility=[[1,0.5],[0.25,1]]"};
 
-/// The given start of a model with that many components, as the restatement takes it.
+/// That start of a model with so many components, as a restatement takes it.
 inline restatement::State restated_start(std::size_t components) {
-  restatement::State start{restatement::Vector(components), restatement::Matrix(components, components)};
-  for (std::size_t i = 0; i < components; ++i) {
-    start.mean[i] = start_mean[i];
-    start.covariance(i, i) = start_variance[i];
-  }
-  return start;
+  const restatement::Vector variances = {400, 500, 600, 100, 110, 120, 25, 16, 9};
+  restatement::State start{{1200, 800, 300, -95, -85, 1, 0.5, -0.25, 0}, restatement::Matrix(9, 9)};
+  for (std::size_t i = 0; i < 9; ++i) start.covariance(i, i) = variances[i];
+  return restatement::leading(start, components);
 }
 
-/// The rows of estimates.csv that are one filter's.
-inline std::vector<TextRow> of_filter(const std::vector<TextRow>& all, const std::string& filter) {
-  std::vector<TextRow> own;
-  for (const auto& row : all)
-    if (row.at("filter") == filter) own.push_back(row);
-  return own;
+/// The filter with those settings, of which the options tell the kind.
+inline restatement::Filter restated(const restatement::Options& options, std::vector<restatement::State> starts = {},
+                                    std::size_t axes = 3, restatement::Matrix transition = {}) {
+  if (starts.empty()) starts = {restated_start(6), restated_start(9)};
+  const bool fuzzy = options.kind == restatement::Kind::himm;
+  if (transition.rows == 0)
+    transition = {2, 2, fuzzy ? std::vector{1.0, 0.5, 0.25, 1.0} : std::vector{0.95, 0.05, 0.1, 0.9}};
+  return {{restatement::dwna(axes, 3.0), restatement::dwpa(axes, 4.0)}, transition, starts, {1.0, 1.0}, options};
+}
+
+/// The options of a filter by default.
+inline restatement::Options usual(restatement::Kind kind) {
+  restatement::Options options;
+  options.kind = kind;
+  options.lift = restatement::Lift::borrowed_variance;
+  options.mixed_covariance = restatement::MixedCovariance::own_recentred;
+  return options;
 }
 
 }  // namespace sigmax::apps

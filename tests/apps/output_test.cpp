@@ -1,6 +1,5 @@
 #include "support/output.hpp"
 
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "apps/temporary_directory.hpp"
@@ -89,22 +88,14 @@ TEST_F(AtomicFiles, NamesPathAndReasonOfAFailure) {
 }
 
 TEST_F(AtomicFiles, ReportsAFullDevice) {
-  // A limit on the size of files fails write(2) as a full disk does, half-way through a file.
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{4096, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   std::string refusal;
-  {
+  with_files_up_to(4096, [&] {
     AtomicFile file{directory.path() / "a"};
     refusal = message_of<InputError>([&] {
       file.write(std::string(100'000, 'x'));
       file.commit();
     });
-  }
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
+  });
   EXPECT_EQ(refusal, (directory.path() / "a").string() +
                          ": cannot be written: File too large; make room there, or choose another place");
   EXPECT_EQ(count_files(directory.path()), 0);

@@ -7,18 +7,17 @@ namespace {
 
 constexpr std::size_t draws = 1'000'000;
 
-std::vector<double> normals(std::uint64_t seed, std::uint64_t stream) {
+std::vector<double> drawn(double (RandomStream::*draw)(), std::uint64_t seed, std::uint64_t stream) {
   RandomStream random{seed, stream};
   std::vector<double> values(draws);
-  for (double& value : values) value = random.normal();
+  for (double& value : values) value = (random.*draw)();
   return values;
 }
-
+std::vector<double> normals(std::uint64_t seed, std::uint64_t stream) {
+  return drawn(&RandomStream::normal, seed, stream);
+}
 std::vector<double> uniforms(std::uint64_t seed, std::uint64_t stream) {
-  RandomStream random{seed, stream};
-  std::vector<double> values(draws);
-  for (double& value : values) value = random.uniform();
-  return values;
+  return drawn(&RandomStream::uniform, seed, stream);
 }
 
 double mean_power(const std::vector<double>& values, int power) {

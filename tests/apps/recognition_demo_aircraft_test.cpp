@@ -7,27 +7,6 @@
 
 namespace {
 
-/// Counts of two classes in two bins of each of the four features.
-const std::map<std::string, Matrix> counts = {{"altitude_layer_ft_agl", {{30, 10}, {5, 35}}},
-                                              {"airspeed_kt", {{50, 50}, {1, 99}}},
-                                              {"vertical_rate_ft_per_min", {{7, 3}, {5, 5}}},
-                                              {"turn_rate_deg_per_s", {{20, 60}, {10, 70}}}};
-
-std::string counts_csv() {
-  const std::map<std::string, Numbers> bounds = {{"altitude_layer_ft_agl", {50, 1000, 5000}},
-                                                 {"airspeed_kt", {0, 100, 300}},
-                                                 {"vertical_rate_ft_per_min", {-2000, 0, 2000}},
-                                                 {"turn_rate_deg_per_s", {-8, 2, 8}}};
-  std::ostringstream text;
-  text << "class,feature,bin,lower,upper,count\n";
-  for (std::size_t c = 0; c < 2; ++c)
-    for (const auto& [feature, table] : counts)
-      for (std::size_t b = 0; b < 2; ++b)
-        text << (c == 0 ? "slow" : "fast") << ',' << feature << ',' << b + 1 << ',' << bounds.at(feature)[b] << ','
-             << bounds.at(feature)[b + 1] << ',' << table[c][b] << '\n';
-  return text.str();
-}
-
 /// What a subcommand says of a file, by its name and as the standard input.
 std::pair<std::string, std::string> said_of(const std::string& subcommand, const std::filesystem::path& file) {
   const auto run = [&](const std::string& name) {
@@ -59,21 +38,21 @@ TEST_F(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoo
   recognition_demo_succeeds({"encounter", data, "--track", track, "--ground", "100", "--every", "10", "--quiet",
                              "--out", directory.path() / "out"});
   const auto reports = rows_of(directory.path() / "out" / "reports.csv");
-  const std::vector<NamedRow> expected = {{{"time_s", "4"},
-                                           {"altitude_layer_ft_agl", "below 1000"},
-                                           {"airspeed_kt", "below 100"},
-                                           {"vertical_rate_ft_per_min", "0 and above"},
-                                           {"turn_rate_deg_per_s", "2 and above"}},
-                                          {{"time_s", "14"},
-                                           {"altitude_layer_ft_agl", "1000 and above"},
-                                           {"airspeed_kt", "below 100"},
-                                           {"vertical_rate_ft_per_min", "below 0"},
-                                           {"turn_rate_deg_per_s", "2 and above"}},
-                                          {{"time_s", "41"},
-                                           {"altitude_layer_ft_agl", "1000 and above"},
-                                           {"airspeed_kt", "100 and above"},
-                                           {"vertical_rate_ft_per_min", ""},
-                                           {"turn_rate_deg_per_s", "below 2"}}};
+  const std::vector<TextRow> expected = {{{"time_s", "4"},
+                                          {"altitude_layer_ft_agl", "below 1000"},
+                                          {"airspeed_kt", "below 100"},
+                                          {"vertical_rate_ft_per_min", "0 and above"},
+                                          {"turn_rate_deg_per_s", "2 and above"}},
+                                         {{"time_s", "14"},
+                                          {"altitude_layer_ft_agl", "1000 and above"},
+                                          {"airspeed_kt", "below 100"},
+                                          {"vertical_rate_ft_per_min", "below 0"},
+                                          {"turn_rate_deg_per_s", "2 and above"}},
+                                         {{"time_s", "41"},
+                                          {"altitude_layer_ft_agl", "1000 and above"},
+                                          {"airspeed_kt", "100 and above"},
+                                          {"vertical_rate_ft_per_min", ""},
+                                          {"turn_rate_deg_per_s", "below 2"}}};
   EXPECT_EQ(reports, expected);
 
   Numbers p(2, 1.0), ratio(2, 1.0), dubois_prade(2, 1.0);

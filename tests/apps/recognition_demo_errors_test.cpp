@@ -1,6 +1,5 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/refusals.hpp"
-#include "support/text.hpp"
 
 namespace {
 
@@ -25,19 +24,6 @@ TEST(RecognitionDemoErrors, TheGoodFilesOfTheseCasesAreGood) {
   const auto model = directory.write("model.json", good_model);
   recognition_demo_succeeds({"classify", model, data});
   recognition_demo_succeeds({"train", data, "--label", "kind", "--model", directory.path() / "m.json"});
-}
-
-TEST(RecognitionDemoErrors, EverySubcommandHasTwoExamplesInItsHelp) {
-  for (const std::string subcommand :
-       {"esm", "regimes", "manoeuvre", "encounter", "performance", "train", "classify", "evaluate"}) {
-    const auto help = recognition_demo_succeeds({subcommand, "--help"});
-    for (const std::string& line : lines_of(help.output, any_width)) EXPECT_LE(display_width(line), 80U) << line;
-    std::size_t examples = 0;
-    const std::string start = "\n  recognition_demo " + subcommand;
-    for (auto at = help.output.find(start); at != std::string::npos; at = help.output.find(start, at + 1)) ++examples;
-    EXPECT_EQ(examples, 2U) << help.output;
-  }
-  EXPECT_TRUE(recognition_demo({"--version"}).output.starts_with("recognition_demo "));
 }
 
 }  // namespace

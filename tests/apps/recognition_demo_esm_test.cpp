@@ -104,17 +104,6 @@ TEST_P(Esm, EveryClassifierEqualsPlainLoopsOnTheReadingsOfEveryRun) {
 INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Esm, testing::Values("uniform", "dirichlet"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST(RecognitionDemoEsm, TheNumberOfThreadsChangesNoByte) {
-  const TemporaryDirectory directory;
-  for (const std::string threads : {"1", "3"})
-    ASSERT_EQ(esm(directory.path() / threads,
-                  {"--usage", "dirichlet", "--runs", "300", "--reports", "3", "--threads", threads})
-                  .status,
-              0);
-  for (const char* file : {"runs.csv", "curves.csv"})
-    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
-}
-
 TEST(RecognitionDemoEsm, TheSeedChoosesTheRuns) {
   const TemporaryDirectory directory;
   for (const std::string seed : {"1", "2"})

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
+#include <regex>
 
-#include "apps/peak_memory.hpp"
 #include "apps/recognition_demo_support.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/text.hpp"
@@ -125,7 +125,7 @@ class Restatement {
 };
 
 /// Compares the rows of a predictions.csv of one line with the restatement.
-void compare(const NamedRow& row, const Restatement& learned, const Tree& tree) {
+void compare(const TextRow& row, const Restatement& learned, const Tree& tree) {
   const std::map<std::string, Numbers> expected = {
       {"sigma", learned.sigma(tree)},
       {"max, ratio scale", learned.fuzzy(tree, by_ratio, false)},
@@ -151,23 +151,33 @@ std::set<std::size_t> all_rows(std::size_t size) {
 
 const Arguments columns = {"--label", "kind", "--ignore", "id", "--categorical", "rings"};
 
-Arguments with_columns(const Arguments& arguments, const Arguments& more) { return arguments + columns + more; }
+/// Tests that learn from a text and classify another one.
+class RecognitionDemoLearning : public InDirectory {
+ protected:
+  void train(const std::string& text, const Arguments& options = {"--label", "kind"}) const {
+    recognition_demo_succeeds(Arguments{"train", directory.write("train.csv", text), "--model", model} + options);
+  }
+  /// What is printed; the results are in `out`.
+  std::string classify(const std::string& text, const Arguments& options = {}) const {
+    const auto data = directory.write("new.csv", text);
+    return recognition_demo_succeeds(Arguments{"classify", model, data, "--quiet", "--out", out} + options).output;
+  }
+  std::string predictions() const { return contents(out / "predictions.csv"); }
+  nlohmann::json summary() const { return nlohmann::json::parse(contents(out / "summary.json")); }
 
-class Learning : public testing::TestWithParam<std::string> {};
+  const std::filesystem::path model = directory.path() / "model.json", out = directory.path() / "out";
+};
+
+class Learning : public RecognitionDemoLearning, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Learning, AModelSavedAndReadBackEqualsPlainCounting) {
-  const TemporaryDirectory directory;
   const auto trees = forest(120);
-  const auto data = directory.write("forest.csv", csv(trees));
-  const auto model = directory.path() / "forest.json";
-  const auto train = recognition_demo_succeeds(
-      with_columns({"train", data}, {"--model", model, "--bins", "4", "--misread", GetParam()}));
-  const auto classify =
-      recognition_demo_succeeds({"classify", model, data, "--quiet", "--out", directory.path() / "out"});
+  train(csv(trees), columns + Arguments{"--bins", "4", "--misread", GetParam()});
+  classify(csv(trees));
   const Restatement learned(trees, all_rows(trees.size()), 4, std::stod(GetParam()));
-  const auto rows = rows_of(directory.path() / "out" / "predictions.csv");
-  ASSERT_EQ(rows.size(), 5 * trees.size());
-  for (const auto& row : rows) {
+  const auto found = rows(predictions());
+  ASSERT_EQ(found.size(), 5 * trees.size());
+  for (const auto& row : found) {
     const Tree& tree = trees[std::stoul(row.at("line")) - 2];
     compare(row, learned, tree);
     EXPECT_EQ(row.at("truth"), classes[tree.kind]);
@@ -175,13 +185,11 @@ TEST_P(Learning, AModelSavedAndReadBackEqualsPlainCounting) {
 }
 
 TEST_P(Learning, EveryFoldIsClassifiedByWhatTheOthersTeach) {
-  const TemporaryDirectory directory;
   const auto trees = forest(90);
   const auto data = directory.write("forest.csv", csv(trees));
-  recognition_demo_succeeds(
-      with_columns({"evaluate", data}, {"--folds", "4", "--foldings", "1", "--bins", "3", "--misread", GetParam(),
-                                        "--quiet", "--out", directory.path() / "out"}));
-  const auto rows = rows_of(directory.path() / "out" / "predictions.csv");
+  recognition_demo_succeeds(Arguments{"evaluate", data, "--misread", GetParam(), "--out", out} + columns +
+                            words("--folds 4 --foldings 1 --bins 3 --quiet"));
+  const auto rows = rows_of(out / "predictions.csv");
   ASSERT_EQ(rows.size(), 5 * trees.size());
   std::map<std::string, std::set<std::size_t>> outside;
   for (const auto& row : rows)
@@ -195,23 +203,25 @@ TEST_P(Learning, EveryFoldIsClassifiedByWhatTheOthersTeach) {
     compare(row, learned.at(row.at("fold")), trees[std::stoul(row.at("line")) - 2]);
     if (row.at("decision") == row.at("truth")) right[row.at("classifier")] += 1.0 / 90.0;
   }
-  const auto summary = nlohmann::json::parse(contents(directory.path() / "out" / "summary.json"));
   for (const auto& [name, accuracy] : right)
-    EXPECT_CLOSE(summary.at("classifiers").at(name).at("accuracy").get<double>(), accuracy, 1e-9) << name;
+    EXPECT_CLOSE(summary().at("classifiers").at(name).at("accuracy").get<double>(), accuracy, 1e-9) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(RecognitionDemo, Learning, testing::Values("0", "0.2"),
                          [](const auto& test) { return test.param == "0" ? "NeverMisread" : "OftenMisread"; });
 
-class RecognitionDemoLearning : public InDirectory {};
-
+/// Files of what another subcommand draws, too.
 TEST_F(RecognitionDemoLearning, TheNumberOfThreadsChangesNoByte) {
-  const auto data = directory.write("forest.csv", csv(forest(60)));
-  for (const std::string threads : {"1", "3"})
-    recognition_demo_succeeds(
-        with_columns({"evaluate", data}, {"--threads", threads, "--out", directory.path() / threads}));
-  for (const char* file : {"predictions.csv", "confusion.csv"})
-    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+  const Arguments forest_csv = {"evaluate", directory.write("forest.csv", csv(forest(60)))};
+  for (const auto& [command, files] : {std::pair{forest_csv + columns, "predictions.csv confusion.csv"},
+                                       {words("esm --usage dirichlet --runs 300 --reports 3"), "runs.csv curves.csv"},
+                                       {words("manoeuvre --runs 20"), "samples.csv runs.csv curves.csv"}}) {
+    for (const std::string threads : {"1", "3"})
+      recognition_demo_succeeds(command +
+                                Arguments{"--quiet", "--threads", threads, "--out", directory.path() / threads});
+    for (const auto& file : words(files))
+      EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
+  }
 }
 
 /// A table of one numeric column, where some cells are `gap`, and of one of words.
@@ -221,10 +231,7 @@ std::string with_gaps(const std::string& gap) {
   for (const Tree& tree : forest(200))
     text << (tree.height ? std::to_string(*tree.height) : gap) << ',' << (tree.colour ? colours[*tree.colour] : "?")
          << ',' << classes[tree.kind] << '\n';
-  std::string csv = text.str();
-  for (auto at = csv.find("green, dark"); at != std::string::npos; at = csv.find("green, dark"))
-    csv.replace(at, 11, "green");
-  return csv;
+  return std::regex_replace(text.str(), std::regex("green, dark"), "green");
 }
 
 TEST_F(RecognitionDemoLearning, WordsForMissingNumbersLeaveAColumnNumeric) {
@@ -243,17 +250,13 @@ TEST_F(RecognitionDemoLearning, WordsForMissingNumbersLeaveAColumnNumeric) {
 }
 
 TEST_F(RecognitionDemoLearning, ClassifyTakesTheSameWordsForMissing) {
-  const auto model = directory.path() / "trees.json";
-  const auto data = directory.write("trees.csv", with_gaps("lost"));
-  recognition_demo_succeeds({"train", data, "--label", "kind", "--missing", "lost", "--model", model});
-  const auto predictions = [&](const std::string& name, const std::string& gap) {
-    recognition_demo_succeeds(
-        {"classify", model, directory.write(name + ".csv", with_gaps(gap)), "--out", directory.path() / name});
-    return contents(directory.path() / name / "predictions.csv");
-  };
-  const std::string expected = predictions("a", "");
-  EXPECT_EQ(predictions("b", "lost"), expected);
-  EXPECT_EQ(predictions("c", "NA"), expected);
+  train(with_gaps("lost"), {"--label", "kind", "--missing", "lost"});
+  classify(with_gaps(""));
+  const std::string expected = predictions();
+  for (const char* gap : {"lost", "NA"}) {
+    classify(with_gaps(gap));
+    EXPECT_EQ(predictions(), expected) << gap;
+  }
 }
 
 TEST_F(RecognitionDemoLearning, AFirstRowOfDataIsPointedOut) {
@@ -269,20 +272,13 @@ TEST_F(RecognitionDemoLearning, AFirstRowOfDataIsPointedOut) {
 }
 
 TEST_F(RecognitionDemoLearning, UnseenValuesAreMissingIfThatIsWanted) {
-  const auto model = directory.path() / "trees.json";
-  recognition_demo_succeeds(
-      {"train", directory.write("trees.csv", with_gaps("")), "--label", "kind", "--model", model});
-  const auto predictions = [&](const std::string& name, const std::string& rows) {
-    const auto ending =
-        recognition_demo_succeeds({"classify", model, directory.write(name + ".csv", "size,colour,kind\n" + rows),
-                                   "--unseen", "missing", "--out", directory.path() / name});
-    return std::pair{contents(directory.path() / name / "predictions.csv"), ending.output};
-  };
-  const auto [expected, said] = predictions("a", "7,,oak\n,red,\n");
-  const auto [found, warned] = predictions("b", "7,mauve,oak\nhuge,red,pine\n");
-  EXPECT_EQ(found, expected);
+  train(with_gaps(""));
+  const std::string said = classify("size,colour,kind\n7,,oak\n,red,\n", {"--unseen", "missing"});
+  const std::string expected = predictions();
+  const std::string warned = classify("size,colour,kind\n7,mauve,oak\nhuge,red,pine\n", {"--unseen", "missing"});
+  EXPECT_EQ(predictions(), expected);
   EXPECT_EQ(said.find("count as missing"), std::string::npos) << said;
-  EXPECT_TRUE(says(warned, {"3 cells count as missing", "b.csv:2: column 'colour': found 'mauve'"}));
+  EXPECT_TRUE(says(warned, {"3 cells count as missing", "new.csv:2: column 'colour': found 'mauve'"}));
 }
 
 TEST_F(RecognitionDemoLearning, ReadsTheStandardInput) {
@@ -303,20 +299,15 @@ TEST_F(RecognitionDemoLearning, ReadsTheStandardInput) {
 
 TEST_F(RecognitionDemoLearning, FoldingsAreAveraged) {
   const auto data = directory.write("trees.csv", with_gaps(""));
-  const auto accuracy = [&](const std::string& name, std::vector<std::string> more) {
-    recognition_demo_succeeds(
-        Arguments{"evaluate", data, "--label", "kind", "--folds", "3", "--out", directory.path() / name} + more);
-    return nlohmann::json::parse(contents(directory.path() / name / "summary.json"))
-        .at("classifiers")
-        .at("max, Dubois-Prade")
-        .at("accuracy")
-        .get<double>();
+  const auto accuracy = [&](const Arguments& more) {
+    recognition_demo_succeeds(Arguments{"evaluate", data, "--label", "kind", "--folds", "3", "--out", out} + more);
+    return summary().at("classifiers").at("max, Dubois-Prade").at("accuracy").get<double>();
   };
   // The first folding is that of one alone; more foldings change the mean, and the seed the first.
-  const double one = accuracy("one", {"--foldings", "1"}), two = accuracy("two", {"--foldings", "2"});
+  const double one = accuracy({"--foldings", "1"}), two = accuracy({"--foldings", "2"});
   EXPECT_NE(one, two);
   EXPECT_NEAR(two, one, 0.1);
-  EXPECT_NE(accuracy("seed", {"--foldings", "1", "--seed", "2"}), one);
+  EXPECT_NE(accuracy({"--foldings", "1", "--seed", "2"}), one);
 }
 
 TEST_F(RecognitionDemoLearning, EscapeCodesInNamesNeverReachTheTerminal) {
@@ -334,32 +325,26 @@ TEST_F(RecognitionDemoLearning, EscapeCodesInNamesNeverReachTheTerminal) {
 }
 
 TEST_F(RecognitionDemoLearning, TheTableOfTheReadmeTeachesWhatItHasNotSeen) {
-  const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
-  const auto model = directory.path() / "fruit.json";
-  const auto out = directory.path() / "out";
-  recognition_demo_succeeds({"train", data / "fruit.csv", "--label", "fruit", "--model", model});
-  recognition_demo_succeeds({"classify", model, data / "fruit_new.csv", "--rows", "1", "--explain", "--out", out});
-  const auto summary = nlohmann::json::parse(contents(out / "summary.json"));
-  EXPECT_EQ(summary.at("rows"), 40);
-  for (const auto& [name, one] : summary.at("classifiers").items())
+  const std::filesystem::path data = SIGMAX_SOURCE "/apps/examples/data";
+  train(contents(data / "fruit.csv"), {"--label", "fruit"});
+  classify(contents(data / "fruit_new.csv"), {"--rows", "1", "--explain"});
+  const auto found = summary();
+  EXPECT_EQ(found.at("rows"), 40);
+  for (const auto& [name, one] : found.at("classifiers").items())
     EXPECT_GE(one.at("accuracy_of_the_decided").get<double>(), 0.9) << name;
 }
 
 TEST_F(RecognitionDemoLearning, AModelHoldsOnlyTheKindsAskedFor) {
-  const auto data = directory.write("forest.csv", csv(forest(60)));
-  const auto model = directory.path() / "forest.json";
-  recognition_demo_succeeds(with_columns({"train", data}, {"--model", model, "--kinds", "sigma"}));
-  recognition_demo_succeeds({"classify", model, data, "--out", directory.path() / "out"});
-  EXPECT_EQ(rows_of(directory.path() / "out" / "predictions.csv").size(), 60U);
+  train(csv(forest(60)), columns + Arguments{"--kinds", "sigma"});
+  classify(csv(forest(60)));
+  EXPECT_EQ(rows(predictions()).size(), 60U);
 }
 
 TEST_F(RecognitionDemoLearning, ALowMarginIsRejected) {
-  const auto data = directory.write("forest.csv", csv(forest(60)));
-  const auto model = directory.path() / "forest.json";
-  recognition_demo_succeeds(with_columns({"train", data}, {"--model", model}));
-  recognition_demo_succeeds({"classify", model, data, "--least-margin", "0.5", "--out", directory.path() / "out"});
+  train(csv(forest(60)), columns);
+  classify(csv(forest(60)), {"--least-margin", "0.5"});
   std::size_t rejected = 0;
-  for (const auto& row : rows_of(directory.path() / "out" / "predictions.csv")) {
+  for (const auto& row : rows(predictions())) {
     EXPECT_EQ(row.at("decision").empty(), std::stod(row.at("margin")) < 0.5) << row.at("line");
     rejected += row.at("decision").empty() ? 1U : 0U;
   }
@@ -368,18 +353,15 @@ TEST_F(RecognitionDemoLearning, ALowMarginIsRejected) {
 }
 
 TEST_F(RecognitionDemoLearning, AnExplanationShowsTheWinningValuesAndTheirProduct) {
-  const auto data = directory.write("coins.csv",
-                                    "side,weight,coin\nheads,light,fair\ntails,light,fair\nheads,heavy,false\n"
-                                    "heads,heavy,false\n");
-  const auto model = directory.path() / "coins.json";
-  recognition_demo_succeeds({"train", data, "--label", "coin", "--model", model, "--kinds", "sigma,max"});
-  const auto ending = recognition_demo_succeeds({"classify", model, data, "--explain", "--rows", "1"});
+  const std::string coins =
+      "side,weight,coin\nheads,light,fair\ntails,light,fair\nheads,heavy,false\nheads,heavy,false\n";
+  train(coins, {"--label", "coin", "--kinds", "sigma,max"});
+  const std::string said = classify(coins, {"--explain", "--rows", "1"});
   // Laplace's rule on two values: 2/4 and 3/4 of fair, 3/4 and 1/4 of false.
-  for (const char* line : {"p(side = heads|coin = fair) = 0.5", "p(weight = light|coin = fair) = 0.75",
-                           "π(side = heads|coin = fair) = 1", "π(weight = light|coin = fair) = 1"})
-    EXPECT_TRUE(says(ending.output, {line}));
+  EXPECT_TRUE(says(said, {"p(side = heads|coin = fair) = 0.5", "p(weight = light|coin = fair) = 0.75",
+                          "π(side = heads|coin = fair) = 1", "π(weight = light|coin = fair) = 1"}));
   // ½ ½ ¾ against ½ ¾ ¼: 2/3, and the logarithm of 2; and 1 against 1 · ⅓.
-  EXPECT_TRUE(says(ending.output, {"fair = 0.6667", "0.693", "1.1"}));
+  EXPECT_TRUE(says(said, {"fair = 0.6667", "0.693", "1.1"}));
 }
 
 /// A table of numbers with many digits, some with few, and words.
@@ -397,15 +379,14 @@ std::filesystem::path long_table(const TemporaryDirectory& directory, std::size_
   return path;
 }
 
-class RecognitionDemo : public InDirectory {};
+class RecognitionDemo : public RecognitionDemoLearning {};
 
 TEST_F(RecognitionDemo, MemoryDoesNotGrowWithTheTable) {
   const auto small = long_table(directory, 20'000), large = long_table(directory, 300'000);
-  const std::string model = (directory.path() / "model.json").native();
   const auto growth = [&](std::vector<std::string> arguments) {
     const auto peak = [&](const std::filesystem::path& table) {
       arguments[1] = table.native();
-      return peak_memory(SIGMAX_RECOGNITION_DEMO, arguments);
+      return program::peak_memory(SIGMAX_RECOGNITION_DEMO, arguments);
     };
     const long before = peak(small);
     return peak(large) - before;
@@ -419,25 +400,24 @@ TEST_F(RecognitionDemo, MemoryDoesNotGrowWithTheTable) {
 /// Of a table that is not held in memory: the cuts that a plain sort gives, and what lies between them.
 TEST_F(RecognitionDemo, LearnsFromALongTableWhatASortOfAllRowsGives) {
   const auto table = long_table(directory, 60'000);
-  const auto path = directory.path() / "model.json";
-  recognition_demo_succeeds({"train", table, "--label", "kind", "--model", path});
-  const auto model = nlohmann::json::parse(contents(path));
+  recognition_demo_succeeds({"train", table, "--label", "kind", "--model", model});
+  const auto learned = nlohmann::json::parse(contents(model));
   const auto rows = rows_of(table);
   for (const std::size_t feature : {0U, 1U}) {
-    const std::string name = model["features"][feature]["name"];
+    const std::string name = learned["features"][feature]["name"];
     std::vector<double> numbers;
     for (const auto& row : rows) numbers.push_back(std::stod(row.at(name)));
     std::sort(numbers.begin(), numbers.end());
     Numbers cuts;
     for (std::size_t j = 1; j < 8; ++j) cuts.push_back(numbers[j * numbers.size() / 8]);
-    ASSERT_EQ(model["features"][feature]["cuts"], nlohmann::json(cuts)) << name;
+    ASSERT_EQ(learned["features"][feature]["cuts"], nlohmann::json(cuts)) << name;
     Matrix counts(classes.size(), Numbers(8, 0.0));
     for (const auto& row : rows) {
       const auto kind = std::find(classes.begin(), classes.end(), row.at("kind")) - classes.begin();
       const auto bin = std::upper_bound(cuts.begin(), cuts.end(), std::stod(row.at(name))) - cuts.begin();
       ++counts[static_cast<std::size_t>(kind)][static_cast<std::size_t>(bin)];
     }
-    EXPECT_EQ(model["features"][feature]["counts"], nlohmann::json(counts)) << name;
+    EXPECT_EQ(learned["features"][feature]["counts"], nlohmann::json(counts)) << name;
   }
 }
 

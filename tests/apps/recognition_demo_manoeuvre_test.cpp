@@ -102,14 +102,6 @@ TEST_F(RecognitionDemoManoeuvre, FiltersAndClassifiersEqualPlainLoopsOnEverySamp
   }
 }
 
-TEST_F(RecognitionDemoManoeuvre, TheNumberOfThreadsChangesNoByte) {
-  for (const std::string threads : {"1", "3"})
-    recognition_demo_succeeds(
-        {"manoeuvre", "--runs", "20", "--quiet", "--threads", threads, "--out", directory.path() / threads});
-  for (const char* file : {"samples.csv", "runs.csv", "curves.csv"})
-    EXPECT_EQ(contents(directory.path() / "1" / file), contents(directory.path() / "3" / file)) << file;
-}
-
 TEST_F(RecognitionDemoManoeuvre, SaysWhichTargetsMaxInferenceCanNeverPrefer) {
   const std::string output = recognition_demo({"manoeuvre", "--runs", "2"}).output;
   EXPECT_TRUE(

@@ -9,7 +9,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* fruit = SIGMAX_SOURCE "/apps/examples/data/fruit.csv";
 
 /// The pages of recognition_demo, which tests use in a browser.
-class RecognitionReport : public testing::Test {
+class RecognitionReport : public InDirectory {
  protected:
   void SetUp() override {
     if (!has_reports()) GTEST_SKIP() << "built without libjs-dygraphs and node-d3";
@@ -17,18 +17,22 @@ class RecognitionReport : public testing::Test {
 
   /// Runs a subcommand with --out, and returns the data of its page.
   Json page_of(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--quiet", "--out", directory_.path()});
+    arguments.insert(arguments.end(), {"--quiet", "--out", directory.path()});
     recognition_demo_succeeds(arguments);
-    summary_ = Json::parse(contents(directory_.path() / "summary.json"));
+    summary_ = Json::parse(contents(directory.path() / "summary.json"));
     return data_in(page());
   }
 
-  std::filesystem::path page() const { return directory_.path() / "report.html"; }
-  void expect_numbers_of_the_summary() const { expect_drawn(page(), directory_.path() / "summary.json"); }
+  std::filesystem::path page() const { return directory.path() / "report.html"; }
+  void expect_numbers_of_the_summary() const { expect_drawn(page(), directory.path() / "summary.json"); }
 
-  TemporaryDirectory directory_;
   Json summary_;
 };
+
+/// The numbers of two places of a page or a summary are near.
+void expect_close(const Json& found, const Json& expected, double tolerance) {
+  EXPECT_CLOSE(found.get<double>(), expected.get<double>(), tolerance);
+}
 
 Json panel_called(const Json& panels, const std::string& title) {
   for (const auto& panel : panels)
@@ -47,10 +51,10 @@ TEST_F(RecognitionReport, OfEvaluateHasConfusionMatricesAndReliabilityOfTheSumma
     double statements = 0.0;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const Json& bin = bins[i];
-      EXPECT_CLOSE(chart.at("x")[i + 1].get<double>(), bin.at("mean_degree").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("values")[i + 1].get<double>(), bin.at("share_that_is_true").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("lower")[i + 1].get<double>(), bin.at("lower").get<double>(), 1e-6);
-      EXPECT_CLOSE(share.at("upper")[i + 1].get<double>(), bin.at("upper").get<double>(), 1e-6);
+      expect_close(chart.at("x")[i + 1], bin.at("mean_degree"), 1e-6);
+      expect_close(share.at("values")[i + 1], bin.at("share_that_is_true"), 1e-6);
+      expect_close(share.at("lower")[i + 1], bin.at("lower"), 1e-6);
+      expect_close(share.at("upper")[i + 1], bin.at("upper"), 1e-6);
       EXPECT_CLOSE(std::stod(chart.at("remarks")[i + 1].get<std::string>()), bin.at("statements").get<double>(), 0.06);
       statements += bin.at("statements").get<double>();
     }
@@ -63,7 +67,7 @@ TEST_F(RecognitionReport, OfEvaluateHasConfusionMatricesAndReliabilityOfTheSumma
 /// The bins again from predictions.csv, in plain loops.
 TEST_F(RecognitionReport, ReliabilityIsThatOfThePredictions) {
   page_of({"evaluate", fruit, "--label", "fruit", "--foldings", "1"});
-  const auto predictions = rows_of(directory_.path() / "predictions.csv");
+  const auto predictions = rows_of(directory.path() / "predictions.csv");
   for (const auto& [classifier, bins] : summary_.at("reliability").items()) {
     std::map<int, Numbers> degrees, truths;
     for (const auto& row : predictions)
@@ -93,7 +97,7 @@ TEST_F(RecognitionReport, ShowsAClassAsItIsCalled) {
   for (int i = 0; i < 40; ++i)
     text += std::to_string(i % 7 + (i % 2) * 4) + "," + (i % 3 ? "red" : "</td>") + "," +
             (i % 2 ? "</script><b>" : "it's `x` {_} \\") + "\n";
-  const auto file = directory_.write("odd.csv", text);
+  const auto file = directory.write("odd.csv", text);
   const Json data = page_of({"evaluate", file, "--label", "kind", "--foldings", "1", "--folds", "2"});
   EXPECT_EQ(data.at("panels").at(1).at("rows").at(0).get<std::string>() +
                 data.at("panels").at(1).at("rows").at(1).get<std::string>(),
@@ -103,7 +107,7 @@ TEST_F(RecognitionReport, ShowsAClassAsItIsCalled) {
 }
 
 TEST_F(RecognitionReport, OfClassifyExplainsAChosenRow) {
-  const std::string model = directory_.path() / "fruit.json", page = directory_.path() / "fruit.html";
+  const std::string model = directory.path() / "fruit.json", page = directory.path() / "fruit.html";
   recognition_demo_succeeds({"train", fruit, "--label", "fruit", "--model", model});
   recognition_demo_succeeds({"classify", model, SIGMAX_SOURCE "/apps/examples/data/fruit_new.csv", "--rows", "3",
                              "--quiet", "--report", page});
@@ -149,7 +153,7 @@ TEST_F(RecognitionReport, OfRegimesHasTheDifferencesOfTheSummary) {
         const Json& found = settings.at(map.at("rows")[r].get<std::string>())
                                 .at(map.at("columns")[c].get<std::string>())
                                 .at("accuracy_minus_that_of_the_first");
-        EXPECT_CLOSE(map.at("values")[r][c].get<double>(), found.at("mean").get<double>(), 1e-12);
+        expect_close(map.at("values")[r][c], found.at("mean"), 1e-12);
       }
   }
   expect_drawn(page());
@@ -162,14 +166,13 @@ TEST_F(RecognitionReport, OfManoeuvreHasTheScoresOfTheSummaryAndAFlightOfEachTar
     const Json chart = panel_called(data.at("views")[0].at("panels"), "Right decisions about the " + target);
     EXPECT_EQ(chart.at("x").back(), 30.0);
     for (const auto& curve : chart.at("curves"))
-      EXPECT_CLOSE(curve.at("values").back().get<double>(),
-                   classifiers.at(curve.at("name").get<std::string>()).at("accuracy").get<double>(), 1e-6);
+      expect_close(curve.at("values").back(), classifiers.at(curve.at("name").get<std::string>()).at("accuracy"), 1e-6);
   }
   // What the page shows of the first flight is what samples.csv and runs.csv say of it.
-  const auto samples = rows_of(directory_.path() / "samples.csv");
+  const auto samples = rows_of(directory.path() / "samples.csv");
   const Json himm = panel_called(data.at("views")[1].at("panels"), "Modes of the HIMM");
   EXPECT_CLOSE(himm.at("curves")[0].at("values")[29].get<double>(), std::stod(samples[29].at("himm_cv")), 1e-6);
-  const auto runs = rows_of(directory_.path() / "runs.csv");
+  const auto runs = rows_of(directory.path() / "runs.csv");
   const Json airliner = panel_called(data.at("views")[1].at("panels"), "airliner, the truth");
   for (const auto& curve : airliner.at("curves"))
     EXPECT_CLOSE(curve.at("values").back().get<double>(),
@@ -177,19 +180,8 @@ TEST_F(RecognitionReport, OfManoeuvreHasTheScoresOfTheSummaryAndAFlightOfEachTar
   expect_drawn(page());
 }
 
-constexpr const char* counts =
-    "class,feature,bin,lower,upper,count\n"
-    "slow,altitude_layer_ft_agl,1,50,1000,30\nslow,altitude_layer_ft_agl,2,1000,5000,10\n"
-    "slow,airspeed_kt,1,0,100,50\nslow,airspeed_kt,2,100,300,50\n"
-    "slow,vertical_rate_ft_per_min,1,-2000,0,7\nslow,vertical_rate_ft_per_min,2,0,2000,3\n"
-    "slow,turn_rate_deg_per_s,1,-8,2,20\nslow,turn_rate_deg_per_s,2,2,8,60\n"
-    "fast,altitude_layer_ft_agl,1,50,1000,5\nfast,altitude_layer_ft_agl,2,1000,5000,35\n"
-    "fast,airspeed_kt,1,0,100,1\nfast,airspeed_kt,2,100,300,99\n"
-    "fast,vertical_rate_ft_per_min,1,-2000,0,5\nfast,vertical_rate_ft_per_min,2,0,2000,5\n"
-    "fast,turn_rate_deg_per_s,1,-8,2,10\nfast,turn_rate_deg_per_s,2,2,8,70\n";
-
 TEST_F(RecognitionReport, OfEncounterHasWhatWasCountedAndDecided) {
-  const Json data = page_of({"encounter", directory_.write("counts.csv", counts), "--runs", "30"});
+  const Json data = page_of({"encounter", directory.write("counts.csv", counts_csv()), "--runs", "30"});
   const Json map = panel_called(data.at("last"), "What was learned of airspeed_kt");
   EXPECT_CLOSE(map.at("values")[1][0].get<double>(), 0.01, 1e-12);
   expect_numbers_of_the_summary();
@@ -200,30 +192,26 @@ TEST_F(RecognitionReport, OfARecordingFollowsTheSupportOfEachClass) {
   for (int k = 0; k < 2000; ++k)
     rows +=
         std::to_string(10 * k) + "," + std::to_string(k % 3 ? 300 : 2000) + ",90,10," + (k % 2 ? "10" : "-10") + "\n";
-  const Json data = page_of({"encounter", directory_.write("counts.csv", counts), "--track",
-                             directory_.write("track.csv", rows), "--ground", "0"});
+  const Json data = page_of({"encounter", directory.write("counts.csv", counts_csv()), "--track",
+                             directory.write("track.csv", rows), "--ground", "0"});
   const Json& panels = data.at("views").at(0).at("panels");
   ASSERT_EQ(panels.size(), 2U);
   EXPECT_LE(panels[0].at("x").size(), 1000U);
   EXPECT_TRUE(says(panels[0].at("note").get<std::string>(), {"of 2000 reports"}));
   const Json slow = panel_called(panels, "slow");  // a temporary would not outlive the loop's head
   for (const auto& curve : slow.at("curves"))
-    EXPECT_CLOSE(curve.at("values").back().get<double>(),
-                 summary_.at("classifiers")
-                     .at(curve.at("name").get<std::string>())
-                     .at("belief_after_all")
-                     .at("slow")
-                     .get<double>(),
+    expect_close(curve.at("values").back(),
+                 summary_.at("classifiers").at(curve.at("name").get<std::string>()).at("belief_after_all").at("slow"),
                  1e-6);
   expect_drawn(page());
 }
 
 TEST_F(RecognitionReport, OfPerformanceShowsEachTypesPossibilities) {
   const Json data = page_of({"performance",
-                             directory_.write("performance.csv",
-                                              "type,variable,optimum,minimum,maximum,model,parameters\n"
-                                              "a,range,2,1,4,norm,2|0.7\na,speed,20,10,40,norm,21|8\n"
-                                              "b,range,3,2,5,norm,3.2|0.9\nb,speed,15,12,50,norm,25|10\n"),
+                             directory.write("performance.csv",
+                                             "type,variable,optimum,minimum,maximum,model,parameters\n"
+                                             "a,range,2,1,4,norm,2|0.7\na,speed,20,10,40,norm,21|8\n"
+                                             "b,range,3,2,5,norm,3.2|0.9\nb,speed,15,12,50,norm,25|10\n"),
                              "--runs", "30"});
   ASSERT_EQ(data.at("views").size(), 2U);
   const Json range = panel_called(data.at("views")[0].at("panels"), "range");

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "support/csv.hpp"
+#include "apps/rows.hpp"
 #include "support/program.hpp"
 
 namespace sigmax::apps {
 
 using Matrix = std::vector<Numbers>;
-using NamedRow = std::map<std::string, std::string>;
 
 inline program::Ending recognition_demo(const std::vector<std::string>& arguments) {
   return program::run(SIGMAX_RECOGNITION_DEMO, arguments);
@@ -16,15 +15,25 @@ inline program::Ending recognition_demo_succeeds(const std::vector<std::string>&
   return program::succeeds(SIGMAX_RECOGNITION_DEMO, arguments);
 }
 
-/// The rows of a CSV file, each by the names of its columns.
-inline std::vector<NamedRow> rows_of(const std::filesystem::path& path) {
-  CsvReader reader{path};
-  std::vector<NamedRow> rows;
-  for (CsvRow row; reader.next(row);) {
-    auto& named = rows.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) named[reader.names()[i]] = row[i];
-  }
-  return rows;
+/// Counts of two classes in two bins of each of the four features.
+inline const std::map<std::string, Matrix> counts = {{"altitude_layer_ft_agl", {{30, 10}, {5, 35}}},
+                                                     {"airspeed_kt", {{50, 50}, {1, 99}}},
+                                                     {"vertical_rate_ft_per_min", {{7, 3}, {5, 5}}},
+                                                     {"turn_rate_deg_per_s", {{20, 60}, {10, 70}}}};
+
+inline std::string counts_csv() {
+  const std::map<std::string, Numbers> bounds = {{"altitude_layer_ft_agl", {50, 1000, 5000}},
+                                                 {"airspeed_kt", {0, 100, 300}},
+                                                 {"vertical_rate_ft_per_min", {-2000, 0, 2000}},
+                                                 {"turn_rate_deg_per_s", {-8, 2, 8}}};
+  std::ostringstream text;
+  text << "class,feature,bin,lower,upper,count\n";
+  for (std::size_t c = 0; c < 2; ++c)
+    for (const auto& [feature, table] : counts)
+      for (std::size_t b = 0; b < 2; ++b)
+        text << (c == 0 ? "slow" : "fast") << ',' << feature << ',' << b + 1 << ',' << bounds.at(feature)[b] << ','
+             << bounds.at(feature)[b + 1] << ',' << table[c][b] << '\n';
+  return text.str();
 }
 
 // Plain restatements, which share no code with the library.

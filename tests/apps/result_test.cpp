@@ -1,7 +1,5 @@
 #include "result/result.hpp"
 
-#include <sys/resource.h>
-
 #include <nlohmann/json.hpp>
 
 #include "apps/temporary_directory.hpp"
@@ -51,14 +49,8 @@ TEST_F(FilesOfResults, ComeIntoTheirPlacesOnlyIfAllAreOnTheDisk) {
   ResultFiles files({.out = directory.path().string()});
   files.write("small", "1");
   files.write("large", std::string(60'000, 'x'));  // stays in memory until it is stored
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit limit{20'000, before.rlim_max};
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-  const std::string refusal = message_of<InputError>([&] { files.commit(); });
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
+  std::string refusal;
+  with_files_up_to(20'000, [&] { refusal = message_of<InputError>([&] { files.commit(); }); });
   EXPECT_TRUE(says(refusal, {"large: cannot be written: File too large"}));
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "small"));
 }

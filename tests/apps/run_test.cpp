@@ -2,9 +2,8 @@
 
 #include <sys/wait.h>
 
-#include <fcntl.h>
-
 #include "apps/temporary_directory.hpp"
+#include "apps/terminal.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
 #include "support/error.hpp"
@@ -47,21 +46,17 @@ TEST_F(RunProgram, TellsTheKindOfAFailureByItsExitCode) {
   EXPECT_EQ(other.complaint, "demo: lost\n");
 }
 
-/// What a child prints to a terminal that is its standard error.
+/// What a child prints to a terminal that is its standard error; nothing where there is none.
 std::string on_a_terminal(const std::function<void()>& work) {
-  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
-  if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "";
+  const Terminal terminal;
+  if (!terminal.works()) return "";
   const pid_t child = ::fork();
   if (child == 0) {
-    ::dup2(::open(::ptsname(terminal), O_WRONLY | O_NOCTTY), STDERR_FILENO);
+    ::dup2(terminal.device(), STDERR_FILENO);
     ::_exit(run_program("demo", work));
   }
   ::waitpid(child, nullptr, 0);
-  std::string text(4096, '\0');
-  const auto size = ::read(terminal, text.data(), text.size());
-  ::close(terminal);
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
-  return text;
+  return terminal.seen();
 }
 
 TEST_F(RunProgram, BreaksLongComplaintsOnATerminalOnly) {

@@ -47,18 +47,16 @@ transition = [[1, 0.5], [0.5, 1]]
 TEST(Settings, AbsentKeysAreNothingOrTheirDefault) {
   const Settings settings;
   EXPECT_FALSE(settings.has("a"));
-  EXPECT_EQ(settings.get<double>("a"), std::nullopt);
-  EXPECT_EQ(settings.get<bool>("a"), std::nullopt);
-  EXPECT_EQ(settings.get<std::string>("a"), std::nullopt);
-  EXPECT_EQ(settings.get<Strings>("a"), std::nullopt);
-  EXPECT_EQ(settings.get<Numbers>("a"), std::nullopt);
-  EXPECT_EQ(settings.get<Matrix>("a"), std::nullopt);
-  EXPECT_EQ(settings.get("a", 1.5), 1.5);
-  EXPECT_EQ(settings.get("a", true), true);
-  EXPECT_EQ(settings.get("a", std::string("b")), "b");
-  EXPECT_EQ(settings.get("a", Strings{"b", "c"}), (Strings{"b", "c"}));
-  EXPECT_EQ(settings.get("a", Numbers{1, 2}), (Numbers{1, 2}));
-  EXPECT_EQ(settings.get("a", Matrix{{1}, {2}}), (Matrix{{1}, {2}}));
+  const auto is_absent = [&](const auto& fallback) {
+    EXPECT_EQ(settings.get<std::decay_t<decltype(fallback)>>("a"), std::nullopt);
+    EXPECT_EQ(settings.get("a", fallback), fallback);
+  };
+  is_absent(1.5);
+  is_absent(true);
+  is_absent(std::string("b"));
+  is_absent(Strings{"b", "c"});
+  is_absent(Numbers{1, 2});
+  is_absent(Matrix{{1}, {2}});
 }
 
 TEST(Settings, SetsOverrideTheFileAndEarlierSets) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "support/test.hpp"
@@ -44,6 +45,19 @@ inline std::string contents(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream{path, std::ios::binary}.rdbuf();
   return text.str();
+}
+
+/// Does something while no file can become larger, which fails write(2) as a full disk does, half-way through a file.
+template <class Action>
+void with_files_up_to(rlim_t bytes, const Action& action) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{bytes, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  action();
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
 }
 
 /// The message of the `Error` that the call throws; says so if it throws none.

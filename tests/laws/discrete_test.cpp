@@ -21,6 +21,15 @@ void require_possible(const Distribution<Kind>& prior, const Numbers& likelihood
   RC_PRE(plain::evidence(by_kind<Kind>, numbers_of(prior.values()), likelihood) > 0);
 }
 
+/// A prior and evidence that do not exclude each other.
+template <class Kind>
+struct AnyEvidence {
+  Variable<Kind> x = any_variable<Kind>("x");
+  Distribution<Kind> prior = any_distribution(x);
+  Numbers likelihood = any_unit_numbers(x.size());
+  AnyEvidence() { require_possible(prior, likelihood); }
+};
+
 template <class Kind>
 Likelihood<Kind> log_product(const Likelihood<Kind>& a, const Likelihood<Kind>& b) {
   Likelihood<Kind> result{a.variable()};
@@ -127,10 +136,8 @@ TYPED_PROPERTY(DiscreteLaws, EvidenceIsTheSameCarriedForwardOrBack) {
 // Update, (8), (41), (44).
 
 TYPED_PROPERTY(DiscreteLaws, UpdateIsItsRestatement) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto prior = any_distribution(x);
-  const Numbers likelihood = any_unit_numbers(x.size());
-  require_possible(prior, likelihood);
+  const AnyEvidence<TypeParam> drawn;
+  const auto& [x, prior, likelihood] = drawn;
   const Numbers expected = plain::update(by_kind<TypeParam>, numbers_of(prior.values()), likelihood);
   require_near(update(prior, Likelihood{x, likelihood}).values(), expected);
 
@@ -142,18 +149,14 @@ TYPED_PROPERTY(DiscreteLaws, UpdateIsItsRestatement) {
 }
 
 TYPED_PROPERTY(DiscreteLaws, UpdateKeepsNormalization) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto prior = any_distribution(x);
-  const Numbers likelihood = any_unit_numbers(x.size());
-  require_possible(prior, likelihood);
+  const AnyEvidence<TypeParam> drawn;
+  const auto& [x, prior, likelihood] = drawn;
   require_near(total<TypeParam>(update(prior, Likelihood{x, likelihood}).values()), 1.0);
 }
 
 TYPED_PROPERTY(DiscreteLaws, UpdateDoesNotChangeWithTheScaleOfTheLikelihood) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto prior = any_distribution(x);
-  const Numbers values = any_unit_numbers(x.size());
-  require_possible(prior, values);
+  const AnyEvidence<TypeParam> drawn;
+  const auto& [x, prior, values] = drawn;
   const Likelihood likelihood{x, values};
   const double log_scale = 1e6 * (any_unit_number() - 0.5);
   Likelihood scaled{x};
@@ -204,10 +207,8 @@ TYPED_TEST(DiscreteLaws, UpdateByOtherEvidenceIsNot) {
 }
 
 TYPED_PROPERTY(DiscreteLaws, SupportShrinksToWhatEvidenceAllows) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto prior = any_distribution(x);
-  const Numbers likelihood = any_unit_numbers(x.size());
-  require_possible(prior, likelihood);
+  const AnyEvidence<TypeParam> drawn;
+  const auto& [x, prior, likelihood] = drawn;
   const auto posterior = update(Belief{prior}, Likelihood{x, likelihood});
   for (std::size_t i = 0; i < x.size(); ++i)
     RC_ASSERT((posterior.log(i) > log_zero) == (prior[i] > 0.0 && likelihood[i] > 0.0));

@@ -37,6 +37,17 @@ Rows normal_rows(By by, std::size_t rows, std::size_t columns) {
   return result;
 }
 
+/// What AnyJoint draws, of such numbers.
+template <class OuterAndInner>
+struct NormalJoint {
+  using Outer = OuterOf<OuterAndInner>;
+  using Inner = InnerOf<OuterAndInner>;
+  Variable<Inner> inner = any_variable<Inner>("inner");
+  Variable<Outer> outer = any_variable<Outer>("outer");
+  Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
+  Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
+};
+
 /// ⊕ over rows of ⊕ over columns, restated.
 double total_by(By outer, By inner, const Rows& rows) {
   Numbers sums;
@@ -53,9 +64,8 @@ Rows transposed(const Rows& rows) {
 TYPED_PROPERTY(JointLaws, ConditionalTimesMarginalIsNormalizedInItsOwnOrder) {  // (10) or (11)
   using Outer = OuterOf<TypeParam>;
   using Inner = InnerOf<TypeParam>;
-  const auto outer = any_variable<Outer>("outer");
-  const auto inner = any_variable<Inner>("inner");
-  const HybridDistribution joint{any_relation(inner, outer), any_distribution(outer)};
+  const auto [inner, outer, conditional, marginal] = AnyJoint<Inner, Outer>{};
+  const HybridDistribution joint{conditional, marginal};
   const Rows rows = rows_of(joint.table());
   require_near(joint.total(), 1.0);
   require_near(joint.total(), total_by(by_kind<Outer>, by_kind<Inner>, rows));
@@ -65,12 +75,7 @@ TYPED_PROPERTY(JointLaws, ConditionalTimesMarginalIsNormalizedInItsOwnOrder) {  
 }
 
 TYPED_PROPERTY(JointLaws, TheFactorsComeBackToAFewUlp) {
-  using Outer = OuterOf<TypeParam>;
-  using Inner = InnerOf<TypeParam>;
-  const auto outer = any_variable<Outer>("outer");
-  const auto inner = any_variable<Inner>("inner");
-  const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
-  const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
+  const auto [inner, outer, conditional, marginal] = NormalJoint<TypeParam>{};
   const HybridDistribution joint{conditional, marginal};
   const auto again = joint.inner_given_outer();
   std::vector<std::size_t> without_mass;
@@ -87,26 +92,17 @@ TYPED_PROPERTY(JointLaws, TheFactorsComeBackToAFewUlp) {
 }
 
 TYPED_PROPERTY(JointLaws, TheReexpansionIsTheJointToAFewUlp) {  // (12) ↔ (14), (13) ↔ its counterpart, (4) both ways
-  using Outer = OuterOf<TypeParam>;
-  using Inner = InnerOf<TypeParam>;
-  const auto outer = any_variable<Outer>("outer");
-  const auto inner = any_variable<Inner>("inner");
-  const HybridDistribution joint{
-      Relation<Inner, Outer>{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())},
-      Distribution<Outer>{outer, normal_numbers(by_kind<Outer>, outer.size())}};
+  const auto [inner, outer, conditional, marginal] = NormalJoint<TypeParam>{};
+  const HybridDistribution joint{conditional, marginal};
   const HybridDistribution again{joint.outer_given_inner().relation, joint.inner_marginal()};
   for (std::size_t o = 0; o < outer.size(); ++o)
     for (std::size_t i = 0; i < inner.size(); ++i)
-      require_ulps(std::is_same_v<Outer, Inner> ? again(i, o) : again(o, i), joint(o, i));
+      require_ulps(std::is_same_v<OuterOf<TypeParam>, InnerOf<TypeParam>> ? again(i, o) : again(o, i), joint(o, i));
 }
 
 TYPED_PROPERTY(JointLaws, MarginalAndConditionalAreTheirRestatements) {  // (5), (15), (19), (20)
   using Outer = OuterOf<TypeParam>;
-  using Inner = InnerOf<TypeParam>;
-  const auto outer = any_variable<Outer>("outer");
-  const auto inner = any_variable<Inner>("inner");
-  const auto conditional = any_relation(inner, outer);
-  const auto marginal = any_distribution(outer);
+  const auto [inner, outer, conditional, marginal] = AnyJoint<InnerOf<TypeParam>, Outer>{};
   const HybridDistribution joint{conditional, marginal};
   const Rows rows = rows_of(conditional.table());
   const Numbers numbers = numbers_of(marginal.values());
@@ -123,12 +119,7 @@ TYPED_PROPERTY(JointLaws, MarginalAndConditionalAreTheirRestatements) {  // (5),
 }
 
 TYPED_PROPERTY(JointLaws, TheOtherUpdateRecoversWhatTheJointWasBuiltFrom) {  // (12) → (19) → (20): β cancels
-  using Outer = OuterOf<TypeParam>;
-  using Inner = InnerOf<TypeParam>;
-  const auto outer = any_variable<Outer>("outer");
-  const auto inner = any_variable<Inner>("inner");
-  const Relation<Inner, Outer> conditional{inner, outer, normal_rows(by_kind<Inner>, outer.size(), inner.size())};
-  const Distribution<Outer> marginal{outer, normal_numbers(by_kind<Outer>, outer.size())};
+  const auto [inner, outer, conditional, marginal] = NormalJoint<TypeParam>{};
   const HybridDistribution joint{conditional, marginal};
   const auto p_or_pi = normalized(inner, joint.inner_marginal().values());  // (16)
   const HybridDistribution other{joint.outer_given_inner().relation, p_or_pi};
@@ -168,8 +159,7 @@ PROPERTY(HybridLaws, BetaIsInItsRange) {
   const auto x = any_variable<Random>("x");
   const auto y = any_variable<Fuzzy>("y");
   const auto pi = any_distribution(y);
-  double sum = 0.0;
-  for (const double value : pi.values()) sum += value;
+  const double sum = total<Random>(pi.values());
   const double beta = HybridDistribution{any_relation(x, y), pi}.beta();
   RC_ASSERT(beta >= 1.0 - 1e-12 && beta <= std::min(static_cast<double>(x.size()), sum) + 1e-12);
   const auto p = any_distribution(x);
@@ -202,8 +192,7 @@ PROPERTY(HybridLaws, BetaIsTheSumOfPossibilitiesIfEachMeansAnotherValue) {  // �
   const RandomVariable x{"x", y.size() + *rc::gen::inRange<std::size_t>(0, 3)};
   const Relation<Random, Fuzzy> disjoint{x, y, deltas(first(y.size(), any_order(x.size())), x.size())};
   const auto pi = any_distribution(y);
-  double sum = 0.0;
-  for (const double value : pi.values()) sum += value;
+  const double sum = total<Random>(pi.values());
   require_near(HybridDistribution{disjoint, pi}.beta(), sum);
   if (x.size() == y.size())
     require_near(HybridDistribution{disjoint, uninformative(y)}.beta(), static_cast<double>(x.size()));
@@ -220,10 +209,8 @@ PROPERTY(HybridLaws, BetaIsTheGreatestProbabilityIfEachMeansAnotherValue) {  // 
 }
 
 PROPERTY(HybridLaws, TheConditionalsDoNotDependOnBeta) {  // (19), (20): the same from p⁺ and from p
-  const auto x = any_variable<Random>("x");
-  const auto y = any_variable<Fuzzy>("y");
-  const HybridDistribution joint{Relation<Random, Fuzzy>{x, y, normal_rows(By::sum, y.size(), x.size())},
-                                 Distribution<Fuzzy>{y, normal_numbers(By::max, y.size())}};
+  const auto [x, y, conditional, marginal] = NormalJoint<std::tuple<Fuzzy, Random>>{};
+  const HybridDistribution joint{conditional, marginal};
   const auto back = joint.outer_given_inner();
   const HybridDistribution scaled{back.relation, joint.inner_marginal().normalized()};
   const HybridDistribution unscaled{back.relation, joint.inner_marginal()};

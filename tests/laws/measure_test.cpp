@@ -25,41 +25,40 @@ Numbers members(const Distribution<Kind>& distribution, const Event<Kind>& event
   return result;
 }
 
+/// A distribution and two events of its variable.
+template <Uncertainty Kind>
+struct AnyEvents {
+  Variable<Kind> x = any_variable<Kind>("x");
+  Distribution<Kind> distribution = any_distribution(x);
+  Event<Kind> a = any_event(x), b = any_event(x);
+};
+
 TYPED_PROPERTY(MeasureLaws, AMeasureIsItsRestatement) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
-  const auto a = any_event(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   require_near(measure(distribution, a), static_cast<double>(plain::evidence(
                                              by_kind<TypeParam>, members(distribution, a), Numbers(x.size(), 1.0))));
 }
 
 TYPED_PROPERTY(MeasureLaws, NothingHasMeasureZeroAndEverythingOne) {  // Axioms 1 and 2
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   RC_ASSERT(measure(distribution, empty_event(x)) == 0.0);
   require_near(measure(distribution, whole_event(x)), 1.0);
 }
 
 TYPED_PROPERTY(MeasureLaws, AUnionOfDisjointEventsIsTheirCombination) {
   using Algebra = AlgebraOf<TypeParam>;
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
-  const auto a = any_event(x), b = any_event(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   require_near(measure(distribution, a | b), Algebra::plus(measure(distribution, a), measure(distribution, b & ~a)));
 }
 
 TYPED_PROPERTY(MeasureLaws, APartIsNoGreaterThanTheWhole) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
-  const auto a = any_event(x), b = any_event(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   RC_ASSERT(measure(distribution, a & b) <= measure(distribution, a));
   RC_ASSERT(measure(distribution, a) <= measure(distribution, a | b));
 }
 
 TYPED_PROPERTY(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeasureOfBoth) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
-  const auto a = any_event(x), b = any_event(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   if (measure(distribution, b) > 0.0)
     require_near(measure(given(distribution, b), a) * measure(distribution, b), measure(distribution, a & b));
   else
@@ -67,9 +66,7 @@ TYPED_PROPERTY(MeasureLaws, TheConditionalTimesTheMeasureOfTheConditionIsTheMeas
 }
 
 TYPED_PROPERTY(MeasureLaws, ConditioningIsTheUpdateByCrispEvidence) {
-  const auto x = any_variable<TypeParam>("x");
-  const auto distribution = any_distribution(x);
-  const auto b = any_event(x);
+  const auto [x, distribution, a, b] = AnyEvents<TypeParam>{};
   RC_PRE(measure(distribution, b) > 0.0);
   Numbers crisp(x.size());
   for (std::size_t i = 0; i < crisp.size(); ++i) crisp[i] = b.contains(i) ? 1.0 : 0.0;
@@ -88,24 +85,18 @@ TYPED_PROPERTY(MeasureLaws, EventsAreABooleanAlgebra) {
 }
 
 PROPERTY(ProbabilityLaws, InclusionAndExclusion) {
-  const auto x = any_variable<Random>("x");
-  const auto p = any_distribution(x);
-  const auto a = any_event(x), b = any_event(x);
+  const auto [x, p, a, b] = AnyEvents<Random>{};
   require_near(probability(p, a | b) + probability(p, a & b), probability(p, a) + probability(p, b));
   require_near(probability(p, ~a), 1.0 - probability(p, a));
 }
 
 PROPERTY(PossibilityLaws, AUnionIsAsPossibleAsTheMorePossible) {  // Axiom 3: Π(A ∪ B) = max, also where they overlap
-  const auto y = any_variable<Fuzzy>("y");
-  const auto pi = any_distribution(y);
-  const auto a = any_event(y), b = any_event(y);
+  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   RC_ASSERT(possibility(pi, a | b) == std::max(possibility(pi, a), possibility(pi, b)));
 }
 
 PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  // N(A) = 1 − Π(Aᶜ) = min over Aᶜ of 1 − π
-  const auto y = any_variable<Fuzzy>("y");
-  const auto pi = any_distribution(y);
-  const auto a = any_event(y), b = any_event(y);
+  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   double least = 1.0;
   for (std::size_t i = 0; i < y.size(); ++i)
     if (!a.contains(i)) least = std::min(least, 1.0 - pi[i]);
@@ -115,24 +106,18 @@ PROPERTY(PossibilityLaws, NecessityIsOneLessThePossibilityOfTheComplement) {  //
 }
 
 PROPERTY(PossibilityLaws, AnEventOrItsComplementIsFullyPossible) {  // max(Π(A), Π(Aᶜ)) = 1
-  const auto y = any_variable<Fuzzy>("y");
-  const auto pi = any_distribution(y);
-  const auto a = any_event(y);
+  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   RC_ASSERT(std::max(possibility(pi, a), possibility(pi, ~a)) == 1.0);
 }
 
 PROPERTY(PossibilityLaws, WhatIsAtAllNecessaryIsFullyPossible) {  // N(A) > 0 ⇒ Π(A) = 1
-  const auto y = any_variable<Fuzzy>("y");
-  const auto pi = any_distribution(y);
-  const auto a = any_event(y);
+  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   if (necessity(pi, a) > 0.0) RC_ASSERT(possibility(pi, a) == 1.0);
   if (possibility(pi, a) < 1.0) RC_ASSERT(necessity(pi, a) == 0.0);
 }
 
 PROPERTY(PossibilityLaws, ConditionalNecessityIsOneLessTheConditionalPossibilityOfTheComplement) {
-  const auto y = any_variable<Fuzzy>("y");
-  const auto pi = any_distribution(y);
-  const auto a = any_event(y), b = any_event(y);
+  const auto [y, pi, a, b] = AnyEvents<Fuzzy>{};
   RC_PRE(possibility(pi, b) > 0.0);
   require_near(necessity(given(pi, b), a), 1.0 - possibility(pi, ~a & b) / possibility(pi, b));
   RC_ASSERT(necessity(given(pi, b), b) == 1.0);

@@ -25,9 +25,8 @@ TYPED_PROPERTY(MixedLaws, InducedNumbersAreTheirRestatement) {
 
 TYPED_PROPERTY(MixedLaws, NormalizedDividesEveryRowByItsBeta) {
   using Eliminated = Other<TypeParam>;
-  const auto x = any_variable<TypeParam>("x");
-  const auto m = any_variable<Eliminated>("m"), y = any_variable<Eliminated>("y");
-  const auto induced = compose(any_relation(x, m), any_relation(m, y));
+  const auto [x, m, y, left, right] = AnyRelations<TypeParam, Eliminated, Eliminated>{};
+  const auto induced = compose(left, right);
   const auto normalized = induced.normalized();
   for (std::size_t i = 0; i < y.size(); ++i) {
     double beta = 0.0;
@@ -99,8 +98,7 @@ PROPERTY(MixedKinds, InducedProbabilityIsAtMostTheSumProductOfTheSameNumbers) {
 
 PROPERTY(MixedKinds, BetaOfAnInducedProbabilityIsInItsRange) {  // [1, min(|X|, Σ π)]
   const auto [x, y, relation, prior] = AnyJoint<Random, Fuzzy>{};
-  double sum = 0.0;
-  for (const double value : prior.values()) sum += value;
+  const double sum = total<Random>(prior.values());
   const double beta = compose(relation, prior).beta();
   RC_ASSERT(beta >= 1.0 - 1e-9);
   RC_ASSERT(beta <= std::min(static_cast<double>(x.size()), sum) + 1e-9);
@@ -117,10 +115,7 @@ TEST(MixedKinds, BetaOfAnInducedProbabilityReachesItsBounds) {
 }
 
 PROPERTY(MixedKinds, BetaOfAnInducedPossibilityIsInItsRange) {  // [max(1/|Y|, max p), 1]
-  const auto y = any_variable<Fuzzy>("y");
-  const auto x = any_variable<Random>("x");
-  const auto relation = any_relation(y, x);
-  const auto prior = any_distribution(x);
+  const auto [y, x, relation, prior] = AnyJoint<Fuzzy, Random>{};
   const double beta = compose(relation, prior).beta();
   const double greatest = prior[index_of_greatest(prior.values())];
   RC_ASSERT(beta >= std::max(1.0 / static_cast<double>(y.size()), greatest) - 1e-9);

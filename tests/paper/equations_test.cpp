@@ -1,18 +1,11 @@
 // docs/equations.md has a row for each equation of the paper, in order, and what it names is there.
 
-#include "support/test.hpp"
+#include "apps/temporary_directory.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path source = SIGMAX_SOURCE;
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> cells(const std::string& line) {
   std::vector<std::string> result;

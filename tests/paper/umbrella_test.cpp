@@ -1,13 +1,6 @@
 // <sigmax/sigmax.hpp> leads to every public header.
 
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace {
 

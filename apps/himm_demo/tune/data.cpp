@@ -1,6 +1,6 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <Eigen/Cholesky>
+#include <sigmax/estimation/dense.hpp>
 
 #include "support/random.hpp"
 
@@ -138,17 +138,21 @@ double volume_for(const Row& row, const TuneData& data) {
   return row.plot.sensor == AnyPlot::Sensor::components ? data.volume : data.radar_volume;
 }
 
-/// Of the true position, by the estimate's leading components.
+/// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
 double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objective objective) {
-  const auto n = static_cast<Eigen::Index>(now.mean.size());
-  const Eigen::VectorXd error =
-      Eigen::Map<const Eigen::VectorXd>(now.mean.data(), axes) - Eigen::Map<const Eigen::VectorXd>(truth.data(), axes);
-  if (objective == Objective::rmse) return error.squaredNorm();
-  const Eigen::Map<const Eigen::MatrixXd> covariance(now.covariance.data(), n, n);
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance.topLeftCorner(axes, axes));
-  if (root.info() != Eigen::Success) throw std::domain_error("the covariance of an estimate is not positive definite");
-  return 0.5 * root.matrixL().solve(error).squaredNorm() + root.matrixLLT().diagonal().array().log().sum() +
-         0.5 * axes * std::log(2.0 * std::numbers::pi);
+  std::array<double, 3> error{};
+  std::array<double, 9> covariance = {1, 0, 0, 0, 1, 0, 0, 0, 1}, root{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
+    error[i] = now.mean[i] - truth[i];
+    for (std::size_t k = 0; k <= i; ++k) covariance[i + 3 * k] = now.covariance[i + k * now.mean.size()];
+  }
+  const auto squared = [&] { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; };
+  if (objective == Objective::rmse) return squared();
+  if (!detail::cholesky_factor(covariance.data(), 3, root.data()))
+    throw std::domain_error("the covariance of an estimate is not positive definite");
+  detail::lower_solve(root.data(), 3, error.data());
+  const double log_root = std::log(root[0]) + std::log(root[4]) + std::log(root[8]);
+  return 0.5 * squared() + log_root + 0.5 * axes * std::log(2.0 * std::numbers::pi);
 }
 
 }  // namespace
