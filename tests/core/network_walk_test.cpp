@@ -42,6 +42,15 @@ TEST(NetworkWalk, IsWhatTheDocumentSays) {
   const Explanation best = most_likely_explanation(network, Evidence{{"speed", "fast"}});
   EXPECT_EQ(best["age"] + ", " + best["mood"], "young, wild");
   EXPECT_CLOSE(best.log_value, std::log(0.7), 1e-15);
+
+  RelationNetwork by_both;
+  by_both.declare(uninformative(age));
+  by_both.declare(uninformative(mood));
+  by_both.declare(speed, {age, mood}, {{0.9, 0.1}, {0.5, 0.5}, {0.8, 0.2}, {0.3, 0.7}, {1.0, 0.0}, {0.6, 0.4}});
+  const NetworkAnswer whose = query(by_both, {"age"}, Evidence{{"speed", "fast"}});
+  std::ostringstream printed;
+  printed << whose.normalized<Fuzzy>() << '\n' << whose.total() << '\n' << best;
+  EXPECT_EQ(printed.str(), "age: young 0.714286, middle 1, old 0.571429\n0.7\nage young, mood wild, speed fast: 0.7");
 }
 
 }  // namespace

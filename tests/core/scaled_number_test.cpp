@@ -94,4 +94,16 @@ TEST(ScaledNumber, HasTheLogarithmOfTheDoubleThatItIs) {
   for (const double value : {0.1, 0.125, 1e-300, 1e300, 3.0}) EXPECT_EQ(ScaledNumber{value}.log(), std::log(value));
 }
 
+TEST(ScaledNumber, PrintsAlsoWhereNoDoubleCanSayIt) {
+  const auto printed = [](ScaledNumber number) {
+    std::ostringstream out;
+    out << number;
+    return out.str();
+  };
+  EXPECT_EQ(printed(ScaledNumber{}), "0");
+  EXPECT_EQ(printed(ScaledNumber{0.125}), "0.125");
+  EXPECT_EQ(printed(ScaledNumber{2.0, -20000}), "5.02478e-6021");  // 2⁻¹⁹⁹⁹⁹
+  EXPECT_EQ(printed(ScaledNumber{1.0, 20000}), "3.98028e6020");
+}
+
 }  // namespace

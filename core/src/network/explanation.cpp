@@ -1,6 +1,7 @@
 #include <sigmax/core/network/explanation.hpp>
 
 #include <algorithm>
+#include <ostream>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +17,13 @@ std::string Explanation::operator[](std::string_view variable) const {
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (variables[v].name() == variable) return variables[v].label(outcomes[v]);
   throw std::invalid_argument("the network has no variable '" + std::string(variable) + "'");
+}
+
+std::ostream& operator<<(std::ostream& out, const Explanation& explanation) {
+  for (std::size_t v = 0; v < explanation.variables.size(); ++v)
+    out << (v == 0 ? "" : ", ") << explanation.variables[v].name() << ' '
+        << explanation.variables[v].label(explanation.outcomes[v]);
+  return out << ": " << ScaledNumber::exp(explanation.log_value);
 }
 
 Explanation most_likely_explanation(const RelationNetwork& network, const Evidence& evidence, std::size_t table_limit) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <iosfwd>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -111,5 +112,8 @@ class ScaledNumber {
   double significand_ = 0.0;
   std::int64_t exponent_ = exponent_of_zero;
 };
+
+/// As a double with the digits that the stream shows; beyond the doubles as "3.2e-5000".
+std::ostream& operator<<(std::ostream& out, ScaledNumber number);
 
 }  // namespace sigmax

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ struct Explanation {
   /// The label of a variable's outcome; throws std::invalid_argument if there is no such variable.
   std::string operator[](std::string_view variable) const;
 };
+
+/// "age young, mood wild: 0.7", with the digits that the stream shows.
+std::ostream& operator<<(std::ostream& out, const Explanation& explanation);
 
 /// The outcomes of all variables together that the tables and the evidence favour most. *Every* variable is eliminated
 /// by the maximum, on the tables as they are, whatever its kind: the one exception to "the kind chooses ⊕", since what
