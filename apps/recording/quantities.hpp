@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "support/numbers.hpp"
@@ -104,6 +105,10 @@ inline constexpr std::array<Quantity, 31> quantities = {
      {Role::sigma_polar, {"sigma_range"}, units::lengths},
      {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
      {Role::sigma_polar, {"sigma_elevation"}, units::angles}}};
+
+/// Headers of times, and how many of their numbers are a second; the first that there is counts.
+inline constexpr std::pair<std::string_view, double> time_columns[] = {
+    {"time_s", 1.0}, {"time_ms", 1e3}, {"time_us", 1e6}};
 
 /// Where a role begins among them, and how many it has.
 constexpr std::size_t place_of(Role role) {

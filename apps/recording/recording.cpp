@@ -91,7 +91,9 @@ void RecordingReader::drop(Role role, std::size_t from) {
 
 void RecordingReader::find_columns(const RecordingOptions& options) {
   std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
-  const auto time = find("time_s");
+  std::optional<std::size_t> time;
+  for (const auto& [name, in_a_second] : time_columns)
+    if (!time && (time = find(name))) in_a_second_ = in_a_second;
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   const auto& azimuth = column(Role::polar, 1);
@@ -202,7 +204,8 @@ bool RecordingReader::take_time(Row& row) {
     throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
                      "correct the cell or drop the row");
   const bool of_day = is_time_of_day(row_[time_]);
-  const double time = of_day ? on_its_day(row, *found) : *found;
+  const bool counted = in_a_second_ != 1.0 && parse_number(row_[time_]);
+  const double time = of_day ? on_its_day(row, *found) : counted ? *found / in_a_second_ : *found;
   row.plot.time = time;
   if (!refused_time(row, time)) {
     last_.find(row.track)->second.of_day = of_day;
@@ -422,7 +425,10 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
 }
 
 std::string RecordingReader::taken() const {
-  std::vector<std::string> parts = {fmt::format("{} in s", csv_.names()[time_])};
+  std::vector<std::string> parts = {fmt::format("{} in {}", csv_.names()[time_],
+                                                in_a_second_ == 1.0   ? "s"
+                                                : in_a_second_ == 1e3 ? "ms"
+                                                                      : "µs")};
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
     const Quantity& quantity = quantities[q];

@@ -138,6 +138,7 @@ class RecordingReader {
   std::array<std::optional<Column>, quantities.size()> columns_;
   std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
+  double in_a_second_ = 1.0;  // of the numbers there
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
   std::vector<std::string> missing_;
