@@ -1,5 +1,4 @@
-// Compositions of dense tables, and sums of exponentials: compiled once for every instruction set, chosen when the
-// program runs.
+// Compositions of dense tables: compiled once for every instruction set, chosen when the program runs.
 //
 // A tile of the result, some rows by some vectors, stays in registers while one index j after the other adds its terms.
 // What a tile reads of `left` is a strip: as many columns as it has, copied together where the table is large.
@@ -12,10 +11,7 @@
 
 #include <hwy/highway.h>
 
-#include <hwy/contrib/math/math-inl.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -26,7 +22,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include "kernels/exponential.hpp"
 #include "kernels/tiled.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -256,20 +251,6 @@ double least_of_all(const double* numbers, std::size_t size) {
   return least;
 }
 
-/// Σ exp(log).
-double sum_of_exponentials(const double* logs, std::size_t size) {
-  const auto lowest = hn::Set(all, -1000.0);  // whose exponential is zero; Highway's is not defined for −∞
-  auto a = hn::Zero(all), b = hn::Zero(all);
-  std::size_t i = 0;
-  for (; i + 2 * lanes <= size; i += 2 * lanes) {
-    a = hn::Add(a, hn::Exp(all, hn::Max(hn::LoadU(all, logs + i), lowest)));
-    b = hn::Add(b, hn::Exp(all, hn::Max(hn::LoadU(all, logs + i + lanes), lowest)));
-  }
-  double rest = 0.0;
-  for (; i < size; ++i) rest += std::exp(logs[i]);
-  return hn::GetLane(hn::SumOfLanes(all, hn::Add(a, b))) + rest;
-}
-
 }  // namespace
 }  // namespace sigmax::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -280,7 +261,6 @@ namespace {
 
 HWY_EXPORT(compose_by);
 HWY_EXPORT(least_of_all);
-HWY_EXPORT(sum_of_exponentials);
 
 /// While it lives, results of this thread's arithmetic that are smaller than the least normal number become zero; then
 /// everything is as it was. On some processors arithmetic is a hundred times as slow on such numbers. Where the
@@ -359,10 +339,6 @@ bool compose_tiled(const AnyAlgebra& algebra, const DenseParts& parts, Winner* f
   // Each term of a sum may have lost up to the least normal number: that is below rounding in sums above this.
   const double terms = algebra.selective ? 1.0 : static_cast<double>(parts.inner) * 0x1p54;
   return compose_products(parts, terms * least_normal, compose, first);
-}
-
-double tiled_sum_of_exponentials(const double* logs, std::size_t size) {
-  return HWY_DYNAMIC_DISPATCH(sum_of_exponentials)(logs, size);
 }
 
 }  // namespace sigmax::kernels

@@ -1,4 +1,4 @@
-// What tiled.cpp defines, in a library that is built without Highway: the plain loops are left to do
+// What tiled.cpp and exponential.cpp define, in a library that is built without Highway: the plain loops are left to do
 // the work.
 
 #include "kernels/exponential.hpp"

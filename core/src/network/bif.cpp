@@ -30,7 +30,7 @@ constexpr Token signs = "{}()[];", ignored = " \t\r\n\v\f,|";
 bool has(Token characters, char c) { return characters.find(c) != Token::npos; }
 
 Token text_of(Token token) { return token.starts_with('"') ? token.substr(1, token.size() - 2) : token; }
-std::string quoted(Token text) { return "'" + std::string(text) + "'"; }
+std::string in_quotes(Token text) { return "'" + std::string(text) + "'"; }
 
 class Reader {
  public:
@@ -86,7 +86,8 @@ class Reader {
 
   /// Throws: what comes next is not what is expected.
   [[noreturn]] void refuse(const std::string& expected) const {
-    fail(next_, "expected " + expected + ", found " + (next_.empty() ? "the end of the file" : quoted(text_of(next_))));
+    fail(next_,
+         "expected " + expected + ", found " + (next_.empty() ? "the end of the file" : in_quotes(text_of(next_))));
   }
 
   void skip(std::size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
@@ -123,7 +124,7 @@ class Reader {
 
   /// Takes a token that must be this one.
   void expect(Token text) {
-    if (next_ != text) refuse(quoted(text));
+    if (next_ != text) refuse(in_quotes(text));
     take();
   }
   Token word(const std::string& meaning) {
@@ -175,7 +176,7 @@ class Reader {
     while (next_ != "}") labels.emplace_back(text_of(word("an outcome or '}'")));
     const std::string found = std::to_string(labels.size());
     if (found != text_of(count))
-      fail(count, "expected as many outcomes as the number says, found " + quoted(text_of(count)) + " and " + found +
+      fail(count, "expected as many outcomes as the number says, found " + in_quotes(text_of(count)) + " and " + found +
                       " outcomes");
     take();
     expect(";");
@@ -185,7 +186,7 @@ class Reader {
   std::size_t declared(const std::string& meaning) {
     const Token name = word(meaning);
     const auto found = index_.find(text_of(name));
-    if (found == index_.end()) fail(name, "expected " + meaning + ", found " + quoted(text_of(name)));
+    if (found == index_.end()) fail(name, "expected " + meaning + ", found " + in_quotes(text_of(name)));
     return found->second;
   }
 
@@ -193,7 +194,7 @@ class Reader {
     const Token start = take();
     expect("(");
     Block& block = blocks_[declared("the name of a declared variable")];
-    const std::string name = quoted(block.variable.name());
+    const std::string name = in_quotes(block.variable.name());
     if (block.table) fail(start, "variable " + name + " has a probability already, in line " + line_of(*block.table));
     block.table = start;
     std::size_t rows = 1;
@@ -242,7 +243,7 @@ class Reader {
     std::size_t index = 0;
     for (const std::size_t parent : block.parents) {
       const auto& variable = blocks_[parent].variable;
-      const Token label = word("an outcome of " + quoted(variable.name()));
+      const Token label = word("an outcome of " + in_quotes(variable.name()));
       try {
         index = index * variable.size() + variable.index_of(text_of(label));
       } catch (const std::invalid_argument& error) {
@@ -259,7 +260,7 @@ class Reader {
     double value = 0.0;
     const auto read = std::from_chars(text.begin(), text.end(), value);
     if (read.ec != std::errc{} || read.ptr != text.end() || !(value >= 0.0 && value <= 1.0 + bif_tolerance))
-      fail(token, "expected a number between 0 and 1, found " + quoted(text));
+      fail(token, "expected a number between 0 and 1, found " + in_quotes(text));
     return value;
   }
 
@@ -267,7 +268,7 @@ class Reader {
   std::vector<double> numbers(const Block& block, std::size_t count) {
     std::vector<double> values;
     while (values.size() < count) {
-      if (next_ == ";") refuse(std::to_string(count) + " numbers for " + quoted(block.variable.name()));
+      if (next_ == ";") refuse(std::to_string(count) + " numbers for " + in_quotes(block.variable.name()));
       values.push_back(number());
     }
     expect(";");
@@ -306,7 +307,7 @@ class Reader {
   RelationNetwork network() const {
     for (const Block& block : blocks_)
       if (!block.table)
-        fail(block.name, "expected a probability of variable " + quoted(block.variable.name()) + ", found none");
+        fail(block.name, "expected a probability of variable " + in_quotes(block.variable.name()) + ", found none");
     RelationNetwork network;
     std::vector<std::size_t> open, entered(blocks_.size(), 0);  // how many of the parents were, and one more
     std::vector<bool> done(blocks_.size(), false);
@@ -322,8 +323,8 @@ class Reader {
         } else if (const std::size_t parent = block.parents[entered[v] - 1]; entered[parent] == 0) {
           open.push_back(parent);
         } else if (!done[parent]) {
-          fail(*block.table, "expected parents that do not depend on " + quoted(block.variable.name()) + ", found " +
-                                 quoted(blocks_[parent].variable.name()));
+          fail(*block.table, "expected parents that do not depend on " + in_quotes(block.variable.name()) + ", found " +
+                                 in_quotes(blocks_[parent].variable.name()));
         }
       }
     }
