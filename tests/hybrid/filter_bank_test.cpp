@@ -47,8 +47,8 @@ template <Uncertainty Kind>
 using Single = InteractingMultipleModel<Models, Kind>;
 
 template <Uncertainty Kind, class Number = double>
-Bank<Kind, Number> bank_of(std::size_t tracks) {
-  Bank<Kind, Number> bank{models(), transition<Kind>()};
+Bank<Kind, Number> bank_of(std::size_t tracks, const Interaction<Kind>& interaction = {}) {
+  Bank<Kind, Number> bank{models(), transition<Kind>(), interaction};
   for (std::size_t t = 0; t < tracks; ++t) EXPECT_EQ(bank.add(start(t)), t);
   EXPECT_EQ(bank.size(), tracks);
   return bank;
@@ -78,11 +78,11 @@ void expect_as_single(const Bank<Kind>& bank, std::size_t track, const Single<Ki
 }
 
 template <Uncertainty Kind>
-void is_as_many_single_filters() {
+void is_as_many_single_filters(const Interaction<Kind>& interaction = {}) {
   constexpr std::size_t tracks = 11;
-  auto bank = bank_of<Kind>(tracks);
+  auto bank = bank_of<Kind>(tracks, interaction);
   std::vector<Single<Kind>> singles;
-  for (std::size_t t = 0; t < tracks; ++t) singles.emplace_back(models(), transition<Kind>(), start(t));
+  for (std::size_t t = 0; t < tracks; ++t) singles.emplace_back(models(), transition<Kind>(), start(t), interaction);
   for (std::size_t k = 0; k < 60; ++k) {
     bank.step(0.5, scan_of(bank, k));
     for (std::size_t t = 0; t < tracks; ++t) {
@@ -105,6 +105,15 @@ TEST(FilterBank, IsAsManySingleFilters) {
     is_as_many_single_filters<Random>();
     is_as_many_single_filters<Fuzzy>();
   });
+}
+
+TEST(FilterBank, TakesTheGeneralStepWhereThereIsNoShortOne) {
+  Interaction<Random> released;
+  released.collapse.mixing_weights = MixingWeights::released;
+  is_as_many_single_filters<Random>(released);
+  Interaction<Fuzzy> common;
+  common.mixed_start = MixedStart::common;
+  is_as_many_single_filters<Fuzzy>(common);
 }
 
 TEST(FilterBank, StepsInOneCallAndThreadsChangeNothing) {
