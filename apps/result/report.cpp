@@ -210,9 +210,7 @@ void limit_axis(LineChart& chart) {
   chart.note = fmt::format("The axis is cut; the greatest value is {}.", sized_text(all.back(), 1));
 }
 
-std::string sound_text(std::string_view text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
-}
+std::string sound_text(std::string_view text) { return Json::parse(dumped(Json(text))).get<std::string>(); }
 
 Json ResultTable::json() const {
   Json all = Json::object();
@@ -279,8 +277,7 @@ Json data_of(const Report& report) {
 std::string html(const Report& report) {
   if (!has_reports()) throw std::logic_error("a report without its drawing code");
   // Within the strings of JSON, and nowhere else, stand < and what else HTML could take for its own.
-  const std::string data =
-      escaped(data_of(report).dump(-1, ' ', false, Json::error_handler_t::replace), "\\u003c", "\\u003e", "\\u0026");
+  const std::string data = escaped(dumped(data_of(report)), "\\u003c", "\\u003e", "\\u0026");
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

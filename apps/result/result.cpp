@@ -106,13 +106,13 @@ void ResultFiles::write(const std::string& name, std::string_view text) {
 }
 
 void ResultFiles::write_json(const std::string& name, const Json& json) {
-  if (wanted()) write(name, json.dump(2) + "\n");
+  if (wanted()) write(name, dumped(json, 2) + "\n");
 }
 
 bool ResultFiles::report_wanted() const { return report_ || !plots_.empty() || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
-  write(report_data_name, data_of(report).dump() + "\n");
+  write(report_data_name, dumped(data_of(report)) + "\n");
   if (report_)
     report_->write(html(report));
   else if (has_reports())

@@ -493,7 +493,7 @@ void tune_and_write(TuneOptions options) {
   std::vector<TuneFindings> found;
   for (const auto& filter : filters) found.push_back(tune_and_report(filter, data, options, written));
   if (page.report_wanted()) page.write_report(page_of(heading(data, options), options, data, found));
-  if (summary) summary->write(summary_of(options, data, found).dump(2) + "\n");
+  if (summary) summary->write(dumped(summary_of(options, data, found), 2) + "\n");
   if (file) file->write(as_toml(written));
   page.commit();
   if (summary) {
