@@ -51,8 +51,8 @@ function(sigmax_unity target)
   endif()
 endfunction()
 
-# sigmax_program(NAME LIBRARIES …): all .cpp in NAME as one program, which is installed; with a manual page made of its --help
-# where there is help2man.
+# sigmax_program(NAME LIBRARIES …): all .cpp in NAME as one program, which is installed with completion by bash; with a manual
+# page made of its --help where there is help2man.
 function(sigmax_program name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${name}/*.cpp)
   add_executable(${name} ${sources})
@@ -61,6 +61,8 @@ function(sigmax_program name)
   target_link_libraries(${name} PRIVATE ${ARGN})
   if(SIGMAX_INSTALL)
     install(TARGETS ${name} RUNTIME COMPONENT tools)
+    install(FILES completion.bash DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME ${name}
+            COMPONENT tools)
     add_dependencies(sigmax_installed ${name})
     find_program(HELP2MAN help2man)
     if(HELP2MAN)

@@ -33,4 +33,20 @@ TEST(OptionPages, EverySubcommandHasTwoExamplesThatCanBeCopied) {
   }
 }
 
+TEST(Completion, OffersWhatTheProgramsOwnHelpLists) {
+  const auto offered = [](const std::string& program, const std::string& line) {
+    return words(
+        program::succeeds("/bin/bash", {"-c",
+                                        ". \"$0\"; COMP_WORDS=($2); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
+                                        "_sigmax_demo \"$1\" \"${COMP_WORDS[COMP_CWORD]}\"; echo \"${COMPREPLY[@]}\"",
+                                        SIGMAX_SOURCE "/apps/completion.bash", program::chosen(program), line})
+            .output);
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo s"), (Words{"simulate", "sweep"}));
+  EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo track --ra"), (Words{"--radar", "--radar-at"}));
+  EXPECT_EQ(offered(SIGMAX_RECOGNITION_DEMO, "recognition_demo train --mis"), (Words{"--missing", "--misread"}));
+  EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo track fl"), Words{});  // a file: bash itself knows
+}
+
 }  // namespace
