@@ -24,6 +24,7 @@ struct ClassifyOptions {
 /// What a classifier decided over all rows.
 struct Tally {
   std::vector<std::size_t> decided;  ///< by class
+  std::vector<double> recognised;    ///< of the decided rows of a class
   std::size_t rejected = 0;
   std::size_t right = 0;     ///< of the decided rows whose class is known
   std::size_t judged = 0;    ///< decided rows whose class is known
@@ -78,16 +79,10 @@ class RowReader {
   static constexpr const char* remedy =
       "leave the cell empty, or have all such cells counted as missing by --unseen missing";
 
-  static std::string shown(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 12;
-    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
-    return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), names.size() > most ? ", …" : "");
-  }
-
   /// Counts what is to be taken as missing, or throws.
-  std::size_t unseen(const InputError& error) {
-    if (!unseen_is_missing_) throw error;
-    if (unseen_cells_++ == 0) first_unseen_ = error.what();
+  std::size_t unseen(const CsvRow& row, std::size_t column, const std::string& expected) {
+    if (!unseen_is_missing_) throw row.error(column, expected, remedy);
+    if (unseen_cells_++ == 0) first_unseen_ = row.error(column, expected).what();
     return missing;
   }
 
@@ -97,7 +92,7 @@ class RowReader {
     if (feature.bins) {
       if (missing_.among_numbers(cell)) return missing;
       if (const auto number = parse_number(cell)) return feature.bins->bin(*number);
-      return unseen(row.error(columns_[i], "a finite number with a decimal point", remedy));
+      return unseen(row, columns_[i], "a finite number with a decimal point");
     }
     return missing_(cell) ? missing : place(row, columns_[i], feature.values, "a value that the model knows: ");
   }
@@ -105,7 +100,7 @@ class RowReader {
   /// Where a cell is among names.
   std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
     const auto found = std::ranges::find(names, trimmed(row[column]));
-    if (found == names.end()) return unseen(row.error(column, what + shown(names), remedy));
+    if (found == names.end()) return unseen(row, column, what + listed(names, 12));
     return static_cast<std::size_t>(found - names.begin());
   }
 
@@ -162,9 +157,16 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Rando
   return table;
 }
 
+/// Whether a sigma-max classifier is the max classifier beside it.
+bool repeats_another(const Contestant& contestant, const std::vector<Contestant>& all, const LearningOptions& options) {
+  return options.misread == 0.0 &&
+         std::ranges::any_of(all, [&](const Contestant& other) { return contestant.name == "sigma-" + other.name; });
+}
+
 /// The rows of a file, classified one after the other.
 struct Classified {
   std::size_t rows = 0;
+  std::vector<std::size_t> rows_of_class;  ///< of those whose class is known
   std::vector<Tally> tallies;
   std::vector<ShownRow> shown;
 };
@@ -193,7 +195,7 @@ class Judge {
     } else {
       ++tally.decided[decision.pattern];
       if (truth) ++tally.judged;
-      if (truth == decision.pattern) ++tally.right;
+      if (truth == decision.pattern) ++tally.right, ++tally.recognised[*truth];
     }
     if (show)
       show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : label(decision.pattern),
@@ -219,11 +221,13 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
   const auto& pattern = model.counts.pattern();
   Judge judge(options, rows.has_truth(), file);
   Classified result;
-  result.tallies.assign(all.size(), Tally{std::vector<std::size_t>(pattern.size(), 0)});
+  result.rows_of_class.assign(pattern.size(), 0);
+  result.tallies.assign(all.size(), Tally{result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings report = rows.readings(row);
     const auto truth = rows.truth(row);
+    if (truth) ++result.rows_of_class[*truth];
     ShownRow* const show =
         result.rows < options.rows
             ? &result.shown.emplace_back(ShownRow{row.line(), truth ? pattern.label(*truth) : "", report, {}})
@@ -263,7 +267,11 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
     std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, all[i].name}};
     for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
     row.push_back({{.header = "rejected"}, tally.rejected});
-    if (has_truth) row.push_back({{.header = "right, % of the decided", .scale = 100.0}, tally.accuracy()});
+    const bool all_known = tally.judged + tally.rejected == result.rows;
+    if (has_truth)
+      row.push_back({{.header = all_known ? "right, % of the decided" : "right, % of the decided whose class is known",
+                      .scale = 100.0},
+                     tally.accuracy()});
     table.row_of(row);
   }
   return table;
@@ -348,14 +356,25 @@ void run_classify(const ClassifyOptions& options) {
     if (found.tallies[i].excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", all[i].name,
                  found.tallies[i].excluded);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> recognised;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    names.push_back(all[i].name);
+    recognised.push_back(found.tallies[i].recognised);
+  }
+  say_unrecognised(labels_of(pattern), found.rows_of_class, names, recognised, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
       for (const Contestant& contestant : all)
-        if (const auto table = explanation(contestant, pattern, row.readings))
+        if (repeats_another(contestant, all, model.options))
+          continue;
+        else if (const auto table = explanation(contestant, pattern, row.readings))
           result.add(*table, {});
         else
           result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
+      if (std::ranges::any_of(all, [&](const auto& each) { return repeats_another(each, all, model.options); }))
+        result.say("{}", sigma_max_is_max);
     }
   add_facts(options, pattern, all, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());

@@ -9,6 +9,8 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
 
+#include "support/csv.hpp"
+
 namespace sigmax::apps {
 namespace {
 
@@ -122,6 +124,21 @@ std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
         },
         contestant.classifier);
   return result;
+}
+
+void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
+                      const std::vector<std::string>& contestants, const std::vector<std::vector<double>>& recognised,
+                      Result& result) {
+  std::map<std::string, std::vector<std::string>> contestants_of;
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    std::vector<std::string> never;
+    for (std::size_t c = 0; c < classes.size(); ++c)
+      if (rows[c] > 0 && recognised[i][c] == 0.0) never.push_back(fmt::format("{} ({} rows)", classes[c], rows[c]));
+    if (!never.empty()) contestants_of[listed(never, 12)].push_back(contestants[i]);
+  }
+  for (const auto& [never, those] : contestants_of)
+    result.say("Not one row was recognised of {} by {}", never,
+               those.size() == contestants.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
 }
 
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {

@@ -1,6 +1,7 @@
 #include "recognition_demo/data_table.hpp"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -17,6 +18,9 @@ namespace {
 
 /// Words beyond this many are names of things, not values of a feature.
 constexpr std::size_t most_values = 4096;
+
+/// Among fewer rows it is no wonder that all values differ.
+constexpr std::size_t few_rows = 20;
 
 /// Words numbered as they come.
 class Vocabulary {
@@ -59,6 +63,13 @@ class Vocabulary {
   std::map<std::string, Code, std::less<>> codes_;
 };
 
+bool has_decimal_comma(std::string_view word) {
+  std::string number(word);
+  const auto comma = number.find(',');
+  if (comma != std::string::npos) number[comma] = '.';
+  return comma != std::string::npos && parse_number(number);
+}
+
 /// A word among numbers, where it was found first.
 struct Slip {
   std::size_t line;
@@ -83,7 +94,10 @@ class ColumnReader {
     const bool is_word = !empty && !number && !missing.among_numbers(cell);
     if (number || is_word) ++cells_;
     if (number) ++numeric_cells_;
+    counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
+    last_ = number.value_or(last_);
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
+    if (is_word && has_decimal_comma(cell)) ++comma_cells_;
     DataCell result{number.value_or(nan)};
     if (too_many_words_) return result;
     if (!empty) result.code = words_.code(cell);
@@ -99,13 +113,14 @@ class ColumnReader {
   void refuse_slip(const CsvReader& reader) const {
     if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
     const std::string& name = reader.names()[index_];
-    throw InputError(message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                              .what = fmt::format("column {}", in_quotes(name)),
-                              .found = in_quotes(slip_->word),
-                              .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
-                              .remedy = fmt::format("correct it, name it by --missing {0}, or take the column as words "
-                                                    "by --categorical {1}",
-                                                    slip_->word, name)}));
+    throw InputError(message(
+        {.where = fmt::format("{}:{}", reader.file(), slip_->line),
+         .what = fmt::format("column {}", in_quotes(name)),
+         .found = in_quotes(slip_->word),
+         .expected = fmt::format("a number with a decimal point, as {} of {} cells have", numeric_cells_, cells_),
+         .remedy = fmt::format("correct it, name it by --missing {}, or take the column as words "
+                               "by --categorical {}",
+                               typed(slip_->word), typed(name))}));
   }
 
   /// Whether the name of the column looks like one of its cells.
@@ -119,16 +134,22 @@ class ColumnReader {
     return words_.size() == 0 ? "no value" : in_quotes(words_.first_in_order());
   }
 
+  /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
+  bool names_rows() const {
+    if (cells_ < few_rows) return false;
+    return is_numeric() ? counts_ : !too_many_words_ && 2 * words_.size() > cells_;
+  }
+
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
   std::size_t index() const { return index_; }
 
  private:
   bool could_be_numeric() const { return !categorical_ && !slip_; }
-  /// Nine of ten cells, or half of them where there are more numbers than words would have.
+  /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
   bool nearly_all_numbers() const {
     constexpr std::size_t most_words = 20;
-    if (10 * numeric_cells_ >= 9 * cells_) return true;
+    if (10 * (numeric_cells_ + comma_cells_) >= 9 * cells_) return true;
     return 2 * numeric_cells_ >= cells_ && words_.numbers() > most_words;
   }
 
@@ -137,6 +158,9 @@ class ColumnReader {
   std::optional<Slip> slip_;
   std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
   std::size_t numeric_cells_ = 0;
+  std::size_t comma_cells_ = 0;
+  bool counts_ = true;  // so far, in whole numbers upwards
+  double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_;
 };
@@ -154,8 +178,8 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
-    names.push_back(reader.names()[column.index()]);
-    found.push_back(fmt::format("{} in column {}", value, in_quotes(names.back())));
+    names.push_back(typed(reader.names()[column.index()]));
+    found.push_back(fmt::format("{} in column {}", value, in_quotes(reader.names()[column.index()])));
   }
   if (names.empty()) return;
   throw InputError(
@@ -166,8 +190,20 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
 }
 
 /// What a reader of the results should know of the file.
-std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<ColumnReader>& columns) {
+std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<ColumnReader>& columns,
+                                     const DataTable& table) {
   std::vector<std::string> warnings;
+  if (2 * table.classes.size() > table.size() && table.size() >= few_rows)
+    warnings.push_back(
+        fmt::format("{}: column {} has {} classes in {} rows: of most there is a single row, from which nothing can be "
+                    "learned; is it the right --label?",
+                    reader.file(), in_quotes(table.label), table.classes.size(), table.size()));
+  for (const ColumnReader& column : columns)
+    if (column.names_rows())
+      warnings.push_back(
+          fmt::format("{0}: column {1} seems to name the rows, or to count them, and tells nothing of others; leave it "
+                      "out by --ignore {2}",
+                      reader.file(), in_quotes(reader.names()[column.index()]), typed(reader.names()[column.index()])));
   std::vector<std::string> like_cells;
   for (const ColumnReader& column : columns)
     if (column.contains(reader.names()[column.index()]))
@@ -267,7 +303,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   }
   for (const auto& column : columns) column.refuse_slip(reader);
   refuse_useless(reader, columns, table.size());
-  table.warnings = warnings_of(reader, columns);
+  table.warnings = warnings_of(reader, columns, table);
   table.value_order_.resize(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     table.columns[i].numeric = columns[i].is_numeric();

@@ -283,7 +283,7 @@ void refuse_rare_classes(const DataTable& data) {
   throw InputError(
       "{}: column {}: found a single row of {}, expected at least two of every class: one to learn from, one to "
       "classify; add rows, or remove those of the class",
-      data.file, in_quotes(data.label), fmt::join(rare, ", "));
+      data.file, in_quotes(data.label), listed(rare, 12));
 }
 
 Results evaluated(const DataTable& data, const EvaluateOptions& options) {
@@ -320,10 +320,16 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> recognised;
+  for (const Outcome& outcome : results.outcomes()) {
+    names.push_back(outcome.name);
+    recognised.emplace_back();
+    for (std::size_t c = 0; c < data.classes.size(); ++c) recognised.back().push_back(outcome.confusion()(c, c));
+  }
+  say_unrecognised(data.classes, data.rows_of_class, names, recognised, result);
   constexpr std::size_t most_classes = 10;
-  result.say({{options.learning.misread == 0.0,
-               "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max "
-               "inference.)"}});
+  result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
   if (data.classes.size() > most_classes) return;
   for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes()[i], options.foldings), {});
 }

@@ -117,7 +117,7 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
 void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
   Subcommand app(program);
   const auto add_list = [&](const char* name, std::vector<std::string>& words, const char* help, const char* type) {
-    app.option(name, words, help).type(type).list_alone();
+    app.list(name, words, help).type(type);
   };
   app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
       .required()

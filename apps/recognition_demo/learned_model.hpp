@@ -57,6 +57,9 @@ std::string described(const DataTable& data);
 /// "counts smoothed by Laplace's rule; prior by the classes' shares of the rows", and what else was chosen.
 std::string described(const LearningOptions& options);
 
+inline constexpr std::string_view sigma_max_is_max =
+    "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)";
+
 /// The kinds of classifiers: "sigma", "max", "sigma-max".
 inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};
 

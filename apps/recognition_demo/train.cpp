@@ -20,14 +20,8 @@ ResultTable features_table(const LearnedModel& model) {
                      {.header = "values"},
                      {.header = "what they are", .align = Align::left}});
   for (const FeatureCode& feature : model.features) {
-    constexpr std::size_t shown = 6;
-    auto labels = feature.labels();
-    const std::size_t size = labels.size();
-    if (size > shown) {
-      labels.resize(shown);
-      labels.push_back("…");
-    }
-    table.row({feature.name, size, fmt::format("{}", fmt::join(labels, ", "))});
+    const auto labels = feature.labels();
+    table.row({feature.name, labels.size(), listed(labels, 6)});
   }
   return table;
 }
@@ -43,9 +37,15 @@ void run_train(const TrainOptions& options) {
   Result result = result_of_contest("", options.output);
   result.say("{}: {}\n{}", data.file, described(data), described(options.learning));
   result.add(features_table(model), {});
-  for (const auto& [classifier, pattern, dominator] : dominated(classifiers(model, options.kinds)))
-    result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible", classifier,
-               in_quotes(pattern), in_quotes(dominator));
+  for (const Contestant& classifier : classifiers(model, options.kinds)) {
+    const auto found = dominated({classifier});
+    if (found.empty()) continue;
+    result.say("warning: {} can never prefer {}: whatever is read, {} is at least as possible{}", classifier.name,
+               in_quotes(found[0].pattern), in_quotes(found[0].dominator),
+               found.size() == 1
+                   ? ""
+                   : fmt::format("; so it is with {} others of {} classes", found.size() - 1, data.classes.size()));
+  }
   fmt::print("{}\nWrote {}\n", result.text, options.model);
 }
 

@@ -259,6 +259,15 @@ Option Subcommand::flag(const std::string& name, std::string& value, const std::
   return Option(app_.add_flag(name, value, meaning));
 }
 
+Option Subcommand::list(const std::string& name, std::vector<std::string>& words, const std::string& meaning) {
+  const auto take = [&words](const std::vector<std::string>& given) {
+    for (const std::string& text : given)
+      for (std::string& word : CLI::detail::split_up(text, ','))
+        if (!word.empty()) words.push_back(std::move(word));
+  };
+  return Option(app_.add_option_function<std::vector<std::string>>(name, take, meaning)->allow_extra_args(false));
+}
+
 Option Subcommand::triple(const std::string& name, std::optional<std::array<double, 3>>& values,
                           const std::string& meaning) {
   const auto take = [&values](const std::vector<double>& given) { values = {given[0], given[1], given[2]}; };

@@ -99,6 +99,10 @@ class Subcommand {
   /// One that may have a value, as --truth{rmse}, and this one without.
   Option flag(const std::string& name, std::string& value, const std::string& meaning);
 
+  /// Words with commas between; those that have a comma are in double quotes. What follows after a blank is none of
+  /// them.
+  Option list(const std::string& name, std::vector<std::string>& words, const std::string& meaning);
+
   /// Three numbers with commas between.
   Option triple(const std::string& name, std::optional<std::array<double, 3>>& values, const std::string& meaning);
 

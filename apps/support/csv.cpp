@@ -72,6 +72,18 @@ InputError CsvRow::error(std::size_t column, std::string_view expected, std::str
                              .remedy = remedy}));
 }
 
+std::string listed(std::span<const std::string> names, std::size_t most) {
+  std::string text;
+  for (const std::string& name : names.first(std::min(most, names.size())))
+    text += (text.empty() ? "" : ", ") + csv_field(name);
+  return names.size() > most ? text + ", …" : text;
+}
+
+std::string typed(std::string_view word) {
+  const std::string field = csv_field(word);
+  return field.find_first_of(" \"") == std::string::npos ? field : "'" + field + "'";
+}
+
 std::string csv_field(std::string_view text) {
   const bool plain = text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text).size() == text.size();
   if (plain) return std::string{text};

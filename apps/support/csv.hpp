@@ -119,4 +119,10 @@ CsvReader open_csv(const std::string& file);
 /// Text as one field of a CSV file: in quotes where it needs them.
 std::string csv_field(std::string_view text);
 
+/// The first of some names, each as such a field: blue, "red, dark", …
+std::string listed(std::span<const std::string> names, std::size_t most);
+
+/// A word of a list on the command line as it is typed: '"12,5"'.
+std::string typed(std::string_view word);
+
 }  // namespace sigmax::apps

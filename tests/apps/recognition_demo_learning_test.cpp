@@ -246,7 +246,9 @@ TEST_F(RecognitionDemoLearning, WordsForMissingNumbersLeaveAColumnNumeric) {
   for (const char* gap : {"NA", "nan", "N/A", "null", "-", "inf", "?", " NA ", "NaN", "NULL"})
     EXPECT_EQ(result(gap, {}), expected) << gap;
   EXPECT_EQ(result("none at all", {"--missing", "gone,none at all"}), expected);
+  EXPECT_EQ(result("\"12,5\"", {"--missing", "gone,\"12,5\""}), expected);
   EXPECT_TRUE(says(result("unknown", {}), {"found 'unknown', expected a number"}));
+  EXPECT_TRUE(says(result("\"12,5\"", {}), {"found '12,5', expected a number", R"(--missing '"12,5"')"}));
 }
 
 TEST_F(RecognitionDemoLearning, ClassifyTakesTheSameWordsForMissing) {
@@ -279,6 +281,38 @@ TEST_F(RecognitionDemoLearning, UnseenValuesAreMissingIfThatIsWanted) {
   EXPECT_EQ(predictions(), expected);
   EXPECT_EQ(said.find("count as missing"), std::string::npos) << said;
   EXPECT_TRUE(says(warned, {"3 cells count as missing", "new.csv:2: column 'colour': found 'mauve'"}));
+  EXPECT_EQ(warned.find("--unseen"), std::string::npos) << warned;
+}
+
+TEST_F(RecognitionDemoLearning, WhatNamesTheRowsIsPointedOut) {
+  std::string text = "id,name,height,colour,kind\n";
+  for (int k = 0; k < 30; ++k) text += fmt::format("{0},n{0},{1}.5,{2},{2}\n", 100 + 3 * k, k, k % 2 ? "red" : "blue");
+  const auto data = directory.write("trees.csv", text);
+  const auto said = [&](const Arguments& options) {
+    return recognition_demo_succeeds(Arguments{"train", data, "--model", model} + options).output;
+  };
+  const std::string all = said({"--label", "kind"});
+  EXPECT_TRUE(says(all, {"leave it out by --ignore id", "leave it out by --ignore name"}));
+  EXPECT_EQ(said({"--label", "kind", "--ignore", "id,name"}).find("warning"), std::string::npos) << all;
+  // Thirty classes of a row each, of which most are below others whatever is read: a warning for each classifier.
+  const std::string names = said({"--label", "name", "--ignore", "id,height"});
+  EXPECT_TRUE(says(names, {"column 'name' has 30 classes in 30 rows", "so it is with 27 others of 30 classes"}));
+  const std::regex warning("can never prefer");
+  EXPECT_LE(std::distance(std::sregex_iterator(names.begin(), names.end(), warning), {}), 5);
+}
+
+TEST_F(RecognitionDemoLearning, ClassesThatNobodyRecognisesAreNamed) {
+  std::string text = "colour,kind\n";
+  for (int k = 0; k < 40; ++k) text += k % 10 == 9 ? "\"red, dark\",rare\n" : "\"red, dark\",usual\nblue,other\n";
+  const auto data = directory.write("trees.csv", text);
+  const std::string never = "Not one row was recognised of rare (4 rows) by any classifier";
+  EXPECT_TRUE(says(recognition_demo_succeeds({"evaluate", data, "--label", "kind", "--folds", "2"}).output, {never}));
+  train(text);
+  const std::string said = classify(text + "blue,\n", {"--rows", "1", "--explain"});
+  EXPECT_TRUE(says(said, {never, "whose class is known", "(Without --misread a reading is the feature itself"}));
+  EXPECT_EQ(said.find("sigma-max, ratio scale: "), std::string::npos) << said;  // explained once
+  const auto refused = recognition_demo({"classify", model, directory.write("new.csv", "colour\ngreen\n")});
+  EXPECT_TRUE(says(refused.output, {R"(expected a value that the model knows: blue, "red, dark";)"}));
 }
 
 TEST_F(RecognitionDemoLearning, ReadsTheStandardInput) {
