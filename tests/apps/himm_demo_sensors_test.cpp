@@ -181,7 +181,8 @@ TEST(HimmDemoSensors, OnTheEarthEachMeasuresFromItsOwnNorthAndHorizon) {
         sets = sets + Arguments{"sensor.A.latitude_deg=60",   "sensor.A.longitude_deg=10",   "sensor.A.altitude_m=250",
                                 "sensor.B.latitude_deg=60.5", "sensor.B.longitude_deg=11.3", "sensor.B.altitude_m=20"};
       const auto all = tracked(recording(header, row, 60), sets);
-      EXPECT_TRUE(says(all.output, {"Positions are counted from where the first sensor stands: 60, 10, "}))
+      EXPECT_TRUE(
+          says(all.output, {"Positions are counted from where the first sensor stands, latitude 60°, longitude 10°"}))
           << all.output;
       const auto found = rows(all.estimates);
       ASSERT_GT(found.size(), 100U);

@@ -302,9 +302,9 @@ void SensorPlaces::place(Row& row) {
 std::vector<std::string> SensorPlaces::notes() const {
   std::vector<std::string> sentences;
   if (frame_ && !recording_.origin())
-    sentences.push_back(fmt::format("Positions are counted from where the first sensor stands: {}, {}, {} m",
-                                    shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg),
-                                    shortest(frame_->origin().altitude_m)));
+    sentences.push_back(
+        fmt::format("Positions are counted from where the first sensor stands, latitude {}°, longitude {}°",
+                    shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg)));
   std::vector<std::string> unplaced;
   for (const auto& [name, rows] : unplaced_)
     unplaced.push_back(fmt::format("{} {}", name.empty() ? "rows" : name, rows));
