@@ -113,27 +113,28 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   const bool along_one =
       has(Role::position) && !has(Role::position, 1) && !has(Role::position, 2) && !geodetic() && !polar();
   const bool cartesian = are_there(Role::position) || along_one;
-  if (along_one || ((geodetic() || simulated_) && !polar())) drop(Role::polar);
+  const bool places = sensor_places_ || are_there(Role::sensor_place);
+  if (along_one || (((geodetic() && !places) || simulated_) && !polar())) drop(Role::polar);
   refuse_other_kinds(cartesian, time.has_value());
   time_ = *time;
 
   if (!cartesian) drop(Role::position);
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
-  if (polar() && cartesian && axes_of(Role::position) != axes_)
+  if (polar() && (cartesian || geodetic()) && axes_of(geodetic() ? Role::place : Role::position) != axes_)
     throw InputError(
-        "{}:1: found {}, expected both z_m and elevation_deg, or none of them; give all sensors of a file as many axes",
-        file(), fmt::join(csv_.names(), ", "));
+        "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
+        file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
   if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
     drop(Role::course);
   drop(Role::velocity, takes_velocity_ ? axes : 0);
   if (!polar() || !takes_range_rate_) drop(Role::range_rate);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  const std::size_t places = located() && !simulated_ ? axes : 0;
-  drop(Role::covariance, covariances(places));
+  const std::size_t told = located() && !simulated_ ? axes : 0;
+  drop(Role::covariance, covariances(told));
   const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
-  drop(Role::sigma_position, has_variance ? 0 : places);
-  if (places == 0 || has_variance) drop(Role::sigma_all_axes);
+  drop(Role::sigma_position, has_variance ? 0 : told);
+  if (told == 0 || has_variance) drop(Role::sigma_all_axes);
   if (!polar()) {
     drop(Role::sigma_polar, azimuth ? 2 : 0);
     column(Role::sigma_polar).reset();
@@ -153,10 +154,12 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const 
   } refusals[] = {
       {!time_known, "there is no column time_s", map},
       {none, "its columns are of no kind", without_unit().value_or(map)},
-      {geodetic() && (cartesian || polar()), "there are columns of several kinds", "rename those that do not count"},
+      {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
+       polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
+               : "rename those that do not count"},
       {has(Role::sensor_position) && has(Role::sensor_place), "the place of a sensor is told in two ways",
        "rename the columns that do not count"},
-      {cartesian && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
+      {located() && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
        "add one that names each row's sensor, or map its header with --columns"}};
   for (const auto& [holds, what, remedy] : refusals)
     if (holds)

@@ -54,10 +54,12 @@ class RecordingReader {
   bool next(Row& row);
 
   bool geodetic() const { return has(Role::place); }
-  /// Whether that has a latitude and a longitude: places, or angles seen from places.
-  bool on_the_earth() const {
-    return geodetic() || ((polar() || bearings()) && !simulated_ && (sensor_places_ || has(Role::sensor_place)));
+  /// Whether radars or stations of bearings see from places on the Earth: then all is about one point.
+  bool seen_from_places() const {
+    return (polar() || bearings()) && !simulated_ && (sensor_places_ || has(Role::sensor_place));
   }
+  /// Whether estimates have a latitude and a longitude.
+  bool on_the_earth() const { return geodetic() || seen_from_places(); }
   bool polar() const { return has(Role::polar); }
   /// Whether azimuths stand without a range.
   bool bearings() const { return has(Role::polar, 1) && !polar(); }

@@ -155,48 +155,63 @@ struct Earth {
   }
 };
 
-/// Two radars 90 km apart measure without an error, each from its own north and horizon, and by settings or columns.
-TEST(HimmDemoSensors, OnTheEarthEachMeasuresFromItsOwnNorthAndHorizon) {
+std::array<double, 3> target_on_the_earth(int k) { return {60.2 + 0.001 * k, 10.5 + 0.001 * k, 9000.0 + 10.0 * k}; }
+
+/// Two radars 90 km apart, or two stations of bearings in a `flat` recording, measure without an error, each from its
+/// own north and horizon; where they stand is said by `columns` or by settings. Every third row is a place if `mixed`.
+std::string seen_on_the_earth(bool flat, bool columns, bool mixed) {
   const std::array<std::array<double, 3>, 2> stand{{{60.0, 10.0, 250.0}, {60.5, 11.3, 20.0}}};
-  const auto target = [](int k) { return std::array{60.2 + 0.001 * k, 10.5 + 0.001 * k, 9000.0 + 10.0 * k}; };
-  for (const bool flat : {false, true})
-    for (const bool columns : {false, true}) {
-      const auto row = [&](int k) {
-        const std::size_t by = k / 2 % 2 == 0 ? 0 : 1;
-        const auto [latitude, longitude, altitude] = target(k);
-        const auto [b, l, h] = stand[by];
-        const Earth here(b, l, flat ? 0.0 : h);
-        const Eigen::Vector3d d = here.axes * (Earth(latitude, longitude, flat ? 0.0 : altitude).at - here.at);
-        std::string text = exact(2.0 * k) + "," + (by ? "B" : "A") + "," + exact(std::atan2(d.x(), d.y()) / degree);
-        if (!flat) text += "," + exact(d.norm()) + "," + exact(std::asin(d.z() / d.norm()) / degree);
-        if (columns) text += "," + exact(b) + "," + exact(l) + (flat ? "" : "," + exact(h));
-        return text;
-      };
-      std::string header = "time_s,sensor,azimuth_deg_north";
-      if (!flat) header += ",range_m,elevation_deg";
-      if (columns) header += ",sensor_latitude_deg,sensor_longitude_deg";
-      if (columns && !flat) header += ",sensor_altitude_m";
-      Arguments sets = {"sigma_azimuth_deg=0.001", "sigma_elevation_deg=0.001", "sigma_range_m=1"};
-      if (!columns)
-        sets = sets + Arguments{"sensor.A.latitude_deg=60",   "sensor.A.longitude_deg=10",   "sensor.A.altitude_m=250",
-                                "sensor.B.latitude_deg=60.5", "sensor.B.longitude_deg=11.3", "sensor.B.altitude_m=20"};
-      const auto all = tracked(recording(header, row, 60), sets);
-      EXPECT_TRUE(
-          says(all.output, {"Positions are counted from where the first sensor stands, latitude 60°, longitude 10°"}))
-          << all.output;
-      const auto found = rows(all.estimates);
-      ASSERT_GT(found.size(), 100U);
-      for (const auto& each : found) {
-        SCOPED_TRACE(each.at("time_s"));
-        const auto [latitude, longitude, altitude] =
-            target(static_cast<int>(std::lround(number(each.at("time_s")) / 2.0)));
-        EXPECT_NEAR(number(each.at("latitude_deg")), latitude, flat ? 1e-4 : 1e-5);
-        EXPECT_NEAR(number(each.at("longitude_deg")), longitude, flat ? 2e-4 : 2e-5);
-        if (!flat) {
-          EXPECT_NEAR(number(each.at("altitude_m")), altitude, 1.0);
-        }
+  std::string text = "time_s,sensor,azimuth_deg_north";
+  if (!flat) text += ",range_m,elevation_deg";
+  if (columns)
+    text += flat ? ",sensor_latitude_deg,sensor_longitude_deg"
+                 : ",sensor_latitude_deg,sensor_longitude_deg,sensor_altitude_m";
+  if (mixed) text += flat ? ",latitude_deg,longitude_deg" : ",latitude_deg,longitude_deg,altitude_m";
+  text += "\n";
+  for (int k = 0; k < 60; ++k) {
+    const auto [latitude, longitude, altitude] = target_on_the_earth(k);
+    const auto cells = [&](double b, double l, double h) {
+      return "," + exact(b) + "," + exact(l) + (flat ? "" : "," + exact(h));
+    };
+    const std::string none = flat ? ",," : ",,,";
+    const bool located = mixed && k % 3 == 2;
+    const std::size_t by = k / 2 % 2 == 0 ? 0 : 1;
+    const auto [b, l, h] = stand[by];
+    const Earth here(b, l, flat ? 0.0 : h);
+    const Eigen::Vector3d d = here.axes * (Earth(latitude, longitude, flat ? 0.0 : altitude).at - here.at);
+    text += exact(2.0 * k) + (located ? ",C," : by ? ",B," : ",A,");
+    if (!located) text += exact(std::atan2(d.x(), d.y()) / degree);
+    if (!flat) text += located ? ",," : "," + exact(d.norm()) + "," + exact(std::asin(d.z() / d.norm()) / degree);
+    if (columns) text += located ? none : cells(b, l, h);
+    if (mixed) text += located ? cells(latitude, longitude, altitude) : none;
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(HimmDemoSensors, OnTheEarthEachMeasuresFromItsOwnNorthAndHorizon) {
+  for (int k = 0; k < 8; ++k) {
+    const bool flat = k % 2 == 1, columns = k / 2 % 2 == 1, mixed = k / 4 == 1;
+    SCOPED_TRACE(k);
+    Arguments sets = {"sigma_azimuth_deg=0.001", "sigma_elevation_deg=0.001", "sigma_range_m=1", "sigma_position_m=5"};
+    if (!columns)
+      sets = sets + Arguments{"sensor.A.latitude_deg=60",   "sensor.A.longitude_deg=10",   "sensor.A.altitude_m=250",
+                              "sensor.B.latitude_deg=60.5", "sensor.B.longitude_deg=11.3", "sensor.B.altitude_m=20"};
+    const auto all = tracked(seen_on_the_earth(flat, columns, mixed), sets);
+    EXPECT_TRUE(says(all.output, {"Positions are counted from the first place, latitude 60°, longitude 10°"}));
+    const auto found = rows(all.estimates);
+    EXPECT_GT(found.size(), 100U);
+    for (const auto& each : found) {
+      SCOPED_TRACE(each.at("time_s"));
+      const double time = number(each.at("time_s"));
+      const auto [latitude, longitude, altitude] = target_on_the_earth(static_cast<int>(std::lround(time / 2.0)));
+      EXPECT_NEAR(number(each.at("latitude_deg")), latitude, flat ? 1e-4 : 1e-5);
+      EXPECT_NEAR(number(each.at("longitude_deg")), longitude, flat ? 2e-4 : 2e-5);
+      if (!flat) {
+        EXPECT_NEAR(number(each.at("altitude_m")), altitude, 1.0);
       }
     }
+  }
 }
 
 /// A ship with a direction finder that turns its bow tells where a beacon is, alone.

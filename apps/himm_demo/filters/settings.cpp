@@ -1,6 +1,7 @@
 #include "himm_demo/filters/settings.hpp"
 
 #include "himm_demo/experiment/scenario.hpp"
+#include "recording/plots.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 
@@ -266,12 +267,18 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
 
 SensorPlaces::SensorPlaces(const FilterSettings& settings, const RecordingReader& recording, const Position& otherwise)
     : settings_(settings), recording_(recording), otherwise_(otherwise) {
-  if (recording.origin() && !recording.geodetic()) frame_.emplace(*recording.origin(), recording.axes());
+  if (recording.origin() && recording.seen_from_places()) frame_.emplace(*recording.origin(), recording.axes());
 }
 
 void SensorPlaces::place(Row& row) {
   AnyPlot& plot = row.plot;
-  if (!row.measured() || plot.sensor == AnyPlot::Sensor::components) return;
+  const int axes = recording_.axes();
+  if (plot.sensor == AnyPlot::Sensor::components) {
+    if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && axes_seen(plot, axes) > 0)
+      frame_.emplace(place_of(plot, axes, 0.0), axes);
+    return;
+  }
+  if (!row.measured()) return;
   const Accuracy& own = settings_.accuracy_of(row.sensor);
   std::optional<Position> at = row.sensor_at;
   std::optional<Geodetic> on_earth = row.sensor_place;
@@ -279,9 +286,9 @@ void SensorPlaces::place(Row& row) {
     on_earth = {*own.latitude_deg, *own.longitude_deg, own.altitude_m.value_or(0.0)};
   if (!at && !on_earth && !own.at_m.empty()) at = {own.at_m[0], own.at_m[1], own.at_m.size() == 3 ? own.at_m[2] : 0.0};
   if (on_earth) {
-    if (!frame_) frame_.emplace(*on_earth, recording_.axes());
+    if (!frame_) frame_.emplace(*on_earth, axes);
     plot.origin = frame_->to_local(*on_earth);
-    turn_to(*frame_, plot, recording_.axes());
+    turn_to(*frame_, plot, axes);
   } else {
     plot.origin = at.value_or(otherwise_);
     in_metres_ = true;
@@ -291,7 +298,7 @@ void SensorPlaces::place(Row& row) {
     throw InputError("{}:{}: {}; {}", recording_.file(), row.line, what, remedy);
   };
   if (frame_ && in_metres_ && !recording_.origin())
-    refuse("some sensors stand on the Earth, by latitude and longitude, and others do not",
+    refuse("some sensors or positions are on the Earth, by latitude and longitude, and others are not",
            "place all of them there, or say with --origin LAT,LON,ALT from where metres are counted");
   const Position& first = stood_.try_emplace(row.sensor, plot.origin).first->second;
   if (plot.sensor == AnyPlot::Sensor::doppler && first != plot.origin)
@@ -302,9 +309,8 @@ void SensorPlaces::place(Row& row) {
 std::vector<std::string> SensorPlaces::notes() const {
   std::vector<std::string> sentences;
   if (frame_ && !recording_.origin())
-    sentences.push_back(
-        fmt::format("Positions are counted from where the first sensor stands, latitude {}°, longitude {}°",
-                    shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg)));
+    sentences.push_back(fmt::format("Positions are counted from the first place, latitude {}°, longitude {}°",
+                                    shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg)));
   std::vector<std::string> unplaced;
   for (const auto& [name, rows] : unplaced_)
     unplaced.push_back(fmt::format("{} {}", name.empty() ? "rows" : name, rows));

@@ -69,11 +69,11 @@ class SensorPlaces {
   SensorPlaces(const FilterSettings& settings, const RecordingReader& recording, const Position& otherwise);
 
   /// Gives a radar's measurement, or a bearing, the origin that it has in the frame of all. On the Earth its angles are
-  /// from the east and the horizon where the sensor stands, and are turned into the frame. Throws InputError with file
-  /// and line where the frame is not known, and for a range rate of a sensor that moves.
+  /// from the east and the horizon where the sensor stands, and are turned into the frame. Sees positions, too. Throws
+  /// InputError with file and line where the frame is not known, and for a range rate of a sensor that moves.
   void place(Row& row);
 
-  /// That of all, where sensors stand on the Earth: about --origin or the first of them.
+  /// That of all, where sensors stand on the Earth: about --origin, or the first place of them and of the target.
   const std::optional<LocalFrame>& frame() const { return frame_; }
 
   /// Whether measurements come from several places.

@@ -195,12 +195,9 @@ class TrackRun {
     }
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
-    if (!target.anchor && recording_.on_the_earth()) {
-      if (places_.frame())
-        begin_frames(target, places_.frame()->origin());
-      else if (axes_seen(row.plot, axes_) > 0 && recording_.geodetic())
-        begin_frames(target, place_of(row.plot, axes_, 0.0));
-    }
+    const bool located = recording_.geodetic() && axes_seen(row.plot, axes_) > 0;
+    if (!target.anchor && (places_.frame() || located))
+      begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
     if (!shares_.concerns(target.rank)) return;
     if (options_.radar.sigma) {
       if (axes_seen(row.plot, axes_) == axes_)
@@ -560,7 +557,8 @@ class TrackRun {
   bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two
   std::map<std::string, Target, std::less<>> targets_;
   std::optional<Geodetic> file_anchor_;
-  bool fixed_ = options_.radar.sigma || recording_.has_truth() || !recording_.geodetic();  // all is about one point
+  bool fixed_ =
+      options_.radar.sigma || recording_.has_truth() || recording_.seen_from_places();  // all is about one point
   SensorPlaces places_{filters_.front(), recording_, options_.radar.place()};
   bool crosses_ = recording_.bearings() && !recording_.located();  // bearings alone, from which a track may start
 };

@@ -40,7 +40,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   data.geodetic |= recording.geodetic();
   data.crosses |= recording.bearings() && !recording.located();
   SensorPlaces places(settings, recording, options.radar.place());
-  const bool one_frame = options.radar.sigma || recording.has_truth();
+  const bool one_frame = options.radar.sigma || recording.has_truth() || recording.seen_from_places();
   std::optional<Geodetic> first = recording.origin();
   std::map<std::string, Open, std::less<>> open;
   for (Row row; recording.next(row);) {
@@ -48,7 +48,10 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
     if (is_new) data.tracks.push_back({recording.file(), {}});
     Open& its = found->second;
-    if (recording.geodetic() && axes_seen(row.plot, data.axes) > 0) {
+    if (!options.radar.sigma) places.place(row);
+    if (!first && places.frame()) first = places.frame()->origin();
+    const bool told = row.plot.sensor == AnyPlot::Sensor::components;
+    if (recording.geodetic() && told && axes_seen(row.plot, data.axes) > 0) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
       if (!its.frame)
@@ -67,8 +70,6 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
                      recording.file());
       else
         row.plot = AnyPlot::missed(row.plot.time);
-    } else {
-      places.place(row);
     }
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
