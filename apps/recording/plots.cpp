@@ -39,15 +39,15 @@ AnyPlot in_frame(AnyPlot plot, const LocalFrame& frame, const Position& at, int 
   return plot;
 }
 
-std::optional<Position> position_of(const AnyPlot& plot, int axes, const Position& radar_at) {
+std::optional<Position> position_of(const AnyPlot& plot, int axes) {
   if (axes_seen(plot, axes) == 0) return std::nullopt;
   if (plot.sensor == AnyPlot::Sensor::components)
     return Position{component_of(plot, 0).value_or(0.0), axes > 1 ? component_of(plot, 1).value_or(0.0) : 0.0,
                     axes > 2 ? component_of(plot, 2).value_or(0.0) : 0.0};
   const double range = plot.z[0], azimuth = plot.z[1], elevation = axes == 3 ? plot.z[2] : 0.0;
   const double ground = range * std::cos(elevation);
-  return Position{radar_at[0] + ground * std::cos(azimuth), radar_at[1] + ground * std::sin(azimuth),
-                  radar_at[2] + range * std::sin(elevation)};
+  return Position{plot.origin[0] + ground * std::cos(azimuth), plot.origin[1] + ground * std::sin(azimuth),
+                  plot.origin[2] + range * std::sin(elevation)};
 }
 
 Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random) {
@@ -75,7 +75,7 @@ void see_by_radar(Row& row, const Position& position, const std::array<double, 3
         "track with --radar-at=E,N,U",
         file, row.line, shortest(seen[0]));
   row.truth = position;
-  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan});
+  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan}, radar_at);
 }
 
 void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions& radar) {

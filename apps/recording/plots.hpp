@@ -28,7 +28,7 @@ using Sighting = std::array<double, 3>;
 
 /// The position that a plot tells, a radar's or of components; 0 along what those do not have, nothing if there is
 /// none.
-std::optional<Position> position_of(const AnyPlot& plot, int axes, const Position& radar_at);
+std::optional<Position> position_of(const AnyPlot& plot, int axes);
 
 /// What a radar with these standard deviations measures.
 Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random);

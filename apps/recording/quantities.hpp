@@ -59,7 +59,9 @@ enum class Role {
   sigma_position,
   sigma_all_axes,
   covariance,
-  sigma_polar
+  sigma_polar,
+  sensor_position,
+  sensor_place
 };
 
 /// What a row may say: its headers are a stem and a unit. The unit that comes first wins, then the stem: altitude_m
@@ -73,7 +75,7 @@ struct Quantity {
 
 /// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
 /// as far as their diagonal.
-inline constexpr std::array<Quantity, 31> quantities = {
+inline constexpr std::array<Quantity, 37> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
@@ -104,7 +106,13 @@ inline constexpr std::array<Quantity, 31> quantities = {
      {Role::covariance, {"cov_zz", "var_z"}, units::areas},
      {Role::sigma_polar, {"sigma_range"}, units::lengths},
      {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
-     {Role::sigma_polar, {"sigma_elevation"}, units::angles}}};
+     {Role::sigma_polar, {"sigma_elevation"}, units::angles},
+     {Role::sensor_position, {"sensor_x"}, units::lengths},
+     {Role::sensor_position, {"sensor_y"}, units::lengths},
+     {Role::sensor_position, {"sensor_z"}, units::lengths},
+     {Role::sensor_place, {"sensor_latitude"}, units::degrees, " north"},
+     {Role::sensor_place, {"sensor_longitude"}, units::degrees, " east"},
+     {Role::sensor_place, {"sensor_altitude"}, units::lengths, " above the ellipsoid"}}};
 
 /// Headers of times, and how many of their numbers are a second; the first that there is counts.
 inline constexpr std::pair<std::string_view, double> time_columns[] = {

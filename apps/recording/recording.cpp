@@ -40,7 +40,8 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
       skip_bad_times_(options.skip_bad_times),
       takes_velocity_(options.velocity && !options.simulated),
       simulated_(options.simulated),
-      takes_range_rate_(options.range_rate) {
+      takes_range_rate_(options.range_rate),
+      sensor_places_(options.sensor_places) {
   for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
   find_columns(options);
   if (options.azimuth_from_north && !has(Role::polar, 1))
@@ -52,7 +53,8 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
     select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
   }
   if (!options.origin) return;
-  if (!geodetic()) throw UsageError("--origin is for geodetic input, but " + file() + " is none");
+  if (!on_the_earth())
+    throw UsageError("--origin is for geodetic input, or sensors with a latitude, but " + file() + " has none");
   try {
     origin_ = Geodetic::checked((*options.origin)[0], (*options.origin)[1], (*options.origin)[2]);
   } catch (const std::invalid_argument& error) {
@@ -111,31 +113,34 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   const bool along_one =
       has(Role::position) && !has(Role::position, 1) && !has(Role::position, 2) && !geodetic() && !polar();
   const bool cartesian = are_there(Role::position) || along_one;
-  if (along_one || ((geodetic() || simulated_) && !polar())) drop(Role::polar);
+  const bool places = sensor_places_ || are_there(Role::sensor_place);
+  if (along_one || (((geodetic() && !places) || simulated_) && !polar())) drop(Role::polar);
   refuse_other_kinds(cartesian, time.has_value());
   time_ = *time;
 
   if (!cartesian) drop(Role::position);
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
-  if (polar() && cartesian && axes_of(Role::position) != axes_)
+  if (polar() && (cartesian || geodetic()) && axes_of(geodetic() ? Role::place : Role::position) != axes_)
     throw InputError(
-        "{}:1: found {}, expected both z_m and elevation_deg, or none of them; give all sensors of a file as many axes",
-        file(), fmt::join(csv_.names(), ", "));
+        "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
+        file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
   if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
     drop(Role::course);
   drop(Role::velocity, takes_velocity_ ? axes : 0);
   if (!polar() || !takes_range_rate_) drop(Role::range_rate);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  const std::size_t places = located() && !simulated_ ? axes : 0;
-  drop(Role::covariance, covariances(places));
+  const std::size_t told = located() && !simulated_ ? axes : 0;
+  drop(Role::covariance, covariances(told));
   const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
-  drop(Role::sigma_position, has_variance ? 0 : places);
-  if (places == 0 || has_variance) drop(Role::sigma_all_axes);
+  drop(Role::sigma_position, has_variance ? 0 : told);
+  if (told == 0 || has_variance) drop(Role::sigma_all_axes);
   if (!polar()) {
     drop(Role::sigma_polar, azimuth ? 2 : 0);
     column(Role::sigma_polar).reset();
   }
+  for (const Role role : {Role::sensor_position, Role::sensor_place})
+    drop(role, (polar() || bearings()) && !simulated_ && are_there(role) ? axes : 0);
 }
 
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const {
@@ -149,8 +154,12 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const 
   } refusals[] = {
       {!time_known, "there is no column time_s", map},
       {none, "its columns are of no kind", without_unit().value_or(map)},
-      {geodetic() && (cartesian || polar()), "there are columns of several kinds", "rename those that do not count"},
-      {cartesian && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
+      {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
+       polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
+               : "rename those that do not count"},
+      {has(Role::sensor_position) && has(Role::sensor_place), "the place of a sensor is told in two ways",
+       "rename the columns that do not count"},
+      {located() && polar() && !sensor_, "there are positions and a radar's measurements, but no column sensor",
        "add one that names each row's sensor, or map its header with --columns"}};
   for (const auto& [holds, what, remedy] : refusals)
     if (holds)
@@ -188,6 +197,7 @@ bool RecordingReader::next(Row& row) {
   }
   const double time = row.plot.time;
   const auto plot = measured();
+  take_place_of_sensor(row);
   if (!plot && senseless_.rows++ == 0) senseless_.first_line = row.line;
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
@@ -315,12 +325,35 @@ void RecordingReader::require_whole(Role role, std::size_t size) const {
       throw error(role, i, "a number, since the row's other coordinates are there", "fill the cell or empty them all");
 }
 
+/// The place on the Earth that it says, perhaps without an altitude.
+Geodetic RecordingReader::place(Role role) const {
+  require_whole(role, 2);
+  try {
+    return Geodetic::checked(*said(role), *said(role, 1), said(role, 2).value_or(0.0));
+  } catch (const std::invalid_argument& refusal) {
+    throw error(role, std::abs(*said(role)) > 90.0 ? 0 : 1, refusal.what(), "correct the cell or drop the row");
+  }
+}
+
+void RecordingReader::take_place_of_sensor(Row& row) const {
+  row.sensor_at.reset();
+  row.sensor_place.reset();
+  if (says(Role::sensor_position) && !is_senseless(Role::sensor_position)) {
+    require_whole(Role::sensor_position, 3);
+    row.sensor_at = {*said(Role::sensor_position), *said(Role::sensor_position, 1),
+                     said(Role::sensor_position, 2).value_or(0.0)};
+  }
+  if (says(Role::sensor_place) && !is_senseless(Role::sensor_place)) row.sensor_place = place(Role::sensor_place);
+}
+
 /// What the row measured; nothing if it has a number that stands for none.
 std::optional<AnyPlot> RecordingReader::measured() {
   const Role where = geodetic() ? Role::place : Role::position;
   const bool is_located = says(where), is_moving = says(Role::velocity) || says(Role::course);
   const bool is_seen = says(Role::polar) && (polar() || !is_located);
-  if (is_senseless(where) || (is_seen && is_senseless(Role::polar))) return std::nullopt;
+  if (is_senseless(where)) return std::nullopt;
+  for (const Role role : {Role::polar, Role::sensor_position, Role::sensor_place})
+    if (is_seen && is_senseless(role)) return std::nullopt;
   if (is_located && is_seen)
     throw error(Role::polar, 0, "an empty cell, since the row has a position", "give each sensor a row of its own");
   if (is_located && says(Role::polar)) ++unused_azimuths_;
@@ -360,14 +393,7 @@ AnyPlot RecordingReader::radar_plot() const {
 /// The position, as far as the row has it, and the velocity; or that nothing was measured.
 AnyPlot RecordingReader::components() const {
   const Role where = geodetic() ? Role::place : Role::position;
-  if (geodetic() && says(where)) {
-    require_whole(where, 2);  // a place may lack its altitude, another position any coordinate
-    try {
-      Geodetic::checked(*said(where), *said(where, 1), said(where, 2).value_or(0.0));
-    } catch (const std::invalid_argument& refusal) {
-      throw error(where, std::abs(*said(where)) > 90.0 ? 0 : 1, refusal.what(), "correct the cell or drop the row");
-    }
-  }
+  if (geodetic() && says(where)) place(where);  // it may lack its altitude, another position any coordinate
   std::vector<int> places;
   std::vector<double> z, variances;
   const auto add = [&](std::size_t place, double number, double sigma) {
@@ -445,8 +471,8 @@ std::string RecordingReader::taken() const {
 
 /// Names of the first quantity that those of a role cannot do without, and that has no column; or empty.
 std::string RecordingReader::other_half(Role role) const {
-  const bool pair =
-      role == Role::position || role == Role::place || role == Role::course || (role == Role::polar && !geodetic());
+  const bool pair = role == Role::position || role == Role::place || role == Role::course ||
+                    role == Role::sensor_position || role == Role::sensor_place || (role == Role::polar && !geodetic());
   const std::size_t needed = role == Role::truth ? static_cast<std::size_t>(axes_) : pair ? 2 : 0;
   for (std::size_t i = 0; i < needed; ++i)
     if (const Quantity& quantity = quantities[place_of(role) + i]; !find(quantity)) return names_of(quantity);

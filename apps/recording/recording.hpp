@@ -20,6 +20,7 @@ struct RecordingOptions {
   bool skip_bad_times = false;                  ///< rather than refuse them
   bool velocity = false;                        ///< whether velocities count, or a speed and a course
   bool range_rate = false;                      ///< whether a radar's range rates count
+  bool sensor_places = false;                   ///< whether the settings say where on the Earth sensors stand
   bool simulated = false;                       ///< whether a simulated radar measures: so no velocity counts
 };
 
@@ -32,6 +33,8 @@ struct Row {
   /// geodetic recording the position is latitude and longitude in degrees and the altitude in m. A variance that the
   /// row does not tell is NaN.
   AnyPlot plot{};
+  std::optional<Position> sensor_at{};     ///< where the sensor stands, if the row tells it, in m
+  std::optional<Geodetic> sensor_place{};  ///< the same on the Earth
   std::optional<Position> truth{};
   std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
@@ -51,6 +54,12 @@ class RecordingReader {
   bool next(Row& row);
 
   bool geodetic() const { return has(Role::place); }
+  /// Whether radars or stations of bearings see from places on the Earth: then all is about one point.
+  bool seen_from_places() const {
+    return (polar() || bearings()) && !simulated_ && (sensor_places_ || has(Role::sensor_place));
+  }
+  /// Whether estimates have a latitude and a longitude.
+  bool on_the_earth() const { return geodetic() || seen_from_places(); }
   bool polar() const { return has(Role::polar); }
   /// Whether azimuths stand without a range.
   bool bearings() const { return has(Role::polar, 1) && !polar(); }
@@ -126,6 +135,8 @@ class RecordingReader {
   bool says(Role role) const;
   bool is_senseless(Role role) const;
   void require_whole(Role role, std::size_t size) const;
+  Geodetic place(Role role) const;
+  void take_place_of_sensor(Row& row) const;
   InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
   std::optional<AnyPlot> measured();
   AnyPlot radar_plot() const;
@@ -147,6 +158,7 @@ class RecordingReader {
   bool takes_velocity_ = false;
   bool simulated_ = false;
   bool takes_range_rate_ = false;
+  bool sensor_places_ = false;
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track

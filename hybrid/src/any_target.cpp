@@ -83,7 +83,7 @@ class ChosenStart {
       if (!points.empty() && points.back().first == plot.time) points.pop_back();
       points.emplace_back(plot.time, *position);
     }
-    if (points.size() < 3) return std::nullopt;
+    if (points.size() < 3) return from_bearings(plots);
     const auto view = [&](std::size_t back) {
       const auto& [time, position] = points[points.size() - back];
       return detail::TimedView{time, detail::view(position)};
@@ -91,16 +91,35 @@ class ChosenStart {
     const bool released = choice_.start == StartRule::released;
     const int all = 3 * axes;
     double wide_mean[9], wide_covariance[81], narrow_mean[6], narrow_covariance[36];
-    (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1),
-                                                                    {wide_mean, wide_covariance, all});
-    detail::two_point_start(view(2), view(1), {narrow_mean, narrow_covariance, 2 * axes});
-    return StartAt<Estimates>{points.back().first, estimates([&](int n, EstimateAt<double>& own) {
-                                const bool wide = n == all || released;
-                                const int size = wide ? all : 2 * axes;
+    const detail::View wide{wide_mean, wide_covariance, all}, narrow{narrow_mean, narrow_covariance, 2 * axes};
+    (released ? detail::released_start : detail::three_point_start)(view(3), view(2), view(1), wide);
+    detail::two_point_start(view(2), view(1), narrow);
+    return leading(points.back().first, wide, released ? wide : narrow);
+  }
+
+  /// From those seen from different places, as many as the models need, in the plane.
+  std::optional<StartAt<Estimates>> from_bearings(std::span<const Plot> plots) const {
+    if (choice_.axes != 2) return std::nullopt;
+    std::vector<TimedBearing> bearings;
+    for (const Plot& plot : plots)
+      if (const auto* const sensor = plot.seen() ? plot.sensor().as<BearingSensor>() : nullptr)
+        bearings.push_back({plot.time, sensor->origin(), plot.measurement().mean[0], plot.measurement().covariance[0]});
+    const bool accelerates = std::ranges::any_of(
+        choice_.motions, [](const MotionChoice& motion) { return motion.known().derivatives == 3; });
+    double wide_mean[6], wide_covariance[36], narrow_mean[4], narrow_covariance[16];
+    const detail::View wide{wide_mean, wide_covariance, 6}, narrow{narrow_mean, narrow_covariance, 4};
+    if (!detail::crossed_bearings_start(bearings, narrow)) return std::nullopt;
+    if (accelerates && !detail::crossed_bearings_start(bearings, wide)) return std::nullopt;
+    return leading(bearings.back().time, wide, narrow);
+  }
+
+  /// Each model has the leading components of the one that is wide, if it needs them all, or else of the narrow one.
+  std::optional<StartAt<Estimates>> leading(double time, const detail::View& wide, const detail::View& narrow) const {
+    return StartAt<Estimates>{time, estimates([&](int n, EstimateAt<double>& own) {
+                                const detail::View& from = n == wide.n ? wide : narrow;
                                 for (int k = 0; k < n; ++k) {
-                                  own.mean(k) = (wide ? wide_mean : narrow_mean)[k];
-                                  for (int i = 0; i < n; ++i)
-                                    own.covariance(i, k) = (wide ? wide_covariance : narrow_covariance)[i + k * size];
+                                  own.mean(k) = from.mean[k];
+                                  for (int i = 0; i < n; ++i) own.covariance(i, k) = from.covariance[i + k * from.n];
                                 }
                               })};
   }

@@ -126,6 +126,34 @@ TEST(AnyTarget, TakesWhatSeveralSensorsSee) {
   EXPECT_INVALID(("2 measured quantities", "1"), target.take(bearing));
 }
 
+/// Two stations see it at the same times; six bearings tell an acceleration too, four are enough without.
+TEST(AnyTarget, StartsFromBearingsThatCross) {
+  const std::array<std::array<double, 3>, 2> stations{{{0.0, 0.0, 0.0}, {5000.0, 0.0, 0.0}}};
+  const auto seen = [&](int k, std::size_t by) {
+    const double t = k, x = 1000.0 + 40.0 * t, y = 4000.0 - 10.0 * t;
+    return AnyPlot::bearing(t, std::atan2(y, x - stations[by][0]), 1e-6, stations[by]);
+  };
+  for (const bool accelerates : {false, true}) {
+    TargetChoice two = choice(true, Scheme::interacting, 2);
+    if (!accelerates) two.motions[1].name = "ct";
+    AnyTarget crossed{two}, alone{two};
+    const int enough = accelerates ? 3 : 2;
+    for (int k = 0; k < 2 * enough; ++k) {
+      EXPECT_EQ(crossed.take(seen(k / 2, k % 2 == 0 ? 0 : 1)), k + 1 < 2 * enough ? Verdict::waiting : Verdict::started) << k;
+      EXPECT_EQ(alone.take(seen(k, 1)), Verdict::waiting);
+    }
+    const TargetPoint start = crossed.output();
+    EXPECT_EQ(start.time, enough - 1.0);
+    EXPECT_CLOSE(start.mean[0], 1000.0 + 40.0 * start.time, 1e-9);
+    EXPECT_CLOSE(start.mean[1], 4000.0 - 10.0 * start.time, 1e-9);
+    EXPECT_CLOSE(start.mean[2], 40.0, 1e-7);
+    EXPECT_CLOSE(start.mean[3], -10.0, 1e-7);
+    EXPECT_EQ(crossed.take(seen(enough, 0)), Verdict::accepted);
+    for (int k = 2 * enough; k < 40; ++k) alone.take(seen(k, 1));
+    EXPECT_FALSE(alone.running());
+  }
+}
+
 TEST(AnyTarget, ATurnedWorldGivesTheTurnedTrack) {
   for (const int axes : {2, 3}) {
     TargetChoice some = choice(true, Scheme::interacting, axes);

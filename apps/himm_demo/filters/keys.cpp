@@ -369,6 +369,26 @@ std::vector<Key<Accuracy>> made_accuracy_keys() {
   keys.push_back(value<A>("sigma_range_rate_mps",
                           "Accuracy of a radar's range rate; without it that is not taken for a measurement.",
                           &A::range_rate_mps, sigma));
+  auto at = value<A>("at",
+                     "Where a radar or a station of bearings stands, in m: what it measures is about this place. "
+                     "Columns sensor_x_m, sensor_y_m and sensor_z_m go before.",
+                     &A::at_m, {"[E, N] or [E, N, U]", any});
+  at.read = [read = at.read](const Settings& settings, A& accuracy) {
+    read(settings, accuracy);
+    if (!accuracy.at_m.empty() && accuracy.at_m.size() != 2 && accuracy.at_m.size() != 3)
+      throw settings.error("at", "two or three numbers, [E, N] or [E, N, U], in m");
+  };
+  at.by_default = "that of --radar-at";
+  keys.push_back(std::move(at));
+  keys.push_back(value<A>("latitude_deg",
+                          "The same on the Earth, with longitude_deg. Columns sensor_latitude_deg and "
+                          "sensor_longitude_deg go before.",
+                          &A::latitude_deg,
+                          {"degrees from −90 to 90", [](double degrees) { return std::abs(degrees) <= 90.0; }}));
+  keys.push_back(value<A>("longitude_deg", "See latitude_deg.", &A::longitude_deg,
+                          {"degrees from −360 to 360", [](double degrees) { return std::abs(degrees) <= 360.0; }}));
+  keys.push_back(value<A>("altitude_m", "Above the ellipsoid, of a sensor on the Earth; without it, 0.", &A::altitude_m,
+                          {"an altitude, in m", any}));
   return keys;
 }
 
@@ -433,7 +453,7 @@ std::string key_table() {
   text += entry("filter.NAME.kind", "The kind of the filter's mode.", "random, fuzzy", "from the name");
   for (const auto& key : filter_keys()) text += entry(key, track, paper, released);
   for (const auto& key : accuracy_keys()) text += entry(key, track.accuracy, paper.accuracy, released.accuracy);
-  text += entry("sensor.NAME.KEY", "One of the last six keys, for the rows whose column sensor says NAME.", "as there",
+  text += entry("sensor.NAME.KEY", "One of the last ten keys, for the rows whose column sensor says NAME.", "as there",
                 "that of all sensors");
   text += entry("filter.NAME.KEY", "Any key, for one filter.", "as there", "that of all filters");
   return text;
@@ -477,6 +497,7 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
   for (const auto& filter : filters) {
     recording.velocity |= filter.knows(&Accuracy::velocity_mps);
     recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
+    recording.sensor_places |= filter.knows(&Accuracy::latitude_deg);
   }
   return filters;
 }

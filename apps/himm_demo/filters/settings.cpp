@@ -1,6 +1,7 @@
 #include "himm_demo/filters/settings.hpp"
 
 #include "himm_demo/experiment/scenario.hpp"
+#include "recording/plots.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 
@@ -132,15 +133,31 @@ void refuse_bad_combinations(const Settings& settings, const FilterSettings& fil
     throw settings.error("start_covariance_diagonal", "nine variances, since start = \"given\"");
 }
 
+/// Throws where they say in two ways where the sensor stands, or not wholly.
+void read_sensor(const Settings& settings, Accuracy& sensor) {
+  const bool in_metres = settings.has("at");
+  const bool on_earth = settings.has("latitude_deg") || settings.has("longitude_deg") || settings.has("altitude_m");
+  if (in_metres && on_earth)
+    throw settings.error("at", "one place, in metres or by latitude_deg and longitude_deg", "leave out one of both");
+  if (in_metres) sensor.latitude_deg = sensor.longitude_deg = sensor.altitude_m = std::nullopt;
+  if (on_earth) sensor.at_m.clear();
+  for (const auto& key : accuracy_keys()) key.read(settings, sensor);
+  if (on_earth && !(sensor.latitude_deg && sensor.longitude_deg))
+    throw settings.error(sensor.latitude_deg             ? "latitude_deg"
+                         : settings.has("longitude_deg") ? "longitude_deg"
+                                                         : "altitude_m",
+                         "latitude_deg and longitude_deg together", "give both");
+}
+
 /// The filter that the settings make of its defaults.
 FilterSettings read_filter(const Settings& settings, FilterSettings filter) {
   for (const auto& key : filter_keys()) key.read(settings, filter);
-  for (const auto& key : accuracy_keys()) key.read(settings, filter.accuracy);
+  read_sensor(settings, filter.accuracy);
   refuse_bad_combinations(settings, filter);
   const Settings sensors = settings.sub("sensor");
   for (const auto& name : sensors.names()) {
     Accuracy& own = filter.sensors.emplace(name, filter.accuracy).first->second;
-    for (const auto& key : accuracy_keys()) key.read(sensors.sub(name), own);
+    read_sensor(sensors.sub(name), own);
   }
   return filter;
 }
@@ -157,7 +174,7 @@ std::optional<double> sigma_of(const Accuracy& accuracy, const AnyPlot& plot, st
 
 /// What a radar measured, as a position.
 AnyPlot converted(double time, std::span<const double> z, std::span<const double> variances, RadarForm form,
-                  const std::array<double, 3>& radar_at) {
+                  const std::array<double, 3>& origin) {
   Polar measured{z[0], z[1], 0.0}, sigma{std::sqrt(variances[0]), std::sqrt(variances[1]), 0.0};
   if (z.size() == 3) measured.elevation = z[2], sigma.elevation = std::sqrt(variances[2]);
   const Conversion conversion = form == RadarForm::unbiased   ? Conversion::unbiased
@@ -166,11 +183,26 @@ AnyPlot converted(double time, std::span<const double> z, std::span<const double
   const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
   std::vector<double> mean, covariance;
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(z.size()); ++i) {
-    mean.push_back(position.mean(i) + radar_at[static_cast<std::size_t>(i)]);
+    mean.push_back(position.mean(i) + origin[static_cast<std::size_t>(i)]);
     for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(z.size()); ++j)
       covariance.push_back(position.covariance(i, j));
   }
   return AnyPlot::position(time, mean, covariance);
+}
+
+/// Turns a radar's angles, or a bearing, from east and horizon at its origin to those of the frame.
+void turn_to(const LocalFrame& frame, AnyPlot& plot, int axes) {
+  const bool alone = plot.sensor == AnyPlot::Sensor::bearing;
+  double& azimuth = plot.z[alone ? 0 : 1];
+  const double elevation = alone || axes < 3 ? 0.0 : plot.z[2];
+  const Position seen = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                         std::sin(elevation)};
+  const auto local = frame.local_axes(plot.origin);
+  Position turned{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) turned[i] += local[k][i] * seen[k];
+  azimuth = std::atan2(turned[1], turned[0]);
+  if (!alone && axes == 3) plot.z[2] = std::atan2(turned[2], std::hypot(turned[0], turned[1]));
 }
 
 }  // namespace
@@ -190,8 +222,7 @@ TargetChoice choice_of(const FilterSettings& settings, int axes) {
   return choice;
 }
 
-AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes,
-                 const std::array<double, 3>& radar_at) {
+AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes) {
   const Accuracy& accuracy = settings.accuracy_of(sensor);
   std::array<double, 6> z{}, variances{};
   std::array<int, 6> places{};
@@ -215,12 +246,12 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
   const auto taken = [&] {
     switch (n == 0 ? AnyPlot::Sensor::none : plot.sensor) {
       case AnyPlot::Sensor::bearing:
-        return AnyPlot::bearing(plot.time, z[0], variances[0], radar_at);
+        return AnyPlot::bearing(plot.time, z[0], variances[0], plot.origin);
       case AnyPlot::Sensor::polar:
       case AnyPlot::Sensor::doppler:
-        if (n > static_cast<std::size_t>(axes)) return AnyPlot::doppler(plot.time, numbers, R, radar_at);
-        if (settings.radar_measurement == RadarForm::polar) return AnyPlot::polar(plot.time, numbers, R, radar_at);
-        return converted(plot.time, numbers, {variances.data(), n}, settings.radar_measurement, radar_at);
+        if (n > static_cast<std::size_t>(axes)) return AnyPlot::doppler(plot.time, numbers, R, plot.origin);
+        if (settings.radar_measurement == RadarForm::polar) return AnyPlot::polar(plot.time, numbers, R, plot.origin);
+        return converted(plot.time, numbers, {variances.data(), n}, settings.radar_measurement, plot.origin);
       case AnyPlot::Sensor::components:
         if (n == static_cast<std::size_t>(axes) && places[n - 1] == axes - 1)
           return AnyPlot::position(plot.time, numbers, R);
@@ -232,6 +263,62 @@ AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const 
   AnyPlot result = taken();
   result.tag = plot.tag;
   return result;
+}
+
+SensorPlaces::SensorPlaces(const FilterSettings& settings, const RecordingReader& recording, const Position& otherwise)
+    : settings_(settings), recording_(recording), otherwise_(otherwise) {
+  if (recording.origin() && recording.seen_from_places()) frame_.emplace(*recording.origin(), recording.axes());
+}
+
+void SensorPlaces::place(Row& row) {
+  AnyPlot& plot = row.plot;
+  const int axes = recording_.axes();
+  if (plot.sensor == AnyPlot::Sensor::components) {
+    if (!frame_ && recording_.geodetic() && recording_.seen_from_places() && axes_seen(plot, axes) > 0)
+      frame_.emplace(place_of(plot, axes, 0.0), axes);
+    return;
+  }
+  if (!row.measured()) return;
+  const Accuracy& own = settings_.accuracy_of(row.sensor);
+  std::optional<Position> at = row.sensor_at;
+  std::optional<Geodetic> on_earth = row.sensor_place;
+  if (!at && !on_earth && own.latitude_deg)
+    on_earth = {*own.latitude_deg, *own.longitude_deg, own.altitude_m.value_or(0.0)};
+  if (!at && !on_earth && !own.at_m.empty()) at = {own.at_m[0], own.at_m[1], own.at_m.size() == 3 ? own.at_m[2] : 0.0};
+  if (on_earth) {
+    if (!frame_) frame_.emplace(*on_earth, axes);
+    plot.origin = frame_->to_local(*on_earth);
+    turn_to(*frame_, plot, axes);
+  } else {
+    plot.origin = at.value_or(otherwise_);
+    in_metres_ = true;
+    if (!at) ++unplaced_[row.sensor];
+  }
+  const auto refuse = [&](std::string_view what, std::string_view remedy) {
+    throw InputError("{}:{}: {}; {}", recording_.file(), row.line, what, remedy);
+  };
+  if (frame_ && in_metres_ && !recording_.origin())
+    refuse("some sensors or positions are on the Earth, by latitude and longitude, and others are not",
+           "place all of them there, or say with --origin LAT,LON,ALT from where metres are counted");
+  const Position& first = stood_.try_emplace(row.sensor, plot.origin).first->second;
+  if (plot.sensor == AnyPlot::Sensor::doppler && first != plot.origin)
+    refuse("the sensor moves, and so its range rate is not the target's alone", "leave sigma_range_rate_mps out");
+  several_ |= plot.origin != stood_.begin()->second;
+}
+
+std::vector<std::string> SensorPlaces::notes() const {
+  std::vector<std::string> sentences;
+  if (frame_ && !recording_.origin())
+    sentences.push_back(fmt::format("Positions are counted from the first place, latitude {}°, longitude {}°",
+                                    shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg)));
+  std::vector<std::string> unplaced;
+  for (const auto& [name, rows] : unplaced_)
+    unplaced.push_back(fmt::format("{} {}", name.empty() ? "rows" : name, rows));
+  if (several_ && !unplaced.empty())
+    sentences.push_back(fmt::format("No place is told, so taken to stand at ({}, {}, {}) m: {}",
+                                    shortest(otherwise_[0]), shortest(otherwise_[1]), shortest(otherwise_[2]),
+                                    fmt::join(unplaced, ", ")));
+  return sentences;
 }
 
 FilterDefaults FilterDefaults::of(Preset preset) {

@@ -17,12 +17,14 @@ struct Group;
 /// is from positions, by the unbiased conversion.
 enum class RadarForm { standard, unbiased, debiased, polar };
 
-/// A sensor's standard deviations, as a filter believes them.
+/// A sensor's standard deviations, as a filter believes them, and where it stands.
 struct Accuracy {
   std::array<double, 3> radar{};         ///< of range, azimuth and elevation, in m and rad
   std::vector<double> position_m{10.0};  ///< of measurements that are no radar's: one, or one an axis
   std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
   std::optional<double> range_rate_mps;  ///< of a radar's; likewise
+  std::vector<double> at_m;              ///< east, north and perhaps up; or none
+  std::optional<double> latitude_deg, longitude_deg, altitude_m;  ///< the same on the Earth
 };
 
 /// Everything that one filter is made of: that of the library's target, and how measurements come to it.
@@ -57,9 +59,39 @@ struct FilterSettings : TargetChoice {
 TargetChoice choice_of(const FilterSettings& settings, int axes);
 
 /// What a sensor saw, as a filter takes it: a variance that is NaN is that which the filter believes; what it does not
-/// take for a measurement is left out, and a radar at this place is converted if the settings say so.
-AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes,
-                 const std::array<double, 3>& radar_at = {});
+/// take for a measurement is left out, and a radar's is converted if the settings say so.
+AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes);
+
+/// Where the sensors of a recording stand: where its rows or the settings of a filter say, or else all at one place.
+class SensorPlaces {
+ public:
+  /// What it is made of must live as long.
+  SensorPlaces(const FilterSettings& settings, const RecordingReader& recording, const Position& otherwise);
+
+  /// Gives a radar's measurement, or a bearing, the origin that it has in the frame of all. On the Earth its angles are
+  /// from the east and the horizon where the sensor stands, and are turned into the frame. Sees positions, too. Throws
+  /// InputError with file and line where the frame is not known, and for a range rate of a sensor that moves.
+  void place(Row& row);
+
+  /// That of all, where sensors stand on the Earth: about --origin, or the first place of them and of the target.
+  const std::optional<LocalFrame>& frame() const { return frame_; }
+
+  /// Whether measurements come from several places.
+  bool several() const { return several_; }
+
+  /// Sentences on what was placed.
+  std::vector<std::string> notes() const;
+
+ private:
+  const FilterSettings& settings_;
+  const RecordingReader& recording_;
+  Position otherwise_;
+  std::optional<LocalFrame> frame_;
+  std::map<std::string, Position> stood_;        // where each sensor stood first
+  std::map<std::string, std::size_t> unplaced_;  // rows of those of which nothing says where they stand
+  bool in_metres_ = false;                       // whether there are sensors that are not placed on the Earth
+  bool several_ = false;
+};
 
 /// What the keys have as defaults, and the filters that run by default: the library's, or those of a preset.
 struct FilterDefaults {

@@ -240,7 +240,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   };
   std::vector<Panel> panels;
   const auto axes = static_cast<std::size_t>(recording_.axes());
-  const bool geodetic = recording_.geodetic();
+  const bool geodetic = recording_.on_the_earth();
   if (axes == 1) {
     LineChart along = chart("Position", "x, m");
     along.curves.push_back(

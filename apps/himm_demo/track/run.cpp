@@ -89,10 +89,10 @@ class Estimates {
       cells.push_back(j < settings.models.size() ? Cell(point.weights[j]) : Cell());
     }
     cells.emplace_back(settings.models[point.most_likely_mode]);
-    if (place) {
-      cells.emplace_back(place->latitude_deg);
-      cells.emplace_back(place->longitude_deg);
-      cells.push_back(axes == 3 ? Cell(place->altitude_m) : Cell());
+    if (recording_.on_the_earth()) {
+      cells.push_back(place ? Cell(place->latitude_deg) : Cell());
+      cells.push_back(place ? Cell(place->longitude_deg) : Cell());
+      cells.push_back(place && axes == 3 ? Cell(place->altitude_m) : Cell());
     }
     return table_.csv_line(cells);
   }
@@ -111,7 +111,7 @@ class Estimates {
     if (turns_) keys.emplace_back("turn_rate_deg_s");
     for (const auto& model : models_) keys.push_back("weight_" + model);
     keys.emplace_back("most_likely");
-    if (recording_.geodetic())
+    if (recording_.on_the_earth())
       for (const char* key : {"latitude_deg", "longitude_deg", "altitude_m"}) keys.emplace_back(key);
     return keys;
   }
@@ -159,6 +159,7 @@ class TrackRun {
     shares_.finish();
     if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
     outcome_.tracks = targets_.size();
+    outcome_.places = places_.notes();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;
     return std::move(outcome_);
   }
@@ -193,11 +194,14 @@ class TrackRun {
                   .first;
     }
     Target& target = found->second;
-    if (recording_.geodetic() && axes_seen(row.plot, axes_) > 0 && !target.anchor) begin_frames(target, row);
+    if (!options_.radar.sigma) places_.place(row);
+    const bool located = recording_.geodetic() && axes_seen(row.plot, axes_) > 0;
+    if (!target.anchor && (places_.frame() || located))
+      begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
     if (!shares_.concerns(target.rank)) return;
     if (options_.radar.sigma) {
       if (axes_seen(row.plot, axes_) == axes_)
-        see_by_radar(row, *where(row, target), *options_.radar.sigma, radar_at_, target.random, file());
+        see_by_radar(row, *where(row, target), *options_.radar.sigma, options_.radar.place(), target.random, file());
       else
         row.plot = AnyPlot::missed(row.plot.time);
     }
@@ -225,8 +229,7 @@ class TrackRun {
 
   /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of
   /// all for good.
-  void begin_frames(Target& target, const Row& row) {
-    const Geodetic here = place_of(row.plot, axes_, 0.0);
+  void begin_frames(Target& target, const Geodetic& here) {
     if (!file_anchor_) file_anchor_ = recording_.origin().value_or(here);
     target.anchor.emplace(fixed_ ? *file_anchor_ : recording_.origin().value_or(here), axes_);
     const bool near = !far_away(target.anchor->to_local(here));
@@ -244,8 +247,7 @@ class TrackRun {
 
   /// Where a row's measurement was, about where positions are counted from.
   std::optional<Position> where(const Row& row, const Target& target) const {
-    if (!recording_.geodetic() || row.plot.sensor != AnyPlot::Sensor::components)
-      return position_of(row.plot, axes_, radar_at_);
+    if (!recording_.geodetic() || row.plot.sensor != AnyPlot::Sensor::components) return position_of(row.plot, axes_);
     if (axes_seen(row.plot, axes_) == 0) return std::nullopt;
     return target.anchor->to_local(place_of(row.plot, axes_, 0.0));
   }
@@ -320,7 +322,7 @@ class TrackRun {
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       AnyTarget& filter = target.filters[f];
       try {
-        if (!again || filter.running()) {
+        if (!again || filter.running() || (crosses_ && filters_[f].start != StartRule::given)) {
           const AnyPlot plot = plot_for(target, f, row);
           TargetPoint last;
           filter.follow({&plot, 1}, [&](const TargetPoint& point) {
@@ -341,11 +343,12 @@ class TrackRun {
   AnyPlot plot_for(const Target& target, std::size_t f, const Row& row) const {
     const AnyTarget& filter = target.filters[f];
     AnyPlot plot = row.plot;
-    const bool starts_from_it = filters_[f].start != StartRule::given || target.anchor;
-    if (!filter.running() && starts_from_it && axes_seen(plot, axes_) < axes_) {
+    const bool geodetic = target.anchor && recording_.geodetic();
+    const bool starts_from_it = filters_[f].start != StartRule::given || geodetic;
+    if (!filter.running() && starts_from_it && !crosses_ && axes_seen(plot, axes_) < axes_) {
       plot = AnyPlot::missed(plot.time);
       plot.tag = row.plot.tag;
-    } else if (target.anchor && plot.sensor == AnyPlot::Sensor::components) {
+    } else if (geodetic && plot.sensor == AnyPlot::Sensor::components) {
       const LocalFrame& frame = target.segments[f].back().frame;
       const int seen = axes_seen(plot, axes_);
       Position at{};
@@ -357,7 +360,7 @@ class TrackRun {
       if (seen > 0) at = frame.to_local(place_of(plot, axes_, altitude));
       plot = in_frame(plot, frame, at, axes_);
     }
-    return believed(filters_[f], row.sensor, plot, axes_, radar_at_);
+    return believed(filters_[f], row.sensor, plot, axes_);
   }
 
   /// Moves the frame of a filter along with a target that has gone far.
@@ -521,17 +524,25 @@ class TrackRun {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
       throw InputError("{}: no row has {}; see how the file writes the value", file(),
                        fmt::join(options_.recording.select, " and "));
+    if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
+      throw InputError(
+          message({.where = file(),
+                   .what = places_.several()
+                               ? "the bearings cross at angles too small, or are too few, to tell where a target starts"
+                               : "bearings from one place do not tell where a target starts",
+                   .remedy = fmt::format(
+                       "{}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s",
+                       places_.several() ? "give two rows or more of each station"
+                                         : "name each row's station in a column sensor and say where it "
+                                           "stands, as sensor.NAME.at = [E, N]")}));
     throw InputError(message(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
                                      : "there is too little for every filter to start",
          .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
          .expected = "more than the three measurements that start a filter (two rows if the start is given)",
-         .remedy = outcome_.bearings == outcome_.measurements && outcome_.bearings > 0
-                       ? "bearings do not tell where a target starts; give start = \"given\" with start_mean, "
-                         "start_covariance_diagonal and start_time_s"
-                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
-                                          : "give more rows, or start = \"given\" with start_time_s"}));
+         .remedy = outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
+                                        : "give more rows, or start = \"given\" with start_time_s"}));
   }
 
   const TrackOptions& options_;
@@ -546,8 +557,10 @@ class TrackRun {
   bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two
   std::map<std::string, Target, std::less<>> targets_;
   std::optional<Geodetic> file_anchor_;
-  bool fixed_ = options_.radar.sigma || recording_.has_truth();  // whether all is about one point
-  Position radar_at_ = options_.radar.place();
+  bool fixed_ =
+      options_.radar.sigma || recording_.has_truth() || recording_.seen_from_places();  // all is about one point
+  SensorPlaces places_{filters_.front(), recording_, options_.radar.place()};
+  bool crosses_ = recording_.bearings() && !recording_.located();  // bearings alone, from which a track may start
 };
 
 }  // namespace

@@ -94,7 +94,8 @@ class Reporter {
                           : converted         ? ", a radar's measurements converted"
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
-    for (const std::string& note : recording_.notes()) say(true, note);
+    for (const auto& notes : {recording_.notes(), outcome_.places})
+      for (const std::string& note : notes) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
     say(!outcome_.velocity_unknown.empty(),
         "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
@@ -105,7 +106,11 @@ class Reporter {
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
         fmt::format("{} tracks by {}{}", outcome_.tracks, options_.recording.track_id,
-                    short_ones > 0 ? fmt::format(", {} of them too short for every filter to start", short_ones) : ""));
+                    short_ones == 0 ? ""
+                    : outcome_.bearings == outcome_.measurements
+                        ? fmt::format(", {} of them without bearings that cross, from which every filter could start",
+                                      short_ones)
+                        : fmt::format(", {} of them too short for every filter to start", short_ones)));
     say(recording_.skipped() > 0,
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
     const auto rejected = counted("rejected", &FilterOutcome::rejected);

@@ -216,6 +216,7 @@ struct TrackOutcome {
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
   std::size_t tracks = 0;
+  std::vector<std::string> places;                        ///< sentences on where the sensors stand
   std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
   std::map<std::string, std::size_t> sensors;             ///< the rows of each
   std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take

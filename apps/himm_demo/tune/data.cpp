@@ -25,7 +25,7 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
   refuse_radar(options.radar, recording);
 }
 
-void read(const std::string& file, const TuneOptions& options, TuneData& data) {
+void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data) {
   struct Open {  // what is kept of a track while its file is read
     std::size_t place;
     RandomStream random;
@@ -38,7 +38,9 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
   RecordingReader recording(of_file);
   refuse_other_kind(options, data, recording);
   data.geodetic |= recording.geodetic();
-  const bool one_frame = options.radar.sigma || recording.has_truth();
+  data.crosses |= recording.bearings() && !recording.located();
+  SensorPlaces places(settings, recording, options.radar.place());
+  const bool one_frame = options.radar.sigma || recording.has_truth() || recording.seen_from_places();
   std::optional<Geodetic> first = recording.origin();
   std::map<std::string, Open, std::less<>> open;
   for (Row row; recording.next(row);) {
@@ -46,7 +48,10 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
     if (is_new) data.tracks.push_back({recording.file(), {}});
     Open& its = found->second;
-    if (recording.geodetic() && axes_seen(row.plot, data.axes) > 0) {
+    if (!options.radar.sigma) places.place(row);
+    if (!first && places.frame()) first = places.frame()->origin();
+    const bool told = row.plot.sensor == AnyPlot::Sensor::components;
+    if (recording.geodetic() && told && axes_seen(row.plot, data.axes) > 0) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
       if (!its.frame)
@@ -61,7 +66,7 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
     }
     if (options.radar.sigma) {
       if (axes_seen(row.plot, data.axes) == data.axes)
-        see_by_radar(row, *position_of(row.plot, data.axes, {}), *options.radar.sigma, data.radar_at, its.random,
+        see_by_radar(row, *position_of(row.plot, data.axes), *options.radar.sigma, options.radar.place(), its.random,
                      recording.file());
       else
         row.plot = AnyPlot::missed(row.plot.time);
@@ -71,7 +76,8 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
     row.plot.tag = rows.size();
     rows.push_back(std::move(row));
   }
-  for (const std::string& note : recording.notes()) data.notes.push_back(fmt::format("{}: {}", file, note));
+  for (const auto& notes : {recording.notes(), places.notes()})
+    for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
 }
 
 /// A box about points.
@@ -159,13 +165,13 @@ double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objec
 
 bool TuneOptions::fits(std::string_view what) const { return std::ranges::find(fixed, what) == fixed.end(); }
 
-TuneData read_tune_data(const TuneOptions& options) {
+TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settings) {
   if (std::ranges::count(options.files, "-") > 0)
     throw UsageError("tune reads its files more than once: it takes no standard input");
   RecordingOptions first = options.recording;
   first.file = options.files.front();
-  TuneData data{.axes = RecordingReader(first).axes(), .radar_at = options.radar.place()};
-  for (const auto& file : options.files) read(file, options, data);
+  TuneData data{.axes = RecordingReader(first).axes()};
+  for (const auto& file : options.files) read(file, options, settings, data);
   summarize(data);
   if (data.measurements < fewest_in_all)
     throw InputError(
@@ -183,7 +189,7 @@ RowFolds TuneData::folds(std::size_t count) const {
 
 std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSettings& settings) const {
   std::vector<AnyPlot> plots;
-  for (const Row& row : track.rows) plots.push_back(believed(settings, row.sensor, row.plot, axes, radar_at));
+  for (const Row& row : track.rows) plots.push_back(believed(settings, row.sensor, row.plot, axes));
   return plots;
 }
 
@@ -212,7 +218,7 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
       if (look) look(t, now);
     };
     for (const AnyPlot& plot : data.plots(data.tracks[t], settings))
-      if (target.running() || starts_anywhere || axes_seen(rows[plot.tag].plot, data.axes) == data.axes)
+      if (target.running() || starts_anywhere || data.crosses || axes_seen(rows[plot.tag].plot, data.axes) == data.axes)
         target.follow({&plot, 1}, visit);
   }
   return result;

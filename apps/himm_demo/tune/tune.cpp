@@ -328,11 +328,12 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
                  .remedy = "begin with settings that track takes, see --config and --set"}));
   }
   if (std::isnan(mean_loss(lost)))
-    throw InputError(
-        message({.where = data.tracks.front().file,
-                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
-                                     settings.name),
-                 .remedy = "give bearings a start of their own, --set start=given; see himm_demo tune --help"}));
+    throw InputError(message(
+        {.where = data.tracks.front().file,
+         .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
+                             settings.name),
+         .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a start, "
+                   "--set start=given; see himm_demo keys"}));
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
   if (judged > 0) diagnosis.rmse_m = std::sqrt(squares / static_cast<double>(judged));
@@ -486,7 +487,7 @@ void tune_and_write(TuneOptions options) {
   if (!options.out.empty()) file.emplace(options.out);
   if (!options.summary.empty()) summary.emplace(options.summary);
   ResultFiles page(options.page);
-  const TuneData data = read_tune_data(options);
+  const TuneData data = read_tune_data(options, filters.front());
   fmt::print("{}", wrapped(heading(data, options)));
   for (const std::string& note : data.notes) fmt::print("{}", wrapped(note));
   std::vector<FilterSettings> written;

@@ -58,8 +58,8 @@ struct TuneSensor {
 struct TuneData {
   int axes = 3;
   bool has_truth = false;
-  bool geodetic = false;  ///< whether positions were places
-  Position radar_at{};
+  bool geodetic = false;            ///< whether positions were places
+  bool crosses = false;             ///< whether bearings alone may start a track
   std::vector<TuneTrack> tracks{};  ///< those long enough to be followed
   std::size_t too_short = 0;        ///< tracks that are not
   std::size_t measurements = 0;
@@ -74,9 +74,9 @@ struct TuneData {
   std::vector<AnyPlot> plots(const TuneTrack& track, const FilterSettings& settings) const;
 };
 
-/// Reads all files. Throws InputError, with file and line, for what `track` refuses too, for files of different axes,
-/// and where there is too little to fit.
-TuneData read_tune_data(const TuneOptions& options);
+/// Reads all files; a filter's settings say where sensors stand. Throws InputError, with file and line, for what
+/// `track` refuses too, for files of different axes, and where there is too little to fit.
+TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settings);
 
 /// What a filter loses at each row, see Objective; of the RMSE the squared distance. `look(track, now)`, if given, sees
 /// what the filter knows after each row, the tag of `now`.

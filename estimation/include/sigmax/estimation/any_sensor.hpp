@@ -43,6 +43,12 @@ class AnySensor {
     return position_(sensor(), z, mean, covariance);
   }
 
+  /// The sensor that it is, if it is of this type, or null.
+  template <class Sensor>
+  const Sensor* as() const {
+    return table_ == &detail::sensor_table<Sensor, AnyModel, true> ? static_cast<const Sensor*>(sensor()) : nullptr;
+  }
+
   /// For a model, which it may ask. Throws std::invalid_argument if it would ask another than an AnyModel.
   template <class Model>
   detail::SensorRef ref_for(const Model& model) const {

@@ -1,8 +1,19 @@
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include <sigmax/estimation/view.hpp>
 
 namespace sigmax {
+
+/// The azimuth of a target at a time, in s, as it was seen from a place: counter-clockwise from x, in rad.
+struct TimedBearing {
+  double time;
+  Vector<2> origin;
+  double azimuth;
+  double variance;
+};
 
 namespace detail {
 
@@ -18,6 +29,8 @@ void two_point_start(const TimedView& first, const TimedView& second, const View
 void three_point_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start);
 void released_start(const TimedView& first, const TimedView& second, const TimedView& third, const View& start);
 /// @}
+/// That from bearings; false if they do not tell it.
+bool crossed_bearings_start(std::span<const TimedBearing> bearings, const View& start);
 
 }  // namespace detail
 
@@ -57,6 +70,18 @@ Gaussian<3 * M> released_start(const TimedMeasurement<M>& first, const TimedMeas
                                const TimedMeasurement<M>& third) {
   Gaussian<3 * M> start;
   detail::released_start(first, second, third, detail::view(start));
+  return start;
+}
+
+/// Position and velocity, of 3 derivatives also the acceleration, at the last one of bearings, in the order of their
+/// times: the most likely motion of constant velocity or acceleration, with the inverse of its Fisher information.
+/// Nothing where they do not tell it: too few, all from one place that stands still, or so nearly parallel that a
+/// standard deviation of the position is above a fifth of the distance to the nearest place, where nothing is linear.
+template <int Derivatives>
+  requires(Derivatives == 2 || Derivatives == 3)
+std::optional<Gaussian<2 * Derivatives>> crossed_bearings_start(std::span<const TimedBearing> bearings) {
+  Gaussian<2 * Derivatives> start;
+  if (!detail::crossed_bearings_start(bearings, detail::view(start))) return std::nullopt;
   return start;
 }
 
