@@ -76,8 +76,7 @@ bool InteractingFilter<Kind>::shortened(double dt, const Seen* seen, double gate
       innovation.squared_distance = told.squared_distance[j];
       innovation.log_likelihood = -0.5 * told.squared_distance[j];
       if (interaction_.likelihood == LikelihoodForm::density)
-        innovation.log_likelihood -=
-            0.5 * (std::log(told.determinant[j]) + seen->z.n * std::log(2.0 * std::numbers::pi));
+        innovation.log_likelihood += 0.5 * (std::log(told.precision[j]) - seen->z.n * std::log(2.0 * std::numbers::pi));
     }
     taken = this->passes(gate);
   }

@@ -36,7 +36,7 @@ bool step_one(const Plan& plan, const Track& now, const double* z, const double*
   if (!step.take(z ? &measured : nullptr)) return false;
   for (int j = 0; j < plan.modes; ++j) {
     with_size<A>(plan.order[place(j)], [&](auto N) { mirror<N>(told.covariance[j]); });
-    told.prior[j] = step.prior[j];
+    told.prior[j] = step.prior[j] / step.total;
     told.posterior[j] = step.posterior[j];
     if (!z) continue;
     const auto& innovated = step.innovated[j];
@@ -46,7 +46,7 @@ bool step_one(const Plan& plan, const Track& now, const double* z, const double*
           innovated.S[i < k ? triangle(k) + i : triangle(i) + k];
     }
     told.squared_distance[j] = innovated.squared_distance;
-    told.determinant[j] = innovated.determinant;
+    told.precision[j] = innovated.precision;
   }
   return true;
 }
@@ -71,22 +71,23 @@ void output_one(const Plan& plan, const Track& track, double* mean, double* cova
           winner<double>(plan.modes, weight, static_cast<double>(track.most_likely), plan.output_tie)));
       lender = {track.mean[carrier], track.covariance[carrier]};
     }
-    const Estimate<double, N> result{mean, covariance};
-    double before = 0.0;
-    for (int l = 0; l < plan.modes; ++l)
-      with_size<A>(plan.order[place(l)], [&](auto n) {
-        const Part<double, N, n> part{{track.mean[l], track.covariance[l]}, lender, Lent<double>(plan.lift)};
-        const double w = track.weight[l];
-        if constexpr (selects) {
-          if (place(l) == track.most_likely) begin(part, 1.0, result);
-        } else {
-          if (l == 0)
-            begin(part, w, result);
-          else
-            add(part, before, w, result);
-        }
-        before += w;
+    Mixture<double, A, N> mixture(plan, track.mean, track.covariance, lender);
+    if constexpr (selects) {
+      const int l = mixture.first = static_cast<int>(track.most_likely);
+      mixture.last = l + 1;
+      mixture.weight[l] = 1.0;
+      with_size<A>(plan.order[track.most_likely], [&](auto n) {
+        SIGMAX_UNROLL for (int i = 0; i < N; ++i) mixture.x[i] = mixture.template mean_of<n>(l, i);
       });
+    } else {
+      mixture.match_moments(track.weight, 1.0);
+    }
+    SIGMAX_UNROLL for (int i = 0; i < N; ++i) mean[i] = mixture.x[i];
+    for_pairs<A>([&](auto u, auto v) {
+      typename Mixture<double, A, N>::Pair M;
+      mixture.template read_pair<u, v>(M);
+      mixture.template write_pair<u, v>(M, {mean, covariance});
+    });
     mirror<N>(covariance);
   });
 }
@@ -113,7 +114,10 @@ unsigned step_block(const Plan& plan, Number* block, const Number* measurements)
   for (int i = 0; i < A * A; ++i) measured.R[i] = read<V>(measurements, A + i);
   measured.there = read<V>(measurements, A + A * A);
 
-  const Mask<V> good = step.take(any<V>(measured.there > V{}) ? &measured : nullptr);
+  bool some = false;
+  for (int lane = 0; lane < lanes; ++lane) some |= measurements[(A + A * A) * lanes + lane] > 0;
+
+  const Mask<V> good = step.take(some ? &measured : nullptr);
   const unsigned bad = failures<V>(good);
   auto write = [&, to = block](const V* number, int count) mutable {  // what is not good stays as it was
     for (int t = 0; t < count; ++t) {

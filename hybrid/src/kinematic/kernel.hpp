@@ -97,8 +97,8 @@ V winner(int modes, const V* weight, V current, Tie tie) {
   return result;
 }
 
-/// What a part of a mixture has for the components from n on, which it lacks: so many times what the lender has, an
-/// estimate of all components.
+/// What a part of a mixture has for the components that it lacks: so many times what the lender has, an estimate of
+/// all.
 template <class V>
 struct Lent {
   NumberOf<V> mean, variance, covariance;
@@ -106,105 +106,150 @@ struct Lent {
       : mean(lift == Lift::unbiased ? 1 : 0), variance(lift == Lift::zero ? 0 : 1), covariance(mean) {}
 };
 
-/// A part of a mixture, as one of N components.
-template <class V, int N, int n>
-struct Part {
-  Stored<V, n> own;
-  Stored<V, N> lender;
-  Lent<V> lent;
+/// A mixture of the estimates of models as one of N components along A axes: its mean, and how its covariance is made
+/// of those of the models from `first` to `last` and of differences of means. A pair of axes at a time, so that what
+/// is in hand fits into registers.
+template <class V, int A, int N>
+struct Mixture {
+  static constexpr int order = N / A;
+  /// The numbers of one pair of axes: each derivative along the one with each along the other.
+  using Pair = V[order][order];
 
-  V mean(int i) const { return i < n ? own.mean(i) : lent.mean * lender.mean(i); }
-  /// w times the entry (i, k) of its covariance, added to `sum`.
-  V add(V sum, V w, int i, int k) const {
-    if (i < n) return sum + w * own.covariance(i, k);
-    if (k < n) return sum;
-    return sum + w * (i == k ? lent.variance : lent.covariance) * lender.covariance(i, k);
+  const Plan& plan;
+  const NumberOf<V>* const* mean;  ///< where the estimate of each model is stored
+  const NumberOf<V>* const* covariance;
+  Stored<V, N> lender;
+  Lent<V> lent{plan.lift};
+
+  V x[N];
+  int first = 0, last = plan.modes;
+  V weight[max_modes];
+  int spreads = 0;
+  V difference[max_modes][N], scaled[max_modes][N];
+
+  Mixture(const Plan& what, const NumberOf<V>* const* means, const NumberOf<V>* const* covariances, Stored<V, N> lends)
+      : plan(what), mean(means), covariance(covariances), lender(lends) {}
+
+  /// The i-th component of the mean of model l, which has n.
+  template <int n>
+  V mean_of(int l, int i) const {
+    return i < n ? read<V>(mean[l], i) : lent.mean * lender.mean(i);
+  }
+
+  /// (58), (59) or (67), (68), one part after the other: a pair with the weights u and w has the spread
+  /// u w/(u + w) (x − y)(x − y)ᵀ. The weights sum to one over the scale.
+  void match_moments(const V* weights, V scale) {
+    V before{};
+    for (int l = 0; l < plan.modes; ++l) {
+      const V w = weights[l], total = before + w;
+      weight[l] = w * scale;
+      with_size<A>(plan.order[l], [&](auto n) {
+        if (l == 0) {
+          SIGMAX_UNROLL for (int i = 0; i < N; ++i) x[i] = mean_of<n>(l, i);
+          return;
+        }
+        const V share = select<V>(total > V{}, w / total, V{}), spread = before * scale * share;
+        SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
+          const V apart = difference[spreads][i] = mean_of<n>(l, i) - x[i];
+          scaled[spreads][i] = spread * apart;
+          x[i] += share * apart;
+        }
+        ++spreads;
+      });
+      before = total;
+    }
+  }
+
+  /// The covariance along the axes u and v.
+  template <int u, int v>
+  void read_pair(Pair& M) const {
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] = V{};
+    for (int l = first; l < last; ++l)
+      with_size<A>(plan.order[l], [&](auto n) {
+        const V w = weight[l];
+        SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
+          const int i = a * A + u, k = b * A + v, high = i < k ? k : i, low = i < k ? i : k;
+          if (high < n)
+            M[a][b] += w * read<V>(covariance[l], at<V, n>(high, low));
+          else if (low >= n)
+            M[a][b] += w * (i == k ? lent.variance : lent.covariance) * lender.covariance(high, low);
+        }
+      });
+    for (int s = 0; s < spreads; ++s)
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
+        const int i = a * A + u, k = b * A + v, high = i < k ? k : i, low = i < k ? i : k;
+        M[a][b] += scaled[s][high] * difference[s][low];
+      }
+  }
+
+  template <int u, int v>
+  static void write_pair(const Pair& M, Estimate<V, N> P) {
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < (u == v ? a + 1 : order); ++b)
+        P(a * A + u, b * A + v) = M[a][b];
   }
 };
 
-/// Adds a part with the weight w to a mixture, of which `before` is the weight so far: a pair with the weights u and w
-/// has the spread u w/(u + w) (x − y)(x − y)ᵀ.
-template <class V, int N, int n>
-SIGMAX_APART void add(const Part<V, N, n>& part, V before, V w, Estimate<V, N> mixture) {
-  const V total = before + w, share = select<V>(total > V{}, w / total, V{}), spread = before * share;
-  V difference[N], scaled[N];
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-    difference[i] = part.mean(i) - mixture.x[i];
-    scaled[i] = spread * difference[i];
-    mixture.x[i] += share * difference[i];
-  }
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixture(i, k) =
-      part.add(mixture(i, k) + scaled[i] * difference[k], w, i, k);
+/// action(u, v) for each pair of axes, v ≤ u, constants.
+template <int A, class Action>
+inline void for_pairs(const Action& action) {
+  action(Constant<0>{}, Constant<0>{});
+  if constexpr (A > 1) action(Constant<1>{}, Constant<0>{}), action(Constant<1>{}, Constant<1>{});
+  if constexpr (A > 2)
+    action(Constant<2>{}, Constant<0>{}), action(Constant<2>{}, Constant<1>{}), action(Constant<2>{}, Constant<2>{});
 }
 
-/// Begins a mixture with its first part.
-template <class V, int N, int n>
-SIGMAX_APART void begin(const Part<V, N, n>& part, V w, Estimate<V, N> mixture) {
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) mixture.x[i] = part.mean(i);
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixture(i, k) =
-      part.add(V{}, w, i, k);
+/// Derivative `to` += f · the next one, along both axes of a pair.
+template <int to, class V, int order>
+inline void shear(NumberOf<V> f, V (&M)[order][order]) {
+  SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[to][b] += f * M[to + 1][b];
+  SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][to] += f * M[a][to + 1];
 }
 
-/// The part, where it is the one that was selected.
-template <class V, int N, int n>
-SIGMAX_APART void choose(const Part<V, N, n>& part, Mask<V> its, Estimate<V, N> result) {
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = select<V>(its, part.mean(i), result.x[i]);
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) SIGMAX_UNROLL for (int k = 0; k <= i; ++k) result(i, k) =
-      select<V>(its, part.add(V{}, all<V>(1.0), i, k), result(i, k));
-}
-
-/// Derivative `To` += f · the next one, of A axes.
-template <int A, int To, class V, int N>
-inline void shear(NumberOf<V> f, Estimate<V, N> P) {
-  constexpr int to = To * A, from = to + A;
-  V before[A][A];
-  SIGMAX_UNROLL for (int u = 0; u < A; ++u) {
-    P.x[to + u] += f * P.x[from + u];
-    SIGMAX_UNROLL for (int v = 0; v < A; ++v) {
-      before[u][v] = P(from + u, to + v);
-      P(from + u, to + v) += f * P(from + u, from + v);
-    }
-  }
-  SIGMAX_UNROLL for (int i = from + A; i < N; ++i) SIGMAX_UNROLL for (int v = 0; v < A; ++v) P(i, to + v) +=
-      f * P(i, from + v);
-  SIGMAX_UNROLL for (int u = 0; u < A; ++u) {
-    SIGMAX_UNROLL for (int k = 0; k < to; ++k) P(to + u, k) += f * P(from + u, k);
-    SIGMAX_UNROLL for (int v = 0; v <= u; ++v) P(to + u, to + v) += f * (before[v][u] + P(from + u, to + v));
-  }
-}
-
-/// (27), (28) with F_s ⊗ I as shears p += α v, v += F₁₂ a, p += β v, and a scale of the highest derivative; each
-/// variance with the rounding of the terms of F P Fᵀ, before they may cancel.
-template <int A, class V, int N>
-SIGMAX_APART void predict(const Law& law, Estimate<V, N> P) {
+/// (27), (28) of a mixture, with F_s ⊗ I as shears p += α v, v += F₁₂ a, p += β v, and a scale of the highest
+/// derivative; each variance with the rounding of the terms of F P Fᵀ, before they may cancel.
+template <class V, int A, int N>
+SIGMAX_APART void predict(const Law& law, const Mixture<V, A, N>& mixture, Estimate<V, N> P) {
   using Number = NumberOf<V>;
   const auto number = [](double value) { return static_cast<Number>(value); };
-  constexpr int order = N / A;
-  V terms[N];
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-    terms[i] = P(i, i);
-    SIGMAX_UNROLL for (int b = 0; b < i / A; ++b) terms[b * A + i % A] +=
-        number(law.squared[static_cast<std::size_t>(triangle(i / A) + b)]) * terms[i];
-  }
-  shear<A, 0>(number(law.shears[0]), P);
-  if constexpr (order > 2) {
-    shear<A, 1>(number(law.shears[1]), P);
-    shear<A, 0>(number(law.shears[2]), P);
-  }
-  if (law.scale != 1.0) {
-    const Number scale = number(law.scale);
-    constexpr int last = N - A;
-    SIGMAX_UNROLL for (int i = last; i < N; ++i) {
-      P.x[i] *= scale;
-      SIGMAX_UNROLL for (int k = 0; k <= i; ++k) P(i, k) *= k < last ? scale : scale * scale;
+  constexpr int order = N / A, last = order - 1;
+  const Number shears[]{number(law.shears[0]), number(law.shears[1]), number(law.shears[2])};
+  const Number scale = number(law.scale);
+  for_pairs<A>([&](auto u, auto v) {
+    typename Mixture<V, A, N>::Pair M;
+    mixture.template read_pair<u, v>(M);
+    V terms[order];
+    SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
+      terms[a] = M[a][a];
+      SIGMAX_UNROLL for (int b = 0; b < a; ++b) terms[b] +=
+          number(law.squared[static_cast<std::size_t>(triangle(a) + b)]) * M[a][a];
     }
-  }
-  SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-    P.x[i] += number(law.u[static_cast<std::size_t>(i)]);
-    SIGMAX_UNROLL for (int b = 0; b <= i / A; ++b) P(i, b * A + i % A) +=
-        number(law.Q[static_cast<std::size_t>(triangle(i / A) + b)]);
-    P(i, i) += number(PrecisionOf<V>::rounding) * terms[i];
-  }
+    shear<0>(shears[0], M);
+    if constexpr (order > 2) {
+      shear<1>(shears[1], M);
+      shear<0>(shears[2], M);
+    }
+    if (law.scale != 1.0) {
+      SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[last][b] *= scale;
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) M[a][last] *= scale;
+    }
+    if constexpr (u == v) {
+      V x[order];
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
+        x[a] = mixture.x[a * A + u];
+        SIGMAX_UNROLL for (int b = 0; b <= a; ++b) M[a][b] += number(law.Q[static_cast<std::size_t>(triangle(a) + b)]);
+        M[a][a] += number(PrecisionOf<V>::rounding) * terms[a];
+      }
+      x[0] += shears[0] * x[1];
+      if constexpr (order > 2) {
+        x[1] += shears[1] * x[2];
+        x[0] += shears[2] * x[1];
+      }
+      x[last] *= scale;
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) P.x[a * A + u] =
+          x[a] + number(law.u[static_cast<std::size_t>(a * A + u)]);
+    }
+    mixture.template write_pair<u, v>(M, P);
+  });
 }
 
 /// A measurement: z, the whole R, and one where there is a measurement.
@@ -215,25 +260,26 @@ struct Measured {
   V there;
 };
 
-/// What the update of one model finds.
+/// What one model thinks of a measurement: S = L D Lᵀ, and L⁻¹ ν.
 template <class V, int A>
 struct Innovated {
   V residual[A];
   V S[triangle(A)];
+  V L[A][A];
+  V inverse[A];  ///< of D
+  V whitened[A];
   V squared_distance;
-  V determinant;
+  V precision;  ///< 1/det S
+  V condition;  ///< the first of S scaled to a unit diagonal
+  V least;      ///< of what is not to be negative
 };
 
-/// (29)–(32) with S = L D Lᵀ and Y = P Hᵀ L⁻ᵀ: x += Y D⁻¹ L⁻¹ ν, P −= Y D⁻¹ Yᵀ, to which the rounding of the prior
-/// is added; docs/robustness.md has the bound. Returns where that is not too much.
+/// The innovation of a prediction, (29), (30).
 template <class V, int A, int N>
-SIGMAX_APART Mask<V> update(const Measured<V, A>& measured, Estimate<V, N> P, Innovated<V, A>& told) {
-  using Number = NumberOf<V>;
+inline void innovate(const Measured<V, A>& measured, Estimate<V, N> P, Innovated<V, A>& told) {
   const V one = all<V>(1.0);
-  const Mask<V> there = measured.there > V{};
   V L[A][A], inverse[A], whitened[A];
-  V condition = one, determinant = one, squared_distance{};  // the first of S scaled to a unit diagonal
-  V least = one;                                             // of what is not to be negative
+  V condition = one, precision = one, squared_distance{}, least = one;
   SIGMAX_UNROLL for (int i = 0; i < A; ++i) {
     told.residual[i] = whitened[i] = measured.z[i] - P.x[i];
     SIGMAX_UNROLL for (int k = 0; k <= i; ++k) L[i][k] = told.S[triangle(i) + k] = P(i, k) + measured.R[i + k * A];
@@ -245,29 +291,40 @@ SIGMAX_APART Mask<V> update(const Measured<V, A>& measured, Estimate<V, N> P, In
       L[i][k] = rest;
       rest *= inverse[k];
       pivot -= L[i][k] * rest;
-      L[k][i] = rest;  // L itself above, L D below
+      told.L[k][i] = L[k][i] = rest;  // L itself above, L D below
       whitened[i] -= rest * whitened[k];
     }
-    inverse[i] = one / pivot;
+    told.inverse[i] = inverse[i] = one / pivot;
+    told.whitened[i] = whitened[i];
     least = select<V>(pivot < least, pivot, least);
     condition *= variance * inverse[i];
-    determinant *= pivot;
+    precision *= inverse[i];
     squared_distance += whitened[i] * whitened[i] * inverse[i];
   }
   told.squared_distance = squared_distance;
-  told.determinant = determinant;
+  told.precision = precision;
+  told.condition = condition;
+  told.least = least;
+}
+
+/// (31), (32) with Y = P Hᵀ L⁻ᵀ: x += Y D⁻¹ L⁻¹ ν, P −= Y D⁻¹ Yᵀ, to which the rounding of the prior is added;
+/// docs/robustness.md has the bound. Returns where that is not too much.
+template <class V, int A, int N>
+SIGMAX_APART Mask<V> update(const Innovated<V, A>& told, Mask<V> there, Estimate<V, N> P) {
+  using Number = NumberOf<V>;
   V Y[A][N], Z[A][N];
   SIGMAX_UNROLL for (int m = 0; m < A; ++m) {
-    const V weight = select<V>(there, inverse[m], V{});
+    const V weight = select<V>(there, told.inverse[m], V{});
     SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
       V rest = P(i, m);
-      SIGMAX_UNROLL for (int k = 0; k < m; ++k) rest -= L[k][m] * Y[k][i];
+      SIGMAX_UNROLL for (int k = 0; k < m; ++k) rest -= told.L[k][m] * Y[k][i];
       Y[m][i] = rest;
       Z[m][i] = weight * rest;
-      P.x[i] += whitened[m] * Z[m][i];
+      P.x[i] += told.whitened[m] * Z[m][i];
     }
   }
-  const V lost = select<V>(there, condition * static_cast<Number>(PrecisionOf<V>::rounding), V{});
+  V least = told.least;
+  const V lost = select<V>(there, told.condition * static_cast<Number>(PrecisionOf<V>::rounding), V{});
   SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
     const V loss = lost * P(i, i);
     SIGMAX_UNROLL for (int k = 0; k <= i; ++k) {
@@ -279,7 +336,7 @@ SIGMAX_APART Mask<V> update(const Measured<V, A>& measured, Estimate<V, N> P, In
     least = select<V>(left < least, left, least);
     P(i, i) += loss;
   }
-  return (least >= V{}) | (measured.there <= V{});
+  return (least >= V{}) | (there == Mask<V>{});
 }
 
 /// Where an estimate is finite, and no variance negative.
@@ -305,7 +362,8 @@ struct Step {
 
   V* next_mean[max_modes];  ///< where the next one goes
   V* next_covariance[max_modes];
-  V prior[max_modes];
+  V prior[max_modes];  ///< not normalised, but for their sum, or the greatest
+  V total{};
   V posterior[max_modes]{};
   V next_most_likely;
   V* predicted[max_modes];  ///< where the mean before the measurement goes, of one track
@@ -313,61 +371,52 @@ struct Step {
 
   explicit Step(const Plan& what) : plan(what) {}
 
-  template <int n>
-  Stored<V, n> stored(int l) const {
-    return {mean[l], covariance[l]};
-  }
-
-  /// (52), (54)–(57): the mixed start of mode j, into which `coming` moves from each of the modes.
+  /// (52), (54)–(57) or (58), (59): the mixed start of mode j, into which `coming` moves from each of the modes.
   template <int N>
-  void mix(int j, const V* coming) {
-    const Stored<V, N> mine = stored<N>(j);
-    const Lent<V> lent(plan.lift);
-    const Estimate<V, N> mixed{next_mean[j], next_covariance[j]};
+  Mixture<V, A, N> mixed(int j, const V* coming) const {
+    Mixture<V, A, N> result(plan, mean, covariance, {mean[j], covariance[j]});
     if constexpr (selects) {
-      const V selected = winner<V>(plan.modes, coming, all<V>(j), plan.mixing_tie);
-      SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-        mixed.x[i] = mine.mean(i);
-        SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixed(i, k) = mine.covariance(i, k);
-      }
+      const V selected = winner<V>(plan.modes, coming, all<V>(j), plan.mixing_tie), none{}, one = all<V>(1.0);
+      const Stored<V, N>& mine = result.lender;
+      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = mine.mean(i);
       for (int l = 0; l < plan.modes; ++l) {
         const Mask<V> its = selected == all<V>(l);
-        if (l != j && any<V>(its))
-          with_size<A>(plan.order[l], [&](auto n) { choose(Part<V, N, n>{stored<n>(l), mine, lent}, its, mixed); });
-      }
-      if (plan.mixed_covariance == MixedCovariance::selected || !any<V>(selected != all<V>(j))) return;
-      V difference[N];
-      const bool recentred = plan.mixed_covariance == MixedCovariance::own_recentred;
-      SIGMAX_UNROLL for (int i = 0; i < N; ++i) {
-        difference[i] = recentred ? mixed.x[i] - mine.mean(i) : V{};
-        SIGMAX_UNROLL for (int k = 0; k <= i; ++k) mixed(i, k) = mine.covariance(i, k) + difference[i] * difference[k];
-      }
-    } else {
-      const V share = all<V>(1.0) / prior[j];
-      V before{};
-      for (int l = 0; l < plan.modes; ++l) {
-        const V w = coming[l] * share;
+        result.weight[l] = select<V>(its, one, none);
+        if (l == j) continue;
         with_size<A>(plan.order[l], [&](auto n) {
-          const Part<V, N, n> part{stored<n>(l), mine, lent};
-          if (l == 0)
-            begin(part, w, mixed);
-          else
-            add(part, before, w, mixed);
+          SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] =
+              select<V>(its, result.template mean_of<n>(l, i), result.x[i]);
         });
-        before += w;
       }
+      if (plan.mixed_covariance == MixedCovariance::selected) return result;
+      result.first = j;
+      result.last = j + 1;
+      result.weight[j] = one;
+      result.spreads = plan.mixed_covariance == MixedCovariance::own_recentred ? 1 : 0;
+      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.difference[0][i] = result.scaled[0][i] =
+          result.x[i] - mine.mean(i);
+    } else {
+      result.match_moments(coming, all<V>(1.0) / prior[j]);
     }
+    return result;
   }
 
-  /// Returns where it is as good as the general step.
+  /// action(j, the estimate being made) for each mode.
+  template <class Action>
+  void for_modes(const Action& action) const {
+    for (int j = 0; j < plan.modes; ++j)
+      with_size<A>(plan.order[j], [&](auto N) { action(j, Estimate<V, N>{next_mean[j], next_covariance[j]}); });
+  }
+
+  /// Returns where it is as good as the general step. What waits for few numbers stands before what has many to do, so
+  /// that the processor does both at once: the weights before the estimates.
   Mask<V> take(const Measured<V, A>* measured) {
     const int modes = plan.modes;
     const auto plus = [](V sum, V term) { return selects ? select<V>(term > sum, term, sum) : sum + term; };
     const V one = all<V>(1.0), least = all<V>(PrecisionOf<V>::least_weight);
     Mask<V> good = one > V{};
 
-    V total{}, nearest{};
-    for (int j = 0; j < modes; ++j) {
+    for_modes([&]<int N>(int j, Estimate<V, N> own) {
       // Step 1: the prior of the mode, (51) or (53), and the mixed start.
       V coming[max_modes];
       prior[j] = V{};
@@ -377,41 +426,42 @@ struct Step {
       }
       good = good & (prior[j] > least);
       total = plus(total, prior[j]);
-      with_size<A>(plan.order[j], [&](auto size) {
-        constexpr int N = size;
-        mix<N>(j, coming);
+      const auto start = mixed<N>(j, coming);
 
-        // Step 2: the model predicts and updates, (60), (61).
-        const Estimate<V, N> own{next_mean[j], next_covariance[j]};
-        predict<A>(plan.law[j], own);
-        for (int i = 0; i < N && Lane<V>::count == 1; ++i) predicted[j][i] = own.x[i];
-        if (measured) good = good & update(*measured, own, innovated[j]);
-        good = good & is_sound(own);
-      });
-      if (measured) {
-        const V distance = innovated[j].squared_distance;
-        nearest = j == 0 ? distance : select<V>(distance < nearest, distance, nearest);
-      }
-    }
+      // Step 2: the model predicts, (60), and updates, (61), see below.
+      predict(plan.law[j], start, own);
+      for (int i = 0; i < N && Lane<V>::count == 1; ++i) predicted[j][i] = own.x[i];
+    });
 
     // Step 3: the weights of the modes, (62) or (63), and the most likely one, (64).
+    const Mask<V> there = measured ? measured->there > V{} : V{} > V{};
+    V nearest{};
+    if (measured)
+      for_modes([&](int j, auto own) {
+        innovate(*measured, own, innovated[j]);
+        const V distance = innovated[j].squared_distance;
+        nearest = j == 0 ? distance : select<V>(distance < nearest, distance, nearest);
+      });
     V sum{};
     for (int j = 0; j < modes; ++j) {
       posterior[j] = prior[j];
       if (measured) {
         const V fit = exponential<V>((nearest - innovated[j].squared_distance) * NumberOf<V>(0.5));
-        const bool density = plan.likelihood == LikelihoodForm::density;
-        const V scale = density ? one / root<V>(innovated[j].determinant) : one;
-        posterior[j] *= select<V>(measured->there > V{}, fit * scale, one);
+        const V scale = plan.likelihood == LikelihoodForm::density ? root<V>(innovated[j].precision) : one;
+        posterior[j] *= select<V>(there, fit * scale, one);
       }
       sum = plus(sum, posterior[j]);
     }
     for (int j = 0; j < modes; ++j) {
-      prior[j] /= total;
       posterior[j] /= sum;
       good = good & (posterior[j] > least);
     }
     next_most_likely = winner<V>(modes, posterior, most_likely, plan.output_tie);
+
+    for_modes([&](int j, auto own) {
+      if (measured) good = good & update(innovated[j], there, own);
+      good = good & is_sound(own);
+    });
     return good;
   }
 };

@@ -61,7 +61,7 @@ struct Told {
   double* residual[max_modes];
   double* S[max_modes];  ///< a whole matrix
   double squared_distance[max_modes];
-  double determinant[max_modes];  ///< of S
+  double precision[max_modes];  ///< 1/det S
   double prior[max_modes];        ///< linear weights of the modes before the measurement
   double posterior[max_modes];
 };
