@@ -1,6 +1,7 @@
 #include "himm_demo/tune/tune.hpp"
 
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/hybrid/fit_target.hpp>
 
 #include "support/random.hpp"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::size_t fewest_measurements = 10;  // of a track: three start the filter
 constexpr std::size_t fewest_in_all = 40;
+constexpr double stray_share = 0.01;  // of all measurements
 
 void refuse_other_kind(const TuneOptions& options, const TuneData& data, const RecordingReader& recording) {
   const std::string& file = recording.file();
@@ -74,26 +76,10 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
   for (const std::string& note : recording.notes()) data.notes.push_back(fmt::format("{}: {}", file, note));
 }
 
-/// A box about points.
-struct Extent {
-  std::array<double, 3> least, greatest;
-
-  Extent() {
-    least.fill(std::numeric_limits<double>::infinity());
-    greatest.fill(-least[0]);
-  }
-  void add(const AnyPlot& plot) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      least[i] = std::min(least[i], plot.z[i]);
-      greatest[i] = std::max(greatest[i], plot.z[i]);
-    }
-  }
-  double volume(int axes) const {
-    double product = 1.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) product *= std::max(greatest[i] - least[i], 1e-6);
-    return product;
-  }
-};
+/// What a quantity of a plot is filed by.
+std::pair<AnyPlot::Sensor, int> quantity_of(const AnyPlot& plot, std::size_t i) {
+  return {plot.sensor, plot.sensor == AnyPlot::Sensor::components ? plot.places[i] : static_cast<int>(i)};
+}
 
 /// Drops what is too short, and takes down what the rest holds.
 void summarize(TuneData& data) {
@@ -103,7 +89,6 @@ void summarize(TuneData& data) {
     return static_cast<std::size_t>(measured) < fewest_measurements;
   });
   data.too_short = all - data.tracks.size();
-  Extent all_positions, all_polars;
   for (const TuneTrack& track : data.tracks)
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
@@ -118,24 +103,12 @@ void summarize(TuneData& data) {
       sensor.velocity |= is_moving(row.plot, data.axes);
       sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
-      if (seen == data.axes) (by_radar ? all_polars : all_positions).add(row.plot);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(row.plot.size); ++i) {
+        auto& [least, greatest] = data.extents[quantity_of(row.plot, i)];
+        least = std::min(least, row.plot.z[i]);
+        greatest = std::max(greatest, row.plot.z[i]);
+      }
     }
-  data.volume = all_positions.volume(data.axes);
-  data.radar_volume = all_polars.volume(data.axes);
-}
-
-double measurement_loss(double log_score, const FilterSettings& settings, double volume) {
-  if (settings.gate_probability >= 1.0) return -log_score;
-  const double target = std::log(settings.gate_probability) + log_score;
-  const double stray = std::log1p(-settings.gate_probability) - std::log(volume);
-  const double greater = std::max(target, stray);
-  return -(greater + std::log1p(std::exp(std::min(target, stray) - greater)));
-}
-
-/// In which a stray measurement of a row's kind lies anywhere.
-double volume_for(const Row& row, const TuneData& data) {
-  if (row.plot.sensor == AnyPlot::Sensor::bearing) return 2.0 * std::numbers::pi;
-  return row.plot.sensor == AnyPlot::Sensor::components ? data.volume : data.radar_volume;
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -175,6 +148,16 @@ TuneData read_tune_data(const TuneOptions& options) {
   return data;
 }
 
+double TuneData::log_stray(const AnyPlot& plot) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    const auto found = extents.find(quantity_of(plot, i));
+    const double width = found == extents.end() ? 0.0 : found->second.greatest - found->second.least;
+    sum -= std::log(std::max(width, 1e-6));
+  }
+  return sum;
+}
+
 RowFolds TuneData::folds(std::size_t count) const {
   std::vector<std::size_t> rows;
   for (const TuneTrack& track : tracks) rows.push_back(track.rows.size());
@@ -189,31 +172,39 @@ std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSetting
 
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings) {
   TargetChoice choice = choice_of(settings, data.axes);
-  choice.rules.rejections = 0;
   choice.rules.record = false;
   return choice;
 }
 
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look) {
+RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look,
+                 std::vector<RowPlace>* set_aside) {
   const TargetChoice choice = judged_choice(data, settings);
   const bool starts_anywhere = settings.start == StartRule::given && !data.geodetic;  // as `track` does
+  const bool prequential = objective == Objective::prequential;
   RowLosses result;
   for (std::size_t t = 0; t < data.tracks.size(); ++t) {
     const auto& rows = data.tracks[t].rows;
     auto& lost = result.emplace_back(rows.size(), nan);
+    const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
     AnyTarget target(choice);
-    const auto visit = [&](const TargetPoint& now) {
-      if (now.is_start) return;
-      const Row& row = rows[now.tag];
-      if (objective == Objective::prequential && now.log_score)
-        lost[now.tag] = measurement_loss(*now.log_score, settings, volume_for(row, data));
-      if (objective != Objective::prequential && row.truth)
-        lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
-      if (look) look(t, now);
+    const auto loss = [&](const AnyPlot& plot, double log_score) {
+      return -robust_log_score(log_score, stray_share, data.log_stray(plot));
     };
-    for (const AnyPlot& plot : data.plots(data.tracks[t], settings))
-      if (target.running() || starts_anywhere || axes_seen(rows[plot.tag].plot, data.axes) == data.axes)
-        target.follow({&plot, 1}, visit);
+    const auto visit = [&](const TargetPoint& now) {
+      if (prequential && !now.is_start && now.log_score) lost[now.tag] = loss(plots[now.tag], *now.log_score);
+      if (now.is_start && target.starts() == 1) return;
+      const Row& row = rows[now.tag];
+      if (!prequential && row.truth) lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
+      if (look && !now.is_start) look(t, now);
+    };
+    for (const AnyPlot& plot : plots) {
+      if (!target.running() && !starts_anywhere && axes_seen(rows[plot.tag].plot, data.axes) < data.axes) continue;
+      if (prequential && target.starts() > 0 && plot.sensor != AnyPlot::Sensor::none)
+        lost[plot.tag] = loss(plot, -std::numeric_limits<double>::infinity());  // unless it is a step
+      const std::size_t rejected = target.rejected();
+      target.follow({&plot, 1}, visit);
+      if (set_aside && target.rejected() > rejected) set_aside->push_back({t, plot.tag});
+    }
   }
   return result;
 }

@@ -29,6 +29,9 @@ constexpr std::size_t rounds = 2;           // of a search and the transition's 
 constexpr std::size_t most_em_steps = 3;    // in each
 constexpr double least_improvement = 1e-4;  // nats a row
 
+/// Of candidates without a gate of their own: what it turns away is unheard of, yet would move a filter.
+constexpr double usual_gate = 1.0 - 1e-8;
+
 constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
 constexpr std::size_t most_sweeps = 4;
 
@@ -404,6 +407,17 @@ class Fitter {
   const std::function<void(std::size_t)>& advance_;
 };
 
+/// A gate that turns nothing away is as it was before.
+void open_idle_gate(FilterSettings& settings, double before, const TuneData& data, Objective objective) {
+  std::vector<RowPlace> set_aside;
+  try {
+    losses(data, judged_settings(settings, objective), objective, {}, &set_aside);
+  } catch (const std::exception&) {
+    return;
+  }
+  if (set_aside.empty()) settings.gate_probability = before;
+}
+
 /// The losses, or for each row that has a measurement a very great one where the filter fails.
 RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective objective) {
   try {
@@ -430,7 +444,11 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
       if (std::ranges::find(names, motion) == names.end()) names.push_back(motion);
   }
   std::vector<ModelSet> sets;
-  for (const auto& name : names) sets.push_back({name, with_models(settings, name)});
+  for (const auto& name : names) {
+    sets.push_back({name, with_models(settings, name)});
+    double& gate = sets.back().settings.gate_probability;
+    if (gate == 1.0) gate = usual_gate;
+  }
   return sets;
 }
 
@@ -476,6 +494,7 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     if (c > 0) {
       candidate = {bases[c - 1].name, fitted[c - 1].settings};
       round_off(candidate.settings);
+      open_idle_gate(candidate.settings, settings.gate_probability, data, options.objective);
     }
     RowLosses own = judged(data, candidate.settings, options.objective);
     candidate.fitted = objective_of(own, options.objective);

@@ -22,8 +22,9 @@ struct Diagnosis {
     double weight = 0.0;  ///< mean, of a mode
   };
   std::vector<Part> sensors;
-  std::vector<Part> modes;       ///< rows of which the mode is the most likely
-  std::optional<double> rmse_m;  ///< where the truth is known
+  std::vector<Part> modes;            ///< rows of which the mode is the most likely
+  std::optional<double> rmse_m;       ///< where the truth is known
+  std::vector<RowPlace> set_aside{};  ///< that the gate turned away
 };
 
 /// What tuning found for one filter, and its innovations before and, if that is better, with the best settings.
@@ -319,7 +320,7 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   };
   RowLosses lost;
   try {
-    lost = losses(data, settings, objective, look);
+    lost = losses(data, settings, objective, look, &diagnosis.set_aside);
   } catch (const std::exception& error) {
     const TuneTrack& its = data.tracks[track];
     throw InputError(
@@ -337,6 +338,23 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
   if (judged > 0) diagnosis.rmse_m = std::sqrt(squares / static_cast<double>(judged));
   return diagnosis;
+}
+
+/// Which rows the gate turned away: the first lines of them.
+std::string set_aside_of(const Diagnosis& diagnosis, const TuneData& data) {
+  constexpr std::size_t most_lines = 8;
+  const auto& rows = diagnosis.set_aside;
+  std::string text, file;
+  for (std::size_t i = 0; i < std::min(rows.size(), most_lines); ++i) {
+    const TuneTrack& track = data.tracks[rows[i].track];
+    text += i == 0 ? "" : ", ";
+    if (track.file != file) text += fmt::format("{}:", track.file);
+    file = track.file;
+    text += fmt::format("{}", track.rows[rows[i].row].line);
+  }
+  return fmt::format("{} row{} set aside, as the gate will in track: line{} {}{}.", rows.size(),
+                     rows.size() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", text,
+                     rows.size() > most_lines ? ", …" : "");
 }
 
 std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
@@ -368,6 +386,10 @@ Json summary_of(const TuneOptions& options, const TuneData& data, const std::vec
       filter[when]["sensors"] = innovations_table(diagnosis->sensors, false).json();
       filter[when]["modes"] = innovations_table(diagnosis->modes, true).json();
       filter[when]["advice"] = advice_of(*diagnosis);
+      filter[when]["set_aside"] = Json::array();
+      for (const auto& [track, row] : diagnosis->set_aside)
+        filter[when]["set_aside"].push_back(
+            {{"file", data.tracks[track].file}, {"line", data.tracks[track].rows[row].line}});
       if (diagnosis->rmse_m) filter[when]["rmse_m"] = *diagnosis->rmse_m;
     }
     for (std::size_t fold = 0; fold <= options.folds; ++fold)
@@ -449,6 +471,7 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
     after = diagnose(data, tuned.best().settings, options.objective);
     fmt::print("\nfilter {}: with the best settings\n\n{}", printable(filter.name),
                text_of(*after, options.page.width()));
+    if (!after->set_aside.empty()) fmt::print("{}", wrapped(set_aside_of(*after, data)));
     if (before.rmse_m && after->rmse_m)
       fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
   }

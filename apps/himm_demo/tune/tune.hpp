@@ -38,6 +38,16 @@ struct TuneOptions {
   bool fits(std::string_view what) const;
 };
 
+/// A row: the number of its track, and its own there.
+struct RowPlace {
+  std::size_t track, row;
+};
+
+/// The least and the greatest number of what was measured.
+struct Extent {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+};
+
 /// One target of a recording; its positions are about one point, and the tags of its plots are their numbers.
 struct TuneTrack {
   std::string file;
@@ -65,8 +75,11 @@ struct TuneData {
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
-  double volume = 1.0;                                       ///< of the box that holds all measurements, in m² or m³
-  double radar_volume = 1.0;                                 ///< the same of a radar's, in its own space
+  /// Of each quantity of each kind of plot, those of components by their places.
+  std::map<std::pair<AnyPlot::Sensor, int>, Extent> extents{};
+
+  /// The density, as a logarithm, of a stray measurement of this kind, anywhere between the least and the greatest.
+  double log_stray(const AnyPlot& plot) const;
 
   RowFolds folds(std::size_t count) const;
 
@@ -81,12 +94,13 @@ TuneData read_tune_data(const TuneOptions& options);
 /// What a filter loses at each row, see Objective; of the RMSE the squared distance. `look(track, now)`, if given, sees
 /// what the filter knows after each row, the tag of `now`.
 ///
-/// With a gate a measurement may be a false one: the loss is that of g p(z) + (1 − g) / V, with g the probability of
-/// the gate and V the volume of all measurements, so that nothing is gained by turning measurements away. The filter
-/// never starts again after rejections, so that all settings are judged on the same rows. Throws std::domain_error
-/// where the filter fails.
+/// A share of all measurements may be stray ones, see robust_log_score, so that none of them can outweigh the others.
+/// All settings are judged on the same rows, those after a track's first start: what is taken for another start was
+/// predicted no better than a stray one. `set_aside`, if given, gets the rows that the gate turned away. Throws
+/// std::domain_error where the filter fails.
 using Look = std::function<void(std::size_t track, const TargetPoint& now)>;
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look = {});
+RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look = {},
+                 std::vector<RowPlace>* set_aside = nullptr);
 
 /// The choice as `losses` runs it.
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings);
