@@ -27,7 +27,44 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
   refuse_radar(options.radar, recording);
 }
 
-void read(const std::string& file, const TuneOptions& options, TuneData& data) {
+/// What a quantity of a plot is filed by.
+QuantityKey quantity_of(const AnyPlot& plot, std::size_t i) {
+  return {plot.sensor, plot.sensor == AnyPlot::Sensor::components ? plot.places[i] : static_cast<int>(i)};
+}
+
+/// The numbers of each sensor's columns, as they were written.
+using Columns = std::map<std::string, std::map<QuantityKey, std::vector<double>>, std::less<>>;
+
+/// Takes down a row's numbers; of a place in m, and of a velocity along two axes or more also the speed, since that may
+/// be what was rounded. It is filed behind the velocity.
+void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
+  const AnyPlot& plot = row.plot;
+  auto& own = columns[row.sensor];
+  double squares = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    const auto key = quantity_of(plot, i);
+    const bool is_component = plot.sensor == AnyPlot::Sensor::components;
+    const bool is_angle = geodetic && is_component && key.second < 2;
+    own[key].push_back(plot.z[i] * (is_angle ? units::nautical_mile * 60.0 : 1.0));
+    if (is_component && key.second >= axes && key.second < axes + 2) squares += plot.z[i] * plot.z[i];
+  }
+  if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
+}
+
+/// The standard deviation of the rounding of numbers that come in whole steps; else 0.
+double rounding_of(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  std::vector<double> apart;  // those that differ by more than the reading of decimals does
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
+  if (apart.empty()) return 0.0;
+  const double least = *std::ranges::min_element(apart);
+  const auto whole = std::ranges::count_if(
+      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
+  return 10 * whole >= 9 * std::ssize(apart) ? least / std::sqrt(12.0) : 0.0;
+}
+
+void read(const std::string& file, const TuneOptions& options, TuneData& data, Columns& columns) {
   struct Open {  // what is kept of a track while its file is read
     std::size_t place;
     RandomStream random;
@@ -48,6 +85,7 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
     if (is_new) data.tracks.push_back({recording.file(), {}});
     Open& its = found->second;
+    if (!options.radar.sigma) take_down(row, data.axes, recording.geodetic(), columns);
     if (recording.geodetic() && axes_seen(row.plot, data.axes) > 0) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
@@ -76,22 +114,21 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
   for (const std::string& note : recording.notes()) data.notes.push_back(fmt::format("{}: {}", file, note));
 }
 
-/// What a quantity of a plot is filed by.
-std::pair<AnyPlot::Sensor, int> quantity_of(const AnyPlot& plot, std::size_t i) {
-  return {plot.sensor, plot.sensor == AnyPlot::Sensor::components ? plot.places[i] : static_cast<int>(i)};
-}
-
 /// Drops what is too short, and takes down what the rest holds.
-void summarize(TuneData& data) {
+void summarize(TuneData& data, const Columns& columns) {
   const std::size_t all = data.tracks.size();
   std::erase_if(data.tracks, [](const TuneTrack& track) {
     const auto measured = std::ranges::count_if(track.rows, [](const Row& row) { return row.measured(); });
     return static_cast<std::size_t>(measured) < fewest_measurements;
   });
   data.too_short = all - data.tracks.size();
-  for (const TuneTrack& track : data.tracks)
+  std::vector<double> steps;
+  for (const TuneTrack& track : data.tracks) {
+    std::optional<double> last;
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
+      if (last && row.plot.time > *last) steps.push_back(row.plot.time - *last);
+      last = row.plot.time;
       const int seen = axes_seen(row.plot, data.axes);
       const bool by_radar = row.plot.sensor == AnyPlot::Sensor::polar || row.plot.sensor == AnyPlot::Sensor::doppler;
       const bool is_bearing = row.plot.sensor == AnyPlot::Sensor::bearing;
@@ -109,6 +146,15 @@ void summarize(TuneData& data) {
         greatest = std::max(greatest, row.plot.z[i]);
       }
     }
+  }
+  for (auto& [name, sensor] : data.sensors)
+    if (const auto own = columns.find(name); own != columns.end())
+      for (const auto& [key, numbers] : own->second) sensor.rounding[key] = rounding_of(numbers);
+  if (steps.empty()) return;
+  std::ranges::sort(steps);
+  const auto quantile = [&](std::size_t tenths) { return steps[tenths * (steps.size() - 1) / 10]; };
+  data.step_s = quantile(5);
+  data.uneven_steps = quantile(9) >= 2.0 * quantile(1);
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -138,14 +184,22 @@ TuneData read_tune_data(const TuneOptions& options) {
   RecordingOptions first = options.recording;
   first.file = options.files.front();
   TuneData data{.axes = RecordingReader(first).axes(), .radar_at = options.radar.place()};
-  for (const auto& file : options.files) read(file, options, data);
-  summarize(data);
+  Columns columns;
+  for (const auto& file : options.files) read(file, options, data, columns);
+  summarize(data, columns);
   if (data.measurements < fewest_in_all)
     throw InputError(
         "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
         "a longer recording, or several",
         options.files.front(), data.measurements, fewest_measurements, fewest_in_all);
   return data;
+}
+
+double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
+  double greatest = 0.0;
+  for (const auto& [key, own] : rounding)
+    if (key.first == kind && key.second >= from && key.second <= to) greatest = std::max(greatest, own);
+  return greatest;
 }
 
 double TuneData::log_stray(const AnyPlot& plot) const {

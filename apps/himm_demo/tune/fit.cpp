@@ -32,6 +32,8 @@ constexpr double least_improvement = 1e-4;  // nats a row
 /// Of candidates without a gate of their own: what it turns away is unheard of, yet would move a filter.
 constexpr double usual_gate = 1.0 - 1e-8;
 
+constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
+
 constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
 constexpr std::size_t most_sweeps = 4;
 
@@ -44,6 +46,7 @@ struct FreeNumber {
   std::function<void(FilterSettings&, double)> set;
   bool sensor = false;    ///< whether it is a sensor's
   bool relative = false;  ///< whether `set` changes what is there by it
+  double least = 0.0;     ///< of a sensor's: what its column resolves; `set` takes no less
 };
 
 double rounded(double value) {
@@ -74,41 +77,52 @@ Accuracy& accuracy_in(FilterSettings& settings, const std::string& sensor) {
 void add_sensor(const FilterSettings& settings, const std::string& name, const TuneSensor& sensor, int axes,
                 std::vector<FreeNumber>& numbers) {
   const Accuracy& now = settings.accuracy_of(name);
-  const auto add = [&](std::string_view what, double start, const std::function<void(Accuracy&, double)>& set) {
+  const auto add = [&](std::string_view what, double start, double least,
+                       const std::function<void(Accuracy&, double)>& set) {
     FreeNumber& number = numbers.emplace_back();
     number.parameter.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name);
     number.sensor = true;
-    number.parameter.start = start;
-    number.set = [=](FilterSettings& changed, double value) { set(accuracy_in(changed, name), value); };
+    number.least = least;
+    number.parameter.start = std::max(start, least);
+    number.set = [=](FilterSettings& changed, double value) {
+      set(accuracy_in(changed, name), std::max(value, least));
+    };
+  };
+  const auto least = [&](int from, int to) { return sensor.rounding_of(AnyPlot::Sensor::components, from, to); };
+  const auto least_of_radar = [&](int i) {
+    return std::max(sensor.rounding_of(AnyPlot::Sensor::polar, i, i),
+                    sensor.rounding_of(AnyPlot::Sensor::doppler, i, i));
   };
   if (sensor.position) {
     const auto& sigma = now.position_m;
     const double ratio = sigma.size() == 1 ? 1.0 : sigma[1] / sigma[0];
     const double height = sigma.back();
     const bool one = axes < 3 && sigma.size() == 1;
-    add("sigma_position_m", sigma[0], [=](Accuracy& accuracy, double value) {
+    add("sigma_position_m", sigma[0], least(0, std::min(axes, 2) - 1), [=](Accuracy& accuracy, double value) {
       if (one)
         accuracy.position_m = {value};
       else
         accuracy.position_m = {value, ratio * value, accuracy.position_m.back()};
     });
     if (axes == 3)
-      add("height's sigma_position_m", height,
+      add("height's sigma_position_m", height, least(2, 2),
           [](Accuracy& accuracy, double value) { accuracy.position_m.back() = value; });
   }
   if (sensor.velocity && now.velocity_mps)
-    add("sigma_velocity_mps", *now.velocity_mps,
+    add("sigma_velocity_mps", *now.velocity_mps, least(axes, 2 * axes),
         [](Accuracy& accuracy, double value) { accuracy.velocity_mps = value; });
   if (sensor.range_rate && now.range_rate_mps)
-    add("sigma_range_rate_mps", *now.range_rate_mps,
+    add("sigma_range_rate_mps", *now.range_rate_mps, sensor.rounding_of(AnyPlot::Sensor::doppler, axes, axes),
         [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
   if (sensor.radar || sensor.bearing)
     add("sigma_azimuth_deg", now.radar[1] / degree,
+        std::max(least_of_radar(1), sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0)) / degree,
         [](Accuracy& accuracy, double value) { accuracy.radar[1] = value * degree; });
   if (!sensor.radar) return;
-  add("sigma_range_m", now.radar[0], [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
+  add("sigma_range_m", now.radar[0], least_of_radar(0),
+      [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
   if (axes == 3)
-    add("sigma_elevation_deg", now.radar[2] / degree,
+    add("sigma_elevation_deg", now.radar[2] / degree, least_of_radar(2) / degree,
         [](Accuracy& accuracy, double value) { accuracy.radar[2] = value * degree; });
 }
 
@@ -137,7 +151,7 @@ std::vector<FreeNumber> free_numbers(const FilterSettings& settings, const TuneD
   if (options.fits("sensors") && options.objective != Objective::rmse)
     for (const auto& [name, sensor] : data.sensors) add_sensor(settings, name, sensor, data.axes, numbers);
   if (has_transition(settings, options))
-    numbers.push_back({{.name = "leaving a mode, times", .start = 1.0, .reach = 4.0}, leave, false, true});
+    numbers.push_back({{.name = "leaving a mode, times", .start = 1.0, .reach = 4.0}, leave, false, true, 0.0});
   return numbers;
 }
 
@@ -273,7 +287,7 @@ class Fitter {
 
   /// From far away: great steps, then a search from start number `start` about where they led.
   Found fit(const FilterSettings& settings, std::size_t start) const {
-    Found best{settings, value(settings)};
+    Found best = from(settings);
     scan(best);
     for (std::size_t round = 0; round < rounds; ++round)
       if (!improve(best, round == 0 ? start : 0, 1.0)) {
@@ -285,12 +299,20 @@ class Fitter {
 
   /// From near by.
   Found refine(const FilterSettings& settings) const {
-    Found best{settings, value(settings)};
+    Found best = from(settings);
     improve(best, 0, 0.3);
     return best;
   }
 
  private:
+  /// The settings, but no number less than may be fitted.
+  Found from(FilterSettings settings) const {
+    for (const FreeNumber& number : free_numbers(settings, data_, options_))
+      if (number.least > 0.0) number.set(settings, number.parameter.start);
+    const double found = value(settings);
+    return {std::move(settings), found};
+  }
+
   /// The objective; infinite where the filter fails.
   double value(const FilterSettings& settings) const {
     try {
@@ -434,11 +456,16 @@ RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective
 
 }  // namespace
 
-std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options) {
+std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options, const TuneData& data) {
   std::vector<std::string> names = options.models;
+  const bool continuous = names.empty() && data.uneven_steps;
   if (names.empty()) {
     std::vector<std::string> motions;
-    for (const auto& motion : settings.motions) motions.push_back(motion.name);
+    for (const auto& motion : settings.motions)
+      motions.push_back(!continuous             ? motion.name
+                        : motion.name == "dwna" ? "cwna"
+                        : motion.name == "dwpa" ? "cwpa"
+                                                : motion.name);
     names = {fmt::format("{}", fmt::join(motions, "+"))};
     for (const auto& motion : motions)
       if (std::ranges::find(names, motion) == names.end()) names.push_back(motion);
@@ -446,15 +473,17 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
   std::vector<ModelSet> sets;
   for (const auto& name : names) {
     sets.push_back({name, with_models(settings, name)});
-    double& gate = sets.back().settings.gate_probability;
-    if (gate == 1.0) gate = usual_gate;
+    FilterSettings& own = sets.back().settings;
+    if (own.gate_probability == 1.0) own.gate_probability = usual_gate;
+    if (continuous && own.sojourn_s.empty() && own.models.size() > 1 && own.scheme != Scheme::independent)
+      own.sojourn_s.assign(own.models.size(), usual_sojourn_steps * data.step_s);
   }
   return sets;
 }
 
 std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
   std::size_t work = 0;
-  for (const auto& [name, base] : model_sets(settings, options)) {
+  for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
     const auto scanned = static_cast<std::size_t>(std::count_if(
         numbers.begin(), numbers.end(), [](const auto& each) { return each.parameter.scale == Scale::logarithmic; }));
@@ -468,7 +497,7 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
                  const std::function<void(std::size_t work)>& advance) {
   const auto all = [](std::size_t, std::size_t) { return true; };
   const RowFolds folds = data.folds(options.folds);
-  const auto bases = model_sets(settings, options);
+  const auto bases = model_sets(settings, options, data);
   const std::size_t sets = bases.size();
   std::vector<Fitter::Found> fitted(sets);
   for_each_run(

@@ -501,7 +501,7 @@ void tune_and_write(TuneOptions options) {
   refuse_without_search();
   for (const auto& filter : filters) {
     refuse_possibility(filter, options.objective);
-    model_sets(filter, options);  // refuses what is none
+    model_sets(filter, options, {});  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);
   refuse_inputs(options);

@@ -43,6 +43,9 @@ struct RowPlace {
   std::size_t track, row;
 };
 
+/// A measured quantity: the kind of plot, and the place of a component or its number in the plot.
+using QuantityKey = std::pair<AnyPlot::Sensor, int>;
+
 /// The least and the greatest number of what was measured.
 struct Extent {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -62,6 +65,11 @@ struct TuneSensor {
   bool bearing = false;  ///< alone
   bool velocity = false;
   bool range_rate = false;
+  /// Of quantities that come in whole steps, as altitudes in 25 ft do: the standard deviation of the rounding.
+  std::map<QuantityKey, double> rounding{};
+
+  /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none.
+  double rounding_of(AnyPlot::Sensor kind, int from, int to) const;
 };
 
 /// All recordings, read once.
@@ -76,7 +84,9 @@ struct TuneData {
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
   /// Of each quantity of each kind of plot, those of components by their places.
-  std::map<std::pair<AnyPlot::Sensor, int>, Extent> extents{};
+  std::map<QuantityKey, Extent> extents{};
+  double step_s = 0.0;        ///< the median time between a track's measurements
+  bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 
   /// The density, as a logarithm, of a stray measurement of this kind, anywhere between the least and the greatest.
   double log_stray(const AnyPlot& plot) const;
@@ -135,12 +145,13 @@ struct TunedFilter {
 /// Whether this build has an optimiser.
 bool can_search();
 
-/// The filter with each set of models that is to be tried. Throws UsageError for a name that is no motion.
+/// The filter with each set of models that is to be tried; where steps vary and nobody asks for sets, its models of a
+/// fixed step give way to those of continuous time, with sojourn times. Throws UsageError for a name that is no motion.
 struct ModelSet {
   std::string name;
   FilterSettings settings;
 };
-std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options);
+std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options, const TuneData& data);
 
 /// So much work is a filter's tuning, in calls of `advance`.
 std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options);
