@@ -114,6 +114,13 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data, C
   for (const std::string& note : recording.notes()) data.notes.push_back(fmt::format("{}: {}", file, note));
 }
 
+/// What so many tenths of the numbers are below.
+double quantile(std::vector<double>& numbers, std::size_t tenths) {
+  const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(tenths * (numbers.size() - 1) / 10);
+  std::nth_element(numbers.begin(), place, numbers.end());
+  return *place;
+}
+
 /// Drops what is too short, and takes down what the rest holds.
 void summarize(TuneData& data, const Columns& columns) {
   const std::size_t all = data.tracks.size();
@@ -123,8 +130,10 @@ void summarize(TuneData& data, const Columns& columns) {
   });
   data.too_short = all - data.tracks.size();
   std::vector<double> steps;
+  std::map<QuantityKey, std::vector<double>> changes;
   for (const TuneTrack& track : data.tracks) {
     std::optional<double> last;
+    std::map<QuantityKey, double> numbers;
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
       if (last && row.plot.time > *last) steps.push_back(row.plot.time - *last);
@@ -141,20 +150,21 @@ void summarize(TuneData& data, const Columns& columns) {
       sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
       for (std::size_t i = 0; i < static_cast<std::size_t>(row.plot.size); ++i) {
-        auto& [least, greatest] = data.extents[quantity_of(row.plot, i)];
-        least = std::min(least, row.plot.z[i]);
-        greatest = std::max(greatest, row.plot.z[i]);
+        const auto key = quantity_of(row.plot, i);
+        const auto [before, is_first] = numbers.try_emplace(key, row.plot.z[i]);
+        if (const double change = std::abs(row.plot.z[i] - before->second); change > 0.0)
+          changes[key].push_back(change);
+        before->second = row.plot.z[i];
       }
     }
   }
   for (auto& [name, sensor] : data.sensors)
     if (const auto own = columns.find(name); own != columns.end())
       for (const auto& [key, numbers] : own->second) sensor.rounding[key] = rounding_of(numbers);
+  for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 9);
   if (steps.empty()) return;
-  std::ranges::sort(steps);
-  const auto quantile = [&](std::size_t tenths) { return steps[tenths * (steps.size() - 1) / 10]; };
-  data.step_s = quantile(5);
-  data.uneven_steps = quantile(9) >= 2.0 * quantile(1);
+  data.step_s = quantile(steps, 5);
+  data.uneven_steps = quantile(steps, 9) >= 2.0 * quantile(steps, 1);
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -205,9 +215,8 @@ double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
 double TuneData::log_stray(const AnyPlot& plot) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const auto found = extents.find(quantity_of(plot, i));
-    const double width = found == extents.end() ? 0.0 : found->second.greatest - found->second.least;
-    sum -= std::log(std::max(width, 1e-6));
+    const auto found = stray_width.find(quantity_of(plot, i));
+    if (found != stray_width.end()) sum -= std::log(found->second);
   }
   return sum;
 }

@@ -46,11 +46,6 @@ struct RowPlace {
 /// A measured quantity: the kind of plot, and the place of a component or its number in the plot.
 using QuantityKey = std::pair<AnyPlot::Sensor, int>;
 
-/// The least and the greatest number of what was measured.
-struct Extent {
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-};
-
 /// One target of a recording; its positions are about one point, and the tags of its plots are their numbers.
 struct TuneTrack {
   std::string file;
@@ -83,12 +78,13 @@ struct TuneData {
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
-  /// Of each quantity of each kind of plot, those of components by their places.
-  std::map<QuantityKey, Extent> extents{};
+  /// How wide stray measurements of each quantity scatter: six times what nine in ten changes from one row of a track
+  /// to the next stay below, those that are none left out.
+  std::map<QuantityKey, double> stray_width{};
   double step_s = 0.0;        ///< the median time between a track's measurements
   bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 
-  /// The density, as a logarithm, of a stray measurement of this kind, anywhere between the least and the greatest.
+  /// The density, as a logarithm, of a stray measurement of this kind: the same for all settings.
   double log_stray(const AnyPlot& plot) const;
 
   RowFolds folds(std::size_t count) const;
