@@ -8,7 +8,6 @@
 #include "himm_demo/tune/tune.hpp"
 #include "support/json.hpp"
 #include "support/parallel.hpp"
-#include "support/progress.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -108,6 +107,22 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
       cells.insert(cells.end(),
                    {tally.autocorrelation(), Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
     table.row(std::move(cells));
+  }
+  return table;
+}
+
+/// The fitted numbers of the best settings.
+ResultTable numbers_table(const TunedFilter& tuned) {
+  ResultTable table({{.key = "number", .header = "fitted number", .align = Align::left},
+                     {.key = "value", .header = "best"},
+                     {.key = "error"},
+                     {.key = "remark", .header = "standard error", .align = Align::left}});
+  for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
+    const bool told = !at_rounding && std::isfinite(error);
+    table.row({name, Cell(value, fmt::format("{:.4g}", value)), told ? Cell(error) : Cell(nan),
+               at_rounding ? "no less: its column is rounded"
+               : told      ? fmt::format("± {:.2g}", error)
+                           : "not determined by these rows"});
   }
   return table;
 }
@@ -290,6 +305,8 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
     view.panels.emplace_back(ReportTable{fmt::format("Rows by their most likely mode, {}", when(i)),
                                          innovations_table(all[i].second->modes, true)});
   }
+  if (const ResultTable numbers = numbers_table(findings.tuned); !numbers.empty())
+    view.panels.emplace_back(ReportTable{"Fitted numbers", numbers});
   if (const ResultTable settings = changes_table(findings.tuned); !settings.empty())
     view.panels.emplace_back(ReportTable{"Settings that change", settings});
   return view;
@@ -368,9 +385,10 @@ std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
 }
 
 std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t width) {
-  const ResultTable changes = changes_table(tuned);
+  const ResultTable changes = changes_table(tuned), numbers = numbers_table(tuned);
   return candidates_table(tuned, objective).text(width) + "\n" +
-         (changes.empty() ? "No setting changes.\n" : changes.text(width));
+         (changes.empty() ? "No setting changes.\n" : changes.text(width)) +
+         (numbers.empty() ? "" : "\n" + numbers.text(width));
 }
 
 Json summary_of(const TuneOptions& options, const TuneData& data, const std::vector<TuneFindings>& all) {
@@ -396,6 +414,7 @@ Json summary_of(const TuneOptions& options, const TuneData& data, const std::vec
       for (const auto& [name, figures] : by_fold(findings.tuned, options, data))
         filter["held_out"][name_of_fold(fold, options)][name] = figures[fold];
     filter["candidates"] = candidates_table(findings.tuned, options.objective).json();
+    filter["numbers"] = numbers_table(findings.tuned).json();
     filter["settings"] = changes_table(findings.tuned).json();
   }
   return summary;
@@ -458,11 +477,11 @@ std::string heading(const TuneData& data, const TuneOptions& options) {
 
 /// Tunes one filter, prints what was found, and adds what is to be written.
 TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
-                             std::vector<FilterSettings>& written) {
+                             const TunedFilter* similar, std::vector<FilterSettings>& written) {
   Diagnosis before = diagnose(data, filter, options.objective);
   fmt::print("\nfilter {}: before\n\n{}\n", printable(filter.name), text_of(before, options.page.width()));
   Progress progress(filter.name, work_of(filter, data, options), options.page.quiet);
-  TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
+  TunedFilter tuned = tune(filter, data, options, similar, progress);
   progress.finish();
   fmt::print("{}", text_of(tuned, options.objective, options.page.width()));
 
@@ -514,7 +533,8 @@ void tune_and_write(TuneOptions options) {
   for (const std::string& note : data.notes) fmt::print("{}", wrapped(note));
   std::vector<FilterSettings> written;
   std::vector<TuneFindings> found;
-  for (const auto& filter : filters) found.push_back(tune_and_report(filter, data, options, written));
+  for (const auto& filter : filters)
+    found.push_back(tune_and_report(filter, data, options, found.empty() ? nullptr : &found.front().tuned, written));
   if (page.report_wanted()) page.write_report(page_of(heading(data, options), options, data, found));
   if (summary) summary->write(summary_of(options, data, found).dump(2) + "\n");
   if (file) file->write(as_toml(written));

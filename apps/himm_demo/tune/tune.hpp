@@ -5,6 +5,7 @@
 #include "himm_demo/filters/settings.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
+#include "support/progress.hpp"
 
 namespace sigmax::apps {
 
@@ -117,13 +118,22 @@ double objective_of(const RowLosses& losses, Objective objective, const RowCount
 /// The same as people read it: nats a row, or the RMSE in m.
 double figure_of(double value, Objective objective);
 
+/// A number that was fitted. A standard error that is infinite says that the rows do not tell the number.
+struct FittedNumber {
+  std::string name;
+  double value = 0.0;
+  double error = 0.0;
+  bool at_rounding = false;  ///< whether it is as small as the rounding of its column allows
+};
+
 /// One way to set a filter, judged.
 struct Candidate {
   std::string name;
   FilterSettings settings{};  ///< fitted to all rows
-  double fitted = 0.0;        ///< the objective over all rows, which those settings have seen
-  double held_out = 0.0;      ///< the same over all rows, each with settings that have not seen its fold
-  MeanDifference gain{};      ///< of the held-out loss of a row on that of the settings before
+  std::vector<FittedNumber> numbers{};
+  double fitted = 0.0;    ///< the objective over all rows, which those settings have seen
+  double held_out = 0.0;  ///< the same over all rows, each with settings that have not seen its fold
+  MeanDifference gain{};  ///< of the held-out loss of a row on that of the settings before
 };
 
 /// What tuning found for one filter.
@@ -152,9 +162,9 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
 /// So much work is a filter's tuning, in calls of `advance`.
 std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options);
 
-/// Fits every candidate to all rows and, for its held-out loss, to all but each fold. The result is that of the seed,
-/// on any number of threads.
+/// Fits every candidate to all rows and, for its held-out loss, to all but each fold. What `similar` found, if it is
+/// given, is where the search begins. The result is that of the seed, on any number of threads.
 TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
-                 const std::function<void(std::size_t work)>& advance);
+                 const TunedFilter* similar, Progress& progress);
 
 }  // namespace sigmax::apps
