@@ -27,9 +27,11 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
   refuse_radar(options.radar, recording);
 }
 
-/// What a quantity of a plot is filed by.
+/// What a quantity of a plot is filed by; a position is components too.
 QuantityKey quantity_of(const AnyPlot& plot, std::size_t i) {
-  return {plot.sensor, plot.sensor == AnyPlot::Sensor::components ? plot.places[i] : static_cast<int>(i)};
+  using enum AnyPlot::Sensor;
+  if (plot.sensor == position) return {components, static_cast<int>(i)};
+  return {plot.sensor, plot.sensor == components ? plot.places[i] : static_cast<int>(i)};
 }
 
 /// The numbers of each sensor's columns, as they were written.
@@ -215,8 +217,9 @@ double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
 double TuneData::log_stray(const AnyPlot& plot) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
-    const auto found = stray_width.find(quantity_of(plot, i));
-    if (found != stray_width.end()) sum -= std::log(found->second);
+    // A quantity that never changes has no width, and no row is off.
+    if (const auto found = stray_width.find(quantity_of(plot, i)); found != stray_width.end())
+      sum -= std::log(found->second);
   }
   return sum;
 }
