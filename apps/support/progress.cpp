@@ -47,6 +47,11 @@ void Progress::advance(std::uint64_t work) {
   shown_ = width;
 }
 
+void Progress::tell(std::string_view label) {
+  const std::lock_guard lock{advancing_};
+  label_ = printable(label);
+}
+
 void Progress::finish() {
   const std::lock_guard lock{advancing_};
   if (!std::exchange(finished_, true) && shown_ > 0) write_all(terminal_, "\r" + std::string(shown_, ' ') + "\r");

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include <Eigen/Cholesky>
 
 namespace sigmax {
 
@@ -77,6 +80,68 @@ Selected select_settings(std::span<const RowLosses> held_out, std::span<const st
     if (numbers[i] < numbers[selected.simple] && worse.mean <= worse.error) selected.simple = i;
   }
   return selected;
+}
+
+LossSurface::LossSurface(std::size_t numbers, double step,
+                         const std::function<RowLosses(const std::vector<double>&)>& losses)
+    : numbers_(numbers), step_(step) {
+  std::vector<double> offsets(numbers, 0.0);
+  losses_.push_back(losses(offsets));
+  for (std::size_t i = 0; i < numbers; ++i)
+    for (std::size_t j = i; j < numbers; ++j)
+      for (const double side : {step, -step}) {
+        offsets[i] = offsets[j] = side;
+        losses_.push_back(losses(offsets));
+        offsets[i] = offsets[j] = 0.0;
+      }
+}
+
+LossSurface::Shape LossSurface::shape(const RowCounts& counts) const {
+  const auto n = static_cast<Eigen::Index>(numbers_);
+  std::vector<double> sums(losses_.size(), 0.0);
+  Eigen::VectorXd slope(n), sum = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n), curvature(n, n);
+  const auto place = [&](Eigen::Index i, Eigen::Index j) {  // of the upper triangle, row by row
+    return static_cast<std::size_t>(1 + 2 * (i * n - i * (i - 1) / 2 + j - i));
+  };
+  for (std::size_t r = 0; r < losses_[0].size(); ++r)
+    for (std::size_t k = 0; k < losses_[0][r].size(); ++k) {
+      if (std::isnan(losses_[0][r][k]) || (counts && !counts(r, k))) continue;
+      for (std::size_t s = 0; s < losses_.size(); ++s) sums[s] += losses_[s][r][k];
+      for (Eigen::Index i = 0; i < n; ++i)
+        slope[i] = (losses_[place(i, i)][r][k] - losses_[place(i, i) + 1][r][k]) / (2.0 * step_);
+      sum += slope;
+      squares += slope * slope.transpose();
+    }
+  const auto bend = [&](Eigen::Index i, Eigen::Index j) {
+    return sums[place(i, j)] + sums[place(i, j) + 1] - 2.0 * sums[0];
+  };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i; j < n; ++j)
+      curvature(i, j) = curvature(j, i) =
+          (i == j ? bend(i, i) : 0.5 * (bend(i, j) - bend(i, i) - bend(j, j))) / (step_ * step_);
+
+  Shape result{std::vector<double>(numbers_, 0.0),
+               std::vector<double>(numbers_, std::numeric_limits<double>::infinity())};
+  std::vector<Eigen::Index> told;  // the numbers that the rows tell, all together
+  for (Eigen::Index i = 0; i < n; ++i) told.push_back(i);
+  while (!told.empty()) {
+    const Eigen::LLT<Eigen::MatrixXd> root(curvature(told, told));
+    if (root.info() == Eigen::Success && root.rcond() > 1e-10) {
+      const Eigen::VectorXd least = -root.solve(sum(told));
+      const Eigen::MatrixXd inverse = root.solve(Eigen::MatrixXd::Identity(least.size(), least.size()));
+      const Eigen::VectorXd variance = (inverse * squares(told, told) * inverse).diagonal();
+      for (std::size_t i = 0; i < told.size(); ++i) {
+        const auto at = static_cast<std::size_t>(told[i]);
+        const auto of = static_cast<Eigen::Index>(i);
+        result.least[at] = std::clamp(least[of], -4.0 * step_, 4.0 * step_);
+        result.error[at] = std::sqrt(variance[of]);
+      }
+      return result;
+    }
+    told.erase(std::ranges::min_element(told, {}, [&](Eigen::Index i) { return curvature(i, i); }));
+  }
+  return result;
 }
 
 }  // namespace sigmax

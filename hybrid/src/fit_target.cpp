@@ -21,6 +21,12 @@ std::vector<double> log_scores(const TargetChoice& choice, std::span<const AnyPl
   return scores;
 }
 
+double robust_log_score(double log_score, double share, double log_stray) {
+  const double own = std::log1p(-share) + log_score, stray = std::log(share) + log_stray;
+  const double greater = std::max(own, stray);
+  return greater + std::log1p(std::exp(std::min(own, stray) - greater));
+}
+
 void TransitionCounts::add(const ModePairs& pairs, bool counts) {
   const std::size_t modes = seconds_.size();
   if (pairs.log_weights.size() != modes * modes)

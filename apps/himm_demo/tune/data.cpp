@@ -1,6 +1,7 @@
 #include "himm_demo/tune/tune.hpp"
 
 #include <sigmax/estimation/dense.hpp>
+#include <sigmax/hybrid/fit_target.hpp>
 
 #include "support/random.hpp"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::size_t fewest_measurements = 10;  // of a track: three start the filter
 constexpr std::size_t fewest_in_all = 40;
+constexpr double stray_share = 0.01;  // of all measurements
 
 void refuse_other_kind(const TuneOptions& options, const TuneData& data, const RecordingReader& recording) {
   const std::string& file = recording.file();
@@ -25,7 +27,47 @@ void refuse_other_kind(const TuneOptions& options, const TuneData& data, const R
   refuse_radar(options.radar, recording);
 }
 
-void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data) {
+/// What a quantity of a plot is filed by; a position is components too.
+QuantityKey quantity_of(const AnyPlot& plot, std::size_t i) {
+  using enum AnyPlot::Sensor;
+  if (plot.sensor == position) return {components, static_cast<int>(i)};
+  return {plot.sensor, plot.sensor == components ? plot.places[i] : static_cast<int>(i)};
+}
+
+/// The numbers of each sensor's columns, as they were written.
+using Columns = std::map<std::string, std::map<QuantityKey, std::vector<double>>, std::less<>>;
+
+/// Takes down a row's numbers; of a place in m, and of a velocity along two axes or more also the speed, since that may
+/// be what was rounded. It is filed behind the velocity.
+void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
+  const AnyPlot& plot = row.plot;
+  auto& own = columns[row.sensor];
+  double squares = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    const auto key = quantity_of(plot, i);
+    const bool is_component = plot.sensor == AnyPlot::Sensor::components;
+    const bool is_angle = geodetic && is_component && key.second < 2;
+    own[key].push_back(plot.z[i] * (is_angle ? units::nautical_mile * 60.0 : 1.0));
+    if (is_component && key.second >= axes && key.second < axes + 2) squares += plot.z[i] * plot.z[i];
+  }
+  if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
+}
+
+/// The standard deviation of the rounding of numbers that come in whole steps; else 0.
+double rounding_of(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  std::vector<double> apart;  // those that differ by more than the reading of decimals does
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
+  if (apart.empty()) return 0.0;
+  const double least = *std::ranges::min_element(apart);
+  const auto whole = std::ranges::count_if(
+      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
+  return 10 * whole >= 9 * std::ssize(apart) ? least / std::sqrt(12.0) : 0.0;
+}
+
+void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data,
+          Columns& columns) {
   struct Open {  // what is kept of a track while its file is read
     std::size_t place;
     RandomStream random;
@@ -48,7 +90,10 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
     if (is_new) data.tracks.push_back({recording.file(), {}});
     Open& its = found->second;
-    if (!options.radar.sigma) places.place(row);
+    if (!options.radar.sigma) {
+      take_down(row, data.axes, recording.geodetic(), columns);
+      places.place(row);
+    }
     if (!first && places.frame()) first = places.frame()->origin();
     const bool told = row.plot.sensor == AnyPlot::Sensor::components;
     if (recording.geodetic() && told && axes_seen(row.plot, data.axes) > 0) {
@@ -80,39 +125,30 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
 }
 
-/// A box about points.
-struct Extent {
-  std::array<double, 3> least, greatest;
-
-  Extent() {
-    least.fill(std::numeric_limits<double>::infinity());
-    greatest.fill(-least[0]);
-  }
-  void add(const AnyPlot& plot) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      least[i] = std::min(least[i], plot.z[i]);
-      greatest[i] = std::max(greatest[i], plot.z[i]);
-    }
-  }
-  double volume(int axes) const {
-    double product = 1.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) product *= std::max(greatest[i] - least[i], 1e-6);
-    return product;
-  }
-};
+/// What so many tenths of the numbers are below.
+double quantile(std::vector<double>& numbers, std::size_t tenths) {
+  const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(tenths * (numbers.size() - 1) / 10);
+  std::nth_element(numbers.begin(), place, numbers.end());
+  return *place;
+}
 
 /// Drops what is too short, and takes down what the rest holds.
-void summarize(TuneData& data) {
+void summarize(TuneData& data, const Columns& columns) {
   const std::size_t all = data.tracks.size();
   std::erase_if(data.tracks, [](const TuneTrack& track) {
     const auto measured = std::ranges::count_if(track.rows, [](const Row& row) { return row.measured(); });
     return static_cast<std::size_t>(measured) < fewest_measurements;
   });
   data.too_short = all - data.tracks.size();
-  Extent all_positions, all_polars;
-  for (const TuneTrack& track : data.tracks)
+  std::vector<double> steps;
+  std::map<QuantityKey, std::vector<double>> changes;
+  for (const TuneTrack& track : data.tracks) {
+    std::optional<double> last;
+    std::map<QuantityKey, double> numbers;
     for (const Row& row : track.rows) {
       if (!row.measured()) continue;
+      if (last && row.plot.time > *last) steps.push_back(row.plot.time - *last);
+      last = row.plot.time;
       const int seen = axes_seen(row.plot, data.axes);
       const bool by_radar = row.plot.sensor == AnyPlot::Sensor::polar || row.plot.sensor == AnyPlot::Sensor::doppler;
       const bool is_bearing = row.plot.sensor == AnyPlot::Sensor::bearing;
@@ -124,24 +160,22 @@ void summarize(TuneData& data) {
       sensor.velocity |= is_moving(row.plot, data.axes);
       sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
-      if (seen == data.axes) (by_radar ? all_polars : all_positions).add(row.plot);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(row.plot.size); ++i) {
+        const auto key = quantity_of(row.plot, i);
+        const auto [before, is_first] = numbers.try_emplace(key, row.plot.z[i]);
+        if (const double change = std::abs(row.plot.z[i] - before->second); change > 0.0)
+          changes[key].push_back(change);
+        before->second = row.plot.z[i];
+      }
     }
-  data.volume = all_positions.volume(data.axes);
-  data.radar_volume = all_polars.volume(data.axes);
-}
-
-double measurement_loss(double log_score, const FilterSettings& settings, double volume) {
-  if (settings.gate_probability >= 1.0) return -log_score;
-  const double target = std::log(settings.gate_probability) + log_score;
-  const double stray = std::log1p(-settings.gate_probability) - std::log(volume);
-  const double greater = std::max(target, stray);
-  return -(greater + std::log1p(std::exp(std::min(target, stray) - greater)));
-}
-
-/// In which a stray measurement of a row's kind lies anywhere.
-double volume_for(const Row& row, const TuneData& data) {
-  if (row.plot.sensor == AnyPlot::Sensor::bearing) return 2.0 * std::numbers::pi;
-  return row.plot.sensor == AnyPlot::Sensor::components ? data.volume : data.radar_volume;
+  }
+  for (auto& [name, sensor] : data.sensors)
+    if (const auto own = columns.find(name); own != columns.end())
+      for (const auto& [key, numbers] : own->second) sensor.rounding[key] = rounding_of(numbers);
+  for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 9);
+  if (steps.empty()) return;
+  data.step_s = quantile(steps, 5);
+  data.uneven_steps = quantile(steps, 9) >= 2.0 * quantile(steps, 1);
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -171,14 +205,32 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   RecordingOptions first = options.recording;
   first.file = options.files.front();
   TuneData data{.axes = RecordingReader(first).axes()};
-  for (const auto& file : options.files) read(file, options, settings, data);
-  summarize(data);
+  Columns columns;
+  for (const auto& file : options.files) read(file, options, settings, data, columns);
+  summarize(data, columns);
   if (data.measurements < fewest_in_all)
     throw InputError(
         "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
         "a longer recording, or several",
         options.files.front(), data.measurements, fewest_measurements, fewest_in_all);
   return data;
+}
+
+double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
+  double greatest = 0.0;
+  for (const auto& [key, own] : rounding)
+    if (key.first == kind && key.second >= from && key.second <= to) greatest = std::max(greatest, own);
+  return greatest;
+}
+
+double TuneData::log_stray(const AnyPlot& plot) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
+    // A quantity that never changes has no width, and no row is off.
+    if (const auto found = stray_width.find(quantity_of(plot, i)); found != stray_width.end())
+      sum -= std::log(found->second);
+  }
+  return sum;
 }
 
 RowFolds TuneData::folds(std::size_t count) const {
@@ -195,31 +247,45 @@ std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSetting
 
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings) {
   TargetChoice choice = choice_of(settings, data.axes);
-  choice.rules.rejections = 0;
   choice.rules.record = false;
   return choice;
 }
 
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look) {
+RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look,
+                 std::vector<RowPlace>* set_aside) {
   const TargetChoice choice = judged_choice(data, settings);
   const bool starts_anywhere = settings.start == StartRule::given && !data.geodetic;  // as `track` does
+  const bool prequential = objective == Objective::prequential;
   RowLosses result;
   for (std::size_t t = 0; t < data.tracks.size(); ++t) {
     const auto& rows = data.tracks[t].rows;
     auto& lost = result.emplace_back(rows.size(), nan);
+    const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
     AnyTarget target(choice);
-    const auto visit = [&](const TargetPoint& now) {
-      if (now.is_start) return;
-      const Row& row = rows[now.tag];
-      if (objective == Objective::prequential && now.log_score)
-        lost[now.tag] = measurement_loss(*now.log_score, settings, volume_for(row, data));
-      if (objective != Objective::prequential && row.truth)
-        lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
-      if (look) look(t, now);
+    const auto loss = [&](const AnyPlot& plot, double log_score) {
+      return -robust_log_score(log_score, stray_share, data.log_stray(plot));
     };
+<<<<<<< HEAD
     for (const AnyPlot& plot : data.plots(data.tracks[t], settings))
       if (target.running() || starts_anywhere || data.crosses || axes_seen(rows[plot.tag].plot, data.axes) == data.axes)
         target.follow({&plot, 1}, visit);
+=======
+    const auto visit = [&](const TargetPoint& now) {
+      if (prequential && !now.is_start && now.log_score) lost[now.tag] = loss(plots[now.tag], *now.log_score);
+      if (now.is_start && target.starts() == 1) return;
+      const Row& row = rows[now.tag];
+      if (!prequential && row.truth) lost[now.tag] = truth_loss(now, *row.truth, data.axes, objective);
+      if (look && !now.is_start) look(t, now);
+    };
+    for (const AnyPlot& plot : plots) {
+      if (!target.running() && !starts_anywhere && axes_seen(rows[plot.tag].plot, data.axes) < data.axes) continue;
+      if (prequential && target.starts() > 0 && plot.sensor != AnyPlot::Sensor::none)
+        lost[plot.tag] = loss(plot, -std::numeric_limits<double>::infinity());  // unless it is a step
+      const std::size_t rejected = target.rejected();
+      target.follow({&plot, 1}, visit);
+      if (set_aside && target.rejected() > rejected) set_aside->push_back({t, plot.tag});
+    }
+>>>>>>> robust
   }
   return result;
 }

@@ -25,9 +25,14 @@ bool can_search() {
 
 namespace {
 
-constexpr std::size_t rounds = 2;           // of a search and the transition's EM
-constexpr std::size_t most_em_steps = 3;    // in each
+constexpr std::size_t most_em_steps = 3;
 constexpr double least_improvement = 1e-4;  // nats a row
+constexpr double surface_step = 0.1;        // of a logarithm
+
+/// Of candidates without a gate of their own: what it turns away is unheard of, yet would move a filter.
+constexpr double usual_gate = 1.0 - 1e-8;
+
+constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 
 constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
 constexpr std::size_t most_sweeps = 4;
@@ -41,6 +46,8 @@ struct FreeNumber {
   std::function<void(FilterSettings&, double)> set;
   bool sensor = false;    ///< whether it is a sensor's
   bool relative = false;  ///< whether `set` changes what is there by it
+  bool noise = false;     ///< whether it is a standard deviation
+  double least = 0.0;     ///< of a sensor's: what its column resolves; `set` takes no less
 };
 
 double rounded(double value) {
@@ -59,6 +66,7 @@ void add_motions(const FilterSettings& settings, std::vector<FreeNumber>& number
       number.parameter.name = fmt::format("{} of {}", known.key, settings.models[j]);
       number.parameter.start = motion[which];
       number.parameter.scale = linear ? Scale::linear : Scale::logarithmic;
+      number.noise = which == MotionParameter::sigma_w || which == MotionParameter::turn_drift;
       number.set = [=](FilterSettings& changed, double value) { changed.motions[j][which] = value; };
     }
 }
@@ -71,41 +79,52 @@ Accuracy& accuracy_in(FilterSettings& settings, const std::string& sensor) {
 void add_sensor(const FilterSettings& settings, const std::string& name, const TuneSensor& sensor, int axes,
                 std::vector<FreeNumber>& numbers) {
   const Accuracy& now = settings.accuracy_of(name);
-  const auto add = [&](std::string_view what, double start, const std::function<void(Accuracy&, double)>& set) {
+  const auto add = [&](std::string_view what, double start, double least,
+                       const std::function<void(Accuracy&, double)>& set) {
     FreeNumber& number = numbers.emplace_back();
     number.parameter.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name);
-    number.sensor = true;
-    number.parameter.start = start;
-    number.set = [=](FilterSettings& changed, double value) { set(accuracy_in(changed, name), value); };
+    number.sensor = number.noise = true;
+    number.least = least;
+    number.parameter.start = std::max(start, least);
+    number.set = [=](FilterSettings& changed, double value) {
+      set(accuracy_in(changed, name), std::max(value, least));
+    };
+  };
+  const auto least = [&](int from, int to) { return sensor.rounding_of(AnyPlot::Sensor::components, from, to); };
+  const auto least_of_radar = [&](int i) {
+    return std::max(sensor.rounding_of(AnyPlot::Sensor::polar, i, i),
+                    sensor.rounding_of(AnyPlot::Sensor::doppler, i, i));
   };
   if (sensor.position) {
     const auto& sigma = now.position_m;
     const double ratio = sigma.size() == 1 ? 1.0 : sigma[1] / sigma[0];
     const double height = sigma.back();
     const bool one = axes < 3 && sigma.size() == 1;
-    add("sigma_position_m", sigma[0], [=](Accuracy& accuracy, double value) {
+    add("sigma_position_m", sigma[0], least(0, std::min(axes, 2) - 1), [=](Accuracy& accuracy, double value) {
       if (one)
         accuracy.position_m = {value};
       else
         accuracy.position_m = {value, ratio * value, accuracy.position_m.back()};
     });
     if (axes == 3)
-      add("height's sigma_position_m", height,
+      add("height's sigma_position_m", height, least(2, 2),
           [](Accuracy& accuracy, double value) { accuracy.position_m.back() = value; });
   }
   if (sensor.velocity && now.velocity_mps)
-    add("sigma_velocity_mps", *now.velocity_mps,
+    add("sigma_velocity_mps", *now.velocity_mps, least(axes, 2 * axes),
         [](Accuracy& accuracy, double value) { accuracy.velocity_mps = value; });
   if (sensor.range_rate && now.range_rate_mps)
-    add("sigma_range_rate_mps", *now.range_rate_mps,
+    add("sigma_range_rate_mps", *now.range_rate_mps, sensor.rounding_of(AnyPlot::Sensor::doppler, axes, axes),
         [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
   if (sensor.radar || sensor.bearing)
     add("sigma_azimuth_deg", now.radar[1] / degree,
+        std::max(least_of_radar(1), sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0)) / degree,
         [](Accuracy& accuracy, double value) { accuracy.radar[1] = value * degree; });
   if (!sensor.radar) return;
-  add("sigma_range_m", now.radar[0], [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
+  add("sigma_range_m", now.radar[0], least_of_radar(0),
+      [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
   if (axes == 3)
-    add("sigma_elevation_deg", now.radar[2] / degree,
+    add("sigma_elevation_deg", now.radar[2] / degree, least_of_radar(2) / degree,
         [](Accuracy& accuracy, double value) { accuracy.radar[2] = value * degree; });
 }
 
@@ -143,6 +162,16 @@ FilterSettings with(FilterSettings settings, const std::vector<FreeNumber>& numb
                     const std::vector<double>& values) {
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i].set(settings, values[i]);
   return settings;
+}
+
+/// Numbers that another filter was given, its sensors' alone or all, to begin with.
+void borrow(FilterSettings& settings, const FilterSettings& from, bool sensors_alone, const TuneData& data,
+            const TuneOptions& options) {
+  const auto theirs = free_numbers(from, data, options);
+  for (const FreeNumber& number : free_numbers(settings, data, options))
+    for (const FreeNumber& other : theirs)
+      if (other.parameter.name == number.parameter.name && !number.relative && (number.sensor || !sensors_alone))
+        number.set(settings, other.parameter.start);
 }
 
 /// So many numbers are fitted, those of the transition included.
@@ -255,39 +284,91 @@ void search(const std::function<double(const std::vector<double>&)>&, const FitS
 }
 #endif
 
+/// The losses, or for each row that has a measurement a very great one where the filter fails.
+RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective objective) {
+  try {
+    return losses(data, judged_settings(settings, objective), objective);
+  } catch (const std::exception&) {
+    constexpr double of_failure = 1e6;
+    RowLosses result;
+    for (const TuneTrack& track : data.tracks)
+      for (auto& of_track = result.emplace_back(); const Row& row : track.rows)
+        of_track.push_back(row.measured() ? of_failure : std::numeric_limits<double>::quiet_NaN());
+    return result;
+  }
+}
+
 /// One fit: of settings, to the rows that count. It draws no random numbers but those of the start.
 class Fitter {
  public:
-  /// Calls advance(work) as it goes.
-  Fitter(const TuneData& data, const TuneOptions& options, RowCounts counts,
-         const std::function<void(std::size_t)>& advance)
-      : data_(data), options_(options), counts_(std::move(counts)), advance_(advance) {}
+  Fitter(const TuneData& data, const TuneOptions& options, Progress& progress, RowCounts counts = {})
+      : data_(data), options_(options), progress_(progress), counts_(std::move(counts)) {}
 
   struct Found {
     FilterSettings settings{};
     double value = std::numeric_limits<double>::infinity();  ///< of the objective
+    std::vector<FittedNumber> numbers{};
   };
 
-  /// From far away: great steps, then a search from start number `start` about where they led.
-  Found fit(const FilterSettings& settings, std::size_t start) const {
-    Found best{settings, value(settings)};
-    scan(best);
-    for (std::size_t round = 0; round < rounds; ++round)
-      if (!improve(best, round == 0 ? start : 0, 1.0)) {
-        advance_((rounds - 1 - round) * budget(free_numbers(settings, data_, options_).size()));
-        break;
-      }
+  /// What of a filter's numbers is looked for from far away.
+  enum class Scanned { all, models, transition };
+
+  /// From far away: great steps.
+  Found far(const FilterSettings& settings, Scanned scanned) const {
+    Found best = from(settings);
+    scan(best, scanned);
     return best;
   }
 
-  /// From near by.
-  Found refine(const FilterSettings& settings) const {
-    Found best{settings, value(settings)};
-    improve(best, 0, 0.3);
+  /// From where those led, by start number `start` about it.
+  Found fit(Found best, std::size_t start) const {
+    search_numbers(best, start, 1.0);
+    const double before = best.value;
+    learn(best);
+    if (before - best.value > least_improvement) {  // the numbers follow the transition
+      search_numbers(best, 0, 0.3);
+      learn(best);
+    }
+    return best;
+  }
+
+  /// The losses about what was found.
+  LossSurface surface(const Found& about) const {
+    const auto numbers = told_numbers(about.settings);
+    return {numbers.size(), surface_step, [&](const std::vector<double>& offsets) {
+              progress_.advance();
+              return judged(data_, moved(about.settings, numbers, offsets), options_.objective);
+            }};
+  }
+
+  /// To the least loss of the rows that count, by the surface, and the transition anew.
+  Found refine(const Found& about, const LossSurface& surface, bool learns) const {
+    Found best{about.settings, value(about.settings)};
+    const auto numbers = told_numbers(about.settings);
+    const auto shape = surface.shape(counts_);
+    take_if_better(best, moved(about.settings, numbers, shape.least));
+    if (learns) learn(best);
+    for (const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
+      if (number.relative) continue;
+      const double value = number.parameter.start;
+      best.numbers.push_back({number.parameter.name, value, std::numeric_limits<double>::infinity(),
+                              number.least > 0.0 && value <= number.least});
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
+          best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
+    }
     return best;
   }
 
  private:
+  /// The settings, but no number less than may be fitted.
+  Found from(FilterSettings settings) const {
+    for (const FreeNumber& number : free_numbers(settings, data_, options_))
+      if (number.least > 0.0) number.set(settings, number.parameter.start);
+    const double found = value(settings);
+    return {std::move(settings), found};
+  }
+
   /// The objective; infinite where the filter fails.
   double value(const FilterSettings& settings) const {
     try {
@@ -303,24 +384,43 @@ class Fitter {
   bool take_if_better(Found& best, const FilterSettings& settings) const {
     const double found = value(settings);
     if (!(found < best.value)) return false;
-    best = {settings, found};
+    best.settings = settings;
+    best.value = found;
     return true;
   }
 
-  /// Whether there may be more to gain.
-  bool improve(Found& best, std::size_t start, double step) const {
-    const double before = best.value;
-    search_numbers(best, start, step);
+  /// The numbers that are not as small as they may be.
+  std::vector<FreeNumber> told_numbers(const FilterSettings& settings) const {
+    auto numbers = free_numbers(settings, data_, options_);
+    std::erase_if(
+        numbers, [](const FreeNumber& number) { return number.least > 0.0 && number.parameter.start <= number.least; });
+    return numbers;
+  }
+
+  /// The settings with offsets to numbers, in their scales.
+  static FilterSettings moved(const FilterSettings& settings, const std::vector<FreeNumber>& numbers,
+                              const std::vector<double>& offsets) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const FitParameter& parameter = numbers[i].parameter;
+      values.push_back(parameter.value(parameter.scaled(parameter.start) + offsets[i]));
+    }
+    return with(settings, numbers, values);
+  }
+
+  void learn(Found& best) const {
     if (has_transition(best.settings, options_)) learn_transition(best);
     if (options_.fits("lift")) try_lifts(best);
-    return before - best.value > least_improvement;
   }
 
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
   /// are thought exact are explained by a wild target, or all by great errors.
-  void scan(Found& best) const {
+  void scan(Found& best, Scanned scanned) const {
     auto numbers = free_numbers(best.settings, data_, options_);
-    std::erase_if(numbers, [](const FreeNumber& number) { return number.parameter.scale != Scale::logarithmic; });
+    std::erase_if(numbers, [&](const FreeNumber& number) {
+      return number.parameter.scale != Scale::logarithmic || (scanned != Scanned::all && number.sensor) ||
+             (scanned == Scanned::transition && !number.relative);
+    });
     std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
     for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
       const double before = best.value;
@@ -333,11 +433,9 @@ class Fitter {
           if (take_if_better(best, tried)) taken = factor * number.parameter.start;
         }
         if (!number.relative) number.parameter.start = taken;
-        advance_(factors.size());
+        progress_.advance(factors.size());
       }
-      if (before - best.value > least_improvement) continue;
-      advance_((most_sweeps - 1 - sweep) * factors.size() * numbers.size());
-      return;
+      if (!(before - best.value > least_improvement)) return;
     }
   }
 
@@ -351,13 +449,13 @@ class Fitter {
     const std::size_t most = budget(numbers.size());
     std::size_t asked = 0;
     const auto loss = [&](const std::vector<double>& values) {
-      if (asked++ < most) advance_(1);
+      if (asked++ < most) progress_.advance();
       return value(with(best.settings, numbers, values));
     };
     const auto by_nlopt = [&](const auto& function, const FitSearch& from) { search(function, from, most - 1); };
     const Fit found = fit_from(parameters, loss, by_nlopt, fit_search(parameters, options_.seed, start));
-    advance_(most - std::min(asked, most));
-    if (found.loss < best.value) best = {with(best.settings, numbers, found.values), found.loss};
+    progress_.advance(most - std::min(asked, most));
+    if (found.loss < best.value) best = {with(best.settings, numbers, found.values), found.loss, {}};
   }
 
   /// EM for the transition, as long as it helps: the filters' weights are not exact, so that it need not.
@@ -371,7 +469,7 @@ class Fitter {
         for (std::size_t t = 0; t < data_.tracks.size(); ++t)
           count_transitions(
               judged_choice(data_, judged), data_.plots(data_.tracks[t], judged),
-              [&](std::size_t row) { return counts_(t, row); }, counts);
+              [&](std::size_t row) { return !counts_ || counts_(t, row); }, counts);
       } catch (const std::exception&) {
         return;  // what cannot be smoothed is not learned from
       }
@@ -400,82 +498,171 @@ class Fitter {
 
   const TuneData& data_;
   const TuneOptions& options_;
+  Progress& progress_;
   RowCounts counts_;
-  const std::function<void(std::size_t)>& advance_;
 };
 
-/// The losses, or for each row that has a measurement a very great one where the filter fails.
-RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective objective) {
+/// The mean NIS a measured quantity of the rows that pass the gate, and how many do not.
+struct Kept {
+  double nis = 1.0;
+  std::size_t set_aside = 0;
+};
+
+Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective objective) {
+  double sum = 0.0;
+  std::size_t numbers = 0;
+  std::vector<RowPlace> set_aside;
+  const auto look = [&](std::size_t, const TargetPoint& now) {
+    if (!now.nis) return;
+    sum += *now.nis;
+    numbers += now.normalized_innovation.size();
+  };
   try {
-    return losses(data, judged_settings(settings, objective), objective);
+    losses(data, judged_settings(settings, objective), objective, look, &set_aside);
   } catch (const std::exception&) {
-    constexpr double of_failure = 1e6;
-    RowLosses result;
-    for (const TuneTrack& track : data.tracks)
-      for (auto& of_track = result.emplace_back(); const Row& row : track.rows)
-        of_track.push_back(row.measured() ? of_failure : std::numeric_limits<double>::quiet_NaN());
-    return result;
+    return {};
   }
+  return {sum / static_cast<double>(numbers), set_aside.size()};
+}
+
+/// Real errors have long tails, and what is most likely need not be as wide as the errors are: where the NIS of the
+/// rows kept is not within `right_nis` of one, all noises change by one factor, which leaves the filter's gains as they
+/// are.
+void calibrate(FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
+  constexpr double right_nis = 0.08;
+  constexpr std::size_t most_steps = 6;
+  if (options.objective != Objective::prequential || !options.fits("models") || !options.fits("sensors")) return;
+  for (std::size_t k = 0; k < most_steps; ++k) {
+    const double nis = kept_by(settings, data, options.objective).nis;
+    if (!(std::abs(nis - 1.0) > right_nis)) return;
+    for (const FreeNumber& number : free_numbers(settings, data, options))
+      if (number.noise) number.set(settings, std::sqrt(nis) * number.parameter.start);
+  }
+}
+
+/// What is written: to four digits, and without a gate of ours that turns nothing away.
+void finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
+  calibrate(settings, data, options);
+  round_off(settings);
+  if (kept_by(settings, data, options.objective).set_aside == 0) settings.gate_probability = gate;
 }
 
 }  // namespace
 
-std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options) {
+std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options, const TuneData& data) {
   std::vector<std::string> names = options.models;
+  const bool continuous = names.empty() && data.uneven_steps;
   if (names.empty()) {
     std::vector<std::string> motions;
-    for (const auto& motion : settings.motions) motions.push_back(motion.name);
+    for (const auto& motion : settings.motions)
+      motions.push_back(!continuous             ? motion.name
+                        : motion.name == "dwna" ? "cwna"
+                        : motion.name == "dwpa" ? "cwpa"
+                                                : motion.name);
     names = {fmt::format("{}", fmt::join(motions, "+"))};
     for (const auto& motion : motions)
       if (std::ranges::find(names, motion) == names.end()) names.push_back(motion);
   }
   std::vector<ModelSet> sets;
-  for (const auto& name : names) sets.push_back({name, with_models(settings, name)});
+  for (const auto& name : names) {
+    sets.push_back({name, with_models(settings, name)});
+    FilterSettings& own = sets.back().settings;
+    if (own.gate_probability == 1.0) own.gate_probability = usual_gate;
+    if (continuous && own.sojourn_s.empty() && own.models.size() > 1 && own.scheme != Scheme::independent)
+      own.sojourn_s.assign(own.models.size(), usual_sojourn_steps * data.step_s);
+  }
   return sets;
 }
 
 std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options) {
   std::size_t work = 0;
-  for (const auto& [name, base] : model_sets(settings, options)) {
+  for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
     const auto scanned = static_cast<std::size_t>(std::count_if(
         numbers.begin(), numbers.end(), [](const auto& each) { return each.parameter.scale == Scale::logarithmic; }));
-    const std::size_t search = budget(numbers.size());
-    work += options.starts * (most_sweeps * factors.size() * scanned + rounds * search) + options.folds * search;
+    work += most_sweeps * factors.size() * scanned + options.starts * budget(numbers.size()) +
+            LossSurface::asked(numbers.size()) + options.folds;
   }
   return work;
 }
 
 TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
-                 const std::function<void(std::size_t work)>& advance) {
-  const auto all = [](std::size_t, std::size_t) { return true; };
+                 const TunedFilter* similar, Progress& progress) {
   const RowFolds folds = data.folds(options.folds);
-  const auto bases = model_sets(settings, options);
+  auto bases = model_sets(settings, options, data);
   const std::size_t sets = bases.size();
-  std::vector<Fitter::Found> fitted(sets);
+  const auto tell = [&](std::size_t c, std::string_view what) {
+    progress.tell(fmt::format("{}: {}, {}", settings.name, bases[c].name, what));
+  };
+  for (std::size_t c = 0; c < sets && similar; ++c)
+    if (similar->candidates.size() != sets + 1 || similar->candidates[c + 1].name != bases[c].name) similar = nullptr;
+  const Fitter fitter(data, options, progress);
+  std::vector<Fitter::Found> begun(sets), fitted(sets);
+  // The sensors of one set are those of the others, and another filter's numbers are near: one alone begins from afar.
+  const auto far = [&](std::size_t c, Fitter::Scanned scanned) {
+    tell(c, "by great steps");
+    return fitter.far(bases[c].settings, scanned);
+  };
+  std::size_t first = 0;
+  for (std::size_t c = 1; c < sets; ++c)
+    if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
+  if (!similar) begun[first] = far(first, Fitter::Scanned::all);
+  for (std::size_t c = 0; c < sets; ++c) {
+    if (similar)
+      borrow(bases[c].settings, similar->candidates[c + 1].settings, false, data, options);
+    else
+      borrow(bases[c].settings, begun[first].settings, true, data, options);
+  }
   for_each_run(
-      sets * options.starts, options.threads,
-      [&](std::size_t i) { return Fitter(data, options, all, advance).fit(bases[i % sets].settings, i / sets); },
-      [&](std::size_t i, Fitter::Found&& found) {
-        if (i < sets || found.value < fitted[i % sets].value) fitted[i % sets] = std::move(found);
-      });
-  std::vector<std::vector<RowLosses>> without(sets, std::vector<RowLosses>(options.folds));
-  for_each_run(
-      sets * options.folds, options.threads,
-      [&](std::size_t i) {
-        const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != i / sets; };
-        FilterSettings found = Fitter(data, options, counts, advance).refine(fitted[i % sets].settings).settings;
-        round_off(found);
-        return judged(data, found, options.objective);
+      sets, options.threads,
+      [&](std::size_t c) {
+        if (!similar && c == first) return begun[c];
+        return far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models);
       },
-      [&](std::size_t i, RowLosses&& found) { without[i % sets][i / sets] = std::move(found); });
+      [&](std::size_t c, Fitter::Found&& found) { begun[c] = std::move(found); });
+  const std::size_t starts = similar ? 1 : options.starts;
+  for_each_run(
+      sets * starts, options.threads,
+      [&](std::size_t i) {
+        tell(i % sets, fmt::format("search {} of {}", i / sets + 1, starts));
+        return fitter.fit(begun[i % sets], i / sets);
+      },
+      [&](std::size_t i, Fitter::Found&& found) {
+        if (found.value < fitted[i % sets].value || i < sets) fitted[i % sets] = std::move(found);
+      });
+  std::vector<std::vector<RowLosses>> without(sets);
+  for_each_run(
+      sets, options.threads,
+      [&](std::size_t c) {
+        tell(c, "errors and folds");
+        const LossSurface surface = fitter.surface(fitted[c]);
+        std::vector<RowLosses> own;
+        for (std::size_t fold = 0; fold < options.folds; ++fold) {
+          const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
+          Fitter::Found found = Fitter(data, options, progress, counts).refine(fitted[c], surface, true);
+          finish(found.settings, settings.gate_probability, data, options);
+          own.push_back(judged(data, found.settings, options.objective));
+          progress.advance();
+        }
+        Fitter::Found found = fitter.refine(fitted[c], surface, false);
+        finish(found.settings, settings.gate_probability, data, options);
+        for (const FreeNumber& number : free_numbers(found.settings, data, options))
+          for (FittedNumber& told : found.numbers)
+            if (told.name == number.parameter.name) {
+              if (number.noise) told.error *= number.parameter.start / told.value;
+              told.value = number.parameter.start;
+            }
+        return std::pair(std::move(found), std::move(own));
+      },
+      [&](std::size_t c, std::pair<Fitter::Found, std::vector<RowLosses>>&& found) {
+        std::tie(fitted[c], without[c]) = std::move(found);
+      });
 
   TunedFilter tuned;
   for (std::size_t c = 0; c <= sets; ++c) {
     Candidate& candidate = tuned.candidates.emplace_back(Candidate{"as before", settings});
     if (c > 0) {
-      candidate = {bases[c - 1].name, fitted[c - 1].settings};
-      round_off(candidate.settings);
+      candidate = {bases[c - 1].name, fitted[c - 1].settings, fitted[c - 1].numbers};
     }
     RowLosses own = judged(data, candidate.settings, options.objective);
     candidate.fitted = objective_of(own, options.objective);

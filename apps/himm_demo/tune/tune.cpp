@@ -8,7 +8,6 @@
 #include "himm_demo/tune/tune.hpp"
 #include "support/json.hpp"
 #include "support/parallel.hpp"
-#include "support/progress.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -22,8 +21,9 @@ struct Diagnosis {
     double weight = 0.0;  ///< mean, of a mode
   };
   std::vector<Part> sensors;
-  std::vector<Part> modes;       ///< rows of which the mode is the most likely
-  std::optional<double> rmse_m;  ///< where the truth is known
+  std::vector<Part> modes;            ///< rows of which the mode is the most likely
+  std::optional<double> rmse_m;       ///< where the truth is known
+  std::vector<RowPlace> set_aside{};  ///< that the gate turned away
 };
 
 /// What tuning found for one filter, and its innovations before and, if that is better, with the best settings.
@@ -107,6 +107,22 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
       cells.insert(cells.end(),
                    {tally.autocorrelation(), Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
     table.row(std::move(cells));
+  }
+  return table;
+}
+
+/// The fitted numbers of the best settings.
+ResultTable numbers_table(const TunedFilter& tuned) {
+  ResultTable table({{.key = "number", .header = "fitted number", .align = Align::left},
+                     {.key = "value", .header = "best"},
+                     {.key = "error"},
+                     {.key = "remark", .header = "standard error", .align = Align::left}});
+  for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
+    const bool told = !at_rounding && std::isfinite(error);
+    table.row({name, Cell(value, fmt::format("{:.4g}", value)), told ? Cell(error) : Cell(nan),
+               at_rounding ? "no less: its column is rounded"
+               : told      ? fmt::format("± {:.2g}", error)
+                           : "not determined by these rows"});
   }
   return table;
 }
@@ -289,6 +305,8 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
     view.panels.emplace_back(ReportTable{fmt::format("Rows by their most likely mode, {}", when(i)),
                                          innovations_table(all[i].second->modes, true)});
   }
+  if (const ResultTable numbers = numbers_table(findings.tuned); !numbers.empty())
+    view.panels.emplace_back(ReportTable{"Fitted numbers", numbers});
   if (const ResultTable settings = changes_table(findings.tuned); !settings.empty())
     view.panels.emplace_back(ReportTable{"Settings that change", settings});
   return view;
@@ -319,7 +337,7 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   };
   RowLosses lost;
   try {
-    lost = losses(data, settings, objective, look);
+    lost = losses(data, settings, objective, look, &diagnosis.set_aside);
   } catch (const std::exception& error) {
     const TuneTrack& its = data.tracks[track];
     throw InputError(
@@ -340,6 +358,23 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   return diagnosis;
 }
 
+/// Which rows the gate turned away: the first lines of them.
+std::string set_aside_of(const Diagnosis& diagnosis, const TuneData& data) {
+  constexpr std::size_t most_lines = 8;
+  const auto& rows = diagnosis.set_aside;
+  std::string text, file;
+  for (std::size_t i = 0; i < std::min(rows.size(), most_lines); ++i) {
+    const TuneTrack& track = data.tracks[rows[i].track];
+    text += i == 0 ? "" : ", ";
+    if (track.file != file) text += fmt::format("{}:", track.file);
+    file = track.file;
+    text += fmt::format("{}", track.rows[rows[i].row].line);
+  }
+  return fmt::format("{} row{} set aside, as the gate will in track: line{} {}{}.", rows.size(),
+                     rows.size() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", text,
+                     rows.size() > most_lines ? ", …" : "");
+}
+
 std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
   std::string text = innovations_table(diagnosis.sensors, false).text(width) + "\n" +
                      innovations_table(diagnosis.modes, true).text(width);
@@ -351,9 +386,10 @@ std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
 }
 
 std::string text_of(const TunedFilter& tuned, Objective objective, std::size_t width) {
-  const ResultTable changes = changes_table(tuned);
+  const ResultTable changes = changes_table(tuned), numbers = numbers_table(tuned);
   return candidates_table(tuned, objective).text(width) + "\n" +
-         (changes.empty() ? "No setting changes.\n" : changes.text(width));
+         (changes.empty() ? "No setting changes.\n" : changes.text(width)) +
+         (numbers.empty() ? "" : "\n" + numbers.text(width));
 }
 
 Json summary_of(const TuneOptions& options, const TuneData& data, const std::vector<TuneFindings>& all) {
@@ -369,12 +405,17 @@ Json summary_of(const TuneOptions& options, const TuneData& data, const std::vec
       filter[when]["sensors"] = innovations_table(diagnosis->sensors, false).json();
       filter[when]["modes"] = innovations_table(diagnosis->modes, true).json();
       filter[when]["advice"] = advice_of(*diagnosis);
+      filter[when]["set_aside"] = Json::array();
+      for (const auto& [track, row] : diagnosis->set_aside)
+        filter[when]["set_aside"].push_back(
+            {{"file", data.tracks[track].file}, {"line", data.tracks[track].rows[row].line}});
       if (diagnosis->rmse_m) filter[when]["rmse_m"] = *diagnosis->rmse_m;
     }
     for (std::size_t fold = 0; fold <= options.folds; ++fold)
       for (const auto& [name, figures] : by_fold(findings.tuned, options, data))
         filter["held_out"][name_of_fold(fold, options)][name] = figures[fold];
     filter["candidates"] = candidates_table(findings.tuned, options.objective).json();
+    filter["numbers"] = numbers_table(findings.tuned).json();
     filter["settings"] = changes_table(findings.tuned).json();
   }
   return summary;
@@ -437,11 +478,11 @@ std::string heading(const TuneData& data, const TuneOptions& options) {
 
 /// Tunes one filter, prints what was found, and adds what is to be written.
 TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data, const TuneOptions& options,
-                             std::vector<FilterSettings>& written) {
+                             const TunedFilter* similar, std::vector<FilterSettings>& written) {
   Diagnosis before = diagnose(data, filter, options.objective);
   fmt::print("\nfilter {}: before\n\n{}\n", printable(filter.name), text_of(before, options.page.width()));
   Progress progress(filter.name, work_of(filter, data, options), options.page.quiet);
-  TunedFilter tuned = tune(filter, data, options, [&](std::size_t work) { progress.advance(work); });
+  TunedFilter tuned = tune(filter, data, options, similar, progress);
   progress.finish();
   fmt::print("{}", text_of(tuned, options.objective, options.page.width()));
 
@@ -450,6 +491,7 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
     after = diagnose(data, tuned.best().settings, options.objective);
     fmt::print("\nfilter {}: with the best settings\n\n{}", printable(filter.name),
                text_of(*after, options.page.width()));
+    if (!after->set_aside.empty()) fmt::print("{}", wrapped(set_aside_of(*after, data)));
     if (before.rmse_m && after->rmse_m)
       fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
   }
@@ -479,7 +521,7 @@ void tune_and_write(TuneOptions options) {
   refuse_without_search();
   for (const auto& filter : filters) {
     refuse_possibility(filter, options.objective);
-    model_sets(filter, options);  // refuses what is none
+    model_sets(filter, options, {});  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);
   refuse_inputs(options);
@@ -492,7 +534,8 @@ void tune_and_write(TuneOptions options) {
   for (const std::string& note : data.notes) fmt::print("{}", wrapped(note));
   std::vector<FilterSettings> written;
   std::vector<TuneFindings> found;
-  for (const auto& filter : filters) found.push_back(tune_and_report(filter, data, options, written));
+  for (const auto& filter : filters)
+    found.push_back(tune_and_report(filter, data, options, found.empty() ? nullptr : &found.front().tuned, written));
   if (page.report_wanted()) page.write_report(page_of(heading(data, options), options, data, found));
   if (summary) summary->write(dumped(summary_of(options, data, found), 2) + "\n");
   if (file) file->write(as_toml(written));

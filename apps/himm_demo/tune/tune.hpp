@@ -5,6 +5,7 @@
 #include "himm_demo/filters/settings.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
+#include "support/progress.hpp"
 
 namespace sigmax::apps {
 
@@ -38,6 +39,14 @@ struct TuneOptions {
   bool fits(std::string_view what) const;
 };
 
+/// A row: the number of its track, and its own there.
+struct RowPlace {
+  std::size_t track, row;
+};
+
+/// A measured quantity: the kind of plot, and the place of a component or its number in the plot.
+using QuantityKey = std::pair<AnyPlot::Sensor, int>;
+
 /// One target of a recording; its positions are about one point, and the tags of its plots are their numbers.
 struct TuneTrack {
   std::string file;
@@ -52,6 +61,11 @@ struct TuneSensor {
   bool bearing = false;  ///< alone
   bool velocity = false;
   bool range_rate = false;
+  /// Of quantities that come in whole steps, as altitudes in 25 ft do: the standard deviation of the rounding.
+  std::map<QuantityKey, double> rounding{};
+
+  /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none.
+  double rounding_of(AnyPlot::Sensor kind, int from, int to) const;
 };
 
 /// All recordings, read once.
@@ -65,8 +79,14 @@ struct TuneData {
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
-  double volume = 1.0;                                       ///< of the box that holds all measurements, in m² or m³
-  double radar_volume = 1.0;                                 ///< the same of a radar's, in its own space
+  /// How wide stray measurements of each quantity scatter: six times what nine in ten changes from one row of a track
+  /// to the next stay below, those that are none left out.
+  std::map<QuantityKey, double> stray_width{};
+  double step_s = 0.0;        ///< the median time between a track's measurements
+  bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
+
+  /// The density, as a logarithm, of a stray measurement of this kind: the same for all settings.
+  double log_stray(const AnyPlot& plot) const;
 
   RowFolds folds(std::size_t count) const;
 
@@ -81,12 +101,13 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
 /// What a filter loses at each row, see Objective; of the RMSE the squared distance. `look(track, now)`, if given, sees
 /// what the filter knows after each row, the tag of `now`.
 ///
-/// With a gate a measurement may be a false one: the loss is that of g p(z) + (1 − g) / V, with g the probability of
-/// the gate and V the volume of all measurements, so that nothing is gained by turning measurements away. The filter
-/// never starts again after rejections, so that all settings are judged on the same rows. Throws std::domain_error
-/// where the filter fails.
+/// A share of all measurements may be stray ones, see robust_log_score, so that none of them can outweigh the others.
+/// All settings are judged on the same rows, those after a track's first start: what is taken for another start was
+/// predicted no better than a stray one. `set_aside`, if given, gets the rows that the gate turned away. Throws
+/// std::domain_error where the filter fails.
 using Look = std::function<void(std::size_t track, const TargetPoint& now)>;
-RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look = {});
+RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective objective, const Look& look = {},
+                 std::vector<RowPlace>* set_aside = nullptr);
 
 /// The choice as `losses` runs it.
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings);
@@ -97,13 +118,22 @@ double objective_of(const RowLosses& losses, Objective objective, const RowCount
 /// The same as people read it: nats a row, or the RMSE in m.
 double figure_of(double value, Objective objective);
 
+/// A number that was fitted. A standard error that is infinite says that the rows do not tell the number.
+struct FittedNumber {
+  std::string name;
+  double value = 0.0;
+  double error = 0.0;
+  bool at_rounding = false;  ///< whether it is as small as the rounding of its column allows
+};
+
 /// One way to set a filter, judged.
 struct Candidate {
   std::string name;
   FilterSettings settings{};  ///< fitted to all rows
-  double fitted = 0.0;        ///< the objective over all rows, which those settings have seen
-  double held_out = 0.0;      ///< the same over all rows, each with settings that have not seen its fold
-  MeanDifference gain{};      ///< of the held-out loss of a row on that of the settings before
+  std::vector<FittedNumber> numbers{};
+  double fitted = 0.0;    ///< the objective over all rows, which those settings have seen
+  double held_out = 0.0;  ///< the same over all rows, each with settings that have not seen its fold
+  MeanDifference gain{};  ///< of the held-out loss of a row on that of the settings before
 };
 
 /// What tuning found for one filter.
@@ -121,19 +151,20 @@ struct TunedFilter {
 /// Whether this build has an optimiser.
 bool can_search();
 
-/// The filter with each set of models that is to be tried. Throws UsageError for a name that is no motion.
+/// The filter with each set of models that is to be tried; where steps vary and nobody asks for sets, its models of a
+/// fixed step give way to those of continuous time, with sojourn times. Throws UsageError for a name that is no motion.
 struct ModelSet {
   std::string name;
   FilterSettings settings;
 };
-std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options);
+std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options, const TuneData& data);
 
 /// So much work is a filter's tuning, in calls of `advance`.
 std::size_t work_of(const FilterSettings& settings, const TuneData& data, const TuneOptions& options);
 
-/// Fits every candidate to all rows and, for its held-out loss, to all but each fold. The result is that of the seed,
-/// on any number of threads.
+/// Fits every candidate to all rows and, for its held-out loss, to all but each fold. What `similar` found, if it is
+/// given, is where the search begins. The result is that of the seed, on any number of threads.
 TunedFilter tune(const FilterSettings& settings, const TuneData& data, const TuneOptions& options,
-                 const std::function<void(std::size_t work)>& advance);
+                 const TunedFilter* similar, Progress& progress);
 
 }  // namespace sigmax::apps

@@ -46,4 +46,31 @@ struct Selected {
 /// Throws std::invalid_argument for no settings, and unless each has its number of fitted numbers.
 Selected select_settings(std::span<const RowLosses> held_out, std::span<const std::size_t> numbers);
 
+/// What the losses about some settings say of their best numbers. They are asked once, at single and double steps
+/// from there, and tell the slopes and the curvature over any choice of rows after that.
+class LossSurface {
+ public:
+  /// `losses(offsets)` are those of the settings with these offsets to so many numbers.
+  LossSurface(std::size_t numbers, double step,
+              const std::function<RowLosses(const std::vector<double>& offsets)>& losses);
+
+  struct Shape {
+    /// Where the least loss of the rows that count is, by a parabola: the offsets, within four steps.
+    std::vector<double> least;
+    /// The standard errors of the best numbers, H⁻¹ J H⁻¹ with the curvature H and the sum J of squared slopes of the
+    /// rows, so that the losses need not be those of a right model; infinite of numbers on which the loss does not
+    /// depend or has no least value.
+    std::vector<double> error;
+  };
+  Shape shape(const RowCounts& counts = {}) const;
+
+  /// So often the losses are asked.
+  static std::size_t asked(std::size_t numbers) { return 1 + numbers + numbers * numbers; }
+
+ private:
+  std::size_t numbers_;
+  double step_;
+  std::vector<RowLosses> losses_;  ///< in the middle, then for each number up and down, then each pair up and down
+};
+
 }  // namespace sigmax

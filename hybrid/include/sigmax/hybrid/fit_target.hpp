@@ -19,6 +19,11 @@ namespace sigmax {
 /// Throws as AnyTarget does, std::invalid_argument for a tag that is not below the number of plots.
 std::vector<double> log_scores(const TargetChoice& choice, std::span<const AnyPlot> plots);
 
+/// A log_score that no measurement can spoil alone: a share of all measurements are stray ones, of a density whose
+/// logarithm is log_stray here, whatever the settings. It is log((1 − share) exp(log_score) + share exp(log_stray)),
+/// the contaminated-normal likelihood, at least log(share) + log_stray.
+double robust_log_score(double log_score, double share, double log_stray);
+
 /// How often modes changed, in what smoothing knows of recordings: one step of EM for the transition.
 ///
 /// With a random mode the smoothed weights of each pair add up (Baum and Welch). With a fuzzy mode the best path is
