@@ -265,11 +265,6 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
     const auto loss = [&](const AnyPlot& plot, double log_score) {
       return -robust_log_score(log_score, stray_share, data.log_stray(plot));
     };
-<<<<<<< HEAD
-    for (const AnyPlot& plot : data.plots(data.tracks[t], settings))
-      if (target.running() || starts_anywhere || data.crosses || axes_seen(rows[plot.tag].plot, data.axes) == data.axes)
-        target.follow({&plot, 1}, visit);
-=======
     const auto visit = [&](const TargetPoint& now) {
       if (prequential && !now.is_start && now.log_score) lost[now.tag] = loss(plots[now.tag], *now.log_score);
       if (now.is_start && target.starts() == 1) return;
@@ -278,14 +273,14 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
       if (look && !now.is_start) look(t, now);
     };
     for (const AnyPlot& plot : plots) {
-      if (!target.running() && !starts_anywhere && axes_seen(rows[plot.tag].plot, data.axes) < data.axes) continue;
+      const bool starts = starts_anywhere || data.crosses || axes_seen(rows[plot.tag].plot, data.axes) == data.axes;
+      if (!target.running() && !starts) continue;
       if (prequential && target.starts() > 0 && plot.sensor != AnyPlot::Sensor::none)
         lost[plot.tag] = loss(plot, -std::numeric_limits<double>::infinity());  // unless it is a step
       const std::size_t rejected = target.rejected();
       target.follow({&plot, 1}, visit);
       if (set_aside && target.rejected() > rejected) set_aside->push_back({t, plot.tag});
     }
->>>>>>> robust
   }
   return result;
 }
