@@ -372,10 +372,10 @@ std::vector<Key<Accuracy>> made_accuracy_keys() {
   auto at = value<A>("at",
                      "Where a radar or a station of bearings stands, in m: what it measures is about this place. "
                      "Columns sensor_x_m, sensor_y_m and sensor_z_m go before.",
-                     &A::at_m, {"[E, N] or [E, N, U]", any});
+                     [](A & accuracy) -> auto& { return accuracy.place.at_m; }, {"[E, N] or [E, N, U]", any});
   at.read = [read = at.read](const Settings& settings, A& accuracy) {
     read(settings, accuracy);
-    if (!accuracy.at_m.empty() && accuracy.at_m.size() != 2 && accuracy.at_m.size() != 3)
+    if (!accuracy.place.at_m.empty() && accuracy.place.at_m.size() != 2 && accuracy.place.at_m.size() != 3)
       throw settings.error("at", "two or three numbers, [E, N] or [E, N, U], in m");
   };
   at.by_default = "that of --radar-at";
@@ -383,12 +383,13 @@ std::vector<Key<Accuracy>> made_accuracy_keys() {
   keys.push_back(value<A>("latitude_deg",
                           "The same on the Earth, with longitude_deg. Columns sensor_latitude_deg and "
                           "sensor_longitude_deg go before.",
-                          &A::latitude_deg,
+                          [](A & accuracy) -> auto& { return accuracy.place.latitude_deg; },
                           {"degrees from −90 to 90", [](double degrees) { return std::abs(degrees) <= 90.0; }}));
-  keys.push_back(value<A>("longitude_deg", "See latitude_deg.", &A::longitude_deg,
+  keys.push_back(value<A>("longitude_deg", "See latitude_deg.",
+                          [](A & accuracy) -> auto& { return accuracy.place.longitude_deg; },
                           {"degrees from −360 to 360", [](double degrees) { return std::abs(degrees) <= 360.0; }}));
-  keys.push_back(value<A>("altitude_m", "Above the ellipsoid, of a sensor on the Earth; without it, 0.", &A::altitude_m,
-                          {"an altitude, in m", any}));
+  keys.push_back(value<A>("altitude_m", "Above the ellipsoid, of a sensor on the Earth; without it, 0.",
+                          [](A & accuracy) -> auto& { return accuracy.place.altitude_m; }, {"an altitude, in m", any}));
   return keys;
 }
 
@@ -497,7 +498,18 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
   for (const auto& filter : filters) {
     recording.velocity |= filter.knows(&Accuracy::velocity_mps);
     recording.range_rate |= filter.knows(&Accuracy::range_rate_mps);
-    recording.sensor_places |= filter.knows(&Accuracy::latitude_deg);
+    recording.sensor_places |= filter.accuracy.place.latitude_deg.has_value();
+    for (const auto& [sensor, own] : filter.sensors) {
+      recording.sensor_places |= own.place.latitude_deg.has_value();
+      if (own.place != filters.front().accuracy_of(sensor).place)
+        throw InputError(
+            "filter '{}': sensor '{}' stands elsewhere than by filter '{}'; a sensor has one place, so give "
+            "it in [sensor.{}]",
+            filter.name, sensor, filters.front().name, toml_key(sensor));
+    }
+    if (filter.accuracy.place != filters.front().accuracy.place)
+      throw InputError("filter '{}': sensors stand elsewhere than by filter '{}'; give one place for all filters",
+                       filter.name, filters.front().name);
   }
   return filters;
 }

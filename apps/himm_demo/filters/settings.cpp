@@ -139,11 +139,11 @@ void read_sensor(const Settings& settings, Accuracy& sensor) {
   const bool on_earth = settings.has("latitude_deg") || settings.has("longitude_deg") || settings.has("altitude_m");
   if (in_metres && on_earth)
     throw settings.error("at", "one place, in metres or by latitude_deg and longitude_deg", "leave out one of both");
-  if (in_metres) sensor.latitude_deg = sensor.longitude_deg = sensor.altitude_m = std::nullopt;
-  if (on_earth) sensor.at_m.clear();
+  if (in_metres) sensor.place = {};
+  if (on_earth) sensor.place.at_m.clear();
   for (const auto& key : accuracy_keys()) key.read(settings, sensor);
-  if (on_earth && !(sensor.latitude_deg && sensor.longitude_deg))
-    throw settings.error(sensor.latitude_deg             ? "latitude_deg"
+  if (on_earth && !(sensor.place.latitude_deg && sensor.place.longitude_deg))
+    throw settings.error(sensor.place.latitude_deg       ? "latitude_deg"
                          : settings.has("longitude_deg") ? "longitude_deg"
                                                          : "altitude_m",
                          "latitude_deg and longitude_deg together", "give both");
@@ -279,7 +279,7 @@ void SensorPlaces::place(Row& row) {
     return;
   }
   if (!row.measured()) return;
-  const Accuracy& own = settings_.accuracy_of(row.sensor);
+  const SensorPlace& own = settings_.accuracy_of(row.sensor).place;
   std::optional<Position> at = row.sensor_at;
   std::optional<Geodetic> on_earth = row.sensor_place;
   if (!at && !on_earth && own.latitude_deg)

@@ -17,14 +17,21 @@ struct Group;
 /// is from positions, by the unbiased conversion.
 enum class RadarForm { standard, unbiased, debiased, polar };
 
+/// Where a sensor stands: in m, on the Earth, or nobody says it.
+struct SensorPlace {
+  std::vector<double> at_m;  ///< east, north and perhaps up
+  std::optional<double> latitude_deg, longitude_deg, altitude_m;
+
+  bool operator==(const SensorPlace&) const = default;
+};
+
 /// A sensor's standard deviations, as a filter believes them, and where it stands.
 struct Accuracy {
   std::array<double, 3> radar{};         ///< of range, azimuth and elevation, in m and rad
   std::vector<double> position_m{10.0};  ///< of measurements that are no radar's: one, or one an axis
   std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
   std::optional<double> range_rate_mps;  ///< of a radar's; likewise
-  std::vector<double> at_m;              ///< east, north and perhaps up; or none
-  std::optional<double> latitude_deg, longitude_deg, altitude_m;  ///< the same on the Earth
+  SensorPlace place;                     ///< the same for all filters
 };
 
 /// Everything that one filter is made of: that of the library's target, and how measurements come to it.
