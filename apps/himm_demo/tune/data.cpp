@@ -38,9 +38,11 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
   RecordingReader recording(of_file);
   refuse_other_kind(options, data, recording);
   data.geodetic |= recording.geodetic();
+  data.moves_alone |= recording.moves_alone();
   const bool one_frame = options.radar.sigma || recording.has_truth();
   std::optional<Geodetic> first = recording.origin();
   std::map<std::string, Open, std::less<>> open;
+  Doubts doubts;
   for (Row row; recording.next(row);) {
     const auto [found, is_new] =
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
@@ -66,12 +68,14 @@ void read(const std::string& file, const TuneOptions& options, TuneData& data) {
       else
         row.plot = AnyPlot::missed(row.plot.time);
     }
+    doubts.see(row, position_of(row.plot, data.axes, data.radar_at), data.radar_at, data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
     row.plot.tag = rows.size();
     rows.push_back(std::move(row));
   }
   for (const std::string& note : recording.notes()) data.notes.push_back(fmt::format("{}: {}", file, note));
+  for (const std::string& doubt : doubts.sentences(recording)) data.notes.push_back(doubt);
 }
 
 /// A box about points.

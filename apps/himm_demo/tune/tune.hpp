@@ -3,6 +3,7 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"
+#include "recording/doubts.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
 
@@ -58,7 +59,8 @@ struct TuneSensor {
 struct TuneData {
   int axes = 3;
   bool has_truth = false;
-  bool geodetic = false;  ///< whether positions were places
+  bool geodetic = false;     ///< whether positions were places
+  bool moves_alone = false;  ///< whether there were velocities alone
   Position radar_at{};
   std::vector<TuneTrack> tracks{};  ///< those long enough to be followed
   std::size_t too_short = 0;        ///< tracks that are not
