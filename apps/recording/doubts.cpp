@@ -33,10 +33,11 @@ void Doubts::see_rates(const Spoke& before, const Spoke& now) {
   const double range_rate = (before.range_rate + now.range_rate) / 2.0;
   if (!std::isnan(range_rate)) range_rates_.add(range_rate, (now.range - before.range) / dt);
   Position grew{}, told{};
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     grew[i] = (now.position[i] - before.position[i]) / dt;
     told[i] = (before.velocity[i] + now.velocity[i]) / 2.0;
   }
+  if (!std::isnan(told[2])) climbs_.add(told[2], grew[2]);
   if (std::isnan(told[0] + told[1])) return;
   for (std::size_t i = 0; i < 2; ++i) {
     velocities_.add(told[i], grew[i]);
@@ -53,8 +54,10 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   if ((is_bearing || is_radar) && reference)
     see_azimuth(plot.z[is_bearing ? 0 : 1], {(*reference)[0] - radar_at[0], (*reference)[1] - radar_at[1], 0.0});
   if (!position || axes_seen(plot, axes) < axes) return;
-  const Position velocity = {component_of(plot, axes).value_or(nan), component_of(plot, axes + 1).value_or(nan), 0.0};
-  const Spoke now{plot.time, *position, axes > 1 ? velocity : Position{nan, nan, nan}, is_radar ? plot.z[0] : 0.0,
+  Position velocity{nan, nan, nan};
+  for (int i = 0; i < axes && axes > 1; ++i)
+    velocity[static_cast<std::size_t>(i)] = component_of(plot, axes + i).value_or(nan);
+  const Spoke now{plot.time, *position, velocity, is_radar ? plot.z[0] : 0.0,
                   has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan};
   const auto [before, first] = track.spoke.emplace(row.sensor, now);
   if (!first) see_rates(std::exchange(before->second, now), now);
@@ -89,6 +92,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   say(velocities_.count >= few && swapped,
       "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
       "east, vy along y, or north, and a course is clockwise from north");
+  say(climbs_.count >= few && climbs_.correlation() < -0.7,
+      "the vertical velocities have the other sign than the growth of the heights (correlation {:.2f}): vz and a "
+      "vertical rate are upwards",
+      climbs_.correlation());
   const double growth = velocities_.growth_per_told();
   say(velocities_.count >= few && velocities_.correlation() > 0.9 && !(growth > 0.7 && growth < 1.4),
       "the velocities are {:.2g} times what the positions say: see whether their unit, or that of the positions or "
@@ -120,9 +127,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
         step, speed, unit.unit_s == 1e-3 ? "milliseconds" : "microseconds", unit.name);
   say(speed > 1.2e4,  // nothing on the Earth or about it is as fast
-      "a speed of {:.2g} m/s, where times are {:.2g} s apart: if times are not seconds, name the column time_min, "
-      "time_h "
-      "or time_days",
+      "a speed of {:.2g} m/s, where times are {:.2g} s apart: if times are not seconds, name the column "
+      "time_min, time_h or time_days",
       speed, step);
   return sentences;
 }

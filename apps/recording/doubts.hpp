@@ -42,7 +42,7 @@ class Doubts {
 
   std::map<std::string, Track> tracks_;
   std::vector<double> steps_;  // between measurements of a track, the first thousands
-  Agreement range_rates_, velocities_, swapped_velocities_;
+  Agreement range_rates_, velocities_, swapped_velocities_, climbs_;
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;  // sums of cosines of azimuths' errors
 };
