@@ -95,9 +95,8 @@ class Reporter {
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
     say(recording_.moves_alone(),
-        "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
-        "are "
-        "counted from there");
+        "There are no positions: without a given start a track starts at 0, a step before its first row, and "
+        "positions are counted from there");
     for (const std::string& note : recording_.notes()) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
     say(!outcome_.velocity_unknown.empty(),
