@@ -71,6 +71,10 @@ class RowReader {
     return found == missing ? std::nullopt : std::optional(found);
   }
 
+  /// How many numbers were far from those that the model was learned from, and the first of them.
+  std::size_t far_cells() const { return far_cells_; }
+  const std::string& first_far() const { return first_far_; }
+
   /// How many cells held what the model does not know, and the first of them.
   std::size_t unseen_cells() const { return unseen_cells_; }
   const std::string& first_unseen() const { return first_unseen_; }
@@ -78,6 +82,13 @@ class RowReader {
  private:
   static constexpr const char* remedy =
       "leave the cell empty, or have all such cells counted as missing by --unseen missing";
+
+  /// Whether a number is three times as far from the cuts between bins as they are from each other.
+  static bool is_far(double number, std::span<const double> cuts) {
+    if (cuts.size() < 2) return false;
+    const double far = 3.0 * (cuts.back() - cuts.front());
+    return number < cuts.front() - far || number > cuts.back() + far;
+  }
 
   /// Counts what is to be taken as missing, or throws.
   std::size_t unseen(const CsvRow& row, std::size_t column, const std::string& expected) {
@@ -91,7 +102,15 @@ class RowReader {
     const std::string_view cell = trimmed(row[columns_[i]]);
     if (feature.bins) {
       if (missing_.among_numbers(cell)) return missing;
-      if (const auto number = parse_number(cell)) return feature.bins->bin(*number);
+      if (const auto number = parse_number(cell)) {
+        if (is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
+          first_far_ =
+              row.error(columns_[i],
+                        fmt::format("a number as those learned from, most of which are from {} to {}",
+                                    shortest(feature.bins->cuts().front()), shortest(feature.bins->cuts().back())))
+                  .what();
+        return feature.bins->bin(*number);
+      }
       return unseen(row, columns_[i], "a finite number with a decimal point");
     }
     return missing_(cell) ? missing : place(row, columns_[i], feature.values, "a value that the model knows: ");
@@ -110,8 +129,8 @@ class RowReader {
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
   std::vector<std::size_t> columns_;
-  std::size_t unseen_cells_ = 0;
-  std::string first_unseen_;
+  std::size_t unseen_cells_ = 0, far_cells_ = 0;
+  std::string first_unseen_, first_far_;
 };
 
 std::string number(double value) {
@@ -284,6 +303,7 @@ void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, co
   result.fact({"rows"}, found.rows);
   result.fact({"least_margin"}, options.least_margin);
   if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
+  if (rows.far_cells() > 0) result.fact({"numbers_far_from_those_learned_from"}, rows.far_cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Tally& tally = found.tallies[i];
     const auto& name = all[i].name;
@@ -350,6 +370,10 @@ void run_classify(const ClassifyOptions& options) {
     result.say("\n{} as missing, since the model does not know {}: {}",
                rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
                rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen());
+  if (rows.far_cells() > 0)
+    result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
+               rows.far_cells() == 1 ? "1 number is" : fmt::format("{} numbers are", rows.far_cells()),
+               rows.first_far());
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), all, found), {});
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -22,6 +22,13 @@ constexpr std::size_t most_values = 4096;
 /// Among fewer rows it is no wonder that all values differ.
 constexpr std::size_t few_rows = 20;
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return result;
+}
+
 /// Words numbered as they come.
 class Vocabulary {
  public:
@@ -37,6 +44,15 @@ class Vocabulary {
         codes_.begin(), codes_.end(), [](const auto& word) { return parse_number(word.first).has_value(); }));
   }
   const std::string& first_in_order() const { return codes_.begin()->first; }
+
+  /// "'red' and 'Red'", the first that differ in case only; or nothing.
+  std::string alike() const {
+    std::map<std::string, std::string_view> by_letters;
+    for (const auto& [word, code] : codes_)
+      if (const auto [other, is_new] = by_letters.emplace(lower_case(word), word); !is_new)
+        return fmt::format("{} and {}", in_quotes(other->second), in_quotes(word));
+    return "";
+  }
 
   /// The words in order, numbers by their value, and for each code the place of its word.
   std::pair<std::vector<std::string>, std::vector<Code>> sorted() const {
@@ -165,13 +181,6 @@ class ColumnReader {
   Vocabulary words_;
 };
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return result;
-}
-
 /// Columns with their lone values, all at once: throws if there is such a one.
 void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
   std::vector<std::string> found, names;
@@ -191,8 +200,17 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
 
 /// What a reader of the results should know of the file.
 std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<ColumnReader>& columns,
-                                     const DataTable& table) {
+                                     const DataTable& table, const Vocabulary& classes) {
   std::vector<std::string> warnings;
+  const auto warn_of_alike = [&](const std::string& column, const Vocabulary& words) {
+    if (const std::string alike = words.alike(); !alike.empty())
+      warnings.push_back(
+          fmt::format("{}: column {}: {} differ in case only, and count as two; write them alike, if they are the same",
+                      reader.file(), in_quotes(column), alike));
+  };
+  warn_of_alike(table.label, classes);
+  for (const ColumnReader& column : columns)
+    if (!column.is_numeric()) warn_of_alike(reader.names()[column.index()], column.words());
   if (2 * table.classes.size() > table.size() && table.size() >= few_rows)
     warnings.push_back(
         fmt::format("{}: column {} has {} classes in {} rows: of most there is a single row, from which nothing can be "
@@ -303,7 +321,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   }
   for (const auto& column : columns) column.refuse_slip(reader);
   refuse_useless(reader, columns, table.size());
-  table.warnings = warnings_of(reader, columns, table);
+  table.warnings = warnings_of(reader, columns, table, classes);
   table.value_order_.resize(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     table.columns[i].numeric = columns[i].is_numeric();

@@ -80,12 +80,12 @@ void see_by_radar(Row& row, const Position& position, const std::array<double, 3
 
 void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions& radar) {
   Subcommand app(program);
-  app.option("--columns", recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
-      .list_alone()
+  app.list("--columns", recording.columns, "Headers that stand for these names, as time_s=t,x_m=east")
       .type("NAME=HEADER,…");
-  app.option("--missing", recording.missing, "Cells that stand for no number, beside empty ones, as -999")
-      .list_alone()
-      .type("CELL,…");
+  app.option("--time-format", recording.time_format,
+             "How times are written, by the directives of strptime, as '%d/%m/%Y %H:%M:%S'")
+      .type("FORMAT");
+  app.list("--missing", recording.missing, "Cells that stand for no number, beside empty ones, as -999").type("CELL,…");
   app.option("--select", recording.select, "Only rows that have this value; may be repeated")
       .type("COLUMN=VALUE")
       .repeated();

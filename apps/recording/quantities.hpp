@@ -38,6 +38,11 @@ inline constexpr Unit areas[] = {{"m2", 1.0, "m²"}, {"", 1.0, "m²"}};
 inline constexpr Unit speeds[] = {
     {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
     {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
+inline constexpr auto closing_speeds = [] {  // of ranges that fall
+  auto all = std::to_array(speeds);
+  for (Unit& unit : all) unit.value = -unit.value;
+  return all;
+}();
 inline constexpr Unit degrees[] = {{"deg", 1.0, "°"}};
 inline constexpr Unit angles[] = {{"deg", 1.0, "°"}, {"rad", 1.0 / degree, "rad"}};
 inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
@@ -74,8 +79,8 @@ struct Quantity {
 };
 
 /// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
-/// as far as their diagonal.
-inline constexpr std::array<Quantity, 37> quantities = {
+/// as far as their diagonal; the range rate, and what stands for it.
+inline constexpr std::array<Quantity, 38> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
@@ -91,6 +96,7 @@ inline constexpr std::array<Quantity, 37> quantities = {
      {Role::course, {"groundspeed", "speed", "sog"}, units::speeds},
      {Role::course, {"track", "course", "cog"}, units::degrees, " clockwise from north"},
      {Role::range_rate, {"range_rate"}, units::speeds},
+     {Role::range_rate, {"closing_rate"}, units::closing_speeds},
      {Role::truth, {"true_x"}, units::lengths},
      {Role::truth, {"true_y"}, units::lengths},
      {Role::truth, {"true_z"}, units::lengths},
@@ -114,9 +120,15 @@ inline constexpr std::array<Quantity, 37> quantities = {
      {Role::sensor_place, {"sensor_longitude"}, units::degrees, " east"},
      {Role::sensor_place, {"sensor_altitude"}, units::lengths, " above the ellipsoid"}}};
 
-/// Headers of times, and how many of their numbers are a second; the first that there is counts.
-inline constexpr std::pair<std::string_view, double> time_columns[] = {
-    {"time_s", 1.0}, {"time_ms", 1e3}, {"time_us", 1e6}};
+/// Headers of times, and the unit of their numbers, in s; the first that there is counts.
+struct TimeColumn {
+  std::string_view name;
+  double unit_s;
+  std::string_view words;
+};
+inline constexpr TimeColumn time_columns[] = {{"time_s", 1.0, "s"},        {"time_ms", 1e-3, "ms"},
+                                              {"time_us", 1e-6, "µs"},     {"time_min", 60.0, "minutes"},
+                                              {"time_h", 3600.0, "hours"}, {"time_days", 86400.0, "days"}};
 
 /// Where a role begins among them, and how many it has.
 constexpr std::size_t place_of(Role role) {

@@ -24,6 +24,11 @@ bool is_a_name(std::string_view header) {
 /// So many covariances has a matrix of so many rows, as far as their diagonal.
 constexpr std::size_t covariances(std::size_t rows) { return rows * (rows + 1) / 2; }
 
+/// Of thousandths rather than times 0.001, which no double is.
+double in_seconds(double number, double unit_s) {
+  return unit_s < 1.0 ? number / std::round(1.0 / unit_s) : number * unit_s;
+}
+
 /// Whether it is how accurate others of the row are.
 bool is_accuracy(Role role) {
   return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
@@ -35,6 +40,7 @@ bool is_accuracy(Role role) {
 RecordingReader::RecordingReader(const RecordingOptions& options)
     : csv_(open_csv(options.file)),
       mapping_(mapping_of(options.columns)),
+      time_format_(options.time_format),
       missing_(options.missing),
       from_north_(options.azimuth_from_north.value_or(false)),
       skip_bad_times_(options.skip_bad_times),
@@ -94,8 +100,8 @@ void RecordingReader::drop(Role role, std::size_t from) {
 void RecordingReader::find_columns(const RecordingOptions& options) {
   std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
   std::optional<std::size_t> time;
-  for (const auto& [name, in_a_second] : time_columns)
-    if (!time && (time = find(name))) in_a_second_ = in_a_second;
+  for (const TimeColumn& unit : time_columns)
+    if (!time && (time = find(unit.name))) time_unit_ = &unit;
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   const auto& azimuth = column(Role::polar, 1);
@@ -115,20 +121,24 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   const bool cartesian = are_there(Role::position) || along_one;
   const bool places = sensor_places_ || are_there(Role::sensor_place);
   if (along_one || (((geodetic() && !places) || simulated_) && !polar())) drop(Role::polar);
-  refuse_other_kinds(cartesian, time.has_value());
+  const bool has_course = are_there(Role::course) && !has(Role::velocity) && !has(Role::velocity, 1);
+  const bool has_velocity = has_course || has(Role::velocity);
+  refuse_other_kinds(cartesian, time.has_value(), has_velocity);
   time_ = *time;
 
   if (!cartesian) drop(Role::position);
   axes_ = polar() ? axes_of(Role::polar) : geodetic() ? axes_of(Role::place) : cartesian ? axes_of(Role::position) : 2;
+  if (!cartesian && !geodetic() && !has(Role::polar, 1))
+    axes_ = has_course ? (has(Role::velocity, 2) ? 3 : 2) : axes_of(Role::velocity);
   if (polar() && (cartesian || geodetic()) && axes_of(geodetic() ? Role::place : Role::position) != axes_)
     throw InputError(
         "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
         file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
-  if (!takes_velocity_ || axes_ == 1 || !are_there(Role::course) || has(Role::velocity) || has(Role::velocity, 1))
-    drop(Role::course);
+  if (!takes_velocity_ || axes_ == 1 || !has_course) drop(Role::course);
   drop(Role::velocity, takes_velocity_ ? axes : 0);
-  if (!polar() || !takes_range_rate_) drop(Role::range_rate);
+  if (!has(Role::range_rate)) std::swap(column(Role::range_rate), column(Role::range_rate, 1));
+  drop(Role::range_rate, polar() && takes_range_rate_ ? 1 : 0);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
   const std::size_t told = located() && !simulated_ ? axes : 0;
   drop(Role::covariance, covariances(told));
@@ -143,8 +153,10 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
     drop(role, (polar() || bearings()) && !simulated_ && are_there(role) ? axes : 0);
 }
 
-void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const {
-  const bool none = !cartesian && !geodetic() && !polar() && !(bearings() && !without_unit());
+void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const {
+  const bool nowhere = !cartesian && !geodetic() && !polar() && !(bearings() && !without_unit());
+  const bool moves = nowhere && has_velocity && !without_unit();
+  const bool none = nowhere && !(moves && takes_velocity_);
   if (!time_known && csv_.names().size() == 1) csv_.column("time_s");  // says what may be wrong with the separators
   const std::string map = "map other headers with --columns, as in --columns time_s=t,x_m=east";
   const struct {
@@ -153,6 +165,7 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known) const 
     std::string remedy;
   } refusals[] = {
       {!time_known, "there is no column time_s", map},
+      {none && moves && !simulated_, "there are velocities alone", "give --set sigma_velocity_mps=…, and they count"},
       {none, "its columns are of no kind", without_unit().value_or(map)},
       {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
        polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
@@ -209,13 +222,21 @@ bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
   if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
-  const auto found = parse_timestamp(row_[time_]);
-  if (!found)
-    throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
+  bool of_day = time_format_.empty() && is_time_of_day(row_[time_]);
+  const auto found =
+      time_format_.empty() ? parse_timestamp(row_[time_]) : parse_timestamp(row_[time_], time_format_, of_day);
+  if (!found && !time_format_.empty())
+    throw row_.error(time_, "a time as --time-format says, " + in_quotes(time_format_),
                      "correct the cell or drop the row");
-  const bool of_day = is_time_of_day(row_[time_]);
-  const bool counted = in_a_second_ != 1.0 && parse_number(row_[time_]);
-  const double time = of_day ? on_its_day(row, *found) : counted ? *found / in_a_second_ : *found;
+  if (!found)
+    throw row_.error(
+        time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
+        "correct the cell or drop the row; if all are written otherwise, say how, as --time-format '%d/%m/%Y "
+        "%H:%M:%S'");
+  times_are_numbers_ = time_format_.empty() && parse_number(row_[time_]);
+  const double time = of_day               ? on_its_day(row, *found)
+                      : times_are_numbers_ ? in_seconds(*found, time_unit_->unit_s)
+                                           : *found;
   row.plot.time = time;
   if (!refused_time(row, time)) {
     last_.find(row.track)->second.of_day = of_day;
@@ -272,7 +293,13 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
     const auto number = parse_number(word);
     return cell == word || (number && number == parse_number(cell));
   };
-  if (cell.empty() || std::ranges::none_of(missing_, is_cell)) return row_.optional_number(column);
+  if (cell.empty() || std::ranges::none_of(missing_, is_cell)) {
+    const bool is_word = !cell.empty() && !parse_number(cell) && cell.find(',') == std::string_view::npos;
+    if (is_word)
+      throw row_.error(column, "a finite number with a decimal point",
+                       "leave the cell empty where there is none, or name such cells by --missing " + typed(cell));
+    return row_.optional_number(column);
+  }
   ++missing_cells_[column];
   return std::nullopt;
 }
@@ -451,10 +478,7 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
 }
 
 std::string RecordingReader::taken() const {
-  std::vector<std::string> parts = {fmt::format("{} in {}", csv_.names()[time_],
-                                                in_a_second_ == 1.0   ? "s"
-                                                : in_a_second_ == 1e3 ? "ms"
-                                                                      : "µs")};
+  std::vector<std::string> parts = {fmt::format("{} in {}", csv_.names()[time_], time_unit_->words)};
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
     const Quantity& quantity = quantities[q];

@@ -14,6 +14,7 @@ struct RecordingOptions {
   std::vector<std::string> columns;             ///< NAME=HEADER
   std::optional<std::array<double, 3>> origin;  ///< latitude and longitude in degrees, altitude in m
   std::optional<bool> azimuth_from_north;       ///< clockwise from north rather than counter-clockwise from east
+  std::string time_format;                      ///< by the directives of strptime, if times are written otherwise
   std::vector<std::string> missing;             ///< cells that stand for no number
   std::vector<std::string> select;              ///< COLUMN=VALUE, all of which must hold
   std::string track_id;                         ///< the column that tells tracks apart, or empty: all rows are one
@@ -63,6 +64,8 @@ class RecordingReader {
   bool polar() const { return has(Role::polar); }
   /// Whether azimuths stand without a range.
   bool bearings() const { return has(Role::polar, 1) && !polar(); }
+  /// Whether there are velocities, and nothing that tells a position.
+  bool moves_alone() const { return !located() && !has(Role::polar, 1); }
   /// Whether there are positions.
   bool located() const { return has(Role::position) || has(Role::place); }
   int axes() const { return axes_; }
@@ -70,6 +73,13 @@ class RecordingReader {
   bool has_tracks() const { return track_.has_value(); }
   bool has_truth() const { return has(Role::truth); }
   bool has_roll() const { return roll_.has_value(); }
+  /// How azimuths run, and whether range rates grow as the range falls.
+  bool from_north() const { return from_north_; }
+  bool counts_closing() const {
+    return has(Role::range_rate) && columns_[place_of(Role::range_rate)]->unit->value < 0.0;
+  }
+  /// Whether times are numbers of seconds.
+  bool times_are_seconds() const { return times_are_numbers_ && time_unit_->unit_s == 1.0; }
   const CsvReader& csv() const { return csv_; }
   const std::string& file() const { return csv_.file(); }
 
@@ -119,7 +129,7 @@ class RecordingReader {
   std::optional<std::size_t> find(std::string_view name) const;
   std::optional<Column> find(const Quantity& quantity) const;
   void find_columns(const RecordingOptions& options);
-  void refuse_other_kinds(bool cartesian, bool time_known) const;
+  void refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const;
   std::optional<std::string> without_unit() const;
   std::string other_half(Role role) const;
   std::string why_unused(std::size_t quantity) const;
@@ -149,7 +159,9 @@ class RecordingReader {
   std::array<std::optional<Column>, quantities.size()> columns_;
   std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
-  double in_a_second_ = 1.0;  // of the numbers there
+  std::string time_format_;
+  const TimeColumn* time_unit_ = time_columns;
+  bool times_are_numbers_ = false;
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
   std::vector<std::string> missing_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -37,19 +38,23 @@ struct TimeOfDay {
   double fraction_s;
 };
 
+/// Takes a fraction of a second, if any; nothing of a point without digits.
+std::optional<double> take_fraction(std::string_view& text) {
+  if (!take(text, ".") && !take(text, ",")) return 0.0;
+  std::string fraction = "0.";
+  for (std::string_view left = text; take(text, "0"); left = text) fraction += left[0];
+  return fraction.size() == 2 ? std::nullopt : parse_number(fraction);
+}
+
 /// Takes hh:mm:ss, and a fraction if any.
 std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
   const std::string_view from = text;
   if (!take(text, "00:00:00")) return std::nullopt;
   const int hour = number_at(from, 0), minute = number_at(from, 3), second = number_at(from, 6);
   if (hour > 23 || minute > 59 || second > 60) return std::nullopt;
-  TimeOfDay time{(hour * 60 + minute) * 60 + second, 0.0};
-  if (!take(text, ".") && !take(text, ",")) return time;
-  std::string fraction = "0.";
-  for (std::string_view left = text; take(text, "0"); left = text) fraction += left[0];
-  if (fraction.size() == 2) return std::nullopt;
-  time.fraction_s = *parse_number(fraction);
-  return time;
+  const auto fraction = take_fraction(text);
+  if (!fraction) return std::nullopt;
+  return TimeOfDay{(hour * 60 + minute) * 60 + second, *fraction};
 }
 
 std::optional<double> parse_time_of_day(std::string_view text) {
@@ -97,6 +102,25 @@ std::optional<double> parse_timestamp(std::string_view text) {
   if (const auto seconds = parse_number(text)) return seconds;
   if (const auto seconds = parse_time_of_day(text)) return seconds;
   return parse_date_and_time(text);
+}
+
+std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day) {
+  const std::string cell(trimmed(text));
+  std::tm told{};
+  const char* const end = ::strptime(cell.c_str(), format.c_str(), &told);
+  if (end == nullptr) return std::nullopt;
+  std::string_view rest = end;
+  const auto fraction = take_fraction(rest);
+  const auto zone = offset_minutes(trimmed(rest));
+  of_day = told.tm_mday == 0;
+  if (of_day) {
+    told.tm_mday = 1;
+    told.tm_year = 70;
+  }
+  std::tm date = told;
+  const std::time_t seconds = ::timegm(&date);
+  if (!fraction || !zone || date.tm_mday != told.tm_mday) return std::nullopt;  // strptime takes the 31st of any month
+  return static_cast<double>(seconds - told.tm_gmtoff - 60 * *zone) + *fraction;
 }
 
 bool is_time_of_day(std::string_view text) { return parse_time_of_day(trimmed(text)).has_value(); }

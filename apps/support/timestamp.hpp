@@ -14,6 +14,10 @@ namespace sigmax::apps {
 /// second of the next minute. Blanks around it are allowed and nothing else.
 std::optional<double> parse_timestamp(std::string_view text);
 
+/// The same of a text as `format` says by the directives of strptime, as %d/%m/%Y %H:%M:%S; a fraction of a second and
+/// a zone may follow. `of_day` tells whether it is a time of day.
+std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day);
+
 /// Whether that is a time of day, which tells no date.
 bool is_time_of_day(std::string_view text);
 

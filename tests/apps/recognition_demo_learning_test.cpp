@@ -301,6 +301,19 @@ TEST_F(RecognitionDemoLearning, WhatNamesTheRowsIsPointedOut) {
   EXPECT_LE(std::distance(std::sregex_iterator(names.begin(), names.end(), warning), {}), 5);
 }
 
+TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseAndFarNumbersArePointedOut) {
+  std::string text = "warmth,flag,kind\n";
+  for (int k = 0; k < 40; ++k)
+    text += fmt::format("{},{},{}\n", 15 + k % 10 + k % 2, k % 3 ? "True" : "TRUE", k % 2 ? "a" : "b");
+  const auto data = directory.write("rooms.csv", text);
+  const auto learned = recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model});
+  EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in case only"}));
+  EXPECT_EQ(classify("warmth,flag\n0,True\n40,True\n").find("far"), std::string::npos);
+  const std::string said = classify("warmth,flag\n20,True\n68,True\n70,True\n");  // degrees Fahrenheit
+  EXPECT_TRUE(says(said, {"2 numbers are far from those that the model was learned from", "'68'"}));
+  EXPECT_EQ(summary().at("numbers_far_from_those_learned_from"), 2);
+}
+
 TEST_F(RecognitionDemoLearning, ClassesThatNobodyRecognisesAreNamed) {
   std::string text = "colour,kind\n";
   for (int k = 0; k < 40; ++k) text += k % 10 == 9 ? "\"red, dark\",rare\n" : "\"red, dark\",usual\nblue,other\n";

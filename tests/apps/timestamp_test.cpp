@@ -51,6 +51,20 @@ TEST(Timestamp, ATimeOfDayIsSecondsSinceMidnight) {
   EXPECT_FALSE(parse_timestamp("10:15:08Z"));
 }
 
+TEST(Timestamp, AnotherFormIsReadByDirectives) {
+  bool of_day = true;
+  const auto danish = [&](const std::string& text) { return parse_timestamp(text, "%d/%m/%Y %H:%M:%S", of_day); };
+  EXPECT_EQ(danish(" 12/01/2016 13:02:11 "), parse_timestamp("2016-01-12T13:02:11Z"));
+  EXPECT_EQ(danish("12/01/2016 13:02:11,218+01"), parse_timestamp("2016-01-12T12:02:11.218Z"));
+  EXPECT_FALSE(of_day);
+  for (const char* text : {"30/02/2016 13:02:11", "12/01/2016", "12/01/2016 13:02:11.", "12/01/2016 13:02:11 PM", "7"})
+    EXPECT_FALSE(danish(text)) << text;
+  EXPECT_EQ(parse_timestamp("2016-01-12 13:02 +0200", "%Y-%m-%d %H:%M %z", of_day),
+            parse_timestamp("2016-01-12T11:02:00Z"));
+  EXPECT_EQ(parse_timestamp("10.15.08,5", "%H.%M.%S", of_day), 36908.5);
+  EXPECT_TRUE(of_day);
+}
+
 TEST(Timestamp, WrittenDatesReadBack) {
   EXPECT_EQ(iso_time(0.0), "1970-01-01T00:00:00Z");
   for (const char* text :

@@ -222,6 +222,17 @@ TargetChoice choice_of(const FilterSettings& settings, int axes) {
   return choice;
 }
 
+void start_at_zero(std::vector<FilterSettings>& filters) {
+  for (FilterSettings& filter : filters) {
+    filter.restart_after_s.reset();  // later starts are from positions
+    filter.restart_after_rejections = 0;
+    if (filter.start == StartRule::given) continue;
+    filter.start = StartRule::given;
+    filter.start_mean.assign(9, 0.0);
+    filter.start_covariance_diagonal = {1e-6, 1e-6, 1e-6, 1e6, 1e6, 1e6, 1e2, 1e2, 1e2};
+  }
+}
+
 AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes) {
   const Accuracy& accuracy = settings.accuracy_of(sensor);
   std::array<double, 6> z{}, variances{};

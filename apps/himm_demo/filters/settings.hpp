@@ -156,6 +156,10 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
                                         const std::vector<std::string>& sets,
                                         const std::optional<std::array<double, 3>>& radar);
 
+/// Filters without a given start start at 0 with no knowledge of how the target moves, once: for recordings that tell
+/// no position.
+void start_at_zero(std::vector<FilterSettings>& filters);
+
 /// --config, --set and --print-config.
 void add_filter_options(CLI::App& app, std::string& config, std::vector<std::string>& sets, bool& print_config);
 

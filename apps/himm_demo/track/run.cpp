@@ -254,11 +254,12 @@ class TrackRun {
 
   /// What a row measured, perhaps after a simulated radar has seen it.
   void measured(const Row& row, const Target& target) {
+    const auto position = where(row, target);
+    outcome_.doubts.see(row, position, axes_);
     const bool is_seen = axes_seen(row.plot, axes_) == axes_;
     if (is_seen && row.plot.sensor != AnyPlot::Sensor::components) validate(row);
     const bool judged = row.truth && is_seen;
     if (!judged && !sinks_.page) return;
-    const auto position = where(row, target);
     if (judged)
       add_by_part(outcome_.raw, row.roll_deg, [&](Sums& sums) {
         for (std::size_t axis = 0; axis < 3; ++axis) sums.error[axis].add((*position)[axis] - (*row.truth)[axis]);
@@ -539,10 +540,14 @@ class TrackRun {
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
                                      : "there is too little for every filter to start",
-         .found = fmt::format("{} rows, {} of them measurements", outcome_.rows, outcome_.measurements),
+         .found = fmt::format("{} rows, {} of them measurements{}", outcome_.rows, outcome_.measurements,
+                              recording_.skipped() == 0
+                                  ? ""
+                                  : fmt::format(", and {} that were skipped for their time", recording_.skipped())),
          .expected = "more than the three measurements that start a filter (two rows if the start is given)",
-         .remedy = outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
-                                        : "give more rows, or start = \"given\" with start_time_s"}));
+         .remedy = recording_.skipped() > outcome_.rows ? "sort the rows by time"
+                   : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
+                                          : "give more rows, or start = \"given\" with start_time_s"}));
   }
 
   const TrackOptions& options_;

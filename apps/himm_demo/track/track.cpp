@@ -94,6 +94,9 @@ class Reporter {
                           : converted         ? ", a radar's measurements converted"
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
+    say(recording_.moves_alone(),
+        "There are no positions: without a given start a track starts at 0, a step before its first row, and "
+        "positions are counted from there");
     for (const auto& notes : {recording_.notes(), outcome_.places})
       for (const std::string& note : notes) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
@@ -198,6 +201,7 @@ class Reporter {
           "later; write it as the recording writes its times",
           file_);
     });
+    for (const std::string& doubt : outcome_.doubts.sentences(recording_)) warnings.push_back(doubt);
     return warnings;
   }
 
@@ -318,7 +322,7 @@ void refuse_what_ranks_cannot_share(const TrackOptions& options) {
 
 void track_and_report(const TrackOptions& options, TrackShares& shares) {
   RecordingOptions what = options.recording;
-  const auto filters = filters_for(what, options.config, options.sets, options.radar.sigma);
+  auto filters = filters_for(what, options.config, options.sets, options.radar.sigma);
   if (options.print_config) {
     if (shares.first()) fmt::print("{}", as_toml(filters));
     return;
@@ -327,6 +331,7 @@ void track_and_report(const TrackOptions& options, TrackShares& shares) {
   what.simulated = options.radar.sigma.has_value();
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
+  if (recording.moves_alone()) start_at_zero(filters);
   refuse_to_overwrite(options.output, {options.recording.file, options.config}, {"estimates.csv"});
   if (!shares.first()) {
     run_track(options, recording, filters, {}, shares);

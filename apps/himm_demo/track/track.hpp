@@ -7,6 +7,7 @@
 #include <sigmax/estimation/root_mean_square.hpp>
 
 #include "himm_demo/filters/settings.hpp"
+#include "recording/doubts.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
 #include "study/ranks.hpp"
@@ -225,6 +226,7 @@ struct TrackOutcome {
   std::size_t first_refused_line = 0;                     ///< of the first of them
   std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
+  Doubts doubts;
   Validity validity;
   Outliers outliers;
   Refusals refusals;

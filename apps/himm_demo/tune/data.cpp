@@ -81,10 +81,12 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   refuse_other_kind(options, data, recording);
   data.geodetic |= recording.geodetic();
   data.crosses |= recording.bearings() && !recording.located();
+  data.moves_alone |= recording.moves_alone();
   SensorPlaces places(settings, recording, options.radar.place());
   const bool one_frame = options.radar.sigma || recording.has_truth() || recording.seen_from_places();
   std::optional<Geodetic> first = recording.origin();
   std::map<std::string, Open, std::less<>> open;
+  Doubts doubts;
   for (Row row; recording.next(row);) {
     const auto [found, is_new] =
         open.try_emplace(row.track, Open{data.tracks.size(), stream_of(options.seed, row.track)});
@@ -116,6 +118,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       else
         row.plot = AnyPlot::missed(row.plot.time);
     }
+    doubts.see(row, position_of(row.plot, data.axes), data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
     row.plot.tag = rows.size();
@@ -123,6 +126,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   }
   for (const auto& notes : {recording.notes(), places.notes()})
     for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
+  for (const std::string& doubt : doubts.sentences(recording)) data.notes.push_back(doubt);
 }
 
 /// What so many tenths of the numbers are below.

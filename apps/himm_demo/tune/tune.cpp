@@ -513,7 +513,7 @@ Objective objective_of(const std::string& truth) {
 
 void tune_and_write(TuneOptions options) {
   options.objective = objective_of(options.truth);
-  const auto filters = filters_for(options.recording, options.config, options.sets, options.radar.sigma);
+  auto filters = filters_for(options.recording, options.config, options.sets, options.radar.sigma);
   if (options.print_config) {
     fmt::print("{}", as_toml(filters));
     return;
@@ -530,6 +530,7 @@ void tune_and_write(TuneOptions options) {
   if (!options.summary.empty()) summary.emplace(options.summary);
   ResultFiles page(options.page);
   const TuneData data = read_tune_data(options, filters.front());
+  if (data.moves_alone) start_at_zero(filters);
   fmt::print("{}", wrapped(heading(data, options)));
   for (const std::string& note : data.notes) fmt::print("{}", wrapped(note));
   std::vector<FilterSettings> written;

@@ -3,6 +3,7 @@
 #include <sigmax/hybrid/cross_validation.hpp>
 
 #include "himm_demo/filters/settings.hpp"
+#include "recording/doubts.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
 #include "support/progress.hpp"
@@ -74,6 +75,7 @@ struct TuneData {
   bool has_truth = false;
   bool geodetic = false;            ///< whether positions were places
   bool crosses = false;             ///< whether bearings alone may start a track
+  bool moves_alone = false;         ///< whether there were velocities alone
   std::vector<TuneTrack> tracks{};  ///< those long enough to be followed
   std::size_t too_short = 0;        ///< tracks that are not
   std::size_t measurements = 0;
