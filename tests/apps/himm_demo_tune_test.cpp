@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "apps/recordings.hpp"
 #include "support/text.hpp"
 
@@ -102,6 +104,83 @@ TEST_F(Tune, SaysWhichColumnsDoNotCount) {
   const auto file = directory.write("flight.csv", text);
   const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors"})));
   EXPECT_TRUE(says(ending.on_one_line(), {"flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)"}));
+}
+
+/// The recording with lines changed: the numbers of a row, and which it is.
+std::string changed(const std::string& text, const std::function<void(std::vector<double>&, std::size_t)>& change) {
+  std::istringstream lines(text);
+  std::ostringstream result;
+  result.precision(10);
+  std::string line;
+  std::getline(lines, line);
+  result << line << "\n";
+  for (std::size_t k = 0; std::getline(lines, line); ++k) {
+    std::vector<double> numbers;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+    change(numbers, k);
+    for (std::size_t i = 0; i < numbers.size(); ++i) result << (i == 0 ? "" : ",") << numbers[i];
+    result << "\n";
+  }
+  return result.str();
+}
+
+TEST_F(Tune, SetsAsideWhatNoFilterExpectsAndTrackGatesIt) {
+  const std::set<std::size_t> stray = {60, 61, 200, 333};
+  const auto text = changed(recording(400, false), [&](std::vector<double>& row, std::size_t k) {
+    if (stray.contains(k)) row[1] += 4000.0;
+  });
+  const auto file = directory.write("flight.csv", text);
+  const auto best = (directory.path() / "best.toml").string(), summary = (directory.path() / "s.json").string(),
+             page = (directory.path() / "p.html").string();
+  const auto ending = program::succeeded(tune(quickly(file, {"--out", best, "--summary", summary, "--report", page})));
+  EXPECT_TRUE(says(ending.on_one_line(), {"4 rows set aside", "flight.csv:62, 63, 202, 335."}));
+  const std::string toml = contents(best);
+  EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 2.0) << toml;
+  EXPECT_NEAR(value_in(toml, "sigma_w"), 1.0, 0.3) << toml;
+  const auto set_aside = nlohmann::json::parse(contents(summary)).at("filters").at("imm").at("best").at("set_aside");
+  ASSERT_EQ(set_aside.size(), 4U);
+  EXPECT_EQ(set_aside[2].at("line"), 202);
+  EXPECT_TRUE(says(contents(page), {"Rows set aside"}));
+  const auto tracked = program::succeeds(SIGMAX_HIMM_DEMO, {"track", file, "--config", best});
+  EXPECT_TRUE(says(tracked.on_one_line(), {"Measurements that the gate turned away: imm 4"}));
+}
+
+TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
+  const auto text = changed(recording(200, false), [](std::vector<double>& row, std::size_t k) {
+    row = {row[0], 50.0 * static_cast<double>(k / 20), 0.0};  // a target that mostly stands where it stood
+  });
+  const auto best = (directory.path() / "best.toml").string();
+  const auto ending = program::succeeded(
+      tune(quickly(directory.write("flight.csv", text), {"--out", best, "--set", "sigma_position_m=40"})));
+  EXPECT_TRUE(says(ending.output, {"no less: its column is rounded"}));
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 50.0 / std::sqrt(12.0), 0.01);
+}
+
+TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVary) {
+  const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
+    row[0] += k % 3 == 0 ? 0.6 : 0.0;  // steps of 1, 0.4 and 1.6 s
+  });
+  const auto best = (directory.path() / "best.toml").string();
+  const Arguments few = words("--set filters=imm --starts 1 --folds 2");
+  const auto ending = program::succeeded(tune(few + Arguments{directory.write("flight.csv", text), "--out", best}));
+  EXPECT_TRUE(says(ending.output, {"cwna+cwpa"}));
+  const auto asked = program::succeeded(tune(few + Arguments{directory.path() / "flight.csv", "--models", "dwna"}));
+  EXPECT_EQ(asked.output.find("cwna"), std::string::npos) << asked.output;
+}
+
+TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {
+  const auto ending = program::succeeded(tune(quickly(directory.write("flight.csv", recording(300, false)))));
+  const std::string after = ending.output.substr(ending.output.find("standard error"));
+  EXPECT_TRUE(says(after, {"sigma_w of dwna", "± 0.", "sigma_position_m"}));
+  EXPECT_EQ(after.find("not determined"), std::string::npos) << after;
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> noise(0.0, 20.0);  // of a target that flies straight, without noise of its own
+  const auto straight = changed(recording(60, false), [&](std::vector<double>& row, std::size_t) {
+    row = {row[0], 80.0 * row[0] + noise(generator), noise(generator)};
+  });
+  const auto flat = program::succeeded(tune(quickly(directory.write("straight.csv", straight))));
+  EXPECT_TRUE(says(flat.output, {"not determined by these rows"}));
 }
 
 struct Refusal {

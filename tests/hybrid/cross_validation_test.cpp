@@ -61,4 +61,44 @@ TEST(CrossValidation, SelectsTheBestAndTheSimplestThatIsAsGood) {
   EXPECT_INVALID(("1", "4"), select_settings(all, std::array<std::size_t, 1>{3}));
 }
 
+/// Minus the log-densities of numbers by a mean and the logarithm of a standard deviation; a third setting changes
+/// nothing.
+TEST(LossSurface, KnowsTheBestNumbersOfAGaussianAndTheirErrors) {
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> normal(5.1, 2.0);
+  std::vector<double> numbers(4000);
+  for (double& number : numbers) number = normal(generator);
+  const auto losses = [&](const std::vector<double>& offsets) {
+    RowLosses result(1);
+    const double mean = 5.1 + offsets[0], log_sigma = std::log(2.0) + offsets[1];
+    for (const double number : numbers)
+      result[0].push_back(log_sigma + 0.5 * std::pow((number - mean) / std::exp(log_sigma), 2));
+    result[0][7] = unknown;
+    return result;
+  };
+  std::size_t asked = 0;
+  const LossSurface surface(3, 0.05, [&](const std::vector<double>& offsets) {
+    ++asked;
+    return losses(offsets);
+  });
+  EXPECT_EQ(asked, LossSurface::asked(3));
+  for (const bool half : {false, true}) {
+    double sum = 0.0, squares = 0.0, rows = 0.0;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      if (k == 7 || (half && k % 2 == 0)) continue;
+      sum += numbers[k];
+      squares += numbers[k] * numbers[k];
+      ++rows;
+    }
+    const double mean = sum / rows, sigma = std::sqrt(squares / rows - mean * mean);
+    const auto shape = surface.shape([&](std::size_t, std::size_t row) { return !half || row % 2 == 1; });
+    EXPECT_NEAR(5.1 + shape.least[0], mean, 0.01);
+    EXPECT_NEAR(2.0 * std::exp(shape.least[1]), sigma, 0.01);
+    EXPECT_NEAR(shape.error[0], sigma / std::sqrt(rows), 0.05 * sigma / std::sqrt(rows));
+    EXPECT_NEAR(shape.error[1], 1.0 / std::sqrt(2.0 * rows), 0.15 / std::sqrt(2.0 * rows));
+    EXPECT_EQ(shape.least[2], 0.0);
+    EXPECT_TRUE(std::isinf(shape.error[2]));
+  }
+}
+
 }  // namespace

@@ -278,6 +278,25 @@ std::string sentence_of(const TuneFindings& findings, Objective objective) {
   return text;
 }
 
+/// When the gate turned rows away, and of which track they are.
+LineChart set_aside_chart(const Diagnosis& diagnosis, const TuneData& data) {
+  LineChart chart{
+      .title = "Rows set aside", .x_label = "time since the first row, s", .y_label = "number of the track"};
+  const auto row_at = [&](const RowPlace& place) -> const Row& { return data.tracks[place.track].rows[place.row]; };
+  double first = std::numeric_limits<double>::infinity();
+  for (const TuneTrack& track : data.tracks) first = std::min(first, track.rows.front().plot.time);
+  auto places = diagnosis.set_aside;
+  std::ranges::stable_sort(places, {}, [&](const RowPlace& place) { return row_at(place).plot.time; });
+  Curve curve{.name = best_name, .group = best_name, .dots = true};
+  for (const RowPlace& place : places) {
+    chart.x.push_back(row_at(place).plot.time - first);
+    curve.values.push_back(static_cast<double>(place.track + 1));
+    chart.remarks.push_back(fmt::format("{}:{}", data.tracks[place.track].file, row_at(place).line));
+  }
+  chart.curves.push_back(std::move(curve));
+  return chart;
+}
+
 View view_of(const TuneFindings& findings, const TuneOptions& options, const TuneData& data) {
   View view{name_of(findings), {}};
   const auto all = diagnoses(findings);
@@ -297,6 +316,8 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
     const double band = tally.autocorrelation_band();
     return std::pair(tally.autocorrelation(), Band{-band, band});
   }));
+  if (findings.after && !findings.after->set_aside.empty())
+    view.panels.emplace_back(set_aside_chart(*findings.after, data));
   view.panels.emplace_back(fold_chart(findings.tuned, options, data));
   view.panels.emplace_back(ReportTable{"Sets of models", candidates_table(findings.tuned, options.objective)});
   for (std::size_t i = 0; i < all.size(); ++i) {
