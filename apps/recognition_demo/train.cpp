@@ -23,7 +23,7 @@ ResultTable features_table(const LearnedModel& model) {
     constexpr std::size_t shown = 6;
     auto labels = feature.labels();
     const std::size_t size = labels.size();
-    if (size > shown) {
+    if (size > shown && !feature.bins) {
       labels.resize(shown);
       labels.push_back("…");
     }
