@@ -218,13 +218,14 @@
 
   function restyle({graph, panel, reading, looks}) {
     Object.assign(looks, style(panel));
+    hideIfEmpty(graph, panel);
     const options = {colors: looks.colors, gridLineColor: css('--line'), axisLineColor: css('--line'),
       visibility: panel.curves.map((curve) => !hidden.has(curve.group))}, before = graph.getArea().w;
     graph.updateOptions(options, true);
+    reading.show(null);
+    if (graph.graphDiv.closest('figure').hidden) return;
     graph.resize();  // which draws if there is another width
     if (graph.getArea().w === before) graph.updateOptions(options);
-    reading.show(null);
-    hideIfEmpty(graph, panel);
   }
 
   // ---- The map, by D3
@@ -401,7 +402,7 @@
         : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
       const left = 12 + d3.max(panel.rows, widthOf);
       const room = (box.getBoundingClientRect().width || 500) - left - 6;
-      const cell = {width: Math.max(34, Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
+      const cell = {width: Math.max(8 + d3.max(panel.shown.flat(), widthOf), Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
       const longest = d3.max(panel.columns, widthOf), slant = longest > cell.width - 4;
       const top = slant ? 20 + 0.65 * longest : 22, width = left + cell.width * panel.columns.length + (slant ? 0.77 * longest : 4);
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
@@ -558,6 +559,7 @@
     const before = plans.length;
     for (const panel of panels) draw[panel.kind](panel, place);
     plans.slice(before).forEach((again) => again());  // once each has its width
+    charts.forEach(({graph}) => graph.resize());
   };
 
   // ---- The page

@@ -116,7 +116,7 @@ class Failures:
 
 
 AXES = "[...document.querySelectorAll('.lines')].map((one) => [...one.querySelectorAll('.dygraph-axis-label-x')].map((l) => l.textContent).join())"
-PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
+PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].filter((one) => one.getClientRects().length).map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
 
 
 def chosen_panels(data):
