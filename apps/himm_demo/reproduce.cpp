@@ -643,8 +643,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
       .title = "The sentences",
       .table = claims,
       .note = "\"Only released\": it holds only against the released IMM. HIMM has the reading of (57) that "
-              "is printed, or released.",
-      .filtered_by = {name_of(Preset::paper_text), name_of(Preset::released)}});
+              "is printed, or released."});
   // Those first that the sentences are about: their colours differ.
   auto names = names_of(conditions, {"imm", "himm_own", "himm_released", "himm_selected", "himm_own_recentred"});
   for (const Preset preset : both_presets) page.last.emplace_back(overview_map(conditions, names, preset));

@@ -614,7 +614,7 @@ void report(const SweepOptions& options, const SweepWorld& world) {
                             c * world.filters().size(), world.filters().size()),
                {.printed = false, .summary = {"conditions", words_of(world.conditions()[c])}});
   result.add(filters.part(ConditionPart::name, "scenario"),
-             {.printed = false, .title = all_shown ? "The best settings" : "", .filtered_by = {"condition", "filter"}});
+             {.printed = false, .title = all_shown ? "The best settings" : ""});
   Report& page = result.page;
   page.title = "Every filter at its best settings, against the tuned IMM";
   if (!answered.empty()) page.verdict.push_back(answered);

@@ -21,7 +21,7 @@ ResultTable features_table(const LearnedModel& model) {
                      {.header = "what they are", .align = Align::left}});
   for (const FeatureCode& feature : model.features) {
     const auto labels = feature.labels();
-    table.row({feature.name, labels.size(), listed(labels, 6)});
+    table.row({feature.name, labels.size(), listed(labels, feature.bins ? labels.size() : 6)});
   }
   return table;
 }

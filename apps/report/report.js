@@ -27,6 +27,8 @@
     const number = curve.dash ?? (curve.group ? Math.max(0, numberOf(curve.group)) : fallback);
     return dashes[number % dashes.length];
   };
+  const views = new Map(data.views.map((view, i) => [view.name, i]));
+  const told = (panel, value) => shown(panel.period && finite(value) ? (value % panel.period + panel.period) % panel.period : value);
   const shown = (value) => value === null || value === undefined ? '–' : String(Number(value.toPrecision(5)));
 
   function element(name, properties = {}, ...children) {
@@ -37,6 +39,9 @@
     return made;
   }
 
+  const ruler = document.createElement('canvas').getContext('2d');
+  ruler.font = '12px system-ui, sans-serif';
+  const widthOf = (text) => ruler.measureText(text).width;
   const symbolOf = (i) => d3.symbol().type(d3.symbols[i % d3.symbols.length]).size(44)();
   const crossed = 'M-4,-4L4,4M-4,4L4,-4';
 
@@ -126,7 +131,7 @@
       if (row !== null && panel.remarks) holder.append(element('span', {textContent: panel.remarks[row]}));
       panel.curves.forEach((curve, i) => {
         if (hidden.has(curve.group)) return;
-        const value = row === null ? '' : ` ${shown(curve.values[row])}`;
+        const value = row === null ? '' : ` ${told(panel, curve.values[row])}`;
         holder.append(element('span', {}, swatch(options.colors[i], options.dash[i], curve.dots ? 'dots' : 'line'), ` ${curve.name}${value}`));
       });
       for (const band of visibleHistories(panel))
@@ -155,7 +160,7 @@
 
   function style(panel) {
     return {
-      colors: panel.curves.map((curve, i) => colour(curve.group, i)),
+      colors: panel.curves.map((curve, i) => colour(panel.stacked ? null : curve.group, i)),
       dash: panel.curves.map((curve, i) => dashOf(curve, i)),
     };
   }
@@ -172,37 +177,55 @@
     const values = element('div', {className: 'readout'});
     const histories = panel.histories ?? [], remarks = (k) => panel.remarks ? [panel.remarks[k]] : [];
     const table = folded('Table', () => grid([panel.x_label, ...panel.curves.map((curve) => curve.name), ...histories.map((band) => band.name),
-      ...remarks(0).fill('')], panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => shown(curve.values[k])),
+      ...remarks(0).fill('')], panel.x.map((x, k) => [shown(x), ...panel.curves.map((curve) => told(panel, curve.values[k])),
       ...histories.map((band) => stayAt(band, x) ?? '–'), ...remarks(k)])));
-    place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), box,
-      element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
+    const yLabel = element('div', {className: 'y-label', textContent: panel.y_label});
+    place.append(figure(panel, yLabel, box, element('div', {className: 'x-label', textContent: panel.x_label}), values, table));
+    const roll = (made) => {  // stacked areas of more rows than pixels would be a bar code: means of neighbours, until one zooms in
+      const [from, to] = made.xAxisRange(), rows = panel.x.filter((x) => from <= x && x <= to).length;
+      const period = Math.max(1, Math.round(3 * rows / made.getArea().w));
+      yLabel.textContent = panel.y_label + (period > 1 ? `; means of ${period} rows, zoom in for each` : '');
+      if (period !== made.rollPeriod()) made.adjustRoll(period);
+    };
 
     const reading = readout(panel, values, looks);
     const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
       labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
-      connectSeparatedPoints: panel.joined === true, customBars: banded, fillAlpha: 0.18, legend: 'never', plugins: [reading.plugin],
-      colors: looks.colors, strokeWidth: 1.8, highlightCircleSize: 4, animatedZooms: false,
+      connectSeparatedPoints: panel.joined === true, customBars: banded, fillAlpha: panel.stacked ? 0.7 : 0.18, stackedGraph: panel.stacked === true,
+      logscale: panel.logarithmic === true, legend: 'never', plugins: [reading.plugin],
+      colors: looks.colors, strokeWidth: panel.stacked ? 0.5 : 1.8, highlightCircleSize: 4, animatedZooms: false,
       series: Object.fromEntries(panel.curves.map((curve, i) => [`c${i}`, {
         strokePattern: looks.dash[i].length ? looks.dash[i] : null,
         ...(curve.dots ? {strokeWidth: 0, drawPoints: true, pointSize: 2} : {}),
       }])),
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
-      includeZero: true, valueRange: rangeOf(panel),
+      includeZero: !panel.logarithmic, valueRange: rangeOf(panel),
       xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
-      axes: {x: {axisLabelFormatter: shown}, y: {axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : shown(y)}},
+      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
       ...(banded && panel.joined ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
-      zoomCallback: () => showReset(),
+      zoomCallback: () => showReset(), ...(panel.stacked ? {drawCallback: roll} : {}),
       interactionModel: {...Dygraph.defaultInteractionModel, dblclick: () => showAll()},
     });
     charts.push({graph, panel, reading, looks});
+    hideIfEmpty(graph, panel);
   }
+
+  // The chart of one filter is gone with it.
+  const hideIfEmpty = (graph, panel) => {
+    graph.graphDiv.closest('figure').hidden = panel.curves.length > 0 && panel.curves.every((curve) => hidden.has(curve.group));
+  };
 
   function restyle({graph, panel, reading, looks}) {
     Object.assign(looks, style(panel));
-    graph.updateOptions({colors: looks.colors, gridLineColor: css('--line'), axisLineColor: css('--line'),
-      visibility: panel.curves.map((curve) => !hidden.has(curve.group))});
+    hideIfEmpty(graph, panel);
+    const options = {colors: looks.colors, gridLineColor: css('--line'), axisLineColor: css('--line'),
+      visibility: panel.curves.map((curve) => !hidden.has(curve.group))}, before = graph.getArea().w;
+    graph.updateOptions(options, true);
     reading.show(null);
+    if (graph.graphDiv.closest('figure').hidden) return;
+    graph.resize();  // which draws if there is another width
+    if (graph.getArea().w === before) graph.updateOptions(options);
   }
 
   // ---- The map, by D3
@@ -211,7 +234,7 @@
 
   function drawPlan(panel, place) {
     const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', panel.title);
-    const groups = [...new Map(panel.traces.map((trace) => [trace.name, trace])).values()];
+    const groups = [...new Map(panel.traces.map((trace) => [trace.name, trace])).values()], crowded = groups.length > 12;
     const key = element('div', {className: 'readout'});
     const points = (trace) => trace.x.map((x, k) => [shown(x), shown(trace.y[k]), ...(trace.z ? [shown(trace.z[k])] : [])]);
     const table = folded('Table', () => grid(['', panel.x_label, panel.y_label, 'up, m'].slice(0, panel.traces.some((t) => t.z) ? 4 : 3),
@@ -229,14 +252,14 @@
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
       if (!width) return;
-      const edge = {left: 56, right: 12, top: 10, bottom: 24};  // the left one is wider where coordinates are long
+      const edge = {left: 56, right: 30, top: 10, bottom: 24};  // the left one is wider where coordinates are long
       const all = panel.traces.filter((trace) => !hidden.has(trace.group));
       const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
       const [west, east] = extent('x'), [south, north] = extent('y');
       if (west === undefined) return;
       edge.left = Math.max(edge.left, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length));
       const inner = {width: width - edge.left - edge.right, height: height - edge.top - edge.bottom};
-      const metres = 1.06 * Math.max((east - west) / inner.width, (north - south) / inner.height, 1e-9);
+      const metres = 1.06 * (Math.max((east - west) / inner.width, (north - south) / inner.height) || 0.01);
       const wholeX = d3.scaleLinear().range([edge.left, width - edge.right])
         .domain([(west + east - metres * inner.width) / 2, (west + east + metres * inner.width) / 2]);
       const wholeY = d3.scaleLinear().range([height - edge.bottom, edge.top])
@@ -254,18 +277,19 @@
       const clip = `clip${plans.length}${Math.round(width)}`;
       svg.append('clipPath').attr('id', clip).append('rect').attr('x', edge.left).attr('y', edge.top)
         .attr('width', inner.width).attr('height', inner.height);
-      svg.append('g').attr('transform', `translate(0,${height - edge.bottom})`).call(d3.axisBottom(x).ticks(width / 90).tickSizeOuter(0));
+      svg.append('g').attr('transform', `translate(0,${height - edge.bottom})`).call(apart(d3.axisBottom(x), x, width));
       svg.append('g').attr('transform', `translate(${edge.left},0)`).call(d3.axisLeft(y).ticks(height / 60).tickSizeOuter(0));
       const body = svg.append('g').attr('clip-path', `url(#${clip})`);
       const line = (xs, ys) => d3.line().defined((k) => finite(xs[k]) && finite(ys[k])).x((k) => x(xs[k])).y((k) => y(ys[k]))(d3.range(xs.length));
-      const labels = [];  // where one stands there is room for no other
+      const labels = [drawScaleBar(body, x, width, height, edge)];  // left, right and bottom: where one stands there is room for no other
       for (const one of panel.graticule) {
         body.append('path').attr('class', 'graticule').attr('d', line(one.x, one.y));
-        const k = Math.floor(one.x.length / 6);
-        const [at, high] = [x(one.x[k]) + 3, y(one.y[k]) - 3];
-        if (labels.some(([other, otherHigh]) => Math.abs(other - at) < 64 && Math.abs(otherHigh - high) < 14)) continue;
-        labels.push([at, high]);
-        body.append('text').attr('class', 'graticule-label').attr('x', at).attr('y', high).text(one.label);
+        const room = ([left, right, bottom]) => left > edge.left && right < width - edge.right && bottom > edge.top + 12
+          && bottom < height - edge.bottom - 2 && !labels.some(([from, to, low]) => left < to + 8 && from < right + 8 && Math.abs(low - bottom) < 16);
+        const found = one.x.map((east, k) => [x(east) + 3, x(east) + 3 + widthOf(one.label), y(one.y[k]) - 3]).find(room);
+        if (!found) continue;
+        labels.push(found);
+        body.append('text').attr('class', 'graticule-label').attr('x', found[0]).attr('y', found[2]).text(one.label);
       }
       for (const ellipse of panel.ellipses.filter((one) => !hidden.has(one.group))) {
         const scale = Math.abs(x(1) - x(0));
@@ -277,18 +301,16 @@
         if (hidden.has(trace.group)) return;
         const stroke = colour(trace.group, i);
         if (trace.shape === 'line') {
-          body.append('path').attr('fill', 'none').attr('stroke', stroke).attr('stroke-width', 1.8)
-            .attr('stroke-dasharray', dashOf(trace, i).join(' ')).attr('d', line(trace.x, trace.y));
+          for (const look of views.has(trace.name) ? ['near', 'own'] : ['own'])  // a click near a line is one on it
+            opening(body.append('path'), trace.name).attr('class', look).attr('stroke', stroke)
+              .attr('stroke-dasharray', crowded ? null : dashOf(trace, i).join(' ')).attr('d', line(trace.x, trace.y));
           return;
         }
-        const mark = trace.shape === 'dots' ? 'M-1.7,0a1.7,1.7 0 1,0 3.4,0a1.7,1.7 0 1,0 -3.4,0' : crossed;
-        const marks = trace.x.map((east_m, k) => finite(east_m) ? `translate(${x(east_m).toFixed(1)},${y(trace.y[k]).toFixed(1)})` : null);
-        body.append('g').selectAll('path').data(marks.filter((one) => one)).enter().append('path').attr('d', mark)
-          .attr('transform', (one) => one).attr('fill', trace.shape === 'dots' ? stroke : 'none').attr('fill-opacity', 0.75)
-          .attr('stroke', trace.shape === 'dots' ? 'none' : stroke).attr('stroke-width', 1.6);
+        const dots = trace.shape === 'dots', at = (k) => `M${x(trace.x[k]).toFixed(1)},${y(trace.y[k]).toFixed(1)}${dots ? 'h.01' : 'm-4,-4l8,8m-8,0l8,-8'}`;
+        opening(body.append('path'), trace.name).attr('d', d3.range(trace.x.length).filter((k) => finite(trace.x[k])).map(at).join(''))
+          .attr('fill', 'none').attr('stroke', stroke).attr('stroke-width', dots ? 3.4 : 1.6).attr('stroke-linecap', 'round').attr('opacity', 0.8);
       });
-      drawScaleBar(body, x, width, height, edge);
-      key.replaceChildren(...groups.filter((trace) => !hidden.has(trace.group)).map((trace) => element('span', {},
+      if (!crowded) key.replaceChildren(...groups.filter((trace) => !hidden.has(trace.group)).map((trace) => element('span', {},
         swatch(colour(trace.group, panel.traces.indexOf(trace)), dashOf(trace, panel.traces.indexOf(trace)), trace.shape), ` ${trace.name}`)));
     }
     plans.push(draw);
@@ -298,10 +320,11 @@
   // The same in space, turned by dragging; heights are stretched. By hand: neither library draws in space.
   function drawSpace(panel, place) {
     const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', `${panel.title} in space`);
-    place.append(figure({kind: 'plan', title: `${panel.title}, in space`, note: 'Drag to turn. Heights are stretched.'},
-      element('div', {className: 'y-label', textContent: `${panel.x_label}; ${panel.y_label}; up, m`}), svg.node()));
-    let yaw = -0.6, pitch = 0.5;
+    const names = [panel.x_label, panel.y_label, 'up'].map((label) => label.replace(', m', ''));
     const extents = ['x', 'y', 'z'].map((axis) => d3.extent(panel.traces.flatMap((trace) => trace[axis]).filter(finite)));
+    place.append(figure({kind: 'plan', title: `${panel.title}, in space`, note: 'Drag to turn. Heights are stretched.'},
+      element('div', {className: 'y-label', textContent: names.map((name, i) => `${name} from ${shown(extents[i][0])} to ${shown(extents[i][1])} m`).join(', ')}), svg.node()));
+    let yaw = -0.6, pitch = 0.5;
     const [xs, ys, zs] = extents, centre = extents.map(([from, to]) => (from + to) / 2);
     const across = Math.max(xs[1] - xs[0], ys[1] - ys[0]) || 1, up = zs[1] - zs[0] || 1;
 
@@ -319,10 +342,11 @@
       const floor = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]);
       svg.append('path').attr('class', 'graticule').attr('d', path(floor));
       svg.append('path').attr('class', 'graticule').attr('d', path([[xs[0], ys[0], zs[0]], [xs[0], ys[0], zs[1]]]));
-      const label = (text, x, y, z) => svg.append('text').attr('class', 'graticule-label').attr('x', at(x, y, z)[0] + 4).attr('y', at(x, y, z)[1]).text(text);
-      zs.forEach((z) => label(`up ${shown(z)}`, xs[0], ys[0], z));
-      label(`x ${shown(xs[1])}, y ${shown(ys[0])}`, xs[1], ys[0], zs[0]);
-      label(`x ${shown(xs[0])}, y ${shown(ys[1])}`, xs[0], ys[1], zs[0]);
+      [0, 1, 2].forEach((axis) => {  // its name stands beyond the end of each axis
+        const [px, py] = at(...extents.map(([from, to], i) => i === axis ? to + 0.1 * (i === 2 ? up : across) : from));
+        if (extents[axis][1] > extents[axis][0]) svg.append('text').attr('class', 'graticule-label').attr('text-anchor', 'middle')
+          .attr('x', Math.max(20, Math.min(px, width - 20))).attr('y', Math.max(14, Math.min(py, height - 8))).text(names[axis]);
+      });
       panel.traces.forEach((trace, i) => {
         if (hidden.has(trace.group)) return;
         const all = d3.range(trace.x.length).filter((k) => finite(trace.x[k]) && finite(trace.z[k]));
@@ -348,8 +372,16 @@
     const pixels = x(from + length) - x(from);
     const bar = body.append('g').attr('transform', `translate(${width - edge.right - pixels - 12},${height - edge.bottom - 12})`);
     bar.append('path').attr('d', `M0,-4V0H${pixels}V-4`).attr('fill', 'none').attr('stroke', css('--ink')).attr('stroke-width', 1.5);
-    bar.append('text').attr('x', pixels / 2).attr('y', -5).attr('text-anchor', 'middle')
-      .text(length >= 1000 ? `${length / 1000} km` : `${length} m`);
+    const text = length >= 1000 ? `${length / 1000} km` : `${length} m`, spare = Math.max(0, (widthOf(text) - pixels) / 2);
+    bar.append('text').attr('x', pixels / 2 - spare).attr('y', -5).attr('text-anchor', 'middle').text(text);
+    return [width - edge.right - pixels - 12 - 2 * spare, width - edge.right - 12, height - edge.bottom - 12];
+  }
+
+  // Numbers along an axis, so few that they do not touch.
+  function apart(axis, scale, width) {
+    const [from, to] = scale.range(), fits = (count) => scale.ticks(count).length
+      * (d3.max(scale.ticks(count), (tick) => widthOf(scale.tickFormat(count)(tick))) + 16) < to - from;
+    return axis.ticks(d3.range(Math.ceil(width / 90), 1, -1).find(fits) ?? 1).tickSizeOuter(0);
   }
 
   // ---- Heat maps, by D3
@@ -368,20 +400,17 @@
       const end = Math.max(Math.abs(least), Math.abs(greatest)) || 1;
       const scale = panel.diverging ? d3.scaleSequential(d3.interpolatePuOr).domain([end, -end])
         : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
-      const widest = d3.max(panel.rows, (name) => name.length) || 1;
-      const left = Math.min(150, 12 + 7 * widest);
+      const left = 12 + d3.max(panel.rows, widthOf);
       const room = (box.getBoundingClientRect().width || 500) - left - 6;
-      const cell = {width: Math.max(34, Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
-      const longest = d3.max(panel.columns, (name) => name.length), letters = Math.min(longest, 24);
-      const slant = longest * 7 > cell.width;
-      const top = slant ? 16 + 4.8 * letters : 22;
+      const cell = {width: Math.max(8 + d3.max(panel.shown.flat(), widthOf), Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
+      const longest = d3.max(panel.columns, widthOf), slant = longest > cell.width - 4;
+      const top = slant ? 20 + 0.65 * longest : 22, width = left + cell.width * panel.columns.length + (slant ? 0.77 * longest : 4);
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)
-        .attr('width', left + cell.width * panel.columns.length + (slant ? Math.max(4, 5.6 * letters - cell.width / 2) : 4)).attr('height', top + cell.height * panel.rows.length + 4);
-      const cut = (name, most) => name.length > most ? `${name.slice(0, most - 1)}…` : name;
-      panel.columns.forEach((name, c) => svg.append('text').text(cut(name, letters)).attr('text-anchor', slant ? 'start' : 'middle')
+        .attr('width', width).attr('viewBox', `0 0 ${width} ${top + cell.height * panel.rows.length + 4}`);
+      panel.columns.forEach((name, c) => svg.append('text').text(name).attr('text-anchor', slant ? 'start' : 'middle')
         .attr('transform', `translate(${left + (c + 0.5) * cell.width},${top - 7})${slant ? ' rotate(-40)' : ''}`));
       panel.rows.forEach((name, r) => {
-        svg.append('text').text(cut(name, 20)).attr('text-anchor', 'end').attr('x', left - 6).attr('y', top + (r + 0.5) * cell.height + 4);
+        svg.append('text').text(name).attr('text-anchor', 'end').attr('x', left - 6).attr('y', top + (r + 0.5) * cell.height + 4);
         panel.columns.forEach((column, c) => {
           const value = panel.values[r][c];
           const fill = finite(value) ? d3.color(scale(value)) : null;
@@ -403,9 +432,6 @@
 
   // ---- Numbers with their intervals, by D3: a row for each, the series below each other in it
 
-  const ruler = document.createElement('canvas').getContext('2d');
-  ruler.font = '12px system-ui, sans-serif';
-  const widthOf = (text) => ruler.measureText(text).width;
   const fitting = (text, width) => {
     let cut = text;
     while (cut.length > 1 && widthOf(cut === text ? cut : `${cut}…`) > width) cut = cut.slice(0, -1);
@@ -436,9 +462,9 @@
       const spare = 0.04 * (greatest - least || 1);
       const x = d3.scaleLinear().domain([least - spare, greatest + spare]).range([left, right]);
       svg.attr('height', bottom + 24).selectAll('*').remove();
-      svg.append('g').attr('transform', `translate(0,${bottom})`).call(d3.axisBottom(x).ticks(width / 90).tickSizeInner(above - bottom).tickSizeOuter(0));
+      svg.append('g').attr('transform', `translate(0,${bottom})`).call(apart(d3.axisBottom(x), x, width).tickSizeInner(above - bottom));
       if (panel.rows.length > 12)
-        svg.append('g').attr('transform', 'translate(0,18)').call(d3.axisTop(x).ticks(width / 90).tickSize(0));
+        svg.append('g').attr('transform', 'translate(0,18)').call(apart(d3.axisTop(x), x, width).tickSize(0));
       if (finite(panel.reference))
         svg.append('path').attr('class', 'reference').attr('d', `M${x(panel.reference)},${above}V${bottom}`);
       panel.rows.forEach((name, r) => {
@@ -481,44 +507,45 @@
       }
       head.push(groups);
     }
-    head.push(element('tr', {}, ...panel.columns.map((column) =>
-      element('th', {textContent: column.header, className: column.left ? 'left' : '', scope: 'col'}))));
+    head.push(element('tr', {}, ...panel.columns.map((column, i) =>
+      element('th', {textContent: column.header, className: column.left ? 'left' : '', scope: 'col', onclick: ({target}) => sort(target, i)}))));
     const body = element('tbody');
     let ruled = false;
     for (const row of panel.rows) {
       if (!row.length) { ruled = true; continue; }
       body.append(element('tr', {className: ruled ? 'ruled' : ''}, ...row.map((cell, i) => {
-        const made = element('td', {textContent: cell.text, className: panel.columns[i].left ? (cell.text.length > 30 ? 'left long' : 'left') : ''});
+        const made = element('td', {className: panel.columns[i].left ? (cell.text.length > 30 ? 'left long' : 'left') : ''},
+          i === 0 && views.has(cell.text) ? element('button', {type: 'button', textContent: cell.text, onclick: () => open(cell.text)}) : cell.text);
         if (panel.columns[i].key) made.dataset.key = panel.columns[i].key;
         if (typeof cell.value === 'number') made.dataset.value = cell.value;
         return made;
       })));
       ruled = false;
     }
-    place.append(figure(panel, filterOf(panel, body),
+    function sort(head, i) {
+      const down = head.ariaSort === 'ascending', of = (row) => Number(row.children[i].dataset.value ?? -Infinity);
+      for (const one of head.parentNode.children) one.ariaSort = null;
+      head.ariaSort = down ? 'descending' : 'ascending';
+      body.append(...[...body.children].sort((a, b) => (down ? -1 : 1) * (of(a) - of(b)
+        || a.children[i].textContent.localeCompare(b.children[i].textContent, undefined, {numeric: true}))));
+    }
+    place.append(figure(panel, panel.rows.length > 12 && searchOf(body),
       element('div', {className: 'scroll', tabIndex: 0}, element('table', {}, element('thead', {}, ...head), body))));
   }
 
-  // Choices of what stands in some columns: rows with other words are not shown.
-  function filterOf(panel, body) {
-    if (!panel.filtered_by?.length) return null;
-    const count = element('span', {className: 'note'});
-    const selects = panel.filtered_by.map((key) => {
-      const i = panel.columns.findIndex((column) => column.key === key);
-      const words = [...new Set(panel.rows.filter((row) => row.length).map((row) => row[i].text))];
-      const select = element('select', {}, element('option', {value: '', textContent: 'all'}),
-        ...words.map((text) => element('option', {value: text, textContent: text})));
-      select.dataset.filter = key;
-      select.addEventListener('change', choose);
-      return {i, select, label: element('label', {}, `${panel.columns[i].header}: `, select)};
-    });
-    function choose() {
-      for (const row of body.children)
-        row.hidden = selects.some(({i, select}) => select.value && row.children[i].textContent !== select.value);
-      count.textContent = `${[...body.children].filter((row) => !row.hidden).length} of ${body.children.length} rows`;
+  // What is typed is looked for in the rows: a cell that is just that, or else all of its words.
+  function searchOf(body) {
+    const count = element('span', {className: 'note'}), box = element('input', {type: 'search', placeholder: 'Search the rows', oninput: look});
+    const text = (row) => [...row.children].map((cell) => cell.textContent.toLowerCase());
+    function look() {
+      const wanted = box.value.trim().toLowerCase(), rows = [...body.children];
+      const exact = rows.filter((row) => text(row).includes(wanted));
+      const found = new Set(wanted && exact.length ? exact : rows.filter((row) => wanted.split(' ').every((word) => text(row).join(' ').includes(word))));
+      rows.forEach((row) => { row.hidden = !found.has(row); });
+      count.textContent = `${found.size} of ${rows.length} rows`;
     }
-    choose();
-    return element('div', {className: 'filter'}, ...selects.map(({label}) => label), count);
+    look();
+    return element('div', {className: 'filter'}, box, count);
   }
 
   function drawWords(panel, place) {
@@ -532,6 +559,7 @@
     const before = plans.length;
     for (const panel of panels) draw[panel.kind](panel, place);
     plans.slice(before).forEach((again) => again());  // once each has its width
+    charts.forEach(({graph}) => graph.resize());
   };
 
   // ---- The page
@@ -542,11 +570,21 @@
 
   const showReset = () => { reset.hidden = !charts.some(({graph}) => graph.isZoomed('x')); };
 
-  const rangeOf = (panel) => panel.greatest_y === undefined ? null : [-historyStep * (panel.histories ?? []).length, panel.greatest_y];
+  const rangeOf = ({range, histories}) => range ? [range[0] - historyStep * (histories ?? []).length, range[1]] : null;
 
   function showAll() {
     charts.forEach(({graph, panel}) => graph.updateOptions({dateWindow: null, valueRange: rangeOf(panel)}));
     showReset();
+  }
+
+  // Whatever has the name of a view opens it.
+  const opening = (made, name) => {
+    if (views.has(name)) made.classed('opens', true).on('click', () => open(name)).append('title').text(name);
+    return made;
+  };
+  function open(name) {
+    showView(document.getElementById('view-selector').value = views.get(name));
+    controls.scrollIntoView({behavior: 'smooth'});
   }
 
   function showView(index) {
@@ -616,8 +654,17 @@
     redraw();
   };
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', relook);
-  addEventListener('beforeprint', () => { document.documentElement.classList.add('printing'); relook(); });
-  addEventListener('afterprint', () => { document.documentElement.classList.remove('printing'); relook(); });
+  // On paper charts are enlarged as they are: what a browser draws while it prints would be tens of thousands of shapes.
+  const print = (begins) => {
+    document.documentElement.classList.toggle('printing', begins);
+    plans.forEach((again) => again());
+    charts.forEach(({graph}) => {
+      const box = graph.graphDiv.parentNode;
+      box.style.zoom = begins ? box.parentNode.clientWidth / graph.size().width : '';
+    });
+  };
+  addEventListener('beforeprint', () => print(true));
+  addEventListener('afterprint', () => print(false));
   let waiting = 0;
   addEventListener('resize', () => { clearTimeout(waiting); waiting = setTimeout(() => plans.forEach((again) => again()), 100); });
   page.dataset.drawn = 'yes';

@@ -182,10 +182,47 @@ void mark(const LineChart& chart, Script& script) {
   }
 }
 
+/// Areas above each other, of means where there are more rows than a picture shows.
+void stack(const LineChart& chart, Script& script) {
+  constexpr std::size_t most = 400;
+  const std::size_t period = 1 + chart.x.size() / most;
+  std::vector<std::vector<double>> sums{{}, {}};  // x, and the last curve's upper end
+  std::vector<std::pair<std::string, std::string>> areas;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    std::vector<double> x, values;
+    double mean = 0.0;
+    for (std::size_t k = 0, taken = 0; k < chart.x.size(); ++k) {
+      if (!std::isfinite(chart.curves[i].values[k])) continue;
+      mean += (chart.curves[i].values[k] - mean) / static_cast<double>(++taken);
+      if (taken < period) continue;
+      x.push_back(chart.x[k]);
+      values.push_back(mean + (i > 0 && values.size() < sums[1].size() ? sums[1][values.size()] : 0.0));
+      mean = 0.0;
+      taken = 0;
+    }
+    sums = {std::move(x), std::move(values)};
+    areas.emplace_back(script.data(sums) + fmt::format(" using 1:2 with filledcurves x1 fillcolor '{}' fillstyle "
+                                                       "transparent solid 0.7",
+                                                       script.colour("", i)),
+                       chart.curves[i].name);
+  }
+  for (auto area = areas.rbegin(); area != areas.rend(); ++area) script.plot(area->first, area->second);
+}
+
 Picture drawn(const LineChart& chart, const Groups& groups) {
   Script script(groups);
   script.say("set xlabel {} textcolor '#5c5c5c'", in_gnuplot(chart.x_label));
-  script.say("set yrange [{}]", chart.greatest_y ? fmt::format("0:{}", *chart.greatest_y) : "*<0:0<*");
+  const bool begins = chart.greatest_y || chart.least_y != 0.0;
+  script.say("set yrange [{}:{}]", begins ? fmt::format("{}", chart.least_y) : "*<0",
+             chart.greatest_y    ? fmt::format("{}", *chart.greatest_y)
+             : chart.logarithmic ? "*"
+                                 : "0<*");
+  if (chart.logarithmic) script.say("set logscale y");
+  if (chart.stacked && !chart.curves.empty() && !script.hidden(chart.curves.front().group)) {
+    mark(chart, script);
+    stack(chart, script);
+    return script.finished(chart.title, chart.y_label, chart.note, {});
+  }
   std::vector<std::pair<std::string, std::string>> lines;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const Curve& curve = chart.curves[i];

@@ -63,9 +63,13 @@ Json panel(const LineChart& chart) {
                {"note", chart.note}};
   if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
   if (chart.joined) json["joined"] = true;
+  if (chart.stacked) json["stacked"] = true;
+  if (chart.logarithmic) json["logarithmic"] = true;
   for (const HistoryBand& band : chart.histories)
     json["histories"].push_back({{"name", band.name}, {"group", band.group}, {"stays", list(band.stays, stay)}});
-  if (chart.greatest_y) json["greatest_y"] = *chart.greatest_y;
+  if (chart.period > 0.0) json["period"] = chart.period;
+  if (chart.greatest_y || chart.least_y != 0.0)
+    json["range"] = {chart.least_y, chart.greatest_y ? Json(*chart.greatest_y) : Json()};
   return json;
 }
 
@@ -153,7 +157,7 @@ Json panel(const HeatMap& map) {
 }
 
 Json panel(const ReportTable& table) {
-  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}, {"filtered_by", table.filtered_by}};
+  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}};
   json.update(table.table.page());
   return json;
 }

@@ -63,7 +63,11 @@ struct LineChart {
   std::string note{};
   std::vector<std::string> remarks{};  ///< beside the numbers at each x; empty or as long
   std::vector<HistoryBand> histories{};
-  bool joined = false;  ///< gaps of a curve are of other curves' times: it goes on over them
+  bool joined = false;       ///< gaps of a curve are of other curves' times: it goes on over them
+  bool stacked = false;      ///< areas above each other, each with a colour of its own
+  bool logarithmic = false;  ///< along y
+  double period = 0.0;       ///< of y: courses are the same after 360
+  double least_y = 0.0;      ///< where the y axis begins, if `greatest_y` says where it ends
 };
 
 /// A curve that is far above where it should be does not make all others unreadable: the axis ends at a few times what
@@ -165,7 +169,6 @@ struct ReportTable {
   std::string title{};
   ResultTable table{};
   std::string note{};
-  std::vector<std::string> filtered_by{};  ///< keys of columns of words, by which rows can be chosen
 };
 
 /// Text as it is: settings, an explanation.

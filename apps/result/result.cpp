@@ -1,11 +1,14 @@
 #include "result/result.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <system_error>
 
 #include "result/braille.hpp"
 #include "result/pictures.hpp"
 #include "support/json.hpp"
+#include "support/progress.hpp"
 #include "version.hpp"
 
 namespace sigmax::apps {
@@ -22,11 +25,15 @@ void refuse_input(const std::string& option, const std::string& given, const std
 
 }  // namespace
 
+std::size_t OutputOptions::width() const {
+  return wide ? any_width : std::max(terminal_width, columns_of(STDOUT_FILENO));
+}
+
 void add_quiet(CLI::App& app, bool& quiet) { Subcommand(app).flag("--quiet", quiet, "No progress bar"); }
 
 void add_wide(CLI::App& app, bool& wide) {
   Subcommand(app).flag("--wide", wide,
-                       "Tables with one line a row, however long, for terminals of more than 80 columns");
+                       "Tables with one line a row, however long; else they take the columns of the terminal");
 }
 
 void add_output(CLI::App& app, OutputOptions& options) {
@@ -82,7 +89,7 @@ void refuse_to_overwrite(const OutputOptions& options, const std::vector<std::st
       refuse_input("--plots", options.plots, chart.path(), inputs);
 }
 
-ResultFiles::ResultFiles(const OutputOptions& options) {
+ResultFiles::ResultFiles(const OutputOptions& options) : wide_(options.wide) {
   if (!options.report.empty() && !has_reports())
     throw UsageError(
         "--report: this program was built without charts; install libjs-dygraphs and node-d3, and build again");
@@ -142,7 +149,8 @@ void ResultFiles::commit() {
   if (report_) written.push_back(report_->path().native());
   if (!plots_.empty())
     written.push_back(fmt::format("{} charts as SVG and PDF to {}", pictures_.size() / 2, plots_.native()));
-  fmt::print("\nWrote {}\n", printable(fmt::format("{}", fmt::join(written, ", and "))));
+  const std::string words = fmt::format("Wrote {}", fmt::join(written, ", and "));
+  fmt::print("\n{}", wrapped(printable(words), wide_ ? any_width : terminal_width));
 }
 
 RowFile::RowFile(ResultFiles& files, const std::string& name, const std::vector<std::string>& keys)
@@ -151,7 +159,7 @@ RowFile::RowFile(ResultFiles& files, const std::string& name, const std::vector<
 }
 
 Result::Result(const OutputOptions& options)
-    : words_width(options.width()),
+    : words_width(options.wide ? any_width : terminal_width),
       options_(options),
       summary_(std::make_unique<Json>(Json{{"version", version}, {"command", options.command}})) {
   page.command = options.command;
@@ -172,7 +180,7 @@ void Result::add(const ResultTable& table, const Places& places) {
   if (places.printed) text += "\n" + table.text(options_.width());
   if (!places.csv.empty()) tables_.emplace_back(places.csv, table.csv());
   if (!places.summary.empty()) at(places.summary) = table.json();
-  if (!places.title.empty()) page.last.emplace_back(ReportTable{places.title, table, places.note, places.filtered_by});
+  if (!places.title.empty()) page.last.emplace_back(ReportTable{places.title, table, places.note});
 }
 
 Json& Result::at(const Path& path) {

@@ -19,7 +19,8 @@ struct OutputOptions {
   bool no_chart = false;  ///< on the terminal
   std::string command;    ///< as typed, for the record
 
-  std::size_t width() const { return wide ? any_width : terminal_width; }
+  /// Of tables: that of the terminal, if it has more than 80 columns.
+  std::size_t width() const;
 };
 
 /// --out, --quiet and --wide; --report and --plots; --no-chart.
@@ -67,6 +68,7 @@ class ResultFiles {
 
  private:
   std::filesystem::path directory_;  // empty: none
+  bool wide_;
   std::list<AtomicFile> files_;
   std::vector<std::string> names_;
   std::optional<AtomicFile> report_;                           // where it is not in the directory
@@ -94,13 +96,12 @@ using Path = std::vector<std::variant<std::string, std::size_t>>;
 
 /// The places of a table in a result.
 struct Places {
-  bool printed = true;                     ///< on the terminal, after an empty line
-  std::string heading{};                   ///< printed above it
-  std::string csv{};                       ///< a file of its rows
-  Path summary{};                          ///< what has it as an object
-  std::string title{};                     ///< above it in the last part of the page; without one it is not there
-  std::string note{};                      ///< below it in the page
-  std::vector<std::string> filtered_by{};  ///< see `ReportTable`
+  bool printed = true;    ///< on the terminal, after an empty line
+  std::string heading{};  ///< printed above it
+  std::string csv{};      ///< a file of its rows
+  Path summary{};         ///< what has it as an object
+  std::string title{};    ///< above it in the last part of the page; without one it is not there
+  std::string note{};     ///< below it in the page
 };
 
 /// What a command found: it is built once, and then printed, written and drawn.

@@ -13,12 +13,6 @@ namespace {
 constexpr auto period = std::chrono::milliseconds{100};
 constexpr std::size_t longest_bar = 40;
 
-std::size_t columns_of(int terminal) {
-  winsize size{};
-  if (::ioctl(terminal, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
-}
-
 std::string remaining(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s left", std::ceil(seconds));
   if (seconds < 5400.0) return fmt::format("{:.0f} min left", std::ceil(seconds / 60.0));
@@ -26,6 +20,12 @@ std::string remaining(double seconds) {
 }
 
 }  // namespace
+
+std::size_t columns_of(int terminal) {
+  winsize size{};
+  if (::ioctl(terminal, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return terminal_width;
+  return size.ws_col;
+}
 
 Progress::Progress(std::string_view label, std::uint64_t total, bool quiet, int terminal)
     : label_(printable(label)),

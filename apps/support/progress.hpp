@@ -11,6 +11,9 @@
 
 namespace sigmax::apps {
 
+/// The columns of the terminal that a descriptor is; `terminal_width` if it is none.
+std::size_t columns_of(int terminal);
+
 /// A bar on a terminal that shows how much of the work is done, drawn at most ten times a second; its line is wiped at
 /// the end. Silent when asked, and where the output is no terminal.
 class Progress {

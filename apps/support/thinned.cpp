@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 namespace sigmax::apps {
 
-Thinned::Thinned(std::size_t columns, std::size_t most) : columns_(columns), most_(most) {
-  if (columns == 0 || most < 4 * columns) throw std::invalid_argument("rows cannot be thinned to so few");
+Thinned::Thinned(std::size_t columns, std::size_t most) : Thinned(columns, most, std::vector<std::size_t>(columns)) {
+  std::iota(watched_.begin(), watched_.end(), std::size_t{0});
+}
+
+Thinned::Thinned(std::size_t columns, std::size_t most, std::vector<std::size_t> watched)
+    : columns_(columns), most_(most), watched_(std::move(watched)) {
+  if (watched_.empty() || most < 4 * watched_.size()) throw std::invalid_argument("rows cannot be thinned to so few");
 }
 
 void Thinned::add(double time, const std::vector<double>& values) {
@@ -23,13 +29,13 @@ void Thinned::add(double time, const std::vector<double>& values) {
   last.push_back({time, values});
   ++in_last_;
   ++taken_;
-  if (last.size() > 4 * columns_) keep_extremes(last);
+  if (last.size() > 4 * watched_.size()) keep_extremes(last);
   kept_ += last.size();
   while (kept_ > most_) halve();
 }
 
 void Thinned::limit(std::size_t most) {
-  most_ = std::max(most, 4 * columns_);
+  most_ = std::max(most, 4 * watched_.size());
   while (kept_ > most_) halve();
 }
 
@@ -53,7 +59,8 @@ void Thinned::halve() {
 
 void Thinned::keep_extremes(Stretch& rows) const {
   std::vector<bool> extreme(rows.size(), false);
-  for (std::size_t column = 0; column < columns_; ++column) {
+  if (!rows.empty()) extreme[0] = true;
+  for (const std::size_t column : watched_) {
     std::size_t least = rows.size(), greatest = rows.size();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const double value = rows[i].values[column];

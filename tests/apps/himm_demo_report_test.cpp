@@ -39,8 +39,14 @@ Report example() {
   intervals.series[0].wanted = {{-HUGE_VAL, 1.5}, {std::nan(""), std::nan("")}};
   chart.histories = {{nasty, nasty, {{1.0, 2.0, nasty, 0}, {2.0, 3.0, "other", 1}}}};
   report.views = {{nasty, {chart, plan, intervals}}, {"other", {chart}}};
-  report.last = {ReportTable{nasty, table, nasty, {"name"}}, heat, Words{nasty, nasty}, Words{nasty, nasty, true}};
+  report.last = {ReportTable{nasty, table, nasty}, heat, Words{nasty, nasty}, Words{nasty, nasty, true}};
   return report;
+}
+
+/// The panel of a track's page with this title.
+const nlohmann::ordered_json& panel_of(const nlohmann::ordered_json& view, const std::string& title) {
+  const auto& panels = view.at("panels");
+  return *std::ranges::find_if(panels, [&](const auto& one) { return one.at("title") == title; });
 }
 
 class ReportPage : public InDirectory {
@@ -217,8 +223,8 @@ TEST_F(ReportPage, OfAFilterThatKeepsHistoriesShowsTheBestOne) {
   himm_demo("track", drone, "--set filters=himm_histories --set explain=true --set sigma_position_m=[3,3,5]");
   const auto [data, summary] = written(directory.path());
   const auto& told = summary.at("histories").at("himm_histories").at("");
-  const auto& panels = data.at("views").at(0).at("panels");
-  const auto& drawn = panels.at(panels.size() - 2).at("histories").at(0).at("stays");
+  const auto& drawn =
+      panel_of(data.at("views").at(0), "Mode weights of himm_histories").at("histories").at(0).at("stays");
   ASSERT_EQ(drawn.size(), told.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
     EXPECT_EQ(drawn[i].at("label"), told[i].at("mode"));
@@ -250,25 +256,77 @@ TEST_F(ReportPage, OfTracksHasAViewForEachWithParallelsAndWhatWasTurnedAway) {
   expect_drawn(page);
 }
 
-/// Beside the NIS stands where 95 % are of as many quantities as each row has, of velocities too.
+/// The mean NIS of the last 20 rows lies in a band of as many quantities as they have, of velocities too.
 TEST_F(ReportPage, OfRowsWithMoreQuantitiesExpectsMoreOfTheNis) {
   for (const bool always : {true, false}) {
     std::string rows = "time_s,x_m,y_m,vx_mps,vy_mps\n";
-    for (int k = 0; k < 30; ++k)
+    for (int k = 0; k < 40; ++k)
       rows += std::to_string(k) + "," + std::to_string(10 * k) + (always || k % 2 == 0 ? ",7,10,0\n" : ",7,,\n");
     himm_demo("track", {directory.write("moves.csv", rows)}, "--set sigma_velocity_mps=1");
     const auto [data, summary] = written(directory.path());
-    const auto& nis = data.at("views").at(0).at("panels").back();
-    const double two = 5.991465, four = 9.487729;  // of χ²
-    if (always) {
-      EXPECT_NEAR(nis.at("expected").at(0).at("to").get<double>(), four, 1e-5);
-    } else {
-      EXPECT_TRUE(nis.at("expected").empty());
-      const auto& usual = nis.at("curves").front().at("values");
-      EXPECT_NEAR(usual.at(usual.size() - 1).get<double>(), two, 1e-5);
-      EXPECT_NEAR(usual.at(usual.size() - 2).get<double>(), four, 1e-5);
-    }
+    const auto& usual = panel_of(data.at("views").at(0), "NIS a measured quantity").at("curves").front();
+    const auto last = [&](const char* end) { return usual.at(end).back().get<double>(); };
+    // The quantiles of χ² with 80 and 60 degrees of freedom.
+    EXPECT_NEAR(last("lower"), always ? 57.1532 / 80 : 40.4817 / 60, 1e-5);
+    EXPECT_NEAR(last("upper"), always ? 106.6286 / 80 : 83.2977 / 60, 1e-5);
   }
+}
+
+/// Speed and course are those of the velocities in estimates.csv, and so are their bands where the axes do not depend
+/// on each other; a course that passes 360° goes on.
+TEST_F(ReportPage, OfATurningTargetTellsHowFastAndWhichWay) {
+  std::string rows = "time_s,x_m,y_m\n";
+  for (int k = 0; k < 150; ++k)
+    rows += fmt::format("{},{:.6f},{:.6f}\n", k, 1000.0 * std::sin(0.06 * k), -1000.0 * std::cos(0.06 * k));
+  himm_demo("track", {directory.write("turns.csv", rows)},
+            "--set filters=imm --set models=[dwpa] --set sigma_position_m=5");
+  const auto data = written(directory.path()).data;
+  const auto& speed = panel_of(data.at("views").at(0), "Speed").at("curves").at(0);
+  const auto& course = panel_of(data.at("views").at(0), "Course").at("curves").at(0);
+  std::size_t k = 0;
+  double before = 0.0;
+  for (const std::string& line : lines_with(directory.path() / "estimates.csv", "")) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    if (cells.front() == "time_s") continue;
+    const double vx = std::stod(cells.at(5)), vy = std::stod(cells.at(6));
+    const double sx = std::stod(cells.at(14)), sy = std::stod(cells.at(15)), v = std::hypot(vx, vy);
+    while (speed.at("values").at(k).is_null()) ++k;
+    EXPECT_NEAR(speed.at("values").at(k).get<double>(), v, 1e-4);
+    EXPECT_NEAR(speed.at("upper").at(k).get<double>(), v + 2.0 * std::hypot(vx * sx, vy * sy) / v, 1e-4);
+    const double degrees = course.at("values").at(k).get<double>(), radians = degrees * M_PI / 180.0;
+    EXPECT_NEAR(std::cos(radians) * v, vx, 1e-3);
+    EXPECT_NEAR(std::sin(radians) * v, vy, 1e-3);
+    EXPECT_NEAR(course.at("upper").at(k).get<double>() - degrees,
+                2.0 * std::hypot(vy * sx, vx * sy) / v / v * 180.0 / M_PI, 1e-3);
+    if (before > 0.0) EXPECT_LT(std::abs(degrees - before), 90.0);
+    before = degrees;
+    ++k;
+  }
+  EXPECT_GT(before, 480.0) << "150 steps of 0.06 rad are a turn and a half";
+}
+
+/// A list of all tracks, which the summary has too; one that is too short says why it has no estimate.
+TEST_F(ReportPage, OfManyTracksListsThemAll) {
+  std::string rows = "time_s,x_m,y_m,id\n";
+  for (int k = 0; k < 20; ++k)
+    for (int id = 0; id < 14; ++id)
+      if (id > 0 || k == 0) rows += fmt::format("{},{},{},ship{}\n", k, 10 * k + 1000 * id, 5 * (k % 2), id);
+  himm_demo("track", {directory.write("ships.csv", rows)}, "--track-id id --set gate_probability=0.99");
+  const auto [data, summary] = written(directory.path());
+  EXPECT_EQ(data.at("views").size(), 14U);
+  EXPECT_NE(data.at("views").front().at("name"), "ship0") << "the first one is short";
+  const auto& view = data.at("views").back();
+  EXPECT_EQ(view.at("name"), "ship0");
+  EXPECT_TRUE(says(view.at("panels").back().at("text").get<std::string>(), {"1 measurement; a filter starts from 3"}));
+  EXPECT_EQ(data.at("panels").at(1).at("traces").size(), 14U);
+  EXPECT_EQ(data.at("panels").at(2).at("rows").size(), 14U);
+  const auto& one = summary.at("tracks").at("each").at("ship3");
+  EXPECT_EQ(one.at("rows"), 20);
+  EXPECT_EQ(one.at("duration_s"), 19.0);
+  EXPECT_NEAR(one.at("way_m").get<double>(), 160.0, 40.0) << "from the fourth row on";
+  expect_numbers_of_the_summary();
 }
 
 TEST_F(ReportPage, OfALongRecordingIsThinnedAndSaysSo) {
@@ -279,7 +337,7 @@ TEST_F(ReportPage, OfALongRecordingIsThinnedAndSaysSo) {
   const auto page = directory.path() / "long.html";
   const auto ending =
       program::succeeds(SIGMAX_HIMM_DEMO, {"track", directory.path() / "long.csv", "--quiet", "--report", page});
-  EXPECT_LT(std::filesystem::file_size(page), 1500000U);
+  EXPECT_LT(std::filesystem::file_size(page), 6000000U);
   const std::string text = contents(page);
   EXPECT_TRUE(says(text, {"The charts are thinned", "158327"}));
 }

@@ -116,7 +116,7 @@ class Failures:
 
 
 AXES = "[...document.querySelectorAll('.lines')].map((one) => [...one.querySelectorAll('.dygraph-axis-label-x')].map((l) => l.textContent).join())"
-PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
+PICTURES = "[...document.querySelectorAll('#view canvas:first-of-type')].filter((one) => one.getClientRects().length).map((one) => one.toDataURL().length + one.toDataURL().slice(-4000))"
 
 
 def chosen_panels(data):
@@ -237,18 +237,37 @@ def check_heat(browser, failures, data):
     browser.mouse("mouseMoved", 1, 1)
 
 
-def check_filters(browser, failures, data):
-    """A table of which rows are chosen shows those, and all of them again."""
-    for table in (panel for panel in chosen_panels(data) if panel.get("filtered_by")):
-        for key in table["filtered_by"]:
-            column = [one["key"] for one in table["columns"]].index(key)
-            words = table["rows"][0][column]["text"]
-            rows = sum(bool(row) and row[column]["text"] == words for row in table["rows"])
-            choose = lambda word: browser.js(f"""(() => {{ const one = document.querySelector('select[data-filter=' + {json.dumps(json.dumps(key))} + ']');
-                one.value = {json.dumps(word)}; one.dispatchEvent(new Event('change'));
-                return [...one.closest('figure').querySelectorAll('tbody tr')].filter((row) => row.offsetParent).length; }})()""")
-            failures.expect(choose(words) == rows, f"choosing {words!r} of {key} does not show its {rows} rows")
-            failures.expect(choose("") == sum(bool(row) for row in table["rows"]), f"choosing all of {key} does not show all rows")
+def check_search(browser, failures, data):
+    """A long table shows the rows that have what is typed, and all of them again; a click on a head sorts them."""
+    tables = [panel for panel in chosen_panels(data) if panel["kind"] == "table" and len(panel["rows"]) > 12]
+    for number, table in enumerate(tables):
+        rows = [row for row in table["rows"] if row]
+        words = rows[-1][0]["text"].lower()
+        wanted = [row for row in rows if words in [cell["text"].lower() for cell in row]]
+        figure = f"document.querySelectorAll('input[type=search]')[{number}].closest('figure')"
+        typed = lambda text: browser.js(f"""(() => {{ const box = {figure}.querySelector('input');
+            box.value = {json.dumps(text)}; box.dispatchEvent(new Event('input'));
+            return [...{figure}.querySelectorAll('tbody tr')].filter((row) => row.getClientRects().length).length; }})()""")
+        failures.expect(typed(words) == len(wanted), f"looking for {words!r} does not show its {len(wanted)} rows")
+        failures.expect(typed("") == len(rows), f"looking for nothing does not show all rows of {table['title']}")
+        column = next((i for i in range(1, len(table["columns"])) if all(isinstance(row[i].get("value"), (int, float)) for row in rows)), None)
+        if column is None:
+            continue
+        sort = lambda: browser.js(f"""(() => {{ const heads = {figure}.querySelectorAll('thead tr:last-child th'); heads[{column}].click();
+            return [...{figure}.querySelectorAll('tbody tr')].map((row) => Number(row.children[{column}].dataset.value)); }})()""")
+        numbers = sorted(row[column]["value"] for row in rows)
+        failures.expect(sort() == numbers, f"{table['title']} is not sorted by a click on a head")
+        failures.expect(sort() == numbers[::-1], f"{table['title']} is not sorted the other way by a second click")
+
+
+def check_opening(browser, failures, data):
+    """A click on a row's name opens the view of that name, if there is one."""
+    names = [view["name"] for view in data["views"]]
+    if len(names) < 2 or not browser.js("document.querySelectorAll('td button').length"):
+        return
+    name = browser.js("(() => { const all = document.querySelectorAll('td button'), one = all[all.length - 1]; one.click(); return one.textContent; })()")
+    shown = browser.js("document.getElementById('view-selector').selectedOptions[0].textContent")
+    failures.expect(shown == name, f"a click on {name!r} shows {shown!r}")
 
 
 def check_selector(browser, failures, data):
@@ -338,6 +357,56 @@ def check_tables(browser, failures, data):
     browser.js("document.querySelectorAll('details').forEach((one) => { one.open = false; })")
 
 
+# Texts of pictures that are cut by their picture, or lie on another one; tables that are wider than the paper.
+TEXTS = """(() => {
+  const found = [], paper = document.documentElement.classList.contains('printing');
+  for (const picture of document.querySelectorAll('svg.map, svg.heat, svg.intervals, .chart')) {
+    const own = picture.getBoundingClientRect(), title = picture.closest('figure').querySelector('h2').textContent;
+    if (!own.width) continue;
+    const inside = (box, {left, right, top, bottom}) => box.left >= left - 1 && box.right <= right + 1 && box.top >= top - 3 && box.bottom <= bottom + 3;
+    const texts = [...picture.querySelectorAll('text, .dygraph-axis-label')].filter((one) => one.textContent.trim()).map((one) => {
+      const range = document.createRange();
+      range.selectNodeContents(one);
+      const clip = picture.querySelector('clipPath rect'), at = (name) => Number(clip.getAttribute(name));
+      const frame = one.closest('[clip-path]') ? {left: own.left + at('x'), right: own.left + at('x') + at('width'),
+        top: own.top + at('y'), bottom: own.top + at('y') + at('height')} : own;
+      return {text: one.textContent, box: (one.matches('text') ? one : range).getBoundingClientRect(), frame,
+        slanted: (one.getAttribute('transform') ?? '').includes('rotate')};
+    });
+    for (const {text, box, frame} of texts) if (!inside(box, frame)) found.push(`${title}: ${text} is cut`);
+    for (const [i, a] of texts.entries())
+      for (const b of texts.slice(i + 1))
+        if (!a.slanted && !b.slanted && a.box.left < b.box.right && b.box.left < a.box.right && a.box.top + 3 < b.box.bottom - 3 && b.box.top + 3 < a.box.bottom - 3)
+          found.push(`${title}: ${a.text} lies on ${b.text}`);
+    if (texts.some(({text}) => text.endsWith('…'))) found.push(`${title}: a name is not whole`);
+  }
+  for (const one of document.querySelectorAll('.scroll'))
+    if (paper && one.scrollWidth > one.clientWidth + 1) found.push(`${one.closest('figure').querySelector('h2').textContent}: is cut on paper`);
+  return found;
+})()"""
+
+
+def check_texts(browser, failures):
+    """No text of a picture is cut or lies on another one, on a telephone, a tablet, a screen and on A4."""
+    def expect_none(where):
+        end = time.monotonic() + 4  # it is drawn again soon
+        while browser.js(TEXTS) and time.monotonic() < end:
+            time.sleep(0.2)
+        for found in browser.js(TEXTS):
+            failures.expect(False, f"{where}: {found}")
+
+    for width in (400, 800, 1280):
+        browser.size(width, 900)
+        time.sleep(0.2)
+        expect_none(f"at {width} pixels")
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    browser.size(703, 1000)
+    browser.js("dispatchEvent(new Event('beforeprint'))")
+    expect_none("on paper")
+    browser.js("dispatchEvent(new Event('afterprint'))")
+    browser.call("Emulation.setEmulatedMedia", media="")
+
+
 def check_width(browser, failures):
     browser.size(400, 800)
     end = time.monotonic() + 10
@@ -385,7 +454,8 @@ def main():
         check_selector(browser, failures, data)
         check_intervals(browser, failures, data)
         check_heat(browser, failures, data)
-        check_filters(browser, failures, data)
+        check_search(browser, failures, data)
+        check_opening(browser, failures, data)
         if options.summary:
             path = pathlib.Path(options.summary)
             summary = json.loads(path.read_text(encoding="utf-8"))
@@ -393,6 +463,7 @@ def main():
             failures.expect(compared > 0, "nothing in the page is a number of the summary")
             check_data(failures, data, summary, path.parent)
         check_width(browser, failures)
+        check_texts(browser, failures)
         if options.shots:
             shoot(browser, options.shots)
     finally:

@@ -29,8 +29,8 @@ struct Target {
   double before = std::numeric_limits<double>::quiet_NaN();  // the time of the row before
   std::deque<Row> rows{};                                    // whose tags are their numbers
   std::size_t taken = 0;
-  std::size_t measurements = 0;  // of them
-  std::size_t told = 0;          // estimates
+  std::size_t told = 0;  // estimates
+  TrackTally tally{};
 
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
 
@@ -192,6 +192,7 @@ class TrackRun {
                                              shares_.follows(rank) ? prototypes_ : std::vector<AnyTarget>{},
                                              std::vector<Tally>(filters_.size())})
                   .first;
+      found->second.tally.nis.resize(filters_.size());
     }
     Target& target = found->second;
     if (!options_.radar.sigma) places_.place(row);
@@ -292,8 +293,10 @@ class TrackRun {
     const double time = row.plot.time;
     const bool again = time == target.before;  // of another sensor: nothing starts from two rows of one time
     target.before = time;
+    if (target.taken == 0) target.tally.first_time = time;
+    target.tally.last_time = time;
     row.plot.tag = target.taken++;
-    if (row.measured()) ++target.measurements;
+    if (row.measured()) ++target.tally.measurements;
     target.rows.push_back(std::move(row));
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
     auto news = shares_.by(target.rank, [&] { return followed(target, again); });
@@ -402,6 +405,7 @@ class TrackRun {
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
+      if (point.nis) target.tally.nis[said.filter].add(*point.nis, static_cast<std::size_t>(plot.size));
       add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
         ++sums.count;
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
@@ -423,12 +427,13 @@ class TrackRun {
     if (!sinks_.estimates && !sinks_.page) return;
     std::optional<Geodetic> place;
     if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
+    if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
     if (sinks_.estimates) sinks_.estimates->write(estimates_.line(row.track, filter, point, place));
     if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
   }
 
   /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
-  /// point. Of the covariance, the variances are told. Returns where it is.
+  /// point. Of the covariance, the blocks of each derivative are told. Returns where it is.
   Geodetic tell_from(const LocalFrame& anchor, const LocalFrame& frame, TargetPoint& point) const {
     const auto axes = static_cast<std::size_t>(axes_);
     const std::size_t n = point.mean.size();
@@ -448,7 +453,9 @@ class TrackRun {
       covariance = turn * covariance * turn.transpose();
       for (std::size_t i = 0; i < axes; ++i) {
         point.mean[at + i] = mean(static_cast<Eigen::Index>(i));
-        point.covariance[(at + i) * (n + 1)] = covariance.diagonal()(static_cast<Eigen::Index>(i));
+        for (std::size_t j = 0; j < axes; ++j)
+          point.covariance[(at + i) * n + at + j] =
+              covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
     }
     const Geodetic place = frame.to_geodetic(position);
@@ -494,16 +501,20 @@ class TrackRun {
       const auto& [rejected, starts] = target.tallies[f];
       own.rejected += rejected;
       own.restarts += starts > 0 ? starts - 1 : 0;
+      target.tally.nis[f].rejected = rejected;
       if (filters_[f].explain) own.histories[name] = std::move(news->histories[f]);
       started &= starts > 0;
       constexpr std::size_t fewest = 5;
-      if (rejected < fewest || 5 * rejected <= target.measurements) continue;
+      if (rejected < fewest || 5 * rejected <= target.tally.measurements) continue;
       Refusals& worst = outcome_.refusals;
       ++worst.many;
-      if (rejected * worst.measurements > worst.rejected * target.measurements)
-        worst = {worst.many, name, &filters_[f], rejected, target.measurements};
+      if (rejected * worst.measurements > worst.rejected * target.tally.measurements)
+        worst = {worst.many, name, &filters_[f], rejected, target.tally.measurements};
     }
     if (!started) outcome_.never_started.push_back(name);
+    target.tally.rows = target.taken;
+    target.tally.silent = target.told == 0;
+    if (recording_.has_tracks()) outcome_.each.emplace(name, std::move(target.tally));
     target.rows.clear();
   }
 

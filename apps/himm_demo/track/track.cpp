@@ -31,6 +31,7 @@ class Reporter {
     result_.page.title = "Tracks of " + options_.recording.file;
     for (const std::string& warning : warnings) result_.page.verdict.push_back("Warning: " + warning);
     result_.page.panels.emplace_back(Words{"The recording", result_.text});
+    if (!outcome_.each.empty()) list_tracks();
     for (std::size_t p = 0; p < (recording_.has_roll() ? parts.size() : 1); ++p) tabulate(p);
     explain();
     result_.page.last.emplace_back(Words{"Settings in force", as_toml(filters_), true});
@@ -228,6 +229,34 @@ class Reporter {
     result_.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
   }
 
+  /// A row for each track: what it is and how well the filters follow it.
+  void list_tracks() {
+    const bool gated = std::ranges::any_of(outcome_.filters, [](const FilterOutcome& one) { return one.rejected > 0; });
+    ResultTable table;
+    for (const auto& [name, track] : outcome_.each) {
+      std::vector<Field> fields = {
+          {{.key = "track", .header = "track", .align = Align::left}, name},
+          {{.key = "rows", .header = "rows"}, track.rows},
+          {{.key = "duration_s", .header = "lasts", .unit = "s", .digits = 0}, track.last_time - track.first_time},
+          {{.key = "way_m", .header = "way", .unit = "km", .scale = 1e-3},
+           track.silent ? Cell(nan, "–") : Cell(track.way_m)}};
+      for (std::size_t f = 0; f < filters_.size(); ++f) {
+        const auto& [nis, quantities, rejected] = track.nis[f];
+        const std::string& filter = filters_[f].name;
+        fields.push_back({{.key = "nis_ratio_" + filter, .header = filter, .sized = true, .group = "NIS, right is 1:"},
+                          quantities > 0 ? Cell(nis / static_cast<double>(quantities)) : Cell(nan, "–")});
+      }
+      for (std::size_t f = 0; gated && f < filters_.size(); ++f)
+        fields.push_back({{.key = "rejected_" + filters_[f].name, .header = filters_[f].name, .group = "turned away:"},
+                          track.nis[f].rejected});
+      fields.push_back({{.header = "estimates", .align = Align::left}, track.silent ? track.why_silent() : ""});
+      table.row_of(fields);
+    }
+    result_.add(table, {.printed = false, .summary = {"tracks", "each"}});
+    result_.page.panels.emplace_back(
+        ReportTable{"The tracks", table, "A click on a name opens the track, one on a head sorts by it."});
+  }
+
   std::vector<Field> row_of(std::size_t p, const std::vector<std::string>& models, const std::string& name,
                             const Sums& sums, const FilterSettings* filter) const {
     const std::size_t count = filter ? sums.count : sums.error[0].count();
@@ -346,9 +375,10 @@ void track_and_report(const TrackOptions& options, TrackShares& shares) {
   const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
   for (std::size_t f = 0; tracks && f < filters.size(); ++f)
     for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
+  if (tracks) tracks->finish();
   Result result(options.output);
   const auto warnings = report(options, recording, filters, outcome, result);
-  if (tracks) tracks->add_to(result.page);
+  if (tracks) tracks->add_to(result.page, outcome);
   if (charts) result.on_terminal = tracks->charts_of_the_first();
   result.publish(files);
   if (!warnings.empty()) std::fflush(stdout);  // they come last where both streams are one

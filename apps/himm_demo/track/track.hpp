@@ -75,6 +75,8 @@ class TrackShares {
   std::vector<std::deque<News>> unheard_;  // of each rank
 };
 
+struct TrackOutcome;
+
 /// Collects what the page of a recording shows, in memory that does not grow with its rows: some tracks, thinned.
 class TrackPage {
  public:
@@ -94,11 +96,16 @@ class TrackPage {
   /// The best history of a track's modes, once all rows were read.
   void explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays);
 
-  /// Of the first track: the first axis' errors, or standard deviations, and the weights.
+  /// Of the track with the most rows: errors along the first axis, or standard deviations, and the first filter's
+  /// modes.
   std::vector<LineChart> charts_of_the_first() const;
 
-  /// The tracks as views of a page, with the groups and the words that go with them.
-  void add_to(Report& page) const;
+  /// The tracks as views of a page, the one with the most rows first, with the groups and the words that go with them;
+  /// and where there are several, a map of all.
+  void add_to(Report& page, const TrackOutcome& outcome) const;
+
+  /// All rows were read.
+  void finish();
 
  private:
   struct Mark {
@@ -106,29 +113,50 @@ class TrackPage {
     std::size_t filter;
     Position position;
   };
+  /// The latest NIS of a filter, each with the number of its quantities.
+  using Recent = std::deque<std::pair<double, double>>;
   struct Track {
     double first_time;
-    Thinned plots;  // x, y, z, their errors, and the truth
-    std::vector<Thinned> estimates;
-    std::vector<std::vector<ModeStay>> histories;  // of each filter
+    Thinned rows;  // what was measured, and then what each filter says of it
+    std::map<std::pair<double, std::size_t>, std::vector<double>> open{};  // the last of them, by time and line
+    std::size_t estimates = 0;                                             // of the first filter
+    std::vector<std::vector<ModeStay>> histories;                          // of each filter
+    std::vector<Recent> recent;                                            // of each filter
     std::optional<Geodetic> anchor{};
     std::optional<Position> last_position{};  // measured
+    std::optional<std::pair<double, Position>> last_truth{};
     std::vector<Mark> rejections{};
     std::vector<Mark> restarts{};
   };
+  using Named = std::pair<const std::string, Track>;
 
   Track* track_of(const Row& row);
   void mark(const Row& row, std::size_t filter, bool rejection);
+  std::vector<const Named*> longest_first() const;
+  std::vector<double>& numbers(Track& track, double time, std::size_t line);
+  void close(Track& track, std::size_t left_open);
+  std::size_t most_rows() const;
+  std::size_t column(std::size_t filter, std::size_t i) const;
+  std::vector<double> heights(const Track& track, std::size_t from) const;
+  void judge(const Row& row, const TargetPoint& point, int measured, Recent& recent, double* numbers);
+  LineChart chart(const Track& track, std::string title, std::string y_label) const;
   std::vector<Panel> charts(const Track& track) const;
+  std::vector<LineChart> error_charts(const Track& track) const;
+  LineChart modes(const Track& track, std::size_t filter) const;
+  void add_trust(const Track& track, std::vector<Panel>& panels) const;
   void add_restarts(const Track& track, LineChart& chart) const;
-  void add_histories(const Track& track, LineChart& weights) const;
+  void add_history(const Track& track, std::size_t filter, LineChart& modes) const;
   Plan plan(const std::string& name, const Track& track) const;
+  Plan map_of_all() const;
 
   const std::vector<FilterSettings>& filters_;
   const RecordingReader& recording_;
   bool truth_known_;
   std::vector<std::string> models_;
+  bool smooths_;                      // so that estimates come at the end
+  std::vector<std::string> sensors_;  // as they appear
   std::map<std::string, Track> tracks_;
+  std::size_t kept_ = 0;       // rows of all tracks
   std::size_t not_shown_ = 0;  // rows of tracks beyond
 };
 
@@ -208,6 +236,30 @@ struct Refusals {
   std::size_t measurements = 1;
 };
 
+/// What the list of tracks says of one of them.
+struct TrackTally {
+  struct Innovations {
+    double nis = 0.0;  ///< in all, of so many measured quantities
+    std::size_t quantities = 0;
+    std::size_t rejected = 0;  ///< by the gate
+
+    void add(double one, std::size_t measured) {
+      nis += one;
+      quantities += measured;
+    }
+  };
+  std::size_t rows = 0;
+  std::size_t measurements = 0;
+  double first_time = nan, last_time = nan;
+  double way_m = 0.0;                ///< from estimate to estimate of the first filter
+  std::vector<Innovations> nis{};    ///< of each filter
+  bool silent = false;               ///< whether there is no estimate
+  std::optional<Position> before{};  ///< the last estimate
+
+  void goes_to(const std::vector<double>& mean, int axes);
+  std::string why_silent() const;
+};
+
 /// What all filters made of all targets of one recording.
 struct TrackOutcome {
   std::vector<FilterOutcome> filters;
@@ -218,6 +270,7 @@ struct TrackOutcome {
   std::size_t bearings = 0;
   std::size_t tracks = 0;
   std::vector<std::string> places;                        ///< sentences on where the sensors stand
+  std::map<std::string, TrackTally> each;                 ///< of a recording of tracks
   std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
   std::map<std::string, std::size_t> sensors;             ///< the rows of each
   std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
