@@ -30,6 +30,11 @@ void Doubts::see_azimuth(double azimuth, const Position& from_radar) {
 void Doubts::see_rates(const Spoke& before, const Spoke& now) {
   const double dt = now.time - before.time;
   if (!(dt > 0.0)) return;
+  const double jump = std::hypot(now.position[0] - before.position[0], now.position[1] - before.position[1],
+                                 now.position[2] - before.position[2]);
+  path_ += jump;
+  ++jumps_;
+  if (jump == 0.0) ++held_;
   const double range_rate = (before.range_rate + now.range_rate) / 2.0;
   if (!std::isnan(range_rate)) range_rates_.add(range_rate, (now.range - before.range) / dt);
   Position grew{}, told{};
@@ -117,6 +122,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     distance += std::hypot((*track.last)[0] - (*track.first)[0], (*track.last)[1] - (*track.first)[1],
                            (*track.last)[2] - (*track.first)[2]);
   }
+  // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
+  say(held_ >= few && 4 * held_ > jumps_ && distance > 0.5 * path_,
+      "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
+      "count "
+      "as new measurements, and the filters take their estimates for better than they are; leave one row of each",
+      held_, jumps_);
   if (steps_.size() < few || !recording.times_are_seconds()) return sentences;
   const double step = median_step(), speed = distance / duration;
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
