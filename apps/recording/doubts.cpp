@@ -10,6 +10,12 @@ namespace {
 
 constexpr std::size_t few = 10, many = 10000;
 
+double distance(const Position& a, const Position& b) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 void Doubts::Agreement::add(double told_now, double growth) {
@@ -30,6 +36,10 @@ void Doubts::see_azimuth(double azimuth, const Position& from_radar) {
 void Doubts::see_rates(const Spoke& before, const Spoke& now) {
   const double dt = now.time - before.time;
   if (!(dt > 0.0)) return;
+  const double jump = distance(before.position, now.position);
+  path_ += jump;
+  ++jumps_;
+  if (jump == 0.0) ++held_;
   const double range_rate = (before.range_rate + now.range_rate) / 2.0;
   if (!std::isnan(range_rate)) range_rates_.add(range_rate, (now.range - before.range) / dt);
   Position grew{}, told{};
@@ -59,7 +69,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     velocity[static_cast<std::size_t>(i)] = component_of(plot, axes + i).value_or(nan);
   const Spoke now{plot.time, *position, velocity, is_radar ? plot.z[0] : 0.0,
                   has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan};
-  const auto [before, first] = track.spoke.emplace(row.sensor, now);
+  const auto [before, first] = track.spoke.try_emplace(row.sensor, now);
   if (!first) see_rates(std::exchange(before->second, now), now);
   if (!is_radar) track.located = position;
   if (!track.first) {
@@ -110,15 +120,20 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       recording.from_north() ? "name the column azimuth_deg, without --azimuth-from" : "give --azimuth-from north");
   say(fits(radians_) && !recording.from_north(),
       "the azimuths do not fit the {}, but would if they were radians: name the column azimuth_rad", reference);
-  double distance = 0.0, duration = 0.0;
+  double moved = 0.0, duration = 0.0;
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;
     duration += track.time - track.first_time;
-    distance += std::hypot((*track.last)[0] - (*track.first)[0], (*track.last)[1] - (*track.first)[1],
-                           (*track.last)[2] - (*track.first)[2]);
+    moved += distance(*track.first, *track.last);
   }
+  // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
+  say(held_ >= few && 4 * held_ > jumps_ && moved > 0.5 * path_,
+      "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
+      "count "
+      "as new measurements, and the filters take their estimates for better than they are; leave one row of each",
+      held_, jumps_);
   if (steps_.size() < few || !recording.times_are_seconds()) return sentences;
-  const double step = median_step(), speed = distance / duration;
+  const double step = median_step(), speed = moved / duration;
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.

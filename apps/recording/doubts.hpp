@@ -43,6 +43,8 @@ class Doubts {
   std::map<std::string, Track> tracks_;
   std::vector<double> steps_;  // between measurements of a track, the first thousands
   Agreement range_rates_, velocities_, swapped_velocities_, climbs_;
+  double path_ = 0.0;                 // of all positions, each sensor's own
+  std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;  // sums of cosines of azimuths' errors
 };

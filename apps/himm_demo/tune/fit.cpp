@@ -27,10 +27,11 @@ namespace {
 
 constexpr std::size_t most_em_steps = 3;
 constexpr double least_improvement = 1e-4;  // nats a row
-constexpr double surface_step = 0.1;        // of a logarithm
+constexpr double surface_step = 0.25;       // of a logarithm: rows jump over the gate, which is no slope
 
 /// Of candidates without a gate of their own: what it turns away is unheard of, yet would move a filter.
 constexpr double usual_gate = 1.0 - 1e-8;
+constexpr double usual_rejections = 3.0;  // in a row, as a start wants
 
 constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 
@@ -567,7 +568,10 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
   for (const auto& name : names) {
     sets.push_back({name, with_models(settings, name)});
     FilterSettings& own = sets.back().settings;
-    if (own.gate_probability == 1.0) own.gate_probability = usual_gate;
+    if (own.gate_probability == 1.0) {
+      own.gate_probability = usual_gate;
+      own.restart_after_rejections = usual_rejections;
+    }
     if (continuous && own.sojourn_s.empty() && own.models.size() > 1 && own.scheme != Scheme::independent)
       own.sojourn_s.assign(own.models.size(), usual_sojourn_steps * data.step_s);
   }
