@@ -188,6 +188,10 @@
       if (period !== made.rollPeriod()) made.adjustRoll(period);
     };
 
+    const turns = (from, to) => {  // the numbers along an axis that begins again after a period
+      const step = [15, 30, 45, 90, 180].find((one) => (to - from) / one <= 8) ?? 360 * Math.ceil((to - from) / 2880);
+      return d3.range(Math.ceil(from / step) * step, to, step).map((v) => ({v, label: told(panel, v)}));
+    };
     const reading = readout(panel, values, looks);
     const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
       labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
@@ -201,7 +205,7 @@
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
       includeZero: !panel.logarithmic, valueRange: rangeOf(panel),
       xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
-      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
+      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {...(panel.period ? {ticker: turns} : {}), axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
       ...(banded && panel.joined ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
       zoomCallback: () => showReset(), ...(panel.stacked ? {drawCallback: roll} : {}),
