@@ -188,6 +188,10 @@
       if (period !== made.rollPeriod()) made.adjustRoll(period);
     };
 
+    const turns = (from, to) => {  // the numbers along an axis that begins again after a period
+      const step = [15, 30, 45, 90, 180].find((one) => (to - from) / one <= 8) ?? 360 * Math.ceil((to - from) / 2880);
+      return d3.range(Math.ceil(from / step) * step, to, step).map((v) => ({v, label: told(panel, v)}));
+    };
     const reading = readout(panel, values, looks);
     const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
       labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
@@ -201,7 +205,7 @@
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
       includeZero: !panel.logarithmic, valueRange: rangeOf(panel),
       xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
-      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
+      axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {...(panel.period ? {ticker: turns} : {}), axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
       ...(banded && panel.joined ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
       zoomCallback: () => showReset(), ...(panel.stacked ? {drawCallback: roll} : {}),
@@ -243,7 +247,7 @@
     place.append(figure(panel, element('div', {className: 'y-label', textContent: panel.y_label}), svg.node(),
       element('div', {className: 'x-label', textContent: panel.x_label}), whole, key, table));
 
-    let transform = d3.zoomIdentity, focused = !panel.focus;
+    let transform = d3.zoomIdentity, focused, drawnWidth = 0;
     const zoom = d3.zoom().scaleExtent([1, 500]).filter(() => d3.event.type !== 'wheel' || d3.event.ctrlKey || d3.event.shiftKey)
       .on('zoom', () => { transform = d3.event.transform; whole.hidden = transform.k === 1; draw(); });
     svg.call(zoom);
@@ -252,6 +256,8 @@
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
       if (!width) return;
+      if (width !== drawnWidth) focused = !panel.focus;
+      drawnWidth = width;
       const edge = {left: 56, right: 30, top: 10, bottom: 24};  // the left one is wider where coordinates are long
       const all = panel.traces.filter((trace) => !hidden.has(trace.group));
       const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
@@ -402,7 +408,8 @@
         : d3.scaleSequential(dark() ? d3.interpolateViridis : (t) => d3.interpolateYlGnBu(0.05 + 0.9 * t)).domain([Math.min(0, least), greatest]);
       const left = 12 + d3.max(panel.rows, widthOf);
       const room = (box.getBoundingClientRect().width || 500) - left - 6;
-      const cell = {width: Math.max(8 + d3.max(panel.shown.flat(), widthOf), Math.min(90, room / panel.columns.length)), height: panel.rows.length > 25 ? 16 : 26};
+      const height = panel.rows.length > 25 ? 16 : 26, narrowest = height > 20 ? 8 + d3.max(panel.shown.flat(), widthOf) : 12;
+      const cell = {width: Math.max(narrowest, Math.min(90, room / panel.columns.length)), height};
       const longest = d3.max(panel.columns, widthOf), slant = longest > cell.width - 4;
       const top = slant ? 20 + 0.65 * longest : 22, width = left + cell.width * panel.columns.length + (slant ? 0.77 * longest : 4);
       const svg = d3.create('svg').attr('class', 'heat').attr('role', 'img').attr('aria-label', panel.title)

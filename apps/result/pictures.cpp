@@ -182,13 +182,13 @@ void mark(const LineChart& chart, Script& script) {
   }
 }
 
-/// Areas above each other, of means where there are more rows than a picture shows.
+/// Areas above each other, the last one lowest as in a page, of means where there are more rows than a picture shows.
 void stack(const LineChart& chart, Script& script) {
   constexpr std::size_t most = 400;
   const std::size_t period = 1 + chart.x.size() / most;
-  std::vector<std::vector<double>> sums{{}, {}};  // x, and the last curve's upper end
+  std::vector<std::vector<double>> sums{{}, {}};  // x, and the upper end of the curve below
   std::vector<std::pair<std::string, std::string>> areas;
-  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+  for (std::size_t i = chart.curves.size(); i-- > 0;) {
     std::vector<double> x, values;
     double mean = 0.0;
     for (std::size_t k = 0, taken = 0; k < chart.x.size(); ++k) {
@@ -196,15 +196,15 @@ void stack(const LineChart& chart, Script& script) {
       mean += (chart.curves[i].values[k] - mean) / static_cast<double>(++taken);
       if (taken < period) continue;
       x.push_back(chart.x[k]);
-      values.push_back(mean + (i > 0 && values.size() < sums[1].size() ? sums[1][values.size()] : 0.0));
+      values.push_back(mean + (values.size() < sums[1].size() ? sums[1][values.size()] : 0.0));
       mean = 0.0;
       taken = 0;
     }
     sums = {std::move(x), std::move(values)};
-    areas.emplace_back(script.data(sums) + fmt::format(" using 1:2 with filledcurves x1 fillcolor '{}' fillstyle "
-                                                       "transparent solid 0.7",
-                                                       script.colour("", i)),
-                       chart.curves[i].name);
+    areas.emplace_back(
+        script.data(sums) +
+            fmt::format(" using 1:2 with filledcurves x1 fillcolor '{}' fillstyle solid 0.7", script.colour("", i)),
+        chart.curves[i].name);
   }
   for (auto area = areas.rbegin(); area != areas.rend(); ++area) script.plot(area->first, area->second);
 }

@@ -1,6 +1,7 @@
 #include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
+#include "support/text.hpp"
 
 namespace {
 
@@ -71,6 +72,24 @@ TEST(HimmDemoBraille, EndsTheOutputOfAWideTerminalOnly) {
   const std::string track = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " track --quiet " SIGMAX_SOURCE
                                                                                  "/apps/examples/data/drone.csv";
   EXPECT_TRUE(says(in_terminal(120, track).output, {"Mode weights"}));
+}
+
+/// The columns of a table's row stand beside each other where the terminal has room, and else below each other.
+TEST(HimmDemoTables, TakeTheColumnsOfTheTerminal) {
+  if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "no script";
+  const std::string command = program::quoted(program::chosen(SIGMAX_HIMM_DEMO)) + " track --quiet --no-chart " +
+                              SIGMAX_SOURCE "/apps/examples/data/drone.csv --set filters=[imm,himm_histories]";
+  const auto widest = [](const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t width = 0;
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("himm_histories")) width = std::max(width, display_width(line));
+    return width;
+  };
+  EXPECT_GT(widest(in_terminal(120, command).output), 80U);
+  EXPECT_LE(widest(in_terminal(120, command).output), 120U);
+  EXPECT_LE(widest(in_terminal(80, command).output), 80U);
+  EXPECT_LE(widest(program::run("/bin/sh", {"-c", command}).output), 80U);
 }
 
 }  // namespace

@@ -60,9 +60,19 @@ TEST(Thinned, MayBeGivenLessRoomLater) {
   EXPECT_GE(rows.kept(), 2U);
 }
 
+TEST(Thinned, KeepsTheFirstOfAStretchAndTheExtremesOfWatchedColumns) {
+  Thinned rows(2, 8, {1});
+  for (int i = 0; i < 1000; ++i) rows.add(i, {i == 500 ? 9.0 : 0.0, i == 700 ? 9.0 : 0.001 * (i % 7)});
+  EXPECT_LE(rows.kept(), 8U);
+  EXPECT_EQ(rows.times().front(), 0.0);
+  EXPECT_EQ(std::ranges::count(rows.times(), 500.0), 0);
+  EXPECT_EQ(std::ranges::count(rows.times(), 700.0), 1);
+}
+
 TEST(Thinned, RefusesWhatCannotBe) {
   EXPECT_THROW(Thinned(0, 10), std::invalid_argument);
   EXPECT_THROW(Thinned(3, 11), std::invalid_argument);
+  EXPECT_THROW(Thinned(3, 7, {0, 2}), std::invalid_argument);
   Thinned rows(2, 10);
   EXPECT_THROW(rows.add(0.0, {1.0}), std::invalid_argument);
 }

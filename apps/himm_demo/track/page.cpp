@@ -440,6 +440,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   put(axes == 1 ? motion("Velocity", "m/s", 0) : motion("Speed", axes == 3 ? "in plan, m/s" : "m/s", 0));
   LineChart course = motion("Course", geodetic ? "° from north, clockwise" : "° from x, counter-clockwise", 1);
   course.period = 360.0;
+  course.joined = false;  // nobody knows it in between
   count_on(course);
   put(std::move(course));
   if (axes == 3) {
