@@ -49,6 +49,7 @@ inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
                                     {"rad", 1.0 / degree, "rad"},
                                     {"deg_north", 1.0, "°", true},
                                     {"rad_north", 1.0 / degree, "rad", true}};
+inline constexpr Unit bearings[] = {{"deg", 1.0, "°", true}, {"rad", 1.0 / degree, "rad", true}};
 
 }  // namespace units
 
@@ -79,8 +80,8 @@ struct Quantity {
 };
 
 /// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
-/// as far as their diagonal; the range rate, and what stands for it.
-inline constexpr std::array<Quantity, 38> quantities = {
+/// as far as their diagonal; the range rate and the azimuth, and what stands for them.
+inline constexpr std::array<Quantity, 39> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
@@ -90,6 +91,7 @@ inline constexpr std::array<Quantity, 38> quantities = {
      {Role::polar, {"range"}, units::lengths},
      {Role::polar, {"azimuth"}, units::azimuths},
      {Role::polar, {"elevation"}, units::angles, " above the horizon"},
+     {Role::polar, {"bearing"}, units::bearings},
      {Role::velocity, {"vx"}, units::speeds},
      {Role::velocity, {"vy"}, units::speeds},
      {Role::velocity, {"vz", "vertical_rate"}, units::speeds, " upwards"},

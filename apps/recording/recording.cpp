@@ -104,10 +104,12 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
     if (!time && (time = find(unit.name))) time_unit_ = &unit;
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
+  if (!has(Role::polar, 1)) std::swap(column(Role::polar, 1), column(Role::polar, 3));
+  drop(Role::polar, 3);
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
     if (options.azimuth_from_north == false)
-      throw UsageError("--azimuth-from east contradicts the column azimuth_{}", azimuth->unit->suffix);
+      throw UsageError("--azimuth-from east contradicts the column {}", csv_.names()[azimuth->index]);
     from_north_ = true;
   }
   const auto are_there = [&](Role role) { return has(role) && has(role, 1); };

@@ -536,6 +536,8 @@ class TrackRun {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
       throw InputError("{}: no row has {}; see how the file writes the value", file(),
                        fmt::join(options_.recording.select, " and "));
+    if (const auto doubts = outcome_.doubts.sentences(recording_); !doubts.empty())
+      throw InputError("{}", doubts.front());
     if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
       throw InputError(
           message({.where = file(),
