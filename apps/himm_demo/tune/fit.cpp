@@ -25,6 +25,7 @@ bool can_search() {
 
 namespace {
 
+constexpr std::size_t rounds = 2;  // of a search and the transition's EM
 constexpr std::size_t most_em_steps = 3;
 constexpr double least_improvement = 1e-4;  // nats a row
 constexpr double surface_step = 0.25;       // of a logarithm: rows jump over the gate, which is no slope
@@ -323,12 +324,11 @@ class Fitter {
 
   /// From where those led, by start number `start` about it.
   Found fit(Found best, std::size_t start) const {
-    search_numbers(best, start, 1.0);
-    const double before = best.value;
-    learn(best);
-    if (before - best.value > least_improvement) {  // the numbers follow the transition
-      search_numbers(best, 0, 0.3);
+    for (std::size_t round = 0; round < rounds; ++round) {
+      const double before = best.value;
+      search_numbers(best, round == 0 ? start : 0);
       learn(best);
+      if (!(before - best.value > least_improvement)) break;
     }
     return best;
   }
@@ -440,12 +440,12 @@ class Fitter {
     }
   }
 
-  void search_numbers(Found& best, std::size_t start, double step) const {
+  void search_numbers(Found& best, std::size_t start) const {
     const auto numbers = free_numbers(best.settings, data_, options_);
     std::vector<FitParameter> parameters;
     for (const auto& number : numbers) {
       parameters.push_back(number.parameter);
-      parameters.back().step = step * (number.parameter.scale == Scale::linear ? 1.0 : 0.7);
+      parameters.back().step = number.parameter.scale == Scale::linear ? 1.0 : 0.7;
     }
     const std::size_t most = budget(numbers.size());
     std::size_t asked = 0;
@@ -536,7 +536,12 @@ void calibrate(FilterSettings& settings, const TuneData& data, const TuneOptions
   for (std::size_t k = 0; k < most_steps; ++k) {
     const double nis = kept_by(settings, data, options.objective).nis;
     if (!(std::abs(nis - 1.0) > right_nis)) return;
-    for (const FreeNumber& number : free_numbers(settings, data, options))
+    const auto numbers = free_numbers(settings, data, options);
+    const auto held = [&](const FreeNumber& number) {
+      return number.least > 0.0 && number.parameter.start <= number.least;
+    };
+    if (nis < 1.0 && std::ranges::any_of(numbers, held)) return;  // its rounding is more than the filter needs
+    for (const FreeNumber& number : numbers)
       if (number.noise) number.set(settings, std::sqrt(nis) * number.parameter.start);
   }
 }
