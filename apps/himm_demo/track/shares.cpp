@@ -12,7 +12,8 @@ struct nlohmann::adl_serializer<std::optional<Value>> {
 };
 
 namespace sigmax {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TargetPoint, time, tag, mean, covariance, weights, most_likely_mode, nis)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TargetPoint, time, tag, mean, covariance, weights, most_likely_mode, nis,
+                                   normalized_innovation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ModeStay, since, tag, mode, is_start)
 }  // namespace sigmax
 
