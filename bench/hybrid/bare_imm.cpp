@@ -1,8 +1,3 @@
 #include "hybrid/bare_imm.hpp"
 
-namespace sigmax::bench {
-
-template struct BareImm<PlainUpdate>;
-template struct BareImm<UpdateByBlocks>;
-
-}  // namespace sigmax::bench
+template struct sigmax::bench::BareImm<sigmax::bench::UpdateByBlocks>;

@@ -60,8 +60,9 @@ BENCHMARK(BareStep<PlainUpdate>)->Name("BareEigenImmStep");
 BENCHMARK(BareStep<UpdateByBlocks>)->Name("GoodEigenImmStep");
 
 template <Uncertainty Kind, class Models>
-void step_with_output(benchmark::State& state, const Models& models) {
-  InteractingMultipleModel filter{models, transition<Kind>(), start()};
+void step_with_output(benchmark::State& state, const Models& models,
+                      const Relation<Kind, Kind>& mode_transition = transition<Kind>()) {
+  InteractingMultipleModel filter{models, mode_transition, start()};
   run(state, [&](const Gaussian<3>& z) {
     filter.step(T, z, PositionSensor<3>{});
     auto estimate = filter.estimate();
@@ -96,13 +97,7 @@ void ModesStep(benchmark::State& state) {
   const double leaves = 0.05 / static_cast<double>(modes - 1);
   std::vector<std::vector<double>> rows(modes, std::vector<double>(modes, leaves));
   for (std::size_t j = 0; j < modes; ++j) rows[j][j] = 0.95;
-  InteractingMultipleModel filter{models, Relation<Random, Random>{mode, mode, rows}, start()};
-  run(state, [&](const Gaussian<3>& z) {
-    filter.step(T, z, PositionSensor<3>{});
-    auto estimate = filter.estimate();
-    benchmark::DoNotOptimize(estimate.covariance.data());
-    benchmark::ClobberMemory();
-  });
+  step_with_output(state, models, Relation<Random, Random>{mode, mode, rows});
 }
 BENCHMARK(ModesStep)->Name("ImmStep/models")->Arg(2)->Arg(3)->Arg(4)->Arg(5)->Arg(8)->Arg(16);
 

@@ -56,22 +56,14 @@ bool step_one(const Plan& plan, const Track& now, const double* z, const double*
 /// within that model.
 template <int A, bool selects>
 void output_one(const Plan& plan, const Track& track, double* mean, double* covariance) {
-  int greatest = 0, least = max_order;
-  for (int l = 0; l < plan.modes; ++l) {
-    greatest = plan.order[place(l)] > greatest ? plan.order[place(l)] : greatest;
-    least = plan.order[place(l)] < least ? plan.order[place(l)] : least;
-  }
+  int greatest = 0;
+  for (int l = 0; l < plan.modes; ++l) greatest = plan.order[place(l)] > greatest ? plan.order[place(l)] : greatest;
   with_size<A>(greatest, [&](auto size) {
     constexpr int N = size;
-    Stored<double, N> lender{};
-    if (least < greatest) {
-      double weight[max_modes];
-      for (int l = 0; l < plan.modes; ++l) weight[l] = plan.order[place(l)] == greatest ? track.weight[l] : -1.0;
-      const auto carrier = place(static_cast<int>(
-          winner<double>(plan.modes, weight, static_cast<double>(track.most_likely), plan.output_tie)));
-      lender = {track.mean[carrier], track.covariance[carrier]};
-    }
-    Mixture<double, A, N> mixture(plan, track.mean, track.covariance, lender);
+    double weight[max_modes], most_likely = static_cast<double>(track.most_likely);
+    for (int l = 0; l < plan.modes; ++l) weight[l] = plan.order[place(l)] == greatest ? track.weight[l] : -1.0;
+    const double lender = winner<double>(plan.modes, weight, most_likely, plan.output_tie);
+    Mixture<double, A, N> mixture(plan, track.mean, track.covariance, static_cast<int>(lender));
     if constexpr (selects) {
       const int l = mixture.first = static_cast<int>(track.most_likely);
       mixture.last = l + 1;
@@ -83,11 +75,7 @@ void output_one(const Plan& plan, const Track& track, double* mean, double* cova
       mixture.match_moments(track.weight, 1.0);
     }
     SIGMAX_UNROLL for (int i = 0; i < N; ++i) mean[i] = mixture.x[i];
-    for_pairs<A>([&](auto u, auto v) {
-      typename Mixture<double, A, N>::Pair M;
-      mixture.template read_pair<u, v>(M);
-      mixture.template write_pair<u, v>(M, {mean, covariance});
-    });
+    mixture.write({mean, covariance}, [](auto, auto, auto&) {});
     mirror<N>(covariance);
   });
 }

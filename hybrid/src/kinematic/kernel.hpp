@@ -32,10 +32,7 @@ struct Precision<double> {
 };
 template <>
 struct Precision<float> {
-  static constexpr double rounding = 256 * 0x1p-23;
-  static constexpr double greatest_loss = 3e-3;
-  static constexpr double least_weight = 1e-30;
-  static constexpr double greatest = 1e30;
+  static constexpr double rounding = 256 * 0x1p-23, greatest_loss = 3e-3, least_weight = 1e-30, greatest = 1e30;
 };
 template <class V>
 using PrecisionOf = Precision<NumberOf<V>>;
@@ -54,16 +51,6 @@ struct Estimate {
   V* __restrict P;
 
   V& operator()(int i, int k) const { return i < k ? P[at<V, N>(k, i)] : P[at<V, N>(i, k)]; }
-};
-
-/// An estimate of N components where it is stored.
-template <class V, int N>
-struct Stored {
-  const NumberOf<V>* x;
-  const NumberOf<V>* P;
-
-  V mean(int i) const { return read<V>(x, i); }
-  V covariance(int i, int k) const { return read<V>(P, at<V, N>(i, k)); }
 };
 
 template <int Number>
@@ -97,14 +84,14 @@ V winner(int modes, const V* weight, V current, Tie tie) {
   return result;
 }
 
-/// What a part of a mixture has for the components that it lacks: so many times what the lender has, an estimate of
-/// all.
-template <class V>
-struct Lent {
-  NumberOf<V> mean, variance, covariance;
-  explicit Lent(Lift lift)
-      : mean(lift == Lift::unbiased ? 1 : 0), variance(lift == Lift::zero ? 0 : 1), covariance(mean) {}
-};
+/// action(u, v) for each pair of axes, v ≤ u, constants.
+template <int A, class Action>
+inline void for_pairs(const Action& action) {
+  action(Constant<0>{}, Constant<0>{});
+  if constexpr (A > 1) action(Constant<1>{}, Constant<0>{}), action(Constant<1>{}, Constant<1>{});
+  if constexpr (A > 2)
+    action(Constant<2>{}, Constant<0>{}), action(Constant<2>{}, Constant<1>{}), action(Constant<2>{}, Constant<2>{});
+}
 
 /// A mixture of the estimates of models as one of N components along A axes: its mean, and how its covariance is made
 /// of those of the models from `first` to `last` and of differences of means. A pair of axes at a time, so that what
@@ -112,14 +99,13 @@ struct Lent {
 template <class V, int A, int N>
 struct Mixture {
   static constexpr int order = N / A;
-  /// The numbers of one pair of axes: each derivative along the one with each along the other.
-  using Pair = V[order][order];
 
   const Plan& plan;
   const NumberOf<V>* const* mean;  ///< where the estimate of each model is stored
   const NumberOf<V>* const* covariance;
-  Stored<V, N> lender;
-  Lent<V> lent{plan.lift};
+  const NumberOf<V>* lender_mean;  ///< of an estimate of all components; a part has so many times what it lacks
+  const NumberOf<V>* lender_covariance;
+  NumberOf<V> lent = plan.lift == Lift::unbiased ? 1 : 0, lent_variance = plan.lift == Lift::zero ? 0 : 1;
 
   V x[N];
   int first = 0, last = plan.modes;
@@ -127,13 +113,17 @@ struct Mixture {
   int spreads = 0;
   V difference[max_modes][N], scaled[max_modes][N];
 
-  Mixture(const Plan& what, const NumberOf<V>* const* means, const NumberOf<V>* const* covariances, Stored<V, N> lends)
-      : plan(what), mean(means), covariance(covariances), lender(lends) {}
+  Mixture(const Plan& what, const NumberOf<V>* const* means, const NumberOf<V>* const* covariances, int lender)
+      : plan(what),
+        mean(means),
+        covariance(covariances),
+        lender_mean(means[lender]),
+        lender_covariance(covariances[lender]) {}
 
   /// The i-th component of the mean of model l, which has n.
   template <int n>
   V mean_of(int l, int i) const {
-    return i < n ? read<V>(mean[l], i) : lent.mean * lender.mean(i);
+    return i < n ? read<V>(mean[l], i) : lent * read<V>(lender_mean, i);
   }
 
   /// (58), (59) or (67), (68), one part after the other: a pair with the weights u and w has the spread
@@ -160,9 +150,20 @@ struct Mixture {
     }
   }
 
-  /// The covariance along the axes u and v.
+  /// Writes the covariance as `move` changes it, move(u, v, what it is along these axes), v ≤ u.
+  template <class Move>
+  void write(Estimate<V, N> P, const Move& move) const {
+    for_pairs<A>([&](auto u, auto v) {
+      V M[order][order];
+      read_pair<u, v>(M);
+      move(u, v, M);
+      SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < (u == v ? a + 1 : order); ++b)
+          P(a * A + u, b * A + v) = M[a][b];
+    });
+  }
+
   template <int u, int v>
-  void read_pair(Pair& M) const {
+  void read_pair(V (&M)[order][order]) const {
     SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) M[a][b] = V{};
     for (int l = first; l < last; ++l)
       with_size<A>(plan.order[l], [&](auto n) {
@@ -172,31 +173,16 @@ struct Mixture {
           if (high < n)
             M[a][b] += w * read<V>(covariance[l], at<V, n>(high, low));
           else if (low >= n)
-            M[a][b] += w * (i == k ? lent.variance : lent.covariance) * lender.covariance(high, low);
+            M[a][b] += w * (i == k ? lent_variance : lent) * read<V>(lender_covariance, at<V, N>(high, low));
         }
       });
     for (int s = 0; s < spreads; ++s)
       SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < order; ++b) {
-        const int i = a * A + u, k = b * A + v, high = i < k ? k : i, low = i < k ? i : k;
-        M[a][b] += scaled[s][high] * difference[s][low];
+        const int i = a * A + u, k = b * A + v;
+        M[a][b] += scaled[s][i < k ? k : i] * difference[s][i < k ? i : k];
       }
   }
-
-  template <int u, int v>
-  static void write_pair(const Pair& M, Estimate<V, N> P) {
-    SIGMAX_UNROLL for (int a = 0; a < order; ++a) SIGMAX_UNROLL for (int b = 0; b < (u == v ? a + 1 : order); ++b)
-        P(a * A + u, b * A + v) = M[a][b];
-  }
 };
-
-/// action(u, v) for each pair of axes, v ≤ u, constants.
-template <int A, class Action>
-inline void for_pairs(const Action& action) {
-  action(Constant<0>{}, Constant<0>{});
-  if constexpr (A > 1) action(Constant<1>{}, Constant<0>{}), action(Constant<1>{}, Constant<1>{});
-  if constexpr (A > 2)
-    action(Constant<2>{}, Constant<0>{}), action(Constant<2>{}, Constant<1>{}), action(Constant<2>{}, Constant<2>{});
-}
 
 /// Derivative `to` += f · the next one, along both axes of a pair.
 template <int to, class V, int order>
@@ -214,9 +200,7 @@ SIGMAX_APART void predict(const Law& law, const Mixture<V, A, N>& mixture, Estim
   constexpr int order = N / A, last = order - 1;
   const Number shears[]{number(law.shears[0]), number(law.shears[1]), number(law.shears[2])};
   const Number scale = number(law.scale);
-  for_pairs<A>([&](auto u, auto v) {
-    typename Mixture<V, A, N>::Pair M;
-    mixture.template read_pair<u, v>(M);
+  mixture.write(P, [&](auto u, auto v, V(&M)[order][order]) {
     V terms[order];
     SIGMAX_UNROLL for (int a = 0; a < order; ++a) {
       terms[a] = M[a][a];
@@ -248,7 +232,6 @@ SIGMAX_APART void predict(const Law& law, const Mixture<V, A, N>& mixture, Estim
       SIGMAX_UNROLL for (int a = 0; a < order; ++a) P.x[a * A + u] =
           x[a] + number(law.u[static_cast<std::size_t>(a * A + u)]);
     }
-    mixture.template write_pair<u, v>(M, P);
   });
 }
 
@@ -283,8 +266,7 @@ inline void innovate(const Measured<V, A>& measured, Estimate<V, N> P, Innovated
   SIGMAX_UNROLL for (int i = 0; i < A; ++i) {
     told.residual[i] = whitened[i] = measured.z[i] - P.x[i];
     SIGMAX_UNROLL for (int k = 0; k <= i; ++k) L[i][k] = told.S[triangle(i) + k] = P(i, k) + measured.R[i + k * A];
-    const V variance = L[i][i];
-    V pivot = variance;
+    V pivot = L[i][i];
     SIGMAX_UNROLL for (int k = 0; k < i; ++k) {
       V rest = L[i][k];
       SIGMAX_UNROLL for (int m = 0; m < k; ++m) rest -= L[i][m] * L[m][k];
@@ -297,7 +279,7 @@ inline void innovate(const Measured<V, A>& measured, Estimate<V, N> P, Innovated
     told.inverse[i] = inverse[i] = one / pivot;
     told.whitened[i] = whitened[i];
     least = select<V>(pivot < least, pivot, least);
-    condition *= variance * inverse[i];
+    condition *= L[i][i] * inverse[i];
     precision *= inverse[i];
     squared_distance += whitened[i] * whitened[i] * inverse[i];
   }
@@ -374,11 +356,10 @@ struct Step {
   /// (52), (54)–(57) or (58), (59): the mixed start of mode j, into which `coming` moves from each of the modes.
   template <int N>
   Mixture<V, A, N> mixed(int j, const V* coming) const {
-    Mixture<V, A, N> result(plan, mean, covariance, {mean[j], covariance[j]});
+    Mixture<V, A, N> result(plan, mean, covariance, j);
     if constexpr (selects) {
       const V selected = winner<V>(plan.modes, coming, all<V>(j), plan.mixing_tie), none{}, one = all<V>(1.0);
-      const Stored<V, N>& mine = result.lender;
-      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = mine.mean(i);
+      SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.x[i] = read<V>(mean[j], i);
       for (int l = 0; l < plan.modes; ++l) {
         const Mask<V> its = selected == all<V>(l);
         result.weight[l] = select<V>(its, one, none);
@@ -394,7 +375,7 @@ struct Step {
       result.weight[j] = one;
       result.spreads = plan.mixed_covariance == MixedCovariance::own_recentred ? 1 : 0;
       SIGMAX_UNROLL for (int i = 0; i < N; ++i) result.difference[0][i] = result.scaled[0][i] =
-          result.x[i] - mine.mean(i);
+          result.x[i] - read<V>(mean[j], i);
     } else {
       result.match_moments(coming, all<V>(1.0) / prior[j]);
     }

@@ -47,17 +47,6 @@ inline V select(Mask<V> mask, V a, V b) {
   return mask ? a : b;
 }
 
-template <class V>
-inline bool any(Mask<V> mask) {
-  if constexpr (Lane<V>::count == 1) {
-    return mask;
-  } else {
-    auto one = mask[0];
-    for (int lane = 1; lane < Lane<V>::count; ++lane) one |= mask[lane];
-    return one != 0;
-  }
-}
-
 /// A bit for each lane where the mask does not hold.
 template <class V>
 inline unsigned failures(Mask<V> mask) {
