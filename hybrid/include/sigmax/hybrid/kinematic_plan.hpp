@@ -62,7 +62,7 @@ struct Told {
   double* S[max_modes];  ///< a whole matrix
   double squared_distance[max_modes];
   double precision[max_modes];  ///< 1/det S
-  double prior[max_modes];        ///< linear weights of the modes before the measurement
+  double prior[max_modes];      ///< linear weights of the modes before the measurement
   double posterior[max_modes];
 };
 
