@@ -139,7 +139,8 @@ TEST(AnyTarget, StartsFromBearingsThatCross) {
     AnyTarget crossed{two}, alone{two};
     const int enough = accelerates ? 3 : 2;
     for (int k = 0; k < 2 * enough; ++k) {
-      EXPECT_EQ(crossed.take(seen(k / 2, k % 2 == 0 ? 0 : 1)), k + 1 < 2 * enough ? Verdict::waiting : Verdict::started) << k;
+      EXPECT_EQ(crossed.take(seen(k / 2, k % 2 == 0 ? 0 : 1)), k + 1 < 2 * enough ? Verdict::waiting : Verdict::started)
+          << k;
       EXPECT_EQ(alone.take(seen(k, 1)), Verdict::waiting);
     }
     const TargetPoint start = crossed.output();
