@@ -6,7 +6,6 @@ namespace sigmax::apps {
 namespace {
 
 constexpr std::size_t most_tracks = 200;
-constexpr std::size_t most_rows = 9000;    // of all series of a page together
 constexpr std::size_t most_marks = 300;    // of each kind and track
 constexpr std::size_t most_stays = 1000;   // of a history
 constexpr std::size_t most_on_map = 8000;  // places of all tracks together
