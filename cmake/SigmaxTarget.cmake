@@ -10,6 +10,15 @@ function(sigmax_warnings target)
 endfunction()
 option(SIGMAX_WERROR "Treat warnings as errors (CI does)" OFF)
 
+# Most of what compiling takes is headers, so a few files are compiled as one; off while one file is being worked at. Files
+# with options of their own stay alone.
+option(SIGMAX_UNITY "Compile several files as one" ON)
+function(sigmax_unity target)
+  if(SIGMAX_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 3)
+  endif()
+endfunction()
+
 # sigmax_room(NAME [SOURCES …] [DEPENDS …]): the library sigmax::NAME of one room, with its own include root. All
 # headers below it are the room's file set: they are installed, and each must compile alone (scripts/headers).
 function(sigmax_room name)
@@ -19,6 +28,7 @@ function(sigmax_room name)
     add_library(${target} STATIC ${ROOM_SOURCES})
     set(scope PUBLIC)
     sigmax_warnings(${target})
+    sigmax_unity(${target})
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   else()
     add_library(${target} INTERFACE)
@@ -39,15 +49,6 @@ function(sigmax_install target)
     install(TARGETS ${target} EXPORT sigmax ARCHIVE COMPONENT dev FILE_SET HEADERS COMPONENT dev)
     add_dependencies(sigmax_installed ${target})
     set_property(GLOBAL APPEND PROPERTY sigmax_installed_libraries ${target})
-  endif()
-endfunction()
-
-# Most of a program's compile time is the headers of its libraries, so a few files are compiled as one; off while one
-# file is being worked at.
-option(SIGMAX_UNITY "Compile several files of the programs as one" ON)
-function(sigmax_unity target)
-  if(SIGMAX_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 3)
   endif()
 endfunction()
 
