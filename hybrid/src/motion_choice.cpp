@@ -31,7 +31,7 @@ constexpr double square(double value) { return value * value; }
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// The motions that can be chosen by name, in the order of the documentation: a row here is all that a new one needs.
-constexpr std::array rows{
+constexpr std::array motion_rows{
     MotionRow::of("dwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return dwna<A>(c[sigma_w]); }, {sigma_w}),
     MotionRow::of("dwpa", manoeuvre, []<int A>(const MotionChoice& c) { return dwpa<A>(c[sigma_w]); }, {sigma_w}),
     MotionRow::of("cwna", no_manoeuvre, []<int A>(const MotionChoice& c) { return cwna<A>(square(c[sigma_w])); },
@@ -58,8 +58,8 @@ constexpr std::array rows{
                      {sigma_w, turn_drift})};
 
 constexpr auto motions = [] {
-  std::array<KnownMotion, rows.size()> all{};
-  for (std::size_t i = 0; i < rows.size(); ++i) all[i] = rows[i].known;
+  std::array<KnownMotion, motion_rows.size()> all{};
+  for (std::size_t i = 0; i < motion_rows.size(); ++i) all[i] = motion_rows[i].known;
   return all;
 }();
 
@@ -84,8 +84,8 @@ AnyModel known_model(const MotionChoice& choice, int axes, MemberType member) {
   if (axes < choice.known().least_axes)
     throw std::invalid_argument("motion '" + choice.name + "' turns in a plane; it does not go along one axis");
   std::size_t row = 0;
-  while (rows[row].known.name != choice.name) ++row;
-  return rows[row].make(choice, axes, member);
+  while (motion_rows[row].known.name != choice.name) ++row;
+  return motion_rows[row].make(choice, axes, member);
 }
 
 }  // namespace sigmax
