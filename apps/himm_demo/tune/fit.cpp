@@ -539,9 +539,9 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
 }
 
 /// Real errors have long tails, and what is most likely need not be as wide as the errors are: all noises change by
-/// one factor, which leaves the filter's gains as they are, until 95 % of the rows kept lie within what is stated of 95
-/// %, or until the mean NIS is near the end of 0.9 to 1.1. The result is to four digits, and without a gate of ours
-/// that turns nothing away.
+/// one factor, which leaves the filter's gains as they are, until the region that is stated to hold 95 % holds as many
+/// of the rows kept, or until the mean NIS is near the end of 0.9 to 1.1. The result is to four digits, and without a
+/// gate of ours that turns nothing away.
 void finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
   constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03;
   constexpr std::size_t most_steps = 8;
