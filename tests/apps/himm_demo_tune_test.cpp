@@ -5,21 +5,23 @@
 
 namespace {
 
-/// A target with noise on its acceleration of 1 m/s² that is seen every second to 20 m; the truth beside it.
-std::string recording(std::size_t rows, bool truth, std::uint64_t seed = 3) {
-  std::mt19937_64 generator(seed);
+/// A target with noise on its acceleration of 1 m/s² that is seen to 20 m, every second or so many; the truth beside
+/// it.
+std::string recording(std::size_t rows, bool truth, std::size_t step = 1) {
+  std::mt19937_64 generator(3);
   std::normal_distribution<double> normal;
   std::ostringstream text;
   text.precision(10);
   text << "time_s,x_m,y_m" << (truth ? ",true_x_m,true_y_m" : "") << "\n";
   std::array<double, 2> x{}, v{80.0, -40.0};
   for (std::size_t k = 0; k < rows; ++k) {
-    text << k;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double w = normal(generator);
-      x[i] += v[i] + 0.5 * w;
-      v[i] += w;
-    }
+    text << k * step;
+    for (std::size_t second = 0; second < step; ++second)
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double w = normal(generator);
+        x[i] += v[i] + 0.5 * w;
+        v[i] += w;
+      }
     for (const double each : x) text << "," << each + 20.0 * normal(generator);
     if (truth) text << "," << x[0] << "," << x[1];
     text << "\n";
@@ -146,6 +148,22 @@ TEST_F(Tune, SetsAsideWhatNoFilterExpectsAndTrackGatesIt) {
   EXPECT_TRUE(says(tracked.on_one_line(), {"Measurements that the gate turned away: imm 4"}));
 }
 
+TEST_F(Tune, LeavesOutOfTheFitWhatOnlyTheRowsAfterTellToBeStray) {
+  const std::set<std::size_t> stray = {60, 130, 200};
+  const auto text = changed(recording(240, false, 10), [&](std::vector<double>& row, std::size_t k) {
+    if (stray.contains(k)) row[2] += 250.0;
+  });
+  const auto file = directory.write("slow.csv", text);
+  const auto best = (directory.path() / "best.toml").string(), summary = (directory.path() / "s.json").string();
+  const auto ending = program::succeeded(tune(words("--set filters=imm --models cwna --starts 1 --folds 2") +
+                                              Arguments{file, "--out", best, "--summary", summary}));
+  EXPECT_TRUE(says(ending.on_one_line(), {"3 rows left out of the fit", "slow.csv:62, 132, 202."}));
+  const auto found = nlohmann::json::parse(contents(summary)).at("filters").at("imm");
+  EXPECT_EQ(found.at("left_out").at(2).at("line"), 202);
+  EXPECT_NEAR(found.at("numbers").at("sigma_position_m").at("value").get<double>(), 20.0, 3.0);
+  EXPECT_NEAR(found.at("numbers").at("sigma_w of cwna").at("value").get<double>(), 1.0, 0.15);
+}
+
 TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
   const auto text = changed(recording(200, false), [](std::vector<double>& row, std::size_t k) {
     row = {row[0], 50.0 * static_cast<double>(k / 20), 0.0};  // a target that mostly stands where it stood
@@ -155,6 +173,13 @@ TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
       tune(quickly(directory.write("flight.csv", text), {"--out", best, "--set", "sigma_position_m=40"})));
   EXPECT_TRUE(says(ending.output, {"no less: its column is rounded"}));
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 50.0 / std::sqrt(12.0), 0.01);
+  const auto far_north = changed(recording(200, false), [](std::vector<double>& row, std::size_t k) {
+    row = {row[0], 60.0 + 1e-9 * row[1], 0.001 * static_cast<double>(k / 20)};
+  });
+  const auto places = "time_s,latitude_deg,longitude_deg" + far_north.substr(far_north.find('\n'));
+  program::succeeded(
+      tune(quickly(directory.write("places.csv", places), {"--out", best, "--set", "sigma_position_m=40"})));
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 0.001 * 60.0 * 1852.0 * 0.5 / std::sqrt(12.0), 0.01);
 }
 
 TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVary) {

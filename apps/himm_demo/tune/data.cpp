@@ -37,8 +37,10 @@ QuantityKey quantity_of(const AnyPlot& plot, std::size_t i) {
 /// The numbers of each sensor's columns, as they were written.
 using Columns = std::map<std::string, std::map<QuantityKey, std::vector<double>>, std::less<>>;
 
-/// Takes down a row's numbers; of a place in m, and of a velocity along two axes or more also the speed, since that may
-/// be what was rounded. It is filed behind the velocity.
+constexpr double metres_a_degree = 60.0 * units::nautical_mile;  // of latitude
+
+/// Takes down a row's numbers; of a place in m along a meridian, and of a velocity along two axes or more also the
+/// speed, since that may be what was rounded. It is filed behind the velocity.
 void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
   const AnyPlot& plot = row.plot;
   auto& own = columns[row.sensor];
@@ -47,7 +49,7 @@ void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
     const auto key = quantity_of(plot, i);
     const bool is_component = plot.sensor == AnyPlot::Sensor::components;
     const bool is_angle = geodetic && is_component && key.second < 2;
-    own[key].push_back(plot.z[i] * (is_angle ? units::nautical_mile * 60.0 : 1.0));
+    own[key].push_back(plot.z[i] * (is_angle ? metres_a_degree : 1.0));
     if (is_component && key.second >= axes && key.second < axes + 2) squares += plot.z[i] * plot.z[i];
   }
   if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
@@ -129,13 +131,6 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   for (const std::string& doubt : doubts.sentences(recording)) data.notes.push_back(doubt);
 }
 
-/// What so many tenths of the numbers are below.
-double quantile(std::vector<double>& numbers, std::size_t tenths) {
-  const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(tenths * (numbers.size() - 1) / 10);
-  std::nth_element(numbers.begin(), place, numbers.end());
-  return *place;
-}
-
 /// Drops what is too short, and takes down what the rest holds.
 void summarize(TuneData& data, const Columns& columns) {
   const std::size_t all = data.tracks.size();
@@ -175,11 +170,15 @@ void summarize(TuneData& data, const Columns& columns) {
   }
   for (auto& [name, sensor] : data.sensors)
     if (const auto own = columns.find(name); own != columns.end())
-      for (const auto& [key, numbers] : own->second) sensor.rounding[key] = rounding_of(numbers);
-  for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 9);
+      for (const auto& [key, numbers] : own->second) {
+        const bool is_longitude = data.geodetic && key == QuantityKey{AnyPlot::Sensor::components, 1};
+        const double latitude = is_longitude ? own->second.begin()->second.front() / metres_a_degree : 0.0;
+        sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
+      }
+  for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 0.9);
   if (steps.empty()) return;
-  data.step_s = quantile(steps, 5);
-  data.uneven_steps = quantile(steps, 9) >= 2.0 * quantile(steps, 1);
+  data.step_s = quantile(steps, 0.5);
+  data.uneven_steps = quantile(steps, 0.9) >= 2.0 * quantile(steps, 0.1);
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -197,6 +196,30 @@ double truth_loss(const TargetPoint& now, const Position& truth, int axes, Objec
   detail::lower_solve(root.data(), 3, error.data());
   const double log_root = std::log(root[0]) + std::log(root[4]) + std::log(root[8]);
   return 0.5 * squared() + log_root + 0.5 * axes * std::log(2.0 * std::numbers::pi);
+}
+
+/// How well all other rows, before and after, predict a plot of components, by what smoothing knows of its state with
+/// it. With e = z − Hx and C = R − HPHᵀ the plot is R C⁻¹ e off what they say, of covariance R C⁻¹ R, so that its
+/// squared distance is eᵀ C⁻¹ e. Nothing where the covariances do not allow it.
+std::optional<double> log_score_by_others(const AnyPlot& plot, const TargetPoint& smoothed) {
+  const auto size = static_cast<std::size_t>(plot.size), n = smoothed.mean.size();
+  std::array<double, 6> error{};
+  std::array<double, 36> rest{}, root{}, own_root{};
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto at = static_cast<std::size_t>(quantity_of(plot, i).second);
+    error[i] = plot.z[i] - smoothed.mean[at];
+    for (std::size_t k = 0; k < size; ++k)
+      rest[i + size * k] = plot.covariance[i + size * k] -
+                           smoothed.covariance[at + n * static_cast<std::size_t>(quantity_of(plot, k).second)];
+  }
+  if (!detail::cholesky_factor(rest.data(), plot.size, root.data()) ||
+      !detail::cholesky_factor(plot.covariance.data(), plot.size, own_root.data()))
+    return std::nullopt;
+  detail::lower_solve(root.data(), plot.size, error.data());
+  double score = -0.5 * plot.size * std::log(2.0 * std::numbers::pi);
+  for (std::size_t i = 0; i < size; ++i)
+    score += std::log(root[i * (size + 1)]) - 2.0 * std::log(own_root[i * (size + 1)]) - 0.5 * error[i] * error[i];
+  return score;
 }
 
 }  // namespace
@@ -218,6 +241,12 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
         "a longer recording, or several",
         options.files.front(), data.measurements, fewest_measurements, fewest_in_all);
   return data;
+}
+
+double quantile(std::vector<double>& numbers, double share) {
+  const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size() - 1));
+  std::nth_element(numbers.begin(), place, numbers.end());
+  return *place;
 }
 
 double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
@@ -287,6 +316,42 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
     }
   }
   return result;
+}
+
+std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& settings) {
+  constexpr std::size_t reach = 2;  // so far a stray row spoils what others say of its neighbours
+  TargetChoice choice = judged_choice(data, settings);
+  choice.rules.gate_probability = 1.0;
+  choice.rules.rejections = 0;
+  choice.rules.record = true;
+  std::vector<RowPlace> strays;
+  for (std::size_t pass = 0; pass < 2; ++pass)  // the second for neighbours
+    for (std::size_t t = 0; t < data.tracks.size(); ++t) {
+      auto& rows = data.tracks[t].rows;
+      const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
+      std::vector<double> odds(rows.size() + 2 * reach, 0.0);  // logarithms, behind and before rows that there are not
+      AnyTarget target(choice);
+      try {
+        for (const AnyPlot& plot : plots) target.take(plot);
+        target.smoothed([&](const TargetPoint& now) {
+          const AnyPlot& plot = plots[now.tag];
+          if (!now.nis || quantity_of(plot, 0).first != AnyPlot::Sensor::components) return;
+          if (const auto own = log_score_by_others(plot, now))
+            odds[now.tag + reach] = std::log(stray_share) + data.log_stray(plot) - std::log1p(-stray_share) - *own;
+        });
+      } catch (const std::exception&) {  // what cannot be smoothed is not judged by it
+        continue;
+      }
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double* const about = &odds[k];
+        if (!(about[reach] > 0.0) || about[reach] < *std::max_element(about, about + 2 * reach + 1)) continue;
+        rows[k].plot = AnyPlot::missed(rows[k].plot.time);
+        rows[k].plot.tag = k;
+        strays.push_back({t, k});
+      }
+    }
+  std::ranges::sort(strays, {}, [](const RowPlace& place) { return std::pair(place.track, place.row); });
+  return strays;
 }
 
 double objective_of(const RowLosses& losses, Objective objective, const RowCounts& counts) {

@@ -114,7 +114,7 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
 /// The fitted numbers of the best settings.
 ResultTable numbers_table(const TunedFilter& tuned) {
   ResultTable table({{.key = "number", .header = "fitted number", .align = Align::left},
-                     {.key = "value", .header = "best"},
+                     {.key = "value", .header = "fitted"},
                      {.key = "error"},
                      {.key = "remark", .header = "standard error", .align = Align::left}});
   for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
@@ -379,10 +379,9 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
   return diagnosis;
 }
 
-/// Which rows the gate turned away: the first lines of them.
-std::string set_aside_of(const Diagnosis& diagnosis, const TuneData& data) {
+/// How many rows these are, what was done with them, and the first lines of them; empty without any.
+std::string rows_text(const std::vector<RowPlace>& rows, std::string_view done, const TuneData& data) {
   constexpr std::size_t most_lines = 8;
-  const auto& rows = diagnosis.set_aside;
   std::string text, file;
   for (std::size_t i = 0; i < std::min(rows.size(), most_lines); ++i) {
     const TuneTrack& track = data.tracks[rows[i].track];
@@ -391,9 +390,17 @@ std::string set_aside_of(const Diagnosis& diagnosis, const TuneData& data) {
     file = track.file;
     text += fmt::format("{}", track.rows[rows[i].row].line);
   }
-  return fmt::format("{} row{} set aside, as the gate will in track: line{} {}{}.", rows.size(),
-                     rows.size() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", text,
-                     rows.size() > most_lines ? ", …" : "");
+  const char* const s = rows.size() == 1 ? "" : "s";
+  if (rows.empty()) return {};
+  return wrapped(
+      fmt::format("{} row{} {}: line{} {}{}.", rows.size(), s, done, s, text, rows.size() > most_lines ? ", …" : ""));
+}
+
+Json rows_json(const std::vector<RowPlace>& rows, const TuneData& data) {
+  Json lines = Json::array();
+  for (const auto& [track, row] : rows)
+    lines.push_back({{"file", data.tracks[track].file}, {"line", data.tracks[track].rows[row].line}});
+  return lines;
 }
 
 std::string text_of(const Diagnosis& diagnosis, std::size_t width) {
@@ -426,15 +433,13 @@ Json summary_of(const TuneOptions& options, const TuneData& data, const std::vec
       filter[when]["sensors"] = innovations_table(diagnosis->sensors, false).json();
       filter[when]["modes"] = innovations_table(diagnosis->modes, true).json();
       filter[when]["advice"] = advice_of(*diagnosis);
-      filter[when]["set_aside"] = Json::array();
-      for (const auto& [track, row] : diagnosis->set_aside)
-        filter[when]["set_aside"].push_back(
-            {{"file", data.tracks[track].file}, {"line", data.tracks[track].rows[row].line}});
+      filter[when]["set_aside"] = rows_json(diagnosis->set_aside, data);
       if (diagnosis->rmse_m) filter[when]["rmse_m"] = *diagnosis->rmse_m;
     }
     for (std::size_t fold = 0; fold <= options.folds; ++fold)
       for (const auto& [name, figures] : by_fold(findings.tuned, options, data))
         filter["held_out"][name_of_fold(fold, options)][name] = figures[fold];
+    filter["left_out"] = rows_json(findings.tuned.strays, data);
     filter["candidates"] = candidates_table(findings.tuned, options.objective).json();
     filter["numbers"] = numbers_table(findings.tuned).json();
     filter["settings"] = changes_table(findings.tuned).json();
@@ -512,7 +517,8 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
     after = diagnose(data, tuned.best().settings, options.objective);
     fmt::print("\nfilter {}: with the best settings\n\n{}", printable(filter.name),
                text_of(*after, options.page.width()));
-    if (!after->set_aside.empty()) fmt::print("{}", wrapped(set_aside_of(*after, data)));
+    fmt::print("{}{}", rows_text(after->set_aside, "set aside, as the gate will in track", data),
+               rows_text(tuned.strays, "left out of the fit, since those after tell that they are stray", data));
     if (before.rmse_m && after->rmse_m)
       fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
   }

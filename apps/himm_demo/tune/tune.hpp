@@ -96,6 +96,9 @@ struct TuneData {
   std::vector<AnyPlot> plots(const TuneTrack& track, const FilterSettings& settings) const;
 };
 
+/// What this share of the numbers is below; they come into another order.
+double quantile(std::vector<double>& numbers, double share);
+
 /// Reads all files; a filter's settings say where sensors stand. Throws InputError, with file and line, for what
 /// `track` refuses too, for files of different axes, and where there is too little to fit.
 TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settings);
@@ -114,6 +117,10 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
 /// The choice as `losses` runs it.
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings);
 
+/// Leaves out, as misses, the rows of positions and velocities that are stray ones more likely than not by what all
+/// others, also those after them, say with these settings: what a filter cannot know where it predicts far ahead.
+std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& settings);
+
 /// The mean of the rows that count: nats a row, or of the RMSE its logarithm.
 double objective_of(const RowLosses& losses, Objective objective, const RowCounts& counts = {});
 
@@ -131,7 +138,7 @@ struct FittedNumber {
 /// One way to set a filter, judged.
 struct Candidate {
   std::string name;
-  FilterSettings settings{};  ///< fitted to all rows
+  FilterSettings settings{};  ///< fitted to all rows, its noises by one factor more
   std::vector<FittedNumber> numbers{};
   double fitted = 0.0;    ///< the objective over all rows, which those settings have seen
   double held_out = 0.0;  ///< the same over all rows, each with settings that have not seen its fold
@@ -144,6 +151,7 @@ struct TunedFilter {
   std::vector<std::size_t> numbers;   ///< so many were fitted of each
   std::vector<RowLosses> held_out;    ///< of each
   Selected selected;
+  std::vector<RowPlace> strays{};  ///< rows that nothing was fitted to, nor judged by
 
   const Candidate& before() const { return candidates.front(); }
   const Candidate& best() const { return candidates[selected.best]; }
