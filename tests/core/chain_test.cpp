@@ -1,8 +1,5 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

@@ -1,6 +1,3 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/forward_backward.hpp>
-
 #include "support/plain.hpp"
 
 namespace {

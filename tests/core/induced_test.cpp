@@ -1,7 +1,4 @@
-#include <sigmax/core/belief.hpp>
-#include <sigmax/core/induced.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

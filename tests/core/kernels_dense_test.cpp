@@ -1,5 +1,3 @@
-#include <sigmax/core/kernels/compose.hpp>
-
 #include "support/plain.hpp"
 
 namespace {

@@ -1,7 +1,4 @@
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

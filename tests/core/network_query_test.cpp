@@ -1,9 +1,3 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/measure.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "core/network_grid.hpp"
 
 namespace {

@@ -1,7 +1,3 @@
-#include <sigmax/core/network.hpp>
-#include <sigmax/core/network/graphviz.hpp>
-#include <sigmax/core/network/transform.hpp>
-
 #include "core/network_grid.hpp"
 
 namespace {

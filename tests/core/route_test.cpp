@@ -1,7 +1,5 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <sigmax/core/route.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

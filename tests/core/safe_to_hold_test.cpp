@@ -1,12 +1,4 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/hybrid_distribution.hpp>
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/query.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// What a user may hold without thinking of its lifetime, and what may be compared or written to.
 namespace {

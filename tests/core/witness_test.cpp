@@ -1,5 +1,3 @@
-#include <sigmax/core/witness.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

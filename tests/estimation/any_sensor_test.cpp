@@ -1,9 +1,3 @@
-#include <sigmax/estimation/any_sensor.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
-
 #include "estimation/restated.hpp"
 
 namespace {

@@ -1,13 +1,7 @@
 // What member_bench compares the library with does the same work: the bare filters are the library's members.
 #include "estimation/bare_members.hpp"
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/sensors.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

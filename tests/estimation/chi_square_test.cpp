@@ -1,6 +1,4 @@
-#include <sigmax/estimation/chi_square.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,9 +1,4 @@
-#include <sigmax/estimation/radar.hpp>
-
-#include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/estimation/metrics.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

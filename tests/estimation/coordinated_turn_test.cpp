@@ -1,10 +1,4 @@
-#include <sigmax/estimation/coordinated_turn.hpp>
-
-#include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/nonlinear_motion.hpp>
-#include <sigmax/estimation/white_noise.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

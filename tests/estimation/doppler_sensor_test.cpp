@@ -1,8 +1,4 @@
-#include <sigmax/estimation/doppler_sensor.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include <sigmax/estimation/extended.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {

@@ -1,6 +1,5 @@
 // The filters in numbers beside their plain restatement, of models of many sizes: rows go by blocks of ten, and from 17
 // states on there is no room on the stack.
-#include <sigmax/estimation/filtering.hpp>
 
 #include "estimation/restated.hpp"
 

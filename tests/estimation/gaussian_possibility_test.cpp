@@ -1,8 +1,4 @@
-#include <sigmax/estimation/gaussian_possibility.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

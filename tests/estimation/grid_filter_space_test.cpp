@@ -1,10 +1,6 @@
 // The grid filter of more than one dimension, which takes long to compile.
 
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/grid_filter.hpp>
-#include <sigmax/estimation/kalman.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,9 +1,4 @@
-#include <sigmax/estimation/grid_filter.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/kalman.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

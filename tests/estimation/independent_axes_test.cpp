@@ -1,9 +1,4 @@
-#include <sigmax/estimation/independent_axes.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/kalman.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

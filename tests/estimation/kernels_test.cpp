@@ -2,8 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "support/matrices.hpp"
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,7 +1,3 @@
-#include <sigmax/estimation/known_turn.hpp>
-
-#include <sigmax/estimation/white_noise.hpp>
-
 #include "estimation/motion_laws.hpp"
 
 namespace {

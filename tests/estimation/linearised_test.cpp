@@ -1,8 +1,3 @@
-#include <sigmax/estimation/linearised.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {

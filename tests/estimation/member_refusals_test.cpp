@@ -1,8 +1,5 @@
 // What every member of the family refuses, and by which words.
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/restated.hpp"
 
 namespace {

@@ -1,8 +1,4 @@
 // What every member of the family has in common: Extended, Unscented, Cubature.
-#include <sigmax/estimation/member.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
 
 #include "estimation/restated.hpp"
 

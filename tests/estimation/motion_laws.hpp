@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/linearised.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace sigmax::support {
 

@@ -1,9 +1,4 @@
-#include <sigmax/estimation/nonlinear_motion.hpp>
-
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/linearised.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,7 +1,3 @@
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-
-#include <sigmax/estimation/white_noise.hpp>
-
 #include "estimation/motion_laws.hpp"
 
 namespace {

@@ -1,11 +1,5 @@
-#include <sigmax/estimation/rts_smoother.hpp>
-
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/matrices.hpp"
 #include "support/nonlinear_restatement.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

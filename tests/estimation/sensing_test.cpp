@@ -1,12 +1,4 @@
-#include <sigmax/estimation/sensing.hpp>
-
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/linearised.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,11 +1,4 @@
-#include <sigmax/estimation/sensors.hpp>
-
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
-#include <sigmax/estimation/extended.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

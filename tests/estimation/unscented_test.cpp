@@ -1,5 +1,3 @@
-#include <sigmax/estimation/unscented.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {

@@ -1,7 +1,3 @@
-#include <sigmax/estimation/white_noise.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/motion_laws.hpp"
 
 namespace {

@@ -1,11 +1,5 @@
 // A bank of typed models does the same as one of run-time models and as a target with its choices in plain data, and
 // what does not fit its types does not compile.
-#include <sigmax/hybrid/bank_filter.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/unscented.hpp>
 
 #include "hybrid/banks.hpp"
 

@@ -1,15 +1,7 @@
 #pragma once
 
-#include <sigmax/hybrid/any_target.hpp>
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
-#include <sigmax/hybrid/history_filter.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/known_model.hpp>
-#include <sigmax/hybrid/mode_transition.hpp>
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
-
 #include "support/enveloped.hpp"
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 /// The flights and the filters of these tests. Which filter it is, over which models and by which rules, is a value: a
 /// TargetChoice. So what is asked of all of them is written once, and compiled once.

@@ -1,9 +1,4 @@
-#include <sigmax/hybrid/filter_bank.hpp>
-
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-
 #include "hybrid/instruction_sets.hpp"
-#include "support/matrices.hpp"
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/fit_target.hpp>
-
 #include "hybrid/two_speeds.hpp"
 
 namespace {

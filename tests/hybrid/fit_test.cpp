@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/fit.hpp>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/two_speeds.hpp"
 

@@ -1,8 +1,3 @@
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/rts_smoother.hpp>
-
 #include "hybrid/flights.hpp"
 
 namespace {

@@ -1,8 +1,6 @@
 // The filters over models that are nothing but matrices: components that are not nested, states without memory, and
 // what is known of all histories of the mode together.
 
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"

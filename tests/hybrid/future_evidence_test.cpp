@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/future_evidence.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

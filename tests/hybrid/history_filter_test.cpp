@@ -1,7 +1,3 @@
-#include <sigmax/hybrid/history_filter.hpp>
-
-#include <sigmax/hybrid/target.hpp>
-
 #include "hybrid/banks.hpp"
 #include "support/history_restatement.hpp"
 

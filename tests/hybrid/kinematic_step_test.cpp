@@ -1,6 +1,5 @@
 // The short step against textbook matrices: each law alone is their Kalman filter, and two together are the restated
 // filter, along one to three axes, by each instruction set.
-#include <sigmax/hybrid/kinematic_step.hpp>
 
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"

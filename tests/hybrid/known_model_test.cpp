@@ -1,16 +1,6 @@
 // A motion by its name is that of its class.
-#include <sigmax/hybrid/known_model.hpp>
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/unscented.hpp>
-#include <sigmax/estimation/white_noise.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

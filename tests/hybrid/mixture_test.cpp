@@ -1,8 +1,4 @@
-#include <sigmax/hybrid/mixture.hpp>
-
-#include <sigmax/estimation/view.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,10 +1,6 @@
-#include <sigmax/hybrid/mode_transition.hpp>
-
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include <sigmax/core/transform.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,19 +1,6 @@
 // The code of docs/models.md, and the values that it claims.
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/linearised.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/radar.hpp>
-#include <sigmax/estimation/sensors.hpp>
-#include <sigmax/estimation/unscented.hpp>
-#include <sigmax/estimation/white_noise.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

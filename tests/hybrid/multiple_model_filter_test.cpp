@@ -1,5 +1,4 @@
 // What is asked of every multiple-model filter.
-#include <sigmax/hybrid/multiple_model_filter.hpp>
 
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"

@@ -1,9 +1,4 @@
-#include <sigmax/hybrid/sound.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/hybrid/components.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,5 +1,4 @@
 // What a target keeps of its life: tags, the record that is smoothed, and both in other coordinates.
-#include <sigmax/hybrid/target_life.hpp>
 
 #include "hybrid/targets.hpp"
 

@@ -1,7 +1,3 @@
-#include <sigmax/hybrid/target.hpp>
-
-#include <sigmax/estimation/chi_square.hpp>
-
 #include "hybrid/targets.hpp"
 
 namespace {

@@ -1,6 +1,3 @@
-#include <sigmax/core/algebra.hpp>
-#include <sigmax/core/kernels/compose.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

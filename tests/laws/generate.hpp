@@ -1,8 +1,5 @@
 #pragma once
 
-#include <sigmax/core/likelihood.hpp>
-#include <sigmax/core/relation.hpp>
-
 #include "support/plain.hpp"
 
 /// Generated cases for the laws. Zeros, ones, repeated maxima and subnormal numbers are as frequent as the rest, and

@@ -1,9 +1,7 @@
 #include <sys/wait.h>
 
-#include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/counts.hpp>
-
 #include "apps/temporary_directory.hpp"
+#include "support/sigmax.hpp"
 
 /// Sigma inference over learned relations, with Laplace smoothing, is categorical naive Bayes as scikit-learn has it.
 namespace {

@@ -1,8 +1,5 @@
-#include <sigmax/core/tie.hpp>
-#include <sigmax/core/transform.hpp>
-#include <sigmax/recognition/classifier.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 /// Several features a report, any of them missing; batches, forgetting, and relations that change with every step.
 namespace {

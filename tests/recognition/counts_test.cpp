@@ -1,7 +1,5 @@
-#include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/counts.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,7 +1,5 @@
-#include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/dominance.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,6 +1,4 @@
-#include <sigmax/recognition/discretization.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

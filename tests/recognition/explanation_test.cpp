@@ -1,7 +1,5 @@
-#include <sigmax/core/witness.hpp>
-#include <sigmax/recognition/explanation.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

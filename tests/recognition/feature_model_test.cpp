@@ -1,7 +1,5 @@
-#include <sigmax/core/transform.hpp>
-#include <sigmax/recognition/classifier.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 /// Every kind of sensor over every kind of feature and pattern, by plain loops, and the small worlds with known
 /// answers.

@@ -1,9 +1,6 @@
 #include <boost/math/distributions/normal.hpp>
 
-#include <sigmax/core/distribution.hpp>
-#include <sigmax/recognition/reliability.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
