@@ -67,10 +67,6 @@ inline restatement::NonlinearModel drawn_model(Draws& draws, std::size_t n, std:
   return bent(draws.matrix(n, n), draws.vector(n), draws.covariance(n), H, bend);
 }
 
-using Estimate = Gaussian<Eigen::Dynamic, 40>;
-inline Estimate estimate_of(const restatement::State& state) {
-  return {vector_of(state.mean), matrix_of(state.covariance)};
-}
 /// The same as an estimate of a model's state, or as a measurement of a sensor.
 template <class Asked>
 auto estimate_of(const restatement::State& state) {
@@ -129,6 +125,16 @@ struct OwnSensor {
   }
 };
 
+/// One that asks the model: the last component, whatever it is, squared.
+struct SquaredLast {
+  static constexpr int measurement_size = 1;
+  template <class Model, class State>
+  auto measure(const Model& model, const State& x) const {
+    const auto last = x(model.size() - 1);
+    return Eigen::Matrix<typename State::Scalar, 1, 1>(typename State::Scalar(last * last));
+  }
+};
+
 /// Every member of the family over a motion.
 template <class Moves>
 std::vector<AnyModel> every_member(const Moves& motion) {
@@ -156,12 +162,6 @@ void expect_the_same(const Found& found, const Expected& expected) {
   EXPECT_EQ(step.mean, expected_step.mean);
   EXPECT_EQ(step.F, expected_step.F);
   EXPECT_EQ(step.Q, expected_step.Q);
-}
-
-/// EXPECT_CLOSE(found, expected, tolerance).
-inline testing::AssertionResult near(const char* a, const char* b, const char* t, const Estimate& found,
-                                     const restatement::State& expected, double tolerance) {
-  return near(a, b, t, found, estimate_of(expected), tolerance);
 }
 
 }  // namespace sigmax::support

@@ -1,4 +1,4 @@
-#include "support/sigmax.hpp"
+#include "estimation/restated.hpp"
 
 namespace {
 
@@ -15,15 +15,6 @@ struct Sideways {
   Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 1, 1>& x) const {
     using std::sin;
     return Eigen::Matrix<Scalar, 1, 1>(Scalar(sin(x(0))));
-  }
-};
-/// One that asks the model: the last component, whatever it is, squared.
-struct SquaredLast {
-  static constexpr int measurement_size = 1;
-  template <class Model, class State>
-  auto measure(const Model& model, const State& x) const {
-    const auto last = x(model.size() - 1);
-    return Eigen::Matrix<typename State::Scalar, 1, 1>(typename State::Scalar(last * last));
   }
 };
 /// And a linear one.

@@ -2,7 +2,7 @@
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = not_a_number;
 
 TEST(CrossValidation, CutsAFewRecordingsInTimeAndSharesManyOut) {
   EXPECT_EQ(folds_of(std::array<std::size_t, 2>{6, 3}, 3), (RowFolds{{0, 0, 1, 1, 2, 2}, {0, 1, 2}}));

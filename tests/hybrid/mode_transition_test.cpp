@@ -39,21 +39,6 @@ PROPERTY(TimedTransition, IsTheMatrixExponentialAndOfAFuzzyModeThatOnTheRatioSca
     }
 }
 
-TEST(TimedTransition, OfTwoModesIsTheClosedForm) {
-  const double leave = 0.3, come_back = 0.1, dt = 2.0;
-  const Rates rates{{-leave, leave}, {come_back, -come_back}};
-  const double p = leave / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
-  const double q = come_back / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
-  const auto P = TimedTransition<Random>{{"mode", 2}, rates}(dt);
-  EXPECT_CLOSE(P(0, 1), p, 1e-15);
-  EXPECT_CLOSE(P(0, 0), 1.0 - p, 1e-15);
-  EXPECT_CLOSE(P(1, 0), q, 1e-15);
-  const auto pi = TimedTransition<Fuzzy>{{"mode", 2}, rates}(dt);
-  EXPECT_CLOSE(pi(0, 1), p / (1.0 - p), 1e-15);
-  EXPECT_EQ(pi(0, 0), 1.0);
-  EXPECT_CLOSE(pi(1, 0), q / (1.0 - q), 1e-15);
-}
-
 TEST(TimedTransition, ForgetsTheModeInALongTime) {
   const Rates rates{{-0.3, 0.3}, {0.1, -0.1}};
   for (const double dt : {1e3, 1e300}) {
@@ -106,8 +91,7 @@ TEST(TimedTransition, OverNoTimeIsTheIdentity) {
   const Rates rates = rates_of_sojourns({20.0, 5.0, 1e-3});
   check(TimedTransition<Random>{{"mode", 3}, rates}(0.0));
   check(TimedTransition<Fuzzy>{{"mode", 3}, rates}(0.0));
-  const double for_ever = std::numeric_limits<double>::infinity();
-  check(TimedTransition<Random>{{"mode", 3}, rates_of_sojourns({for_ever, for_ever, for_ever})}(7.0));
+  check(TimedTransition<Random>{{"mode", 3}, rates_of_sojourns({infinity, infinity, infinity})}(7.0));
 }
 
 TEST(TimedTransition, WritesIntoARelationHoweverItIsStored) {

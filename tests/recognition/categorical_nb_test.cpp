@@ -85,7 +85,7 @@ TEST_P(CategoricalNB, OfScikitLearnHasTheSamePosteriors) {
                                 static_cast<std::streamsize>(expected.size() * sizeof(double))));
     classifier.reset();
     classifier.observe(row(r));
-    ASSERT_PRED_FORMAT3(support::near, classifier.belief().values(), expected, 1e-9) << "row " << r;
+    ASSERT_CLOSE(classifier.belief().values(), expected, 1e-9) << "row " << r;
   }
   EXPECT_EQ(posteriors.peek(), std::ifstream::traits_type::eof());
 }
