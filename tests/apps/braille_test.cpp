@@ -38,7 +38,7 @@ TEST(Braille, DrawsARiseFromBelowToAbove) {
 
 TEST(Braille, LeavesAGapWhereNothingIsKnown) {
   std::vector<double> values(40, 1.0);
-  for (std::size_t k = 10; k < 30; ++k) values[k] = std::nan("");
+  for (std::size_t k = 10; k < 30; ++k) values[k] = not_a_number;
   const auto lines = lines_in(braille(chart(values), 25, 1, false));
   EXPECT_EQ(lines[1], "1.00 ⠉⠉⠉⠉⠉          ⠉⠉⠉⠉⠉");
   auto joined = chart(values);
@@ -48,7 +48,7 @@ TEST(Braille, LeavesAGapWhereNothingIsKnown) {
 
 TEST(Braille, IsNothingWithoutNumbers) {
   EXPECT_EQ(braille(chart({}), 79, 7, false), "");
-  EXPECT_EQ(braille(chart({std::nan("")}), 79, 7, false), "");
+  EXPECT_EQ(braille(chart({not_a_number}), 79, 7, false), "");
 }
 
 TEST(Braille, NamesTheCurvesInTheirColours) {

@@ -1,9 +1,6 @@
 #include "support/command_line.hpp"
 
-#include <cstdio>
-
 #include "result/result.hpp"
-#include "support/error.hpp"
 #include "support/test.hpp"
 
 namespace {

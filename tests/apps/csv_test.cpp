@@ -216,15 +216,6 @@ TEST(Csv, KnowsHowFarItIs) {
   EXPECT_EQ((CsvReader{stream, "f.csv"}.bytes_total()), std::nullopt);
 }
 
-TEST(Csv, NamesTheFileThatCannotBeRead) {
-  const TemporaryDirectory directory;
-  const std::string missing = directory.path() / "missing.csv";
-  EXPECT_EQ(message_of<InputError>([&] { CsvReader{missing}; }),
-            missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
-  EXPECT_EQ(message_of<InputError>([&] { CsvReader{directory.path()}; }),
-            directory.path().string() + ": found a directory, expected a file; name one of the files in it");
-}
-
 TEST(Csv, SaysThatReadingFailed) {
   struct Broken : std::streambuf {
     int_type underflow() override { throw 1; }

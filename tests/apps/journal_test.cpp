@@ -3,7 +3,6 @@
 #include "apps/temporary_directory.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
-#include "support/error.hpp"
 
 namespace {
 

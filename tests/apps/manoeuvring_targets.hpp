@@ -1,7 +1,6 @@
 #pragma once
 
 #include "apps/recordings.hpp"
-#include "support/restatement.hpp"
 
 namespace sigmax::apps {
 

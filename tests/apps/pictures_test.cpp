@@ -3,7 +3,6 @@
 #include "apps/has_gnuplot.hpp"
 #include "apps/temporary_directory.hpp"
 #include "result/report.hpp"
-#include "support/error.hpp"
 #include "support/program.hpp"
 
 namespace {

@@ -99,15 +99,6 @@ TEST(RandomStream, NormalIsTheTransformOfBoxAndMuller) {
   }
 }
 
-TEST(RandomStream, TheSameSeedAndStreamGiveTheSameNumbers) {
-  RandomStream a{42, 5};
-  RandomStream b{42, 5};
-  for (int i = 0; i < 1000; ++i) {
-    EXPECT_EQ(a.normal(), b.normal());
-    EXPECT_EQ(a.uniform(), b.uniform());
-  }
-}
-
 TEST(RandomStream, StreamsAndSeedsAreUncorrelated) {
   const double bound = 4.0 / std::sqrt(static_cast<double>(draws));
   const auto base = normals(42, 5);

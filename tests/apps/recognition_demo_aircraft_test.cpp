@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recognition_demo_support.hpp"
-#include "apps/temporary_directory.hpp"
 #include "support/random.hpp"
 
 namespace {
@@ -119,7 +118,7 @@ TEST_F(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheS
   std::array<Numbers, 2> cuts;                  // by quantity
   std::array<std::array<Numbers, 2>, 2> p, pi;  // by quantity and type
   for (std::size_t q = 0; q < 2; ++q) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = infinity, high = -low;
     for (const Type& type : types) {
       low = std::min(low, boost::math::quantile(Normal(type.mean[q], type.deviation[q]), 0.001));
       high = std::max(high, boost::math::quantile(Normal(type.mean[q], type.deviation[q]), 0.999));

@@ -1,5 +1,4 @@
 #include "apps/recognition_demo_support.hpp"
-#include "apps/temporary_directory.hpp"
 
 namespace {
 

@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/recognition_demo_support.hpp"
-#include "apps/temporary_directory.hpp"
 #include "support/text.hpp"
 
 namespace {

@@ -2,7 +2,6 @@
 #include <regex>
 
 #include "apps/recognition_demo_support.hpp"
-#include "apps/temporary_directory.hpp"
 #include "support/text.hpp"
 
 namespace {

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/temporary_directory.hpp"
-#include "support/error.hpp"
 
 namespace {
 

@@ -1,13 +1,9 @@
-#include "support/command_line.hpp"
-
 #include <sys/wait.h>
 
 #include "apps/temporary_directory.hpp"
 #include "apps/terminal.hpp"
 #include "result/result.hpp"
 #include "study/study.hpp"
-#include "support/error.hpp"
-#include "support/output.hpp"
 
 namespace {
 

@@ -171,15 +171,6 @@ TEST(Settings, SetsThatAreNoneAreBadUsage) {
   EXPECT_EQ(refusal<UsageError>([] { from_sets({"=5"}); }), "--set: found '=5', expected key=value");
 }
 
-TEST(Settings, SaysWhyAFileCannotBeRead) {
-  const TemporaryDirectory directory;
-  const std::string missing = directory.path() / "missing.toml";
-  EXPECT_EQ(message_of<InputError>([&] { Settings::read(missing); }),
-            missing + ": cannot be read: No such file or directory; see whether its name and permissions are right");
-  EXPECT_EQ(message_of<InputError>([&] { Settings::read(directory.path()); }),
-            directory.path().string() + ": found a directory, expected a file; name one of the files in it");
-}
-
 TEST(Settings, ASubTableOverlaysTheRest) {
   const Settings settings = from_file(R"(
 sigma_w = 3

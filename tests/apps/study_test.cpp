@@ -2,7 +2,6 @@
 
 #include "apps/temporary_directory.hpp"
 #include "result/result.hpp"
-#include "support/error.hpp"
 
 namespace {
 

@@ -17,7 +17,7 @@ TEST(Thinned, KeepsEveryPeakAndNoMoreThanItMay) {
   Thinned rows(3, 500);
   std::vector<std::vector<double>> all;
   for (int i = 0; i < 200000; ++i) {
-    all.push_back({noise(random), i % 5 == 0 ? std::nan("") : noise(random), 1.0 * i});
+    all.push_back({noise(random), i % 5 == 0 ? not_a_number : noise(random), 1.0 * i});
     if (i == 123456) all.back()[0] = 1000.0;
     if (i == 77777) all.back()[1] = -1000.0;
     rows.add(i, all.back());

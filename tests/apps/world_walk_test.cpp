@@ -4,7 +4,6 @@
 #include "apps/temporary_directory.hpp"
 #include "recognition_demo/world.hpp"
 #include "support/csv.hpp"
-#include "support/test.hpp"
 
 namespace {
 

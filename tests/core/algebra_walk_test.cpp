@@ -1,10 +1,4 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/hybrid_distribution.hpp>
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/transform.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// Every line of code in docs/algebra.md, in its order, and the values that it claims.
 namespace {

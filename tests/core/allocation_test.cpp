@@ -1,8 +1,5 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "support/allocations.hpp"
+#include "support/core.hpp"
 
 namespace {
 

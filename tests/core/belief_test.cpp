@@ -1,6 +1,4 @@
-#include <sigmax/core/belief.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,8 +1,5 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {
@@ -11,6 +8,7 @@ using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
 
 const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
 
 static_assert(std::same_as<decltype(compose(std::declval<Relation<Random, Fuzzy>>(), std::declval<Chain<Fuzzy>>())),
@@ -63,29 +61,6 @@ TEST(Chain, OfNothingIsItsStart) {
   EXPECT_CLOSE(chain.normalized().values(), (std::vector{0.25, 0.5, 0.25}), 0.0);
 }
 
-TEST(Chain, ComposesAndUpdatesAsItsParts) {
-  const Distribution prior{weather, {0.25, 0.5, 0.25}};
-  const Relation next{weather, weather, {{0.5, 0.5, 0.0}, {0.25, 0.5, 0.25}, {0.0, 0.5, 0.5}}};
-  const Likelihood report{weather, {0.5, 0.25, 1.0}};
-  const Chain chain = update(compose(next, Chain{prior}), report);
-  Belief belief = compose(next, Belief{prior});
-  EXPECT_CLOSE(chain.log_total(), update(belief, report, belief), 1e-15);
-  EXPECT_CLOSE(chain.normalized().values(), belief.distribution().values(), 1e-15);
-  EXPECT_EQ(most_likely(chain), most_likely(belief));
-}
-
-TEST(Chain, OfAlternatingKindsIsInducedThroughout) {  // (15)–(18): β is never divided by
-  const Relation speed_given_mood{weather, mood, {{0.5, 0.25, 0.25}, {0.0, 0.25, 0.75}}};
-  const Relation mood_given_speed{mood, weather, {{1.0, 0.5}, {1.0, 1.0}, {0.25, 1.0}}};
-  const Distribution start{mood, {1.0, 0.5}};
-  const Chain once = compose(speed_given_mood, Chain{start});
-  const Induced induced = compose(speed_given_mood, start);
-  EXPECT_CLOSE(once.log_total(), std::log(induced.beta()), 1e-15);
-  EXPECT_CLOSE(once.normalized().values(), induced.normalized().values(), 1e-15);
-  const Chain twice = compose(mood_given_speed, once);
-  EXPECT_CLOSE(twice.log_total(), std::log(compose(mood_given_speed, induced).beta()), 1e-15);
-}
-
 TEST(Chain, RefusesWhatDoesNotFit) {
   const RandomVariable sky{"sky", {"dry", "wet", "snow"}};
   const Relation next{sky, sky, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
@@ -130,88 +105,78 @@ TEST(Chain, MultipliesByTheNumbersOfALikelihoodToTheBit) {
 
 // The log evidence and the winner, checked in exact rational arithmetic.
 
-template <class Kind>
-void expect_exact_evidence() {
-  holds([] {
-    auto x = laws::any_variable<Kind>("x");
-    const auto prior = laws::any_distribution(x);
-    Chain chain{prior};
-    ExactRow row = exact(prior.values());
-    const std::size_t length = *rc::gen::inRange<std::size_t>(1, 7);
-    for (std::size_t step = 0; step < length; ++step) {
-      const auto y = laws::any_variable<Kind>("y" + std::to_string(step));
-      const Rows rows = any_normalized_rows(by_kind<Kind>, x.size(), y.size());
-      chain = compose(Relation<Kind, Kind>{y, x, rows}, std::move(chain));
-      row = exact_compose<Kind>(rows, row);
-      x = y;
-      const Numbers evidence = any_unit_numbers(y.size());
-      ExactRow next = row;
-      for (std::size_t i = 0; i < next.size(); ++i) next[i] *= cpp_rational(evidence[i]);
-      if (exact_total<Kind>(next) == 0) {
-        RC_ASSERT_THROWS_AS(update(chain, Likelihood{y, evidence}), std::domain_error);
-        continue;
-      }
-      row = next;
-      chain = update(std::move(chain), Likelihood{y, evidence});
-    }
-    require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Kind>(row))), 1e-13);
-    for (std::size_t i = 0; i < row.size(); ++i)
-      require_near(chain.log(i), row[i] == 0 ? log_zero : static_cast<double>(exact_log(row[i])), 1e-13);
-    // The winner is the greatest, but for those that rounding makes equal.
-    const cpp_rational best = *std::max_element(row.begin(), row.end());
-    RC_ASSERT(row[chain.winner()] * cpp_rational(1.0 + 1e-12) >= best);
-  });
-}
-TEST(Chain, EvidenceOfRandomVariablesIsExactInRationalArithmetic) { expect_exact_evidence<Random>(); }
-TEST(Chain, EvidenceOfFuzzyVariablesIsExactInRationalArithmetic) { expect_exact_evidence<Fuzzy>(); }
+TYPED_SUITE(ChainOf, Random, Fuzzy);
 
-TEST(Chain, BetaOfAlternatingKindsIsExactInRationalArithmetic) {
-  holds([] {
-    const auto x = laws::any_variable<Random>("x");
-    const auto y = laws::any_variable<Fuzzy>("y");
-    const auto prior = laws::any_distribution(x);
-    Chain<Random> chain{prior};
-    ExactRow row = exact(prior.values());
-    const std::size_t length = *rc::gen::inRange<std::size_t>(1, 5);
-    for (std::size_t step = 0; step < length; ++step) {
-      const Rows y_given_x = any_normalized_rows(plain::By::max, x.size(), y.size());
-      const Rows x_given_y = any_normalized_rows(plain::By::sum, y.size(), x.size());
-      const Chain<Fuzzy> between = compose(Relation<Fuzzy, Random>{y, x, y_given_x}, std::move(chain));
-      row = exact_compose<Random>(y_given_x, row);
-      require_near(between.log_total(), static_cast<double>(exact_log(exact_total<Fuzzy>(row))), 1e-13);
-      chain = compose(Relation<Random, Fuzzy>{x, y, x_given_y}, between);
-      row = exact_compose<Fuzzy>(x_given_y, row);
-      require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Random>(row))), 1e-13);
+TYPED_PROPERTY(ChainOf, EvidenceIsExactInRationalArithmetic) {
+  auto x = laws::any_variable<TypeParam>("x");
+  const auto prior = laws::any_distribution(x);
+  Chain chain{prior};
+  ExactRow row = exact(prior.values());
+  const std::size_t length = *rc::gen::inRange<std::size_t>(1, 7);
+  for (std::size_t step = 0; step < length; ++step) {
+    const auto y = laws::any_variable<TypeParam>("y" + std::to_string(step));
+    const Rows rows = any_normalized_rows(by_kind<TypeParam>, x.size(), y.size());
+    chain = compose(Relation<TypeParam, TypeParam>{y, x, rows}, std::move(chain));
+    row = exact_compose<TypeParam>(rows, row);
+    x = y;
+    const Numbers evidence = any_unit_numbers(y.size());
+    ExactRow next = row;
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] *= cpp_rational(evidence[i]);
+    if (exact_total<TypeParam>(next) == 0) {
+      RC_ASSERT_THROWS_AS(update(chain, Likelihood{y, evidence}), std::domain_error);
+      continue;
     }
-  });
+    row = next;
+    chain = update(std::move(chain), Likelihood{y, evidence});
+  }
+  require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<TypeParam>(row))), 1e-13);
+  for (std::size_t i = 0; i < row.size(); ++i)
+    require_near(chain.log(i), row[i] == 0 ? log_zero : static_cast<double>(exact_log(row[i])), 1e-13);
+  // The winner is the greatest, but for those that rounding makes equal.
+  const cpp_rational best = *std::max_element(row.begin(), row.end());
+  RC_ASSERT(row[chain.winner()] * cpp_rational(1.0 + 1e-12) >= best);
+}
+
+PROPERTY(Chain, BetaOfAlternatingKindsIsExactInRationalArithmetic) {
+  const auto x = laws::any_variable<Random>("x");
+  const auto y = laws::any_variable<Fuzzy>("y");
+  const auto prior = laws::any_distribution(x);
+  Chain<Random> chain{prior};
+  ExactRow row = exact(prior.values());
+  const std::size_t length = *rc::gen::inRange<std::size_t>(1, 5);
+  for (std::size_t step = 0; step < length; ++step) {
+    const Rows y_given_x = any_normalized_rows(plain::By::max, x.size(), y.size());
+    const Rows x_given_y = any_normalized_rows(plain::By::sum, y.size(), x.size());
+    const Chain<Fuzzy> between = compose(Relation<Fuzzy, Random>{y, x, y_given_x}, std::move(chain));
+    row = exact_compose<Random>(y_given_x, row);
+    require_near(between.log_total(), static_cast<double>(exact_log(exact_total<Fuzzy>(row))), 1e-13);
+    chain = compose(Relation<Random, Fuzzy>{x, y, x_given_y}, between);
+    row = exact_compose<Fuzzy>(x_given_y, row);
+    require_near(chain.log_total(), static_cast<double>(exact_log(exact_total<Random>(row))), 1e-13);
+  }
 }
 
 // Scaling by powers of two is exact: plain doubles give the same bits as long as they do not underflow.
 
-template <class Kind>
-void expect_same_bits() {
-  holds([] {
-    const auto x = laws::any_variable<Kind>("x");
-    const auto draw = [&](std::size_t rows) {  // numbers far above underflow
-      Rows result = any_normalized_rows(by_kind<Kind>, rows, x.size());
-      for (Numbers& row : result)
-        for (double& value : row) value = value < 1e-12 ? 0.0 : value;
-      return result;
-    };
-    const Distribution<Kind> prior{x, draw(1).front()};
-    Table plain_row = prior.table(), next(1, x.size());
-    Chain chain{prior};
-    for (int step = 0; step < 20; ++step) {
-      const Relation<Kind, Kind> relation{x, x, draw(x.size())};
-      chain = compose(relation, std::move(chain));
-      kernels::compose<AlgebraOf<Kind>>(relation.table(), plain_row, next);
-      std::swap(plain_row, next);
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row()[i].value() == plain_row(0, i));
-  });
+TYPED_PROPERTY(ChainOf, HasTheBitsOfPlainArithmetic) {
+  const auto x = laws::any_variable<TypeParam>("x");
+  const auto draw = [&](std::size_t rows) {  // numbers far above underflow
+    Rows result = any_normalized_rows(by_kind<TypeParam>, rows, x.size());
+    for (Numbers& row : result)
+      for (double& value : row) value = value < 1e-12 ? 0.0 : value;
+    return result;
+  };
+  const Distribution<TypeParam> prior{x, draw(1).front()};
+  Table plain_row = prior.table(), next(1, x.size());
+  Chain chain{prior};
+  for (int step = 0; step < 20; ++step) {
+    const Relation<TypeParam, TypeParam> relation{x, x, draw(x.size())};
+    chain = compose(relation, std::move(chain));
+    kernels::compose<AlgebraOf<TypeParam>>(relation.table(), plain_row, next);
+    std::swap(plain_row, next);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) RC_ASSERT(chain.row()[i].value() == plain_row(0, i));
 }
-TEST(Chain, OfRandomVariablesHasTheBitsOfPlainArithmetic) { expect_same_bits<Random>(); }
-TEST(Chain, OfFuzzyVariablesHasTheBitsOfPlainArithmetic) { expect_same_bits<Fuzzy>(); }
 
 PROPERTY(Chain, OfOrdinalVariablesIsPlainMaxMin) {
   const auto x = laws::any_variable<Ordinal>("x");
@@ -242,24 +207,6 @@ TEST(Chain, OfAMillionRelationsAndReportsHasTheEvidenceOfItsClosedForm) {
   // 10⁶ = 3 · 333333 + 1 steps: each turn passes wet, snow, dry; the last step is to wet.
   EXPECT_CLOSE(chain.log_total(), -(333333.0 * 6.0 + 1.0) * std::log(2.0), 1e-14);
   EXPECT_EQ(most_likely(chain), "wet");
-}
-
-TEST(Chain, OfAMillionMixingRelationsHasTheEvidenceOfItsEigenvalues) {
-  // Two states that stay with probability ¾, reports that fit the first by ½ and the second by ¼: after n steps the
-  // numbers are those of the n-th power of A = ((3/8, 1/16), (1/8, 3/16)), with eigenvalues 7/16 and … in closed form.
-  const RandomVariable state{"state", {"on", "off"}};
-  const Relation next{state, state, {{0.75, 0.25}, {0.25, 0.75}}};
-  const Likelihood report{state, {0.5, 0.25}};
-  Chain chain{Distribution{state, {0.5, 0.5}}};
-  for (int step = 0; step < million; ++step) chain = update(compose(next, std::move(chain)), report);
-  // Row vector times B, B(i, j) = next(i, j) · report(j): ((3/8, 1/16), (1/8, 3/16)), trace 9/16, determinant 1/16.
-  const long double root = std::sqrt(81.0L / 256.0L - 4.0L / 16.0L);
-  const long double greater = (9.0L / 16.0L + root) / 2.0L, lesser = (9.0L / 16.0L - root) / 2.0L;
-  // v Bⁿ 1 = c₁ λ₁ⁿ + c₂ λ₂ⁿ, with its values 1 and 3/8 + … at n = 0 and n = 1: ½ (7/16 + 5/16) = 3/8.
-  const long double c = (3.0L / 8.0L - lesser) / (greater - lesser);
-  const long double expected = std::log(c) + million * std::log(greater);
-  EXPECT_CLOSE(chain.log_total(), static_cast<double>(expected), 1e-14);
-  EXPECT_EQ(most_likely(chain), "on");
 }
 
 TEST(Chain, OfAMillionAlternatingRelationsHasTheBetaOfItsClosedForm) {

@@ -1,10 +1,4 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/forward_backward.hpp>
-#include <sigmax/core/route.hpp>
-#include <sigmax/core/update.hpp>
-#include <sigmax/core/witness.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// The worked examples of docs/chains.md.
 namespace {

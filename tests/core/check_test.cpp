@@ -1,7 +1,4 @@
-#include <sigmax/core/check.hpp>
-#include <sigmax/core/variable.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,6 +1,4 @@
-#include <sigmax/core/compose.hpp>
-
-#include "support/test.hpp"
+#include "core/age_mood_speed.hpp"
 
 namespace {
 
@@ -65,12 +63,6 @@ static_assert(ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, I<Random, Fuzzy>>)
 static_assert(!ComposesInto<R<Random, Fuzzy>, R<Fuzzy, Fuzzy>, R<Random, Fuzzy>>);
 static_assert(!ComposesInto<R<Fuzzy, Fuzzy>, R<Fuzzy, Random>, I<Fuzzy, Random>>);
 
-const FuzzyVariable age{"age", {"young", "middle", "old"}};
-const FuzzyVariable mood{"mood", {"calm", "wild"}};
-const RandomVariable speed{"speed", {"slow", "fast"}};
-const R<Fuzzy, Fuzzy> mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
-const R<Random, Fuzzy> speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
-
 TEST(Compose, EliminatesARandomVariableByTheSum) {  // (7)
   const RandomVariable a{"a", 2}, b{"b", 2}, c{"c", 2};
   const Relation a_given_b{a, b, {{0.9, 0.1}, {0.3, 0.7}}};
@@ -79,13 +71,6 @@ TEST(Compose, EliminatesARandomVariableByTheSum) {  // (7)
   EXPECT_EQ(composed.to(), a);
   EXPECT_EQ(composed.from(), c);
   EXPECT_CLOSE(composed.table().values(), (std::vector{0.6, 0.4, 0.42, 0.58}), 1e-15);
-}
-
-TEST(Compose, OfSingleOutcomesIsCertain) {
-  const FuzzyVariable one{"one", 1};
-  const Relation certain{one, one, {{1.0}}};
-  EXPECT_EQ(compose(certain, certain)(0, 0), 1.0);
-  EXPECT_EQ(compose(certain, uninformative(one))[0], 1.0);
 }
 
 TEST(Compose, RefusesAnotherVariableInTheMiddleByBothNames) {

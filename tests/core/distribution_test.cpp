@@ -1,6 +1,4 @@
-#include <sigmax/core/distribution.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -96,12 +94,12 @@ TEST(Normalized, NeitherOverflowsNorUnderflows) {
 
 TEST(Normalized, RefusesWhatHasNoProportion) {
   const std::vector<double> zero{0.0, 0.0}, negative{1.0, -1.0}, short_of_one{1.0};
-  const std::vector<double> not_a_number{1.0, std::numeric_limits<double>::quiet_NaN()};
-  const std::vector<double> infinite{std::numeric_limits<double>::infinity(), 1.0};
+  const std::vector<double> missing{1.0, not_a_number};
+  const std::vector<double> infinite{infinity, 1.0};
   EXPECT_INVALID(("'mood'", "zero"), normalized(mood, zero));
   EXPECT_INVALID(("'mood'", "'wild'", "-1"), normalized(mood, negative));
   EXPECT_INVALID(("'mood'", "1 values"), normalized(mood, short_of_one));
-  EXPECT_INVALID(("'mood'", "'wild'", "nan", "finite"), normalized(mood, not_a_number));
+  EXPECT_INVALID(("'mood'", "'wild'", "nan", "finite"), normalized(mood, missing));
   EXPECT_INVALID(("'mood'", "'calm'", "inf"), normalized(mood, infinite));
 }
 

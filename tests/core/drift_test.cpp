@@ -1,7 +1,4 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/witness.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// What is normalised by law stays so along any chain of compositions, though rows are one only to within 1e-9.
 namespace {

@@ -1,6 +1,3 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/forward_backward.hpp>
-
 #include "support/plain.hpp"
 
 namespace {
@@ -64,22 +61,23 @@ Plain any_chain(std::size_t n, std::size_t length, std::mt19937_64& generator) {
   return chain;
 }
 
-template <Uncertainty Kind>
-void expect_all_paths() {
+TYPED_SUITE(ForwardBackwardOf, Random, Fuzzy);
+
+TYPED_TEST(ForwardBackwardOf, IsOverAllPaths) {
   std::mt19937_64 generator(7);
   std::size_t excluded = 0;
   for (int round = 0; round < 200; ++round) {
     const std::size_t n = 1 + generator() % 4, length = generator() % 5;
-    const Plain chain = any_chain<Kind>(n, length, generator);
-    const Variable<Kind> x{"x", n};
-    std::vector<Relation<Kind, Kind>> transitions;
-    std::vector<Likelihood<Kind>> reports;
+    const Plain chain = any_chain<TypeParam>(n, length, generator);
+    const Variable<TypeParam> x{"x", n};
+    std::vector<Relation<TypeParam, TypeParam>> transitions;
+    std::vector<Likelihood<TypeParam>> reports;
     for (std::size_t t = 0; t < length; ++t) {
       transitions.emplace_back(x, x, chain.steps[t]);
       reports.emplace_back(x, chain.weights[t]);
     }
     const auto [expected, log_total] = by_all_paths(chain);
-    const Distribution<Kind> start{x, chain.start};
+    const Distribution<TypeParam> start{x, chain.start};
     if (std::isinf(log_total)) {
       ++excluded;
       EXPECT_REFUSED(std::domain_error, ("'x'"), forward_backward(start, transitions, reports));
@@ -93,9 +91,6 @@ void expect_all_paths() {
   EXPECT_GT(excluded, 0U);
   EXPECT_LT(excluded, 100U);
 }
-
-TEST(ForwardBackward, OfARandomVariableIsTheSumOverAllPaths) { expect_all_paths<Random>(); }
-TEST(ForwardBackward, OfAFuzzyVariableIsTheMaximumOverAllPaths) { expect_all_paths<Fuzzy>(); }
 
 TEST(ForwardBackward, TellsBeforeFromAfter) {
   const RandomVariable weather{"weather", {"dry", "wet"}};

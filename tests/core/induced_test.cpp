@@ -1,7 +1,4 @@
-#include <sigmax/core/belief.hpp>
-#include <sigmax/core/induced.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -61,8 +58,7 @@ TEST(InducedRelation, WithAnEmptyRowHasNoDistributionReading) {
 }
 
 TEST(InducedRelation, OfSubnormalNumbersIsNormalizedAsWell) {
-  const double subnormal = std::numeric_limits<double>::denorm_min();
-  const InducedRelation induced{speed, age, table(2, 2, {subnormal, subnormal, 1.0, 0.0}), detail::ByLaw{}};
+  const InducedRelation induced{speed, age, table(2, 2, {least_subnormal, least_subnormal, 1.0, 0.0}), detail::ByLaw{}};
   EXPECT_CLOSE(induced.normalized().row(0), (std::vector{0.5, 0.5}), 1e-15);
 }
 

@@ -1,5 +1,3 @@
-#include <sigmax/core/kernels/compose.hpp>
-
 #include "kernels/sparse.hpp"
 #include "support/drawn_tables.hpp"
 

@@ -4,8 +4,6 @@
 #include <hwy/targets.h>
 #endif
 
-#include <sigmax/core/kernels/compose.hpp>
-
 #include "kernels/exponential.hpp"
 #include "kernels/narrow.hpp"
 #include "kernels/tiled.hpp"

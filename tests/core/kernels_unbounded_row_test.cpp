@@ -1,5 +1,5 @@
 #include "kernels/unbounded_row.hpp"
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace sigmax::kernels {
 namespace {

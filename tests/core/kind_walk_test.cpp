@@ -1,9 +1,6 @@
 // The code of docs/extending.md, "A kind of variable": a kind that the library does not have works in all of core.
 
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,6 +1,4 @@
-#include <sigmax/core/likelihood.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -35,8 +33,7 @@ TEST(Likelihood, MayBeSetByItsLogarithmBeyondWhatANumberHolds) {
 }
 
 TEST(Likelihood, KeepsSubnormalAndHugeValues) {
-  const Likelihood likelihood{emitter,
-                              {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max(), 1.0}};
+  const Likelihood likelihood{emitter, {least_subnormal, std::numeric_limits<double>::max(), 1.0}};
   EXPECT_CLOSE(likelihood.log(0), -1074.0 * std::log(2.0), 1e-14);
   EXPECT_CLOSE(likelihood.log(1), 1024.0 * std::log(2.0), 1e-14);
 }

@@ -1,6 +1,4 @@
-#include <sigmax/core/mean_interval.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,7 +1,4 @@
-#include <sigmax/core/network/bif.hpp>
-#include <sigmax/core/network/query.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,8 +1,3 @@
-#include <sigmax/core/network/bif.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/query.hpp>
-#include <sigmax/core/network/transform.hpp>
-
 #include "core/network_grid.hpp"
 #include "support/plain_network.hpp"
 

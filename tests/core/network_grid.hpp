@@ -1,8 +1,6 @@
 #pragma once
 
-#include <sigmax/core/network/query.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace sigmax::support {
 

@@ -1,10 +1,3 @@
-#include <sigmax/core/network/bif.hpp>
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/graphviz.hpp>
-#include <sigmax/core/network/transform.hpp>
-#include <sigmax/core/sample.hpp>
-
 #include "core/network_grid.hpp"
 
 namespace {

@@ -1,5 +1,3 @@
-#include <sigmax/core/network/transform.hpp>
-
 #include "core/network_grid.hpp"
 
 namespace {

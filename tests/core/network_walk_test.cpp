@@ -1,9 +1,4 @@
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/measure.hpp>
-#include <sigmax/core/network/query.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// The worked example of docs/networks.md.
 namespace {

@@ -1,7 +1,4 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -57,15 +54,10 @@ static_assert(HasLogs<Likelihood<Fuzzy>> && !HasLogs<Likelihood<Ordinal>>);
 static_assert(HasBelief<Fuzzy> && !HasBelief<Ordinal>);
 
 const OrdinalVariable risk{"risk", {"low", "high"}};
+
 const OrdinalVariable age{"age", {"young", "middle", "old"}};
 
 Relation<Ordinal, Ordinal> risk_given_age() { return {risk, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}}; }
-
-TEST(Ordinal, IsCalledByItsNames) {
-  EXPECT_EQ(Ordinal::name, "ordinal");
-  EXPECT_EQ(Ordinal::measure, "possibility");
-  EXPECT_EQ(Ordinal::total, "maximum");
-}
 
 TEST(Ordinal, DistributionsHaveMaximumOne) {
   EXPECT_EQ((Distribution{age, {0.2, 1.0, 0.4}})["old"], 0.4);
@@ -113,14 +105,6 @@ TEST(Ordinal, LikelihoodsAreKeptUnrounded) {
   EXPECT_EQ(likelihood.number(1), 0.3);
   EXPECT_EQ(Likelihood{age}[2], 1.0);
   EXPECT_INVALID(("'age'", "'middle'", "1.5"), Likelihood(age, {0.1, 1.5, 0.2}));
-}
-
-TEST(Ordinal, LikelihoodsAreCarriedBackByMaxMin) {
-  const Likelihood carried = compose(Likelihood{risk, {0.5, 0.7}}, risk_given_age());
-  static_assert(std::same_as<decltype(carried), const Likelihood<Ordinal>>);
-  EXPECT_EQ(carried["young"], 0.7);
-  EXPECT_EQ(carried["middle"], 0.6);
-  EXPECT_EQ(carried["old"], 0.5);
 }
 
 TEST(Ordinal, InvertsByResiduumPerColumn) {

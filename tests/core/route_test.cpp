@@ -1,7 +1,5 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <sigmax/core/route.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {
@@ -31,32 +29,11 @@ TEST(BestRoute, WeighsStartRelationsAndEvidence) {
   EXPECT_CLOSE(route.log_value, std::log(0.5), 1e-15);
 }
 
-TEST(BestRoute, OnATieTakesTheFirstOutcomeFromTheEndBackwards) {
-  const Relation any{mood, mood, {{1.0, 1.0}, {1.0, 1.0}}};
-  EXPECT_EQ(best_route(uninformative(mood), any, any).outcomes, (Way{0, 0, 0}));
-  const Likelihood wild{mood, {0.0, 1.0}};
-  EXPECT_EQ(best_route(uninformative(mood), any, wild, any).outcomes, (Way{0, 1, 0}));
-}
-
-TEST(BestRoute, OnATieOfProductsTakesTheFirstThoughEvidenceMadeIt) {
-  const FuzzyVariable s{"s", 1}, f{"f", 2}, t{"t", 1};
-  const Route route = best_route(uninformative(s), Relation{f, s, {{0.5, 1.0}}}, Likelihood{f, {0.25, 0.125}},
-                                 Relation{t, f, {{1.0}, {1.0}}});
-  EXPECT_EQ(route.outcomes, (Way{0, 0, 0}));
-}
-
-TEST(BestRoute, OnATieThatALaterMinimumMakesTakesTheFirst) {
-  const OrdinalVariable start{"start", 1}, middle{"middle", 2}, end{"end", 1};
-  const Route route = best_route(uninformative(start), Relation{middle, start, {{0.5, 1.0}}},
-                                 Relation{end, middle, {{1.0}, {1.0}}}, Likelihood{end, {0.5}});
-  EXPECT_EQ(route.outcomes, (Way{0, 0, 0}));
-  EXPECT_EQ(route.log_value, std::log(0.5));
-}
+TYPED_SUITE(RoutesOf, Fuzzy, Ordinal);
 
 /// There is no way to an impossible outcome; the one that is named is of first outcomes.
-template <Uncertainty Kind>
-void expect_first_outcomes_to_an_impossible_one() {
-  const Variable<Kind> start{"start", 3}, middle{"middle", 3}, end{"end", 2};
+TYPED_TEST(RoutesOf, ToAnImpossibleOutcomeAreOfFirstOutcomes) {
+  const Variable<TypeParam> start{"start", 3}, middle{"middle", 3}, end{"end", 2};
   const Routes routes = compose(Relation{end, middle, {{1.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}},
                                 compose(Relation{middle, start, {{0.0, 1.0, 0.5}, {0.0, 0.5, 1.0}, {0.0, 1.0, 1.0}}},
                                         Routes{uninformative(start)}));
@@ -65,20 +42,14 @@ void expect_first_outcomes_to_an_impossible_one() {
   EXPECT_EQ(routes.to(0).outcomes, (Way{0, 1, 0}));
 }
 
-TEST(Routes, ToAnImpossibleOutcomeAreOfFirstOutcomes) {
-  expect_first_outcomes_to_an_impossible_one<Ordinal>();
-  expect_first_outcomes_to_an_impossible_one<Fuzzy>();
-}
-
 /// All routes of short chains, compared from the last outcome backwards as the documentation says.
-template <Uncertainty Kind>
-void expect_the_documented_winner_of_ties() {
+TYPED_TEST(RoutesOf, FollowTheDocumentedTieRule) {
   std::mt19937 random(7);
   const auto grade = [&] { return static_cast<double>(random() % 5) / 4.0; };  // dyadic: products are exact
   int ties = 0;
   for (int repetition = 0; repetition < 1000; ++repetition) {
     const std::size_t length = 2 + random() % 3;
-    std::vector<Variable<Kind>> variables;
+    std::vector<Variable<TypeParam>> variables;
     for (std::size_t k = 0; k <= length; ++k) variables.push_back({"v" + std::to_string(k), 1 + random() % 3});
     const auto row = [&](std::size_t n) {
       Numbers values(n);
@@ -88,8 +59,8 @@ void expect_the_documented_winner_of_ties() {
     };
     const Distribution first{variables[0], row(variables[0].size())};
     Routes routes{first};
-    std::vector<Relation<Kind, Kind>> relations;
-    std::vector<Likelihood<Kind>> reports;
+    std::vector<Relation<TypeParam, TypeParam>> relations;
+    std::vector<Likelihood<TypeParam>> reports;
     bool possible = true;
     for (std::size_t k = 1; k <= length && possible; ++k) {
       Rows rows;
@@ -112,8 +83,8 @@ void expect_the_documented_winner_of_ties() {
     while (true) {
       double value = first[way[0]];
       for (std::size_t k = 1; k <= length; ++k) {
-        value = AlgebraOf<Kind>::times(value, relations[k - 1](way[k - 1], way[k]));
-        value = AlgebraOf<Kind>::times(value, reports[k - 1][way[k]]);
+        value = AlgebraOf<TypeParam>::times(value, relations[k - 1](way[k - 1], way[k]));
+        value = AlgebraOf<TypeParam>::times(value, reports[k - 1][way[k]]);
       }
       tied = value > greatest ? 1 : tied + (value == greatest);
       if (value > greatest || (value == greatest && (best.empty() || before(way, best)))) greatest = value, best = way;
@@ -126,9 +97,6 @@ void expect_the_documented_winner_of_ties() {
   }
   EXPECT_GT(ties, 100);
 }
-
-TEST(BestRoute, OfOrdinalVariablesFollowsTheDocumentedTieRule) { expect_the_documented_winner_of_ties<Ordinal>(); }
-TEST(BestRoute, OfFuzzyVariablesFollowsTheDocumentedTieRule) { expect_the_documented_winner_of_ties<Fuzzy>(); }
 
 TEST(Routes, StayAsTheyWereWhereEvidenceExcludesAll) {
   const Relation next{mood, mood, {{1.0, 0.0}, {0.5, 1.0}}};

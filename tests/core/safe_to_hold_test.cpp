@@ -1,21 +1,7 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/hybrid_distribution.hpp>
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/query.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "core/age_mood_speed.hpp"
 
 /// What a user may hold without thinking of its lifetime, and what may be compared or written to.
 namespace {
-
-const FuzzyVariable age{"age", {"young", "middle", "old"}};
-const FuzzyVariable mood{"mood", {"calm", "wild"}};
-const RandomVariable speed{"speed", {"slow", "fast"}};
-const Relation mood_given_age{mood, age, {{0.3, 1.0}, {1.0, 0.6}, {1.0, 0.2}}};
-const Relation speed_given_mood{speed, mood, {{0.9, 0.1}, {0.3, 0.7}}};
 
 template <class T>
 concept IsOwned = !std::is_reference_v<T> && !requires(T t) {

@@ -1,6 +1,4 @@
-#include <sigmax/core/scaled_number.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,9 +1,3 @@
-#include <sigmax/core/chain.hpp>
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/network.hpp>
-#include <sigmax/core/transform.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

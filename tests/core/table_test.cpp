@@ -1,6 +1,4 @@
-#include <sigmax/core/table.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

@@ -1,7 +1,4 @@
-#include <sigmax/core/logarithm.hpp>
-#include <sigmax/core/tie.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 

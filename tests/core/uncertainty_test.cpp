@@ -1,6 +1,4 @@
-#include <sigmax/core/uncertainty.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -20,6 +18,9 @@ TEST(Uncertainty, KindsAreCalledByTheirNames) {
   EXPECT_EQ(Fuzzy::name, "fuzzy");
   EXPECT_EQ(Fuzzy::measure, "possibility");
   EXPECT_EQ(Fuzzy::total, "maximum");
+  EXPECT_EQ(Ordinal::name, "ordinal");
+  EXPECT_EQ(Ordinal::measure, "possibility");
+  EXPECT_EQ(Ordinal::total, "maximum");
 }
 
 }  // namespace

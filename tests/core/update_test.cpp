@@ -1,7 +1,4 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/update.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 namespace {
 
@@ -14,29 +11,14 @@ static_assert(!Updates<Distribution<Fuzzy>, Likelihood<Random>> && !Updates<Beli
 static_assert(!Updates<Induced<Distribution<Random>>, Likelihood<Random>>);  // say .normalized() first
 
 const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
+
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
-
-TEST(Update, OfARandomVariableIsBayes) {  // (8), (41)
-  const Distribution posterior = update(Distribution{weather, {0.5, 0.25, 0.25}}, Likelihood{weather, {0.1, 0.4, 0.2}});
-  EXPECT_CLOSE(posterior.values(), (std::vector{0.25, 0.5, 0.25}), 1e-14);
-}
-
-TEST(Update, OfAFuzzyVariableDividesByTheMaximum) {  // (44)
-  const Distribution posterior = update(Distribution{mood, {1.0, 0.5}}, Likelihood{mood, {0.2, 0.8}});
-  EXPECT_CLOSE(posterior.values(), (std::vector{0.5, 1.0}), 1e-14);
-}
 
 TEST(Update, OfABeliefReturnsTheLogarithmOfTheEvidence) {
   const Belief prior{Distribution{weather, {0.5, 0.25, 0.25}}};
   Belief posterior = prior;
   EXPECT_CLOSE(update(prior, Likelihood{weather, {0.1, 0.4, 0.2}}, posterior), std::log(0.2), 1e-14);
   EXPECT_CLOSE(posterior.distribution().values(), (std::vector{0.25, 0.5, 0.25}), 1e-14);
-}
-
-TEST(Update, MayWriteOverThePrior) {
-  Belief belief{Distribution{weather, {0.5, 0.25, 0.25}}};
-  update(belief, Likelihood{weather, {0.1, 0.4, 0.2}}, belief);
-  EXPECT_CLOSE(belief.distribution().values(), (std::vector{0.25, 0.5, 0.25}), 1e-14);
 }
 
 TEST(Update, OfASingleOutcomeStaysCertain) {
@@ -62,9 +44,8 @@ TEST(Update, RefusesAnotherVariableByBothNames) {
 }
 
 TEST(Update, BySubnormalEvidenceIsExact) {
-  const double subnormal = std::numeric_limits<double>::denorm_min();
   const Distribution prior{weather, {0.5, 0.5, 0.0}};
-  EXPECT_CLOSE(update(prior, Likelihood{weather, {subnormal, 3 * subnormal, 1.0}}).values(),
+  EXPECT_CLOSE(update(prior, Likelihood{weather, {least_subnormal, 3 * least_subnormal, 1.0}}).values(),
                (std::vector{0.25, 0.75, 0.0}), 1e-12);
 }
 
@@ -114,22 +95,6 @@ TEST(Update, BringsBackAnOutcomeThatWasAlmostExcluded) {
   EXPECT_CLOSE(belief.distribution().values(), (std::vector{1.0, 1.0}), 1e-9);
 }
 
-TEST(Invert, ListsUnreachableValuesAndSaysNothingAboutThem) {
-  const RandomVariable from{"from", 2}, to{"to", 4};
-  const Relation relation{to, from, {{0.5, 0.5, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}};
-  const auto inverse = invert(relation, Distribution{from, {1.0, 0.0}});
-  EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{2, 3}));  // by no one, and only by one that is excluded
-  EXPECT_CLOSE(inverse.relation.row(0), (std::vector{1.0, 0.0}), 0.0);
-  EXPECT_CLOSE(inverse.relation.row(2), (std::vector{0.5, 0.5}), 0.0);
-  EXPECT_CLOSE(inverse.relation.row(3), (std::vector{0.5, 0.5}), 0.0);
-
-  const FuzzyVariable cause{"cause", 2}, effect{"effect", 2};
-  const Relation fuzzy{effect, cause, {{1.0, 0.0}, {1.0, 0.0}}};
-  const auto possible = invert(fuzzy, uninformative(cause));
-  EXPECT_EQ(possible.unreachable, (std::vector<std::size_t>{1}));
-  EXPECT_CLOSE(possible.relation.row(1), (std::vector{1.0, 1.0}), 0.0);
-}
-
 TEST(Invert, ReachesWhatOnlyAVanishingPriorReaches) {
   const RandomVariable from{"from", 3}, to{"to", 2};
   const Relation relation{to, from, {{1.0, 0.0}, {0.5, 0.5}, {0.5, 0.5}}};
@@ -142,9 +107,8 @@ TEST(Invert, ReachesWhatOnlyAVanishingPriorReaches) {
 }
 
 TEST(Invert, IsExactWhereOnlySubnormalNumbersLead) {
-  const double subnormal = std::numeric_limits<double>::denorm_min();
   const RandomVariable from{"from", 2}, to{"to", 2};
-  const Relation relation{to, from, {{1.0, subnormal}, {1.0, subnormal}}};
+  const Relation relation{to, from, {{1.0, least_subnormal}, {1.0, least_subnormal}}};
   EXPECT_CLOSE(invert(relation, Distribution{from, {0.75, 0.25}}).relation.row(1), (std::vector{0.75, 0.25}), 1e-12);
 }
 

@@ -1,5 +1,3 @@
-#include <sigmax/core/witness.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {
@@ -28,14 +26,6 @@ TEST(Witness, SaysWhichIntermediateValueWon) {
   EXPECT_EQ(composed.winner(1, 1), 0U);  // young and middle tie
 }
 
-TEST(Witness, IsTheFirstValueIfNoneLeadsThere) {
-  const Relation never{mood, age, {{1.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}};
-  const auto composed = compose_with_witness(never, age_given_name);
-  EXPECT_EQ(composed.relation()(0, 1), 0.0);
-  EXPECT_EQ(composed.winner(0, 1), 0U);
-  EXPECT_EQ(composed.winner(1, 1), 0U);
-}
-
 TEST(Witness, ThroughAFuzzyVariableBetweenRandomOnesIsOfWhatIsInduced) {  // (17)
   const RandomVariable speed{"speed", {"slow", "fast"}};
   const Relation speed_given_mood{speed, mood, {{0.75, 0.25}, {0.25, 0.75}}};
@@ -50,28 +40,26 @@ TEST(Witness, RefusesVariablesThatDoNotMeet) {
   EXPECT_INVALID(("compose_with_witness", "'age'", "'mood'"), compose_with_witness(mood_given_age, mood_given_age));
 }
 
+TYPED_SUITE(WitnessOf, Fuzzy, Ordinal);
+
 /// The winner by brute force: the first value that attains the maximum of all terms.
-template <class Kind>
-void expect_first_of_the_greatest() {
-  using A = AlgebraOf<Kind>;
-  holds([] {
-    const auto x = laws::any_variable<Kind>("x"), m = laws::any_variable<Kind>("m"), y = laws::any_variable<Kind>("y");
-    const auto left = laws::any_relation(x, m);
-    const auto right = laws::any_relation(m, y);
-    const auto composed = compose_with_witness(left, right);
-    RC_ASSERT(rows_of(composed.relation().table()) == rows_of(compose(left, right).table()));
-    for (std::size_t i = 0; i < y.size(); ++i)
-      for (std::size_t k = 0; k < x.size(); ++k) {
-        std::vector<double> terms;
-        for (std::size_t j = 0; j < m.size(); ++j) terms.push_back(A::times(right(i, j), left(j, k)));
-        const auto greatest = std::max_element(terms.begin(), terms.end());
-        RC_ASSERT(composed.relation()(i, k) == *greatest);
-        RC_ASSERT(composed.winner(i, k) == static_cast<std::size_t>(greatest - terms.begin()));
-      }
-  });
+TYPED_PROPERTY(WitnessOf, IsTheFirstOfTheGreatestTerms) {
+  using A = AlgebraOf<TypeParam>;
+  const auto x = laws::any_variable<TypeParam>("x"), m = laws::any_variable<TypeParam>("m"),
+             y = laws::any_variable<TypeParam>("y");
+  const auto left = laws::any_relation(x, m);
+  const auto right = laws::any_relation(m, y);
+  const auto composed = compose_with_witness(left, right);
+  RC_ASSERT(rows_of(composed.relation().table()) == rows_of(compose(left, right).table()));
+  for (std::size_t i = 0; i < y.size(); ++i)
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      std::vector<double> terms;
+      for (std::size_t j = 0; j < m.size(); ++j) terms.push_back(A::times(right(i, j), left(j, k)));
+      const auto greatest = std::max_element(terms.begin(), terms.end());
+      RC_ASSERT(composed.relation()(i, k) == *greatest);
+      RC_ASSERT(composed.winner(i, k) == static_cast<std::size_t>(greatest - terms.begin()));
+    }
 }
-TEST(Witness, OfAFuzzyVariableIsTheFirstOfTheGreatestTerms) { expect_first_of_the_greatest<Fuzzy>(); }
-TEST(Witness, OfAnOrdinalVariableIsTheFirstOfTheGreatestTerms) { expect_first_of_the_greatest<Ordinal>(); }
 
 /// A square relation whose rows store a few columns, and the same dense.
 template <class Kind>

@@ -1,9 +1,3 @@
-#include <sigmax/estimation/any_sensor.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
-
 #include "estimation/restated.hpp"
 
 namespace {
@@ -49,15 +43,6 @@ void expect_as(const Sensor& sensor, const MeasurementOf<Sensor>& z) {
   }
 }
 
-/// Asks the model how many states it has.
-struct LastSquared {
-  static constexpr int measurement_size = 1;
-  template <class Model, class State>
-  auto measure(const Model& model, const State& x) const {
-    const auto last = x(model.size() - 1);
-    return Eigen::Matrix<typename State::Scalar, 1, 1>(typename State::Scalar(last * last));
-  }
-};
 /// Large, and sees the first component.
 struct Large {
   static constexpr int seen_size = 1;
@@ -80,7 +65,7 @@ TEST(AnySensor, UpdatesAsTheSensorThatItIs) {
   expect_as(DopplerSensor<2>{origin}, three);
   expect_as(LinearSensor<3, 4>{RectangularMatrix<3, 4>{{1, 2, 0, 0}, {0, 1, 1, 0}, {0, 0, 1, -1}}}, three);
   expect_as(ComponentSensor<2>{places}, {Vector<2>(2.0, 401.0), position.covariance});
-  expect_as(LastSquared{}, number);
+  expect_as(SquaredLast{}, number);
   expect_as(Large{}, Gaussian<1>{Vector<1>(800.0), SquareMatrix<1>(3.0)});
 }
 
@@ -90,7 +75,7 @@ TEST(AnySensor, MayBeAskedWithATypedModelUnlessItAsksBack) {
   const MeasurementOf<AnySensor> z{Vector<1>(0.6), SquareMatrix<1>(1e-3)};
   EXPECT_EQ(update(Extended{turn}, prior, z, AnySensor{BearingSensor{}}).mean,
             update(Extended{turn}, prior, {z.mean, z.covariance}, BearingSensor{}).mean);
-  EXPECT_INVALID(("asks its model", "AnyModel"), update(Extended{turn}, prior, z, AnySensor{LastSquared{}}));
+  EXPECT_INVALID(("asks its model", "AnyModel"), update(Extended{turn}, prior, z, AnySensor{SquaredLast{}}));
 }
 
 /// Says that its mean is 1, whatever the points are.

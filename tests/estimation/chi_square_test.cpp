@@ -1,6 +1,4 @@
-#include <sigmax/estimation/chi_square.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -33,7 +31,7 @@ TEST(ChiSquare, TheQuantileHasItsProbability) {
 
 TEST(ChiSquare, TheEndsAreExact) {
   EXPECT_EQ(chi_square_cdf(0.0, 3), 0.0);
-  EXPECT_EQ(chi_square_cdf(std::numeric_limits<double>::infinity(), 3), 1.0);
+  EXPECT_EQ(chi_square_cdf(infinity, 3), 1.0);
 }
 
 TEST(ChiSquare, TheBandOfAMeanIsThatOfTheSumDivided) {
@@ -47,7 +45,6 @@ TEST(ChiSquare, TheBandOfAMeanIsThatOfTheSumDivided) {
 }
 
 TEST(ChiSquare, RefusesWhatHasNoAnswer) {
-  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   for (const double degrees : {0.0, -1.0, not_a_number}) {
     EXPECT_INVALID(("chi_square_cdf"), chi_square_cdf(1.0, degrees));
     EXPECT_INVALID(("chi_square_quantile"), chi_square_quantile(0.5, degrees));

@@ -1,48 +1,39 @@
-#include <sigmax/estimation/radar.hpp>
-
-#include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/estimation/metrics.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
-TEST(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {
-  holds([] {  // Lerro and Bar-Shalom 1993, (20)–(23)
-    const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
-    const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
-    const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth);
-    const double v = sigma.azimuth * sigma.azimuth, vr = sigma.range * sigma.range;
-    const double cosh2 = std::cosh(2 * v), cosh1 = std::cosh(v), sinh2 = std::sinh(2 * v), sinh1 = std::sinh(v);
-    const auto variance = [&](double a, double b) {
-      return std::exp(-2 * v) * (r * r * (a * a * (cosh2 - cosh1) + b * b * (sinh2 - sinh1)) +
-                                 vr * (a * a * (2 * cosh2 - cosh1) + b * b * (2 * sinh2 - sinh1)));
-    };
-    const double R12 = s * c * std::exp(-4 * v) * (vr + (r * r + vr) * (1 - std::exp(v)));
-    const double bias = std::exp(-v) - std::exp(-v / 2);
-    const auto found = to_cartesian(m, sigma, Conversion::debiased);
-    require_near_matrix(found.mean, Vector<3>(r * c * (1 - bias), r * s * (1 - bias), 0.0), 1e-12);
-    require_near_matrix(found.covariance.topLeftCorner<2, 2>() / (r * r),
-                        SquareMatrix<2>{{variance(c, s), R12}, {R12, variance(s, c)}} / (r * r), 1e-12);
-    RC_ASSERT(found.covariance == found.covariance.transpose());
-  });
+PROPERTY(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {  // Lerro and Bar-Shalom 1993, (20)–(23)
+  const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
+  const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
+  const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth);
+  const double v = sigma.azimuth * sigma.azimuth, vr = sigma.range * sigma.range;
+  const double cosh2 = std::cosh(2 * v), cosh1 = std::cosh(v), sinh2 = std::sinh(2 * v), sinh1 = std::sinh(v);
+  const auto variance = [&](double a, double b) {
+    return std::exp(-2 * v) * (r * r * (a * a * (cosh2 - cosh1) + b * b * (sinh2 - sinh1)) +
+                               vr * (a * a * (2 * cosh2 - cosh1) + b * b * (2 * sinh2 - sinh1)));
+  };
+  const double R12 = s * c * std::exp(-4 * v) * (vr + (r * r + vr) * (1 - std::exp(v)));
+  const double bias = std::exp(-v) - std::exp(-v / 2);
+  const auto found = to_cartesian(m, sigma, Conversion::debiased);
+  require_near(found.mean, Vector<3>(r * c * (1 - bias), r * s * (1 - bias), 0.0), 1e-12);
+  require_near(found.covariance.topLeftCorner<2, 2>() / (r * r),
+               SquareMatrix<2>{{variance(c, s), R12}, {R12, variance(s, c)}} / (r * r), 1e-12);
+  RC_ASSERT(found.covariance == found.covariance.transpose());
 }
 
-TEST(ConvertedMeasurement, UnbiasedInThePlaneIsThePrintedOne) {
-  holds([] {  // Mo, Song, Zhou, Sun, Bar-Shalom 1998
-    const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
-    const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
-    const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth), vr = sigma.range * sigma.range;
-    const double lambda = std::exp(-sigma.azimuth * sigma.azimuth / 2), k = 1 / (lambda * lambda) - 2;
-    const double l4 = std::pow(lambda, 4), half = (r * r + vr) / 2;
-    const double R11 = k * r * r * c * c + half * (1 + l4 * std::cos(2 * m.azimuth));
-    const double R22 = k * r * r * s * s + half * (1 - l4 * std::cos(2 * m.azimuth));
-    const double R12 = k * r * r * s * c + half * l4 * std::sin(2 * m.azimuth);
-    const auto found = to_cartesian(m, sigma, Conversion::unbiased);
-    require_near_matrix(found.mean, Vector<3>(r * c / lambda, r * s / lambda, 0.0), 1e-12);
-    require_near_matrix(found.covariance.topLeftCorner<2, 2>() / (r * r),
-                        SquareMatrix<2>{{R11, R12}, {R12, R22}} / (r * r), 1e-12);
-  });
+PROPERTY(ConvertedMeasurement, UnbiasedInThePlaneIsThePrintedOne) {  // Mo, Song, Zhou, Sun, Bar-Shalom 1998
+  const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
+  const Polar sigma{number_between(0.0, 50.0), number_between(0.0, 0.5), 0.0};
+  const double r = m.range, c = std::cos(m.azimuth), s = std::sin(m.azimuth), vr = sigma.range * sigma.range;
+  const double lambda = std::exp(-sigma.azimuth * sigma.azimuth / 2), k = 1 / (lambda * lambda) - 2;
+  const double l4 = std::pow(lambda, 4), half = (r * r + vr) / 2;
+  const double R11 = k * r * r * c * c + half * (1 + l4 * std::cos(2 * m.azimuth));
+  const double R22 = k * r * r * s * s + half * (1 - l4 * std::cos(2 * m.azimuth));
+  const double R12 = k * r * r * s * c + half * l4 * std::sin(2 * m.azimuth);
+  const auto found = to_cartesian(m, sigma, Conversion::unbiased);
+  require_near(found.mean, Vector<3>(r * c / lambda, r * s / lambda, 0.0), 1e-12);
+  require_near(found.covariance.topLeftCorner<2, 2>() / (r * r), SquareMatrix<2>{{R11, R12}, {R12, R22}} / (r * r),
+               1e-12);
 }
 
 /// Integrals over the errors of a radar, by the trapezoidal rule, which converges fast for Gaussians.
@@ -72,14 +63,14 @@ TEST(ConvertedMeasurement, TheUnbiasedOneIsUnbiasedAndItsCovarianceIsTheMeanSqua
     const auto& deviations = sigma;
     const Vector<3> mean = expected(
         m, sigma, [&](const Polar& seen) { return to_cartesian(seen, deviations, Conversion::unbiased).mean; });
-    EXPECT_PRED_FORMAT3(near_matrix, mean, to_cartesian(m), 1e-10) << "m is the truth here";
+    EXPECT_CLOSE(mean, to_cartesian(m), 1e-10) << "m is the truth here";
 
     const auto z = to_cartesian(m, sigma, Conversion::unbiased);  // and here what was measured
     const SquareMatrix<3> R = expected(m, sigma, [&](const Polar& truth) {
       const Vector<3> error = z.mean - to_cartesian(truth);
       return SquareMatrix<3>(error * error.transpose());
     });
-    EXPECT_PRED_FORMAT3(near_matrix, z.covariance, R, 1e-10);
+    EXPECT_CLOSE(z.covariance, R, 1e-10);
   }
 }
 
@@ -103,8 +94,8 @@ TEST(ConvertedMeasurement, TheDebiasedOneTakesTheMeanBiasAndTheMeanCovariance) {
           return SquareMatrix<3>(p * p.transpose());
         });
     const auto z = to_cartesian(m, sigma, Conversion::debiased);
-    EXPECT_PRED_FORMAT3(near_matrix, z.mean, to_cartesian(m) - bias, 1e-10);
-    EXPECT_PRED_FORMAT3(near_matrix, z.covariance, of_squares - of_means, 1e-10);
+    EXPECT_CLOSE(z.mean, to_cartesian(m) - bias, 1e-10);
+    EXPECT_CLOSE(z.covariance, of_squares - of_means, 1e-10);
   }
 }
 

@@ -1,10 +1,4 @@
-#include <sigmax/estimation/coordinated_turn.hpp>
-
-#include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/nonlinear_motion.hpp>
-#include <sigmax/estimation/white_noise.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -27,7 +21,7 @@ PROPERTY(CoordinatedTurn, GivenItsRateItIsTheKnownTurn) {
   const double dt = number_between(0.0, 3.0);
   Vector<7> expected = x;
   expected.head<6>() = KnownTurn<3>{x(6), 1.0}.transition(dt) * x.head<6>();
-  require_near_matrix((CoordinatedTurn<3>{1.0, 1.0}.propagate(x, dt)), expected, 1e-13);
+  require_near((CoordinatedTurn<3>{1.0, 1.0}.propagate(x, dt)), expected, 1e-13);
 }
 
 TEST(CoordinatedTurn, FliesACircle) {
@@ -35,7 +29,7 @@ TEST(CoordinatedTurn, FliesACircle) {
   Vector<5> x(1000.0, 0.0, 0.0, 100.0, 0.1);  // about the origin
   const Vector<5> start = x;
   for (int k = 0; k < 10; ++k) x = model.propagate(x, 2.0 * std::numbers::pi);
-  EXPECT_PRED_FORMAT3(near_matrix, x, start, 1e-11);
+  EXPECT_CLOSE(x, start, 1e-11);
 }
 
 /// Bar-Shalom, Li, Kirubarajan 2001, (11.7.2-4) and (11.7.2-5), states in our order, in long double; z apart.
@@ -57,15 +51,12 @@ TEST(CoordinatedTurn, ItsJacobianIsThePrintedOneAndDoesNotCancel) {
       F(1, 6) = number((s * T * vx - (1 - c) * vx / r) / r + (c * T * vy - s * vy / r) / r);
       F(3, 6) = number(-s * T * vx - c * T * vy);
       F(4, 6) = number(c * T * vx - s * T * vy);
-      EXPECT_PRED_FORMAT3(
-          near_matrix, (CoordinatedTurn<3>{1.0, 1.0}.transition_jacobian(Vector<7>(1.0, 2.0, 3.0, vx, vy, 5.0, w), T)),
-          F, 1e-11)
+      EXPECT_CLOSE((CoordinatedTurn<3>{1.0, 1.0}.transition_jacobian(Vector<7>(1.0, 2.0, 3.0, vx, vy, 5.0, w), T)), F,
+                   1e-11)
           << w;
       const std::array<int, 5> places{0, 1, 3, 4, 6};
       const SquareMatrix<5> plane = F(places, places);
-      EXPECT_PRED_FORMAT3(near_matrix,
-                          (CoordinatedTurn<2>{1.0, 1.0}.transition_jacobian(Vector<5>(1.0, 2.0, vx, vy, w), T)), plane,
-                          1e-11)
+      EXPECT_CLOSE((CoordinatedTurn<2>{1.0, 1.0}.transition_jacobian(Vector<5>(1.0, 2.0, vx, vy, w), T)), plane, 1e-11)
           << w;
     }
 }
@@ -75,16 +66,6 @@ TEST(CoordinatedTurn, TheNoiseIsWhiteAccelerationAndAWienerRate) {
   Q.topLeftCorner<6, 6>() = cwna<3>(3.0).process_covariance(2.0);
   Q(6, 6) = 1.0;
   EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.process_covariance(2.0)), Q);
-}
-
-TEST(CoordinatedTurn, ShowsItsParameters) {
-  EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.q()), 3.0);
-  EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.q_omega()), 0.5);
-}
-
-TEST(CoordinatedTurn, RefusesANoiseThatIsNone) {
-  EXPECT_INVALID(("q", "coordinated_turn", "-1"), CoordinatedTurn<2>(-1.0, 1.0));
-  EXPECT_INVALID(("q_omega", "coordinated_turn", "-2"), CoordinatedTurn<2>(1.0, -2.0));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-#include <sigmax/estimation/covariance_root.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -22,19 +20,19 @@ TEST(CovarianceRoot, IsCholeskys) {
 
 PROPERTY(CovarianceRoot, ItsSquareIsTheCovarianceAndSolvesWithIt) {
   const Matrix P = matrix_of(generated_covariance(5)), L = root_of(P);
-  require_near_matrix(L, Matrix(L.triangularView<Eigen::Lower>()), 0.0);
-  require_near_matrix(L * L.transpose(), P, 1e-13);
+  require_near(L, Matrix(L.triangularView<Eigen::Lower>()), 0.0);
+  require_near(L * L.transpose(), P, 1e-13);
   const Eigen::VectorXd z = matrix_of(generated(5, 1));
   Eigen::VectorXd x = z;
   detail::solve_by_root(L.data(), 5, x.data());
-  require_near_matrix(P * x, z, 1e-11);
+  require_near(P * x, z, 1e-11);
 }
 
 /// What does not vary does not take part: of rank 2 of 4, a solution of P x = z for z in the range of P.
 TEST(CovarianceRoot, OfASingularCovarianceExists) {
   holds([] {
     const Matrix A = matrix_of(generated(4, 2)), P = A * A.transpose(), L = root_of(P);
-    require_near_matrix(L * L.transpose(), P, 1e-6);
+    require_near(L * L.transpose(), P, 1e-6);
   });
   const Matrix L = root_of(Matrix{{4, 0, 2}, {0, 0, 0}, {2, 0, 10}});
   Eigen::Vector3d x(10.0, 5.0, 32.0);
@@ -52,8 +50,8 @@ TEST(CovarianceRoot, KnowsRoundingFromWhatIsNoCovariance) {
   EXPECT_EQ(verdict(Matrix{{1, 2}, {2, 1}}), 2);
   EXPECT_EQ(verdict(Matrix{{0, 1}, {1, 1}}), 2);
   EXPECT_EQ(verdict(Matrix{{1, 0}, {0, -1e-9}}), 2);
-  EXPECT_EQ(verdict(Matrix{{std::nan(""), 0}, {0, 1}}), 1);
-  EXPECT_EQ(verdict(Matrix{{1, 0}, {0, std::numeric_limits<double>::infinity()}}), 2);
+  EXPECT_EQ(verdict(Matrix{{not_a_number, 0}, {0, 1}}), 1);
+  EXPECT_EQ(verdict(Matrix{{1, 0}, {0, infinity}}), 2);
   // A variance may be 1e-10 of itself too small, and a covariance with what does not vary 1e-5 of the deviations.
   EXPECT_EQ(verdict(Matrix{{1, 1}, {1, 1 - 0.9e-10}}), 0);
   EXPECT_EQ(verdict(Matrix{{1, 1}, {1, 1 - 1.1e-10}}), 2);

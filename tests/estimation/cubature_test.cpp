@@ -1,5 +1,3 @@
-#include <sigmax/estimation/cubature.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {

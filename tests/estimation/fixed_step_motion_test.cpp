@@ -1,6 +1,4 @@
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,8 +1,4 @@
-#include <sigmax/estimation/gaussian_possibility.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -55,7 +51,7 @@ PROPERTY(GaussianPossibility, IsTheDensityOnTheRatioScale) {
   const GaussianPossibility<3> pi{gaussian};
   RC_ASSERT(pi(gaussian.mean) == 1.0);
   require_near(pi(gaussian.mean + fixed<3, 1>(offset)), p / greatest, 1e-12);
-  require_near_matrix(pi.density().covariance, gaussian.covariance, 0.0);
+  require_near(pi.density().covariance, gaussian.covariance, 0.0);
 }
 
 TEST(GaussianPossibility, WithoutUncertaintyIsPossibleOnlyAtItsMean) {

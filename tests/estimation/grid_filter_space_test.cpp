@@ -1,10 +1,6 @@
 // The grid filter of more than one dimension, which takes long to compile.
 
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/grid_filter.hpp>
-#include <sigmax/estimation/kalman.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -62,22 +58,18 @@ GridFilter<Kind, N> walked(const Eigen::Matrix<int, N, 1>& axes) {
   return filter;
 }
 
+TYPED_SUITE(GridFilterInSpace, Random, Fuzzy);
+
 /// The grid of three dimensions has the beliefs of grids of any two of them.
-template <Uncertainty Kind>
-void expect_independent_axes() {
-  const auto space = walked<Kind, 3>({0, 1, 2});
+TYPED_TEST(GridFilterInSpace, HasTheBeliefsOfItsPlanes) {
+  const auto space = walked<TypeParam, 3>({0, 1, 2});
   for (const int axis : {0, 1, 2}) {
-    const auto plane = walked<Kind, 2>({axis, (axis + 1) % 3});
+    const auto plane = walked<TypeParam, 2>({axis, (axis + 1) % 3});
     EXPECT_EQ(space.grid().step()(axis), plane.grid().step()(0));
     EXPECT_CLOSE(space.moments().mean(axis), plane.moments().mean(0), 2e-3);
     EXPECT_CLOSE(space.moments().covariance(axis, axis), plane.moments().covariance(0, 0), 2e-2);
     EXPECT_CLOSE(space.most_likely()(axis), plane.most_likely()(0), 1e-12);
   }
-}
-
-TEST(GridFilter, WorksInSpace) {
-  expect_independent_axes<Random>();
-  expect_independent_axes<Fuzzy>();
 }
 
 }  // namespace

@@ -1,9 +1,4 @@
-#include <sigmax/estimation/grid_filter.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/kalman.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -81,19 +76,16 @@ TEST(GridFilter, OfAFuzzyStateIsRightToAPercentByDefault) {
   expect_brute_force<Fuzzy>([](double a, double b) { return a > b ? a : b; }, 0.08, 0.05);
 }
 
+TYPED_SUITE(GridFilterOf, Random, Fuzzy);
+
 /// Each cell, the first and the last too, goes where f leads its centre.
-template <Uncertainty Kind>
-void moves_every_cell() {
+TYPED_TEST(GridFilterOf, MovesTheCellsAtTheEdges) {
   for (const double only : {-1.0, 0.5, 3.5}) {  // a cell, or all
-    OnLine<Kind> filter{0.0, 4.0, 1.0, [&](double x) { return only < 0.0 || x == only ? 0.0 : log_zero; }, {1e-12, 1}};
+    OnLine<TypeParam> filter{
+        0.0, 4.0, 1.0, [&](double x) { return only < 0.0 || x == only ? 0.0 : log_zero; }, {1e-12, 1}};
     filter.predict([](double x) { return 2.0 * x + 10.0; }, 1.0);
     EXPECT_CLOSE(filter.moments().mean(0), 2.0 * (only < 0.0 ? 2.0 : only) + 10.0, 1e-6);
   }
-}
-
-TEST(GridFilter, MovesTheCellsAtTheEdges) {
-  moves_every_cell<Random>();
-  moves_every_cell<Fuzzy>();
 }
 
 /// A system on a line that changes at every step and is not measured at the third, and its Kalman filter.

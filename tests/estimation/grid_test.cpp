@@ -1,6 +1,4 @@
-#include <sigmax/estimation/grid.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -15,7 +13,7 @@ TEST(Grid, NumbersItsCellsRowByRow) {
   Grid<2>::for_each_place(grid.first(), grid.first() + grid.extent() - Place::Ones(), [&](const Place& place) {
     EXPECT_EQ(grid.place(i), place);
     EXPECT_EQ(grid.cell(place), i);
-    EXPECT_PRED_FORMAT3(near_matrix, grid.centre(i), centres[i], 1e-15);
+    EXPECT_CLOSE(grid.centre(i), centres[i], 1e-15);
     EXPECT_EQ(grid.place_of(centres[i]), place);
     ++i;
   });
@@ -32,7 +30,7 @@ TEST(Grid, IsABoxOfALatticeThatGoesOn) {
   const Grid<2> window = grid.window({-3, 1}, {4, 2});
   EXPECT_EQ(window.size(), 16U);
   EXPECT_EQ(window.place(0), (Place{-3, 1}));
-  EXPECT_PRED_FORMAT3(near_matrix, window.centre(0), (Vector<2>{-3.5, 10.75}), 1e-15);
+  EXPECT_CLOSE(window.centre(0), (Vector<2>{-3.5, 10.75}), 1e-15);
   EXPECT_EQ(window.place_of({-3.9, 10.6}), (Place{-3, 1}));
 }
 
@@ -46,7 +44,7 @@ TEST(Grid, HalvesAndDoublesFitIntoEachOther) {
     for (const Eigen::Index side : {0, 1}) {
       const Place child{2 * place(0) + side, place(1)};
       const Vector<2> expected = grid.centre(i) + Vector<2>{side == 0 ? -0.25 : 0.25, 0.0};
-      EXPECT_PRED_FORMAT3(near_matrix, halved.centre(halved.cell(child)), expected, 1e-15);
+      EXPECT_CLOSE(halved.centre(halved.cell(child)), expected, 1e-15);
       EXPECT_EQ(Grid<2>::half(child(0)), place(0));
     }
   }

@@ -1,6 +1,4 @@
-#include <sigmax/estimation/jacobian.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -12,10 +10,10 @@ PROPERTY(Jacobian, IsThatOfTheFormula) {
   };
   RectangularMatrix<2, 3> expected;
   expected << x(1), x(0), std::exp(x(2)), x(0) / std::sqrt(1.0 + x(0) * x(0)), 0.0, 0.0;
-  require_near_matrix(jacobian<2, 2, 3, 3>(f, x), expected, 1e-14);
+  require_near(jacobian<2, 2, 3, 3>(f, x), expected, 1e-14);
 
   const Vector<Eigen::Dynamic, 5> run_time = x;
-  require_near_matrix(jacobian<2, 2, Eigen::Dynamic, 5>(f, run_time), expected, 1e-14);
+  require_near(jacobian<2, 2, Eigen::Dynamic, 5>(f, run_time), expected, 1e-14);
 }
 
 TEST(Jacobian, OfAConstantIsZero) {

@@ -2,8 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "support/matrices.hpp"
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -67,18 +66,18 @@ TEST(Kernels, UpdateIsJosephsFormInPlaceToo) {
       Matrix other_mean(n, 1), other(n, n);
       ASSERT_EQ(update(P, x, other_mean, other), Outcome::done);
       ASSERT_EQ(update(updated, moved, moved, updated), Outcome::done);
-      EXPECT_PRED_FORMAT3(near_matrix, other, covariance, 1e-11);
-      EXPECT_PRED_FORMAT3(near_matrix, other_mean, mean, 1e-11);
+      EXPECT_CLOSE(other, covariance, 1e-11);
+      EXPECT_CLOSE(other_mean, mean, 1e-11);
       EXPECT_EQ(updated, other);
       EXPECT_EQ(moved, other_mean);
       EXPECT_EQ(updated, Matrix(updated.transpose()));
-      EXPECT_PRED_FORMAT3(near_matrix, found_S, S, 1e-11);
+      EXPECT_CLOSE(found_S, S, 1e-11);
       EXPECT_NEAR(innovation.squared_distance, distance, 1e-10 * (1.0 + distance));
       EXPECT_NEAR(innovation.log_likelihood, -0.5 * (distance + std::log((2.0 * std::numbers::pi * S).determinant())),
                   1e-10 * (1.0 + distance));
       Matrix inverse(m, m);
       ASSERT_EQ(kernels.score({z.data(), R.data(), m}, innovation, inverse.data()), Outcome::done);
-      EXPECT_PRED_FORMAT3(near_matrix, inverse, S.inverse(), 1e-11);
+      EXPECT_CLOSE(inverse, S.inverse(), 1e-11);
     }
   });
 }
@@ -110,12 +109,12 @@ TEST(Kernels, PredictionIsThatOfTheWholeMatrices) {
         kernels.predict(law, axes, {x.data(), P.data(), n}, {other_mean.data(), other.data(), n});
         kernels.predict(law, axes, {x.data(), P.data(), n}, {moved.data(), covariance.data(), n});
         kernels.predict_covariance(all_F.data(), all_Q.data(), by_matrices.data(), n, by_matrices.data());
-        EXPECT_PRED_FORMAT3(near_matrix, other, expected, 1e-12);
-        EXPECT_PRED_FORMAT3(near_matrix, other_mean, mean, 1e-12);
+        EXPECT_CLOSE(other, expected, 1e-12);
+        EXPECT_CLOSE(other_mean, mean, 1e-12);
         EXPECT_EQ(covariance, other);
         EXPECT_EQ(moved, other_mean);
         EXPECT_EQ(other, Matrix(other.transpose()));
-        EXPECT_PRED_FORMAT3(near_matrix, by_matrices, expected, 1e-12);
+        EXPECT_CLOSE(by_matrices, expected, 1e-12);
       }
   });
 }
@@ -136,10 +135,10 @@ TEST(Kernels, ProductsAreEigens) {
             return Matrix(result.topRows(rows));
           };
           const auto plain = detail::columns_of(B.data(), inner), turned = detail::transposed(by_rows.data(), columns);
-          EXPECT_PRED_FORMAT3(near_matrix, found(plain, detail::Into::only), product, 1e-13);
-          EXPECT_PRED_FORMAT3(near_matrix, found(turned, detail::Into::only), product, 1e-13);
-          EXPECT_PRED_FORMAT3(near_matrix, found(plain, detail::Into::plus), before + product, 1e-13);
-          EXPECT_PRED_FORMAT3(near_matrix, found(turned, detail::Into::minus), before - product, 1e-13);
+          EXPECT_CLOSE(found(plain, detail::Into::only), product, 1e-13);
+          EXPECT_CLOSE(found(turned, detail::Into::only), product, 1e-13);
+          EXPECT_CLOSE(found(plain, detail::Into::plus), before + product, 1e-13);
+          EXPECT_CLOSE(found(turned, detail::Into::minus), before - product, 1e-13);
         }
   });
 }
@@ -163,9 +162,9 @@ TEST(Kernels, ADrownedPivotIsLifted) {
     EXPECT_EQ(S(1, 0), 1e16);
     P(0, 1) = P(1, 0) = 2e16;
     EXPECT_EQ(update(), Outcome::not_positive_definite);
-    P(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    P(0, 0) = not_a_number;
     EXPECT_EQ(update(), Outcome::estimate_not_finite);
-    R(1, 1) = std::numeric_limits<double>::infinity();
+    R(1, 1) = infinity;
     EXPECT_EQ(update(), Outcome::measurement_not_finite);
   });
 }

@@ -1,8 +1,3 @@
-#include <sigmax/estimation/linearised.hpp>
-
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {
@@ -62,8 +57,8 @@ TEST(Linearised, NothingIsRegressedOnWhatDoesNotVary) {
   certain.covariance(4, 4) = 0.0;
   const auto step = linearised_step(Cubature{turn}, certain, 2.5);
   EXPECT_EQ(step.F.col(4), Vector<5>::Zero());
-  EXPECT_PRED_FORMAT3(near_matrix, step.F * certain.covariance * step.F.transpose() + step.Q,
-                      predict(Cubature{turn}, certain, 2.5).covariance, 1e-9);
+  EXPECT_CLOSE(step.F * certain.covariance * step.F.transpose() + step.Q,
+               predict(Cubature{turn}, certain, 2.5).covariance, 1e-9);
 }
 
 }  // namespace

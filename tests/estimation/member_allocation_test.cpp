@@ -1,14 +1,7 @@
 // Prediction and update of every member allocate nothing.
 
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
 #include "support/allocations.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

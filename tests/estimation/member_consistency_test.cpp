@@ -1,18 +1,6 @@
 // Over 1,000 runs matched to their model, mean NEES and NIS of every member lie inside their 95 % band.
 
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/covariance_root.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/dense.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/linearised.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

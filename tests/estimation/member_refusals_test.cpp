@@ -1,8 +1,5 @@
 // What every member of the family refuses, and by which words.
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/restated.hpp"
 
 namespace {
@@ -16,7 +13,7 @@ TEST(MemberRefusals, OfAMeasurementThatIsNotFiniteAndNamesTheModel) {
   auto filters = every_member(dwna<2>(1.0));
   filters.emplace_back(dwna<2>(1.0));
   for (const AnyModel& filter : filters)
-    for (const double bad : {not_a_number, std::numeric_limits<double>::infinity()}) {
+    for (const double bad : {not_a_number, infinity}) {
       const Gaussian<2> place{Vector<2>(bad, 0.1), SquareMatrix<2>::Identity()},
           spread{Vector<2>(1.0, 0.1), bad * SquareMatrix<2>::Identity()};
       for (const auto& z : {place, spread}) {

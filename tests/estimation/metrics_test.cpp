@@ -1,6 +1,4 @@
-#include <sigmax/estimation/metrics.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,10 +1,4 @@
-#include <sigmax/estimation/model.hpp>
-
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/linearised.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace sigmax::support {
 
@@ -33,9 +30,9 @@ inline double generated_step() { return std::pow(10.0, number_between(-6.0, 1.0)
 /// u(s+t) = F(t) u(s) + u(t).
 inline void require_steps_to_add_up(const AnyModel& model, double s, double t) {
   const auto first = matrices_of(model, s), second = matrices_of(model, t), both = matrices_of(model, s + t);
-  require_near_matrix(both.F, second.F * first.F, 1e-12);
+  require_near(both.F, second.F * first.F, 1e-12);
   require_near_covariance(both.Q, second.F * first.Q * second.F.transpose() + second.Q, 1e-12);
-  require_near_matrix(both.mean, second.F * first.mean + second.mean, 1e-12);
+  require_near(both.mean, second.F * first.mean + second.mean, 1e-12);
 }
 
 /// By its series, of a sixteenth or less of the matrix, squared.
@@ -74,7 +71,7 @@ inline void require_integral(const restatement::Matrix& A, const restatement::Ma
       corner(i, k) = power(i, n + k);
     }
   const auto found = matrices_of(model, dt);
-  require_near_matrix(found.F, F, 1e-9);
+  require_near(found.F, F, 1e-9);
   require_near_covariance(found.Q, matrix_of(F * corner), 1e-9);
 }
 

@@ -1,7 +1,3 @@
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-
-#include <sigmax/estimation/white_noise.hpp>
-
 #include "estimation/motion_laws.hpp"
 
 namespace {
@@ -14,7 +10,7 @@ TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
   const double e = std::exp(-a * T), e2 = e * e;
   const auto model = singer<1>(a, std::sqrt(s2));
   const SquareMatrix<3> F{{1, T, (a * T - 1 + e) / (a * a)}, {0, 1, (1 - e) / a}, {0, 0, e}};
-  EXPECT_PRED_FORMAT3(near_matrix, model.transition(T), F, 1e-14);
+  EXPECT_CLOSE(model.transition(T), F, 1e-14);
   const double q11 =
       s2 / std::pow(a, 4) * (1 - e2 + 2 * a * T + 2 * std::pow(a * T, 3) / 3 - 2 * a * a * T * T - 4 * a * T * e);
   const double q12 = s2 / std::pow(a, 3) * (e2 + 1 - 2 * e + 2 * a * T * e - 2 * a * T + a * a * T * T);
@@ -22,8 +18,8 @@ TEST(OrnsteinUhlenbeck, SingersModelIsThePrintedOne) {
   const double q22 = s2 / (a * a) * (4 * e - 3 - e2 + 2 * a * T);
   const double q23 = s2 / a * (e2 + 1 - 2 * e);
   const double q33 = s2 * (1 - e2);
-  EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(T),
-                      (SquareMatrix<3>{{q11, q12, q13}, {q12, q22, q23}, {q13, q23, q33}}), 1e-13);
+  EXPECT_CLOSE(model.process_covariance(T), (SquareMatrix<3>{{q11, q12, q13}, {q12, q22, q23}, {q13, q23, q33}}),
+               1e-13);
 }
 
 PROPERTY(OrnsteinUhlenbeck, IsTheIntegral) {
@@ -47,7 +43,7 @@ PROPERTY(OrnsteinUhlenbeck, StepsAddUpForAnyRate) {
 PROPERTY(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
   const double theta = 1e-14, q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
   const double sigma = std::sqrt(0.5 * q / theta);
-  require_near_matrix(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
+  require_near(singer<2>(theta, sigma).transition(dt), cwpa<2>(q).transition(dt), 1e-12);
   require_near_covariance(singer<2>(theta, sigma).process_covariance(dt), cwpa<2>(q).process_covariance(dt), 1e-12);
   require_near_covariance(ou_velocity<2>(theta, sigma).process_covariance(dt), cwna<2>(q).process_covariance(dt),
                           1e-12);
@@ -56,25 +52,13 @@ PROPERTY(OrnsteinUhlenbeck, ASlowOneIsAWienerProcess) {
 TEST(OrnsteinUhlenbeck, InTheLongRunItForgetsAndKeepsItsDeviation) {
   const Gaussian<4> start{Vector<4>(0.0, 0.0, 100.0, 100.0), 50.0 * SquareMatrix<4>::Identity()};
   const auto late = predict(ou_velocity<2>(2.0, 3.0, Vector<2>(5.0, -7.0)), start, 1000.0);
-  EXPECT_PRED_FORMAT3(near_matrix, late.mean.tail<2>(), (Vector<2>(5.0, -7.0)), 1e-14);
-  EXPECT_PRED_FORMAT3(near_matrix, (late.covariance.bottomRightCorner<2, 2>()), (SquareMatrix<2>{{9, 0}, {0, 9}}),
-                      1e-14);
+  EXPECT_CLOSE(late.mean.tail<2>(), (Vector<2>(5.0, -7.0)), 1e-14);
+  EXPECT_CLOSE((late.covariance.bottomRightCorner<2, 2>()), (SquareMatrix<2>{{9, 0}, {0, 9}}), 1e-14);
 }
 
 TEST(OrnsteinUhlenbeck, AStepOfNoTimeIsNone) {
   EXPECT_EQ(singer<3>(0.5, 2.0).transition(0.0), SquareMatrix<9>::Identity());
   EXPECT_EQ(singer<3>(0.5, 2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
-}
-
-TEST(OrnsteinUhlenbeck, ShowsItsParameters) {
-  EXPECT_EQ(singer<2>(0.25, 1.5).law().theta(), 0.25);
-  EXPECT_EQ(singer<2>(0.25, 1.5).law().sigma(), 1.5);
-}
-
-TEST(OrnsteinUhlenbeck, RefusesParametersThatAreNone) {
-  EXPECT_INVALID(("rate", "singer", "-1"), singer<3>(-1.0, 1.0));
-  EXPECT_INVALID(("the rate", "ou_position", "-1"), ou_position<1>(-1.0, 1.0));
-  EXPECT_INVALID(("sigma", "ou_velocity", "-2"), ou_velocity<3>(1.0, -2.0));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-#include <sigmax/estimation/radar_numbers.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

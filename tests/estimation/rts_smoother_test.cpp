@@ -1,11 +1,5 @@
-#include <sigmax/estimation/rts_smoother.hpp>
-
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/matrices.hpp"
 #include "support/nonlinear_restatement.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -50,8 +44,8 @@ PROPERTY(RtsSmoother, IsTheUpdateOfTheWholeTrajectoryByAllMeasurements) {
   RC_ASSERT(smoothed.back().covariance == record.back().state.covariance);
   for (std::size_t k = 0; k <= steps; ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);
-    require_near_matrix(smoothed[k].mean, vector_of(all.mean).segment(at, 2), 1e-8);
-    require_near_matrix(smoothed[k].covariance, matrix_of(all.covariance).block(at, at, 2, 2), 1e-8);
+    require_near(smoothed[k].mean, vector_of(all.mean).segment(at, 2), 1e-8);
+    require_near(smoothed[k].covariance, matrix_of(all.covariance).block(at, at, 2, 2), 1e-8);
   }
 }
 
@@ -69,9 +63,8 @@ TEST(RtsSmoother, TakesASingularProcessCovarianceAndAStepOfNoTime) {
   double left = 0.0;
   for (std::size_t k = record.size(); k-- > 0;) {
     const auto there = model.transition(left);
-    EXPECT_PRED_FORMAT3(near_matrix, there * smoothed[k].mean, record.back().state.mean, 1e-12);
-    EXPECT_PRED_FORMAT3(near_matrix, there * smoothed[k].covariance * there.transpose(), record.back().state.covariance,
-                        1e-12);
+    EXPECT_CLOSE(there * smoothed[k].mean, record.back().state.mean, 1e-12);
+    EXPECT_CLOSE(there * smoothed[k].covariance * there.transpose(), record.back().state.covariance, 1e-12);
     left += record[k].dt;
   }
 }

@@ -1,12 +1,4 @@
-#include <sigmax/estimation/sensing.hpp>
-
-#include <sigmax/estimation/any_model.hpp>
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/linearised.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
-#include "support/matrices.hpp"
+#include "estimation/restated.hpp"
 
 namespace {
 
@@ -23,15 +15,6 @@ struct Sideways {
   Eigen::Matrix<Scalar, 1, 1> measure(const Eigen::Matrix<Scalar, 1, 1>& x) const {
     using std::sin;
     return Eigen::Matrix<Scalar, 1, 1>(Scalar(sin(x(0))));
-  }
-};
-/// One that asks the model: the last component, whatever it is, squared.
-struct SquaredLast {
-  static constexpr int measurement_size = 1;
-  template <class Model, class State>
-  auto measure(const Model& model, const State& x) const {
-    const auto last = x(model.size() - 1);
-    return Eigen::Matrix<typename State::Scalar, 1, 1>(typename State::Scalar(last * last));
   }
 };
 /// And a linear one.

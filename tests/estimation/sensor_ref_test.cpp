@@ -1,10 +1,4 @@
-#include <sigmax/estimation/sensor_ref.hpp>
-
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,11 +1,4 @@
-#include <sigmax/estimation/sensors.hpp>
-
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/doppler_sensor.hpp>
-#include <sigmax/estimation/extended.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -15,11 +8,9 @@ const auto motion = dwna<3>(2.0);
 PROPERTY(Sensors, ARadarSeesWhatToPolarSays) {
   const Vector<3> position = 100.0 * generated_matrix<3, 1>(), origin = 100.0 * generated_matrix<3, 1>();
   const Polar seen = to_polar(position - origin);
-  require_near_matrix(PolarSensor<3>{origin}.measure(position), Vector<3>(seen.range, seen.azimuth, seen.elevation),
-                      1e-12);
+  require_near(PolarSensor<3>{origin}.measure(position), Vector<3>(seen.range, seen.azimuth, seen.elevation), 1e-12);
   const double ground = std::hypot(position(0) - origin(0), position(1) - origin(1));
-  require_near_matrix(PolarSensor<2>{origin.head<2>()}.measure(position.head<2>()), Vector<2>(ground, seen.azimuth),
-                      1e-12);
+  require_near(PolarSensor<2>{origin.head<2>()}.measure(position.head<2>()), Vector<2>(ground, seen.azimuth), 1e-12);
   require_near(BearingSensor{origin.head<2>()}.measure(position.head<2>())(0), seen.azimuth, 1e-12);
 }
 
@@ -30,7 +21,7 @@ void require_derivative(const Sensor& sensor, const Vector<Sensor::seen_size>& x
   const auto H = sensor.measurement_jacobian(x);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Vector<Sensor::seen_size> step = h * Vector<Sensor::seen_size>::Unit(i);
-    require_near_matrix(H.col(i), (sensor.measure(x + step) - sensor.measure(x - step)) / (2.0 * h), 1e-7);
+    require_near(H.col(i), (sensor.measure(x + step) - sensor.measure(x - step)) / (2.0 * h), 1e-7);
   }
 }
 
@@ -47,18 +38,17 @@ PROPERTY(Sensors, JacobiansAreTheDerivatives) {
 }
 
 TEST(Sensors, DifferencesOfAzimuthsAreWrappedAndNothingElseIs) {
-  EXPECT_PRED_FORMAT3(near_matrix,
-                      PolarSensor<3>{}.measurement_difference(Vector<3>(10.0, 3.0, 0.5), Vector<3>(1.0, -3.0, -0.5)),
-                      (Vector<3>(9.0, 6.0 - 2.0 * pi, 1.0)), 1e-15);
-  EXPECT_PRED_FORMAT3(near_matrix, PolarSensor<2>{}.measurement_difference(Vector<2>(10.0, -3.0), Vector<2>(1.0, 3.0)),
-                      (Vector<2>(9.0, 2.0 * pi - 6.0)), 1e-15);
+  EXPECT_CLOSE(PolarSensor<3>{}.measurement_difference(Vector<3>(10.0, 3.0, 0.5), Vector<3>(1.0, -3.0, -0.5)),
+               (Vector<3>(9.0, 6.0 - 2.0 * pi, 1.0)), 1e-15);
+  EXPECT_CLOSE(PolarSensor<2>{}.measurement_difference(Vector<2>(10.0, -3.0), Vector<2>(1.0, 3.0)),
+               (Vector<2>(9.0, 2.0 * pi - 6.0)), 1e-15);
   EXPECT_CLOSE(BearingSensor{}.measurement_difference(Vector<1>(3.0), Vector<1>(-3.0))(0), 6.0 - 2.0 * pi, 1e-15);
 }
 
 TEST(Sensors, AMeasurementBringsItsVariances) {
   const auto z = PolarSensor<3>::measurement({1000.0, 0.1, 0.2}, {10.0, 0.002, 0.003});
   EXPECT_EQ(z.mean, (Vector<3>(1000.0, 0.1, 0.2)));
-  EXPECT_PRED_FORMAT3(near_matrix, z.covariance, (SquareMatrix<3>{{100, 0, 0}, {0, 4e-6, 0}, {0, 0, 9e-6}}), 1e-18);
+  EXPECT_CLOSE(z.covariance, (SquareMatrix<3>{{100, 0, 0}, {0, 4e-6, 0}, {0, 0, 9e-6}}), 1e-18);
   const auto flat = PolarSensor<2>::measurement({1000.0, 0.1, 0.2}, {10.0, 0.002, 0.003});
   EXPECT_EQ(flat.mean, (Vector<2>(1000.0, 0.1)));
   EXPECT_EQ(flat.covariance, (z.covariance.topLeftCorner<2, 2>()));
@@ -128,14 +118,14 @@ TEST(Sensors, ARadarTellsThePositionAsTheConversionDoes) {
   const Polar seen{1000.0, 0.4, 0.2}, sigma{10.0, 0.002, 0.003};
   const Gaussian<3> expected = to_cartesian(seen, sigma, Conversion::unbiased);
   const auto found = PolarSensor<3>{origin}.position(PolarSensor<3>::measurement(seen, sigma));
-  EXPECT_PRED_FORMAT3(near_matrix, found.mean, expected.mean + origin, 1e-15);
-  EXPECT_PRED_FORMAT3(near_matrix, found.covariance, expected.covariance, 1e-15);
+  EXPECT_CLOSE(found.mean, expected.mean + origin, 1e-15);
+  EXPECT_CLOSE(found.covariance, expected.covariance, 1e-15);
   EXPECT_EQ(PolarSensor<3>{origin}.origin(), origin);
   EXPECT_EQ(BearingSensor{origin.head<2>()}.origin(), origin.head<2>());
   const Gaussian<3> flat = to_cartesian({1000.0, 0.4, 0.0}, {10.0, 0.002, 0.0}, Conversion::unbiased);
   const auto in_plane = PolarSensor<2>{}.position(PolarSensor<2>::measurement(seen, sigma));
-  EXPECT_PRED_FORMAT3(near_matrix, in_plane.mean, flat.mean.head<2>(), 1e-15);
-  EXPECT_PRED_FORMAT3(near_matrix, in_plane.covariance, (flat.covariance.topLeftCorner<2, 2>()), 1e-15);
+  EXPECT_CLOSE(in_plane.mean, flat.mean.head<2>(), 1e-15);
+  EXPECT_CLOSE(in_plane.covariance, (flat.covariance.topLeftCorner<2, 2>()), 1e-15);
 }
 
 /// Knows that its range is ten too short, and its slope by heart.
@@ -150,7 +140,7 @@ TEST(Sensors, ADerivedOneIsAskedByItsOwnFunctions) {
   const Gaussian<2> z{Vector<2>(40.0, std::atan2(4.0, 3.0)), SquareMatrix<2>::Identity()};
   Gaussian<4> x;
   const auto innovation = update(Extended{dwna<2>(1.0)}, prior, z, Biased{}, x);
-  EXPECT_PRED_FORMAT3(near_matrix, innovation.residual, Vector<2>::Zero(), 1e-14);
+  EXPECT_CLOSE(innovation.residual, Vector<2>::Zero(), 1e-14);
   EXPECT_EQ(innovation.covariance, (SquareMatrix<2>{{1.25, 0.0}, {0.0, 1.0625}}));
   EXPECT_NEAR(update(Cubature{dwna<2>(1.0)}, prior, z, Biased{}, x).residual(0), 0.0, 0.1);
 }

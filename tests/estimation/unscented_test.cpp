@@ -1,5 +1,3 @@
-#include <sigmax/estimation/unscented.hpp>
-
 #include "estimation/quadratic.hpp"
 
 namespace {
@@ -59,7 +57,7 @@ TEST(Unscented, ANegativeWeightThatTakesTheDefinitenessAwayIsRefused) {
 TEST(Unscented, RefusesAScalingWithoutSpread) {
   for (const auto& s :
        {UnscentedScaling{0.0, 2.0, 0.0}, UnscentedScaling{1.0, 2.0, -3.0}, UnscentedScaling{1.0, 2.0, -4.0},
-        UnscentedScaling{std::nan(""), 2.0, 0.0}, UnscentedScaling{1.0, std::nan(""), 0.0}})
+        UnscentedScaling{not_a_number, 2.0, 0.0}, UnscentedScaling{1.0, not_a_number, 0.0}})
     EXPECT_INVALID(("unscented", "own", "alpha", "beta", "kappa", "3 states"), Unscented(OwnMotion{{}, 3}, s));
 }
 

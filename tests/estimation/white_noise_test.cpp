@@ -1,23 +1,6 @@
-#include <sigmax/estimation/white_noise.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-
 #include "estimation/motion_laws.hpp"
 
 namespace {
-
-TEST(WhiteNoise, AccelerationIsThatOfTheBook) {
-  const auto model = cwna<1>(3.0);
-  EXPECT_EQ(model.transition(2.0), (SquareMatrix<2>{{1, 2}, {0, 1}}));
-  EXPECT_EQ(model.process_covariance(2.0), (SquareMatrix<2>{{8, 6}, {6, 6}}));  // q [T³/3 T²/2; T²/2 T]
-}
-
-TEST(WhiteNoise, JerkIsThatOfTheBook) {
-  const auto model = cwpa<1>(60.0);
-  EXPECT_EQ(model.transition(2.0), (SquareMatrix<3>{{1, 2, 2}, {0, 1, 2}, {0, 0, 1}}));
-  EXPECT_PRED_FORMAT3(near_matrix, model.process_covariance(2.0),  // q [T⁵/20 T⁴/8 T³/6; · T³/3 T²/2; · · T]
-                      (SquareMatrix<3>{{96, 120, 80}, {120, 160, 120}, {80, 120, 120}}), 1e-15);
-}
 
 PROPERTY(WhiteNoise, IsTheIntegral) {
   const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
@@ -39,13 +22,6 @@ TEST(WhiteNoise, AStepOfNoTimeIsNone) {
 TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
   const Vector<3> a(1.0, -2.0, 3.0);
   EXPECT_EQ(cwna<3>(1.0, a).known_input(2.0), dwna<3>(1.0, a).known_input(2.0));
-}
-
-TEST(WhiteNoise, ShowsItsParameters) { EXPECT_EQ(cwpa<2>(1.5).law().q(), 1.5); }
-
-TEST(WhiteNoise, RefusesANoiseThatIsNone) {
-  EXPECT_INVALID(("q", "cwna", "-1"), cwna<3>(-1.0));
-  EXPECT_INVALID(("q", "cwpa", "nan"), cwpa<3>(std::nan("")));
 }
 
 }  // namespace

@@ -1,23 +1,13 @@
 // Any bytes are a network of random variables with normalised tables, which reads the same when written out again, or
 // an error that names the file.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 
 #include <sigmax/core/network/bif.hpp>
 
 #include "fuzz/require.hpp"
 
 namespace {
-
-using namespace sigmax;
-using sigmax::fuzz::require;
 
 RelationNetwork read(const std::string& text, std::string_view name) {
   std::istringstream stream{text};

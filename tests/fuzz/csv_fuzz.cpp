@@ -1,20 +1,10 @@
 // Any bytes are a table with rows as long as its header, which reads the same when written out again, or an error that
 // names the file.
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <sstream>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "fuzz/require.hpp"
 #include "support/csv.hpp"
 
 namespace {
-
-using namespace sigmax::apps;
-using sigmax::fuzz::require;
 
 using Records = std::vector<std::vector<std::string>>;
 

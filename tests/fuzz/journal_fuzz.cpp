@@ -3,26 +3,14 @@
 // off its end; after it was opened, appended to, and torn off again, it holds the old cells and the new one, and
 // finished it reads the same. The bytes behind the first zero are a --shard.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <fstream>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "fuzz/memory_file.hpp"
-#include "fuzz/require.hpp"
 #include "study/journal.hpp"
 #include "study/study.hpp"
 #include "support/error.hpp"
 #include "support/input.hpp"
 
 namespace {
-
-using namespace sigmax::apps;
-using sigmax::fuzz::MemoryFile;
-using sigmax::fuzz::require;
 
 /// A journal of these cells in their order; numbers that are none equal each other here.
 std::string text_of(const std::string& study, const CellRows& rows) {

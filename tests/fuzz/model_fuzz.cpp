@@ -1,25 +1,11 @@
 // Any bytes are a model of recognition_demo whose counts can be used, and which reads the same when written out again,
 // or an error that names the file.
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
-#include <sigmax/recognition/counts.hpp>
 
 #include "fuzz/memory_file.hpp"
-#include "fuzz/require.hpp"
 #include "recognition_demo/learned_model.hpp"
-#include "support/error.hpp"
 #include "support/input.hpp"
 
 namespace {
-
-using namespace sigmax;
-using namespace sigmax::apps;
-using sigmax::fuzz::MemoryFile;
-using sigmax::fuzz::require;
 
 std::string written(const ModelFile& file, const MemoryFile& place) {
   write_model(file.model, file.kinds, place.path());

@@ -1,7 +1,18 @@
 #pragma once
 
+// What most fuzz targets include.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace sigmax::fuzz {
 
@@ -13,3 +24,9 @@ inline void require(bool holds, const char* fact) {
 }
 
 }  // namespace sigmax::fuzz
+
+namespace sigmax::apps {}
+
+using namespace sigmax;  // as in the tests
+using namespace sigmax::apps;
+using namespace sigmax::fuzz;

@@ -1,23 +1,10 @@
 // Any bytes are settings, or an error. The bytes up to the first zero are a file, those between further zeros a `--set`
 // each.
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "fuzz/memory_file.hpp"
-#include "fuzz/require.hpp"
 #include "support/settings.hpp"
 
 namespace {
-
-using namespace sigmax::apps;
-using sigmax::fuzz::MemoryFile;
-using sigmax::fuzz::require;
 
 template <class Read>
 bool can(const Read& read) {

@@ -1,14 +1,7 @@
 // Any bytes are a finite time or none; a time agrees with the C library's, and reads the same when written out again. A
 // time of day is that time on 1970-01-01.
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <ctime>
-#include <optional>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -16,11 +9,6 @@
 #include "support/timestamp.hpp"
 
 namespace {
-
-using sigmax::apps::is_time_of_day;
-using sigmax::apps::iso_time;
-using sigmax::apps::parse_timestamp;
-using sigmax::fuzz::require;
 
 /// A date and time as the C library has it, without a fraction; nothing beyond four digits of the year.
 std::optional<std::string> written(std::time_t seconds) {

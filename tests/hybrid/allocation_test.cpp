@@ -1,8 +1,5 @@
 // `step` allocates nothing: every operator new of this program is counted.
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/unscented.hpp>
 #include "hybrid/targets.hpp"
 #include "support/allocations.hpp"
 

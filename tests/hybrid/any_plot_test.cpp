@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/any_plot.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -51,17 +49,14 @@ TEST(AnyPlot, OfAMissedMeasurementHasATimeAlone) {
 }
 
 TEST(AnyPlot, RefusesWhatNoSensorMeasures) {
-  const auto refuses = [](const auto& make, std::initializer_list<std::string_view> words) {
-    return throws<std::invalid_argument>(make, words);
-  };
   const Numbers none, one(1), two(2), three(3), four(4), five(5), seven(7);
-  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, none, none); }, {"0 measured quantities", "1 to 3"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, four, four); }, {"4 measured quantities", "1 to 3"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::polar(0.0, one, one); }, {"1 measured", "2 to 3"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::doppler(0.0, two, two); }, {"2 measured", "3 to 4"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::components(0.0, std::array<int, 7>{}, seven, seven); }, {"7 measured", "1 to 6"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::components(0.0, std::array{0}, two, two); }, {"1 places", "2 measured"}));
-  EXPECT_TRUE(refuses([&] { AnyPlot::position(0.0, three, five); }, {"5 numbers", "3 variances or 9"}));
+  EXPECT_INVALID(("0 measured quantities", "1 to 3"), AnyPlot::position(0.0, none, none));
+  EXPECT_INVALID(("4 measured quantities", "1 to 3"), AnyPlot::position(0.0, four, four));
+  EXPECT_INVALID(("1 measured", "2 to 3"), AnyPlot::polar(0.0, one, one));
+  EXPECT_INVALID(("2 measured", "3 to 4"), AnyPlot::doppler(0.0, two, two));
+  EXPECT_INVALID(("7 measured", "1 to 6"), AnyPlot::components(0.0, std::array<int, 7>{}, seven, seven));
+  EXPECT_INVALID(("1 places", "2 measured"), AnyPlot::components(0.0, std::array{0}, two, two));
+  EXPECT_INVALID(("5 numbers", "3 variances or 9"), AnyPlot::position(0.0, three, five));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/any_target.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,11 +1,4 @@
-#include <sigmax/hybrid/bank.hpp>
-
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

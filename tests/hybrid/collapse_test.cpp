@@ -1,8 +1,4 @@
-#include <sigmax/hybrid/collapse.hpp>
-
-#include <sigmax/core/logarithm.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

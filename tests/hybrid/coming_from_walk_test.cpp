@@ -1,10 +1,7 @@
 // The code of docs/coming_from.md. The expected numbers are those of a plain Python restatement of what the other
 // libraries compute.
 
-#include <sigmax/estimation/white_noise.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

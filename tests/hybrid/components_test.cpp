@@ -1,8 +1,4 @@
-#include <sigmax/hybrid/components.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

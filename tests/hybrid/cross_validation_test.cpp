@@ -1,10 +1,8 @@
-#include <sigmax/hybrid/cross_validation.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = not_a_number;
 
 TEST(CrossValidation, CutsAFewRecordingsInTimeAndSharesManyOut) {
   EXPECT_EQ(folds_of(std::array<std::size_t, 2>{6, 3}, 3), (RowFolds{{0, 0, 1, 1, 2, 2}, {0, 1, 2}}));

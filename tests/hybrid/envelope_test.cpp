@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/envelope.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {

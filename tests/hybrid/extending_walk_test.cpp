@@ -1,15 +1,7 @@
 // The code of docs/extending.md that needs filters, and the values that it claims.
 
-#include <sigmax/estimation/any_sensor.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/sensors.hpp>
-#include <sigmax/estimation/unscented.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/known_model.hpp>
-#include <sigmax/hybrid/mode_transition.hpp>
-
 #include "known_motions.hpp"
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

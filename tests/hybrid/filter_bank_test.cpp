@@ -1,9 +1,4 @@
-#include <sigmax/hybrid/filter_bank.hpp>
-
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-
 #include "hybrid/instruction_sets.hpp"
-#include "support/matrices.hpp"
 
 namespace {
 
@@ -67,14 +62,14 @@ void expect_as_single(const Bank<Kind>& bank, std::size_t track, const Single<Ki
   const auto state = bank.state(track);
   EXPECT_EQ(state.most_likely_mode, single.most_likely_mode());
   for (std::size_t j = 0; j < 3; ++j) {
-    EXPECT_PRED_FORMAT3(near_matrix, state.estimates[j].mean, single.estimates()[j].mean, 1e-9);
+    EXPECT_CLOSE(state.estimates[j].mean, single.estimates()[j].mean, 1e-9);
     const SquareMatrix<Eigen::Dynamic, 6> P = single.estimates()[j].covariance, found = state.estimates[j].covariance;
     const auto units =
         P.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();  // those of each covariance: an outlier's is great
-    EXPECT_PRED_FORMAT3(near_matrix, (units * found * units).eval(), (units * P * units).eval(), 1e-9);
+    EXPECT_CLOSE((units * found * units).eval(), (units * P * units).eval(), 1e-9);
     EXPECT_CLOSE(state.belief[j], single.belief()[j], 1e-9);
   }
-  EXPECT_PRED_FORMAT3(near_matrix, bank.estimate(track).mean, single.estimate().mean, 1e-9);
+  EXPECT_CLOSE(bank.estimate(track).mean, single.estimate().mean, 1e-9);
 }
 
 template <Uncertainty Kind>

@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/fit_target.hpp>
-
 #include "hybrid/two_speeds.hpp"
 
 namespace {
@@ -44,8 +42,7 @@ TEST(LogScores, OfAMeasurementThatTheGateRejectedAreKnown) {
 TEST(RobustLogScore, IsThatOfTheContaminatedDensityAndBounded) {
   for (const double own : {-3.0, -12.0, -30.0})
     EXPECT_CLOSE(robust_log_score(own, 0.02, -9.0), std::log(0.98 * std::exp(own) + 0.02 * std::exp(-9.0)), 1e-12);
-  for (const double own : {-1e9, -std::numeric_limits<double>::infinity()})
-    EXPECT_EQ(robust_log_score(own, 0.02, -9.0), std::log(0.02) - 9.0);
+  for (const double own : {-1e9, -infinity}) EXPECT_EQ(robust_log_score(own, 0.02, -9.0), std::log(0.02) - 9.0);
 }
 
 TEST(TransitionCounts, OfARandomModeAddUpTheSmoothedPairs) {

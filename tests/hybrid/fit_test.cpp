@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/fit.hpp>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/two_speeds.hpp"
 
@@ -44,7 +42,7 @@ TEST(Fit, IsNeverWorseThanItsStartAndPassesOverWhatFails) {
   const std::vector<FitParameter> parameters = {{.name = "x", .start = 1.0}};
   const auto loss = [](const std::vector<double>& x) -> double {
     if (x[0] > 1.2) throw std::domain_error("no filter");
-    return x[0] < 0.9 ? std::nan("") : 2.0;
+    return x[0] < 0.9 ? not_a_number : 2.0;
   };
   const Fit found = fit(parameters, loss, by_compass, {.starts = 3});
   EXPECT_EQ(found.loss, 2.0);

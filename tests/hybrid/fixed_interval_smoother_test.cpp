@@ -1,8 +1,3 @@
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
-
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/rts_smoother.hpp>
-
 #include "hybrid/flights.hpp"
 
 namespace {
@@ -28,8 +23,8 @@ TEST(FixedIntervalSmoother, OfOneModelOrEqualModelsIsTheRtsSmoother) {
       const Flight flight = flown(equal, starts(equal), rows_of(scans));
       ASSERT_EQ(flight.smoothed.size(), expected.size());
       for (std::size_t k = 0; k < expected.size(); ++k) {
-        ASSERT_PRED_FORMAT3(near_matrix, flight.smoothed[k].output.mean, expected[k].mean, 1e-9) << "scan " << k;
-        ASSERT_PRED_FORMAT3(near_matrix, flight.smoothed[k].output.covariance, expected[k].covariance, 1e-9);
+        ASSERT_CLOSE(flight.smoothed[k].output.mean, expected[k].mean, 1e-9) << "scan " << k;
+        ASSERT_CLOSE(flight.smoothed[k].output.covariance, expected[k].covariance, 1e-9);
       }
     });
 }
@@ -64,57 +59,51 @@ TEST(FixedIntervalSmoother, EndsAsTheFilterAndStaysNormalized) {
   });
 }
 
+TYPED_SUITE(FixedIntervalSmootherOf, Random, Fuzzy);
+
 /// From one start for all models, one scan: here smoothing is exact, and must know what all pairs of modes know.
-template <Uncertainty Kind>
-void knows_what_all_pairs_know() {
-  constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
-  holds([] {
-    Models models;
-    std::vector<double> F, Q;
-    const double x0 = 1.0, P0 = number_between(0.5, 4.0), R = 0.5, z = number_between(-5.0, 5.0);
-    for (std::size_t j = 0; j < 2; ++j) {
-      F.push_back(number_between(-1.5, 1.5));
-      Q.push_back(number_between(0.1, 4.0));
-      models.push_back(FixedStepMotion<1>{"any", {"x"}, 1.0, SquareMatrix<1>{F[j]}, SquareMatrix<1>{Q[j]}});
-    }
-    const Variable<Kind> mode{"mode", 2};
-    const Relation<Kind, Kind> transition{mode, mode,
-                                          fuzzy ? Rows{{1.0, 0.25}, {0.125, 1.0}} : Rows{{0.75, 0.25}, {0.125, 0.875}}};
-    const std::vector start(2, Gaussian<1>{Vector<1>{x0}, SquareMatrix<1>{P0}});
+TYPED_PROPERTY(FixedIntervalSmootherOf, KnowsWhatAllPairsOfModesKnowOfOneScan) {
+  constexpr bool fuzzy = std::is_same_v<TypeParam, Fuzzy>;
+  Models models;
+  std::vector<double> F, Q;
+  const double x0 = 1.0, P0 = number_between(0.5, 4.0), R = 0.5, z = number_between(-5.0, 5.0);
+  for (std::size_t j = 0; j < 2; ++j) {
+    F.push_back(number_between(-1.5, 1.5));
+    Q.push_back(number_between(0.1, 4.0));
+    models.push_back(FixedStepMotion<1>{"any", {"x"}, 1.0, SquareMatrix<1>{F[j]}, SquareMatrix<1>{Q[j]}});
+  }
+  const Variable<TypeParam> mode{"mode", 2};
+  const Relation<TypeParam, TypeParam> transition{
+      mode, mode, fuzzy ? Rows{{1.0, 0.25}, {0.125, 1.0}} : Rows{{0.75, 0.25}, {0.125, 0.875}}};
+  const std::vector start(2, Gaussian<1>{Vector<1>{x0}, SquareMatrix<1>{P0}});
 
-    std::vector<double> belief(2, 0.0), mean(2, 0.0), square(2, 0.0);
+  std::vector<double> belief(2, 0.0), mean(2, 0.0), square(2, 0.0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {  // the start meets the measurement through F of j
+      const double S = F[j] * P0 * F[j] + Q[j] + R, W = P0 * F[j] / S, nu = z - F[j] * x0;
+      const double weight = transition(i, j) * std::exp(-0.5 * nu * nu / S) / std::sqrt(S);
+      const double x = x0 + W * nu, P = P0 - W * S * W;
+      if (fuzzy && weight <= belief[i]) continue;
+      const double kept = fuzzy ? 0.0 : 1.0;
+      belief[i] = kept * belief[i] + weight;
+      mean[i] = kept * mean[i] + weight * x;
+      square[i] = kept * square[i] + weight * (P + x * x);
+    }
+    mean[i] /= belief[i];
+    square[i] /= belief[i];
+  }
+  const double total = fuzzy ? std::max(belief[0], belief[1]) : belief[0] + belief[1];
+  const auto check = [&](auto filter) {
+    const Gaussian<Eigen::Dynamic, 3> seen{Vector<1>{z}, SquareMatrix<1>{R}};
+    const Moment smoothed = flown(filter, {{1.0, seen}}, PositionSensor<1>{}).smoothed[0];
     for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) {  // the start meets the measurement through F of j
-        const double S = F[j] * P0 * F[j] + Q[j] + R, W = P0 * F[j] / S, nu = z - F[j] * x0;
-        const double weight = transition(i, j) * std::exp(-0.5 * nu * nu / S) / std::sqrt(S);
-        const double x = x0 + W * nu, P = P0 - W * S * W;
-        if (fuzzy && weight <= belief[i]) continue;
-        const double kept = fuzzy ? 0.0 : 1.0;
-        belief[i] = kept * belief[i] + weight;
-        mean[i] = kept * mean[i] + weight * x;
-        square[i] = kept * square[i] + weight * (P + x * x);
-      }
-      mean[i] /= belief[i];
-      square[i] /= belief[i];
+      require_near(std::exp(smoothed.logs[i]), belief[i] / total, 1e-9);
+      require_near(smoothed.estimates[i].mean(0), mean[i], 1e-9);
+      require_near(smoothed.estimates[i].covariance(0, 0), square[i] - mean[i] * mean[i], 1e-9);
     }
-    const double total = fuzzy ? std::max(belief[0], belief[1]) : belief[0] + belief[1];
-    const auto check = [&](auto filter) {
-      const Gaussian<Eigen::Dynamic, 3> seen{Vector<1>{z}, SquareMatrix<1>{R}};
-      const Moment smoothed = flown(filter, {{1.0, seen}}, PositionSensor<1>{}).smoothed[0];
-      for (std::size_t i = 0; i < 2; ++i) {
-        require_near(std::exp(smoothed.logs[i]), belief[i] / total, 1e-9);
-        require_near(smoothed.estimates[i].mean(0), mean[i], 1e-9);
-        require_near(smoothed.estimates[i].covariance(0, 0), square[i] - mean[i] * mean[i], 1e-9);
-      }
-    };
-    check(InteractingMultipleModel{models, transition, start});
-    check(SecondOrderMultipleModel{models, transition, start});
-  });
-}
-
-TEST(FixedIntervalSmoother, KnowsWhatAllPairsOfModesKnowOfOneScan) {
-  knows_what_all_pairs_know<Random>();
-  knows_what_all_pairs_know<Fuzzy>();
+  };
+  check(InteractingMultipleModel{models, transition, start});
+  check(SecondOrderMultipleModel{models, transition, start});
 }
 
 TEST(FixedIntervalSmoother, AModeThatLeadsNowhereKeepsItsFilteredEstimate) {

@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/fixed_lag_smoother.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {

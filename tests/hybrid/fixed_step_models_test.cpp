@@ -1,8 +1,6 @@
 // The filters over models that are nothing but matrices: components that are not nested, states without memory, and
 // what is known of all histories of the mode together.
 
-#include <sigmax/estimation/fixed_step_motion.hpp>
-
 #include "hybrid/banks.hpp"
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"
@@ -115,73 +113,60 @@ restatement::HistoryFilter all_histories(bool fuzzy, const Generated& generated)
           {.kind = fuzzy ? restatement::Kind::himm : restatement::Kind::imm, .cut = 0.0}};
 }
 
+TYPED_SUITE(FixedStepModelsOf, Random, Fuzzy);
+
 /// Without memory a measurement is of the mode alone: weights of a random mode are the forward–backward pass over all
 /// histories, of a fuzzy one Viterbi's and the max-marginals, and the smoothed states are the filtered ones.
-template <Uncertainty Kind>
-void weighs_as_all_histories() {
-  constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
-  holds([] {
-    const auto generated = generated_models(fuzzy, 3, true);
-    auto all = all_histories(fuzzy, generated);
-    std::vector<double> z;
-    std::vector<restatement::Vector> forward{all.log_weights()};
-    for (int k = 0; k < 3; ++k) {
-      z.push_back(number_between(-4.0, 4.0));
-      all.step(1.0, {z.back()}, {1, 1, {0.5}});
-      forward.push_back(all.log_weights());
-    }
-    by_both_orders<Kind, 1>(generated.models, generated.rows, std::vector(3, somewhere), {}, [&](auto filter, Scheme) {
-      const PositionSensor<1> sensor;
-      std::vector record{filter.recorded(0.0)};
-      for (const double measured : z) {
-        const Gaussian<1> seen{Vector<1>{measured}, SquareMatrix<1>{0.5}};
-        filter.step(1.0, seen, sensor);
-        record.push_back(filter.recorded(1.0, seen, sensor));
-      }
-      const auto smoothed = smooth(filter, record);
-      for (std::size_t k = 0; k <= z.size(); ++k) {
-        const auto backward = all.log_weights(k);
-        for (std::size_t j = 0; j < 3; ++j) {
-          require_near(record[k].state.belief[j], std::exp(forward[k][j]), 1e-9);
-          require_near(smoothed[k].belief[j], std::exp(backward[j]), 1e-9);
-          require_near_matrix(smoothed[k].estimates[j].mean, record[k].state.estimates[j].mean, 1e-9);
-          require_near_matrix(smoothed[k].estimates[j].covariance, record[k].state.estimates[j].covariance, 1e-9);
+TYPED_PROPERTY(FixedStepModelsOf, WithoutMemoryWeighTheirModesAsAllHistoriesTogether) {
+  constexpr bool fuzzy = std::is_same_v<TypeParam, Fuzzy>;
+  const auto generated = generated_models(fuzzy, 3, true);
+  auto all = all_histories(fuzzy, generated);
+  std::vector<double> z;
+  std::vector<restatement::Vector> forward{all.log_weights()};
+  for (int k = 0; k < 3; ++k) {
+    z.push_back(number_between(-4.0, 4.0));
+    all.step(1.0, {z.back()}, {1, 1, {0.5}});
+    forward.push_back(all.log_weights());
+  }
+  by_both_orders<TypeParam, 1>(
+      generated.models, generated.rows, std::vector(3, somewhere), {}, [&](auto filter, Scheme) {
+        const PositionSensor<1> sensor;
+        std::vector record{filter.recorded(0.0)};
+        for (const double measured : z) {
+          const Gaussian<1> seen{Vector<1>{measured}, SquareMatrix<1>{0.5}};
+          filter.step(1.0, seen, sensor);
+          record.push_back(filter.recorded(1.0, seen, sensor));
         }
-      }
-    });
-  });
-}
-
-TEST(FixedStepModels, WithoutMemoryWeighTheirModesAsAllHistoriesTogether) {
-  weighs_as_all_histories<Random>();
-  weighs_as_all_histories<Fuzzy>();
+        const auto smoothed = smooth(filter, record);
+        for (std::size_t k = 0; k <= z.size(); ++k) {
+          const auto backward = all.log_weights(k);
+          for (std::size_t j = 0; j < 3; ++j) {
+            require_near(record[k].state.belief[j], std::exp(forward[k][j]), 1e-9);
+            require_near(smoothed[k].belief[j], std::exp(backward[j]), 1e-9);
+            require_near(smoothed[k].estimates[j].mean, record[k].state.estimates[j].mean, 1e-9);
+            require_near(smoothed[k].estimates[j].covariance, record[k].state.estimates[j].covariance, 1e-9);
+          }
+        }
+      });
 }
 
 /// Of models with memory the filters keep one Gaussian a mode. As long as that is exact, from one start for all models
 /// over two scans, they must know what all histories together know.
-template <Uncertainty Kind>
-void knows_what_all_histories_know() {
-  constexpr bool fuzzy = std::is_same_v<Kind, Fuzzy>;
-  holds([] {
-    const auto generated = generated_models(fuzzy, 3, false);
-    const std::vector z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
-    auto all = all_histories(fuzzy, generated);
-    for (const double measured : z) all.step(1.0, {measured}, {1, 1, {0.5}});
-    const auto expected = fuzzy ? all.of_mode(all.winner()) : all.estimate();
-    by_both_orders<Kind, 1>(generated.models, generated.rows, std::vector(3, somewhere), {},
-                            [&](auto filter, Scheme scheme) {
-                              if (scheme == Scheme::interacting) return;
-                              for (const double measured : z)
-                                filter.step(1.0, {Vector<1>{measured}, SquareMatrix<1>{0.5}}, PositionSensor<1>{});
-                              require_near(filter.estimate().mean(0), expected.mean[0], 1e-9);
-                              require_near(filter.estimate().covariance(0, 0), expected.covariance(0, 0), 1e-9);
-                            });
-  });
-}
-
-TEST(FixedStepModels, Gpb2KnowsTheMomentsOfAllHistoriesOfTwoScansAndTheViterbiFilterTheBest) {
-  knows_what_all_histories_know<Random>();
-  knows_what_all_histories_know<Fuzzy>();
+TYPED_PROPERTY(FixedStepModelsOf, Gpb2KnowsTheMomentsOfAllHistoriesOfTwoScansAndTheViterbiFilterTheBest) {
+  constexpr bool fuzzy = std::is_same_v<TypeParam, Fuzzy>;
+  const auto generated = generated_models(fuzzy, 3, false);
+  const std::vector z{number_between(-5.0, 5.0), number_between(-5.0, 5.0)};
+  auto all = all_histories(fuzzy, generated);
+  for (const double measured : z) all.step(1.0, {measured}, {1, 1, {0.5}});
+  const auto expected = fuzzy ? all.of_mode(all.winner()) : all.estimate();
+  by_both_orders<TypeParam, 1>(generated.models, generated.rows, std::vector(3, somewhere), {},
+                               [&](auto filter, Scheme scheme) {
+                                 if (scheme == Scheme::interacting) return;
+                                 for (const double measured : z)
+                                   filter.step(1.0, {Vector<1>{measured}, SquareMatrix<1>{0.5}}, PositionSensor<1>{});
+                                 require_near(filter.estimate().mean(0), expected.mean[0], 1e-9);
+                                 require_near(filter.estimate().covariance(0, 0), expected.covariance(0, 0), 1e-9);
+                               });
 }
 
 TEST(FixedStepModels, AStepForWhichAModelIsNotGivenIsRefused) {

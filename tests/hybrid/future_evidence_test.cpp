@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/future_evidence.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -43,7 +41,7 @@ TEST(FutureEvidence, KnowsNothingWithoutARow) {
   const FutureEvidence nothing(2);
   EXPECT_EQ(nothing.rows(), 0);
   const Matrix L = Matrix::Identity(2, 2);
-  EXPECT_PRED_FORMAT3(near_matrix, met(nothing, L).covariance, L, 1e-15);
+  EXPECT_CLOSE(met(nothing, L).covariance, L, 1e-15);
   EXPECT_EQ(met(nothing, L).log, 0.0);
   FutureEvidence before;
   EXPECT_EQ(nothing.carry_back(L.data(), L.data(), 2, L.data(), 2, before), 0.0);
@@ -55,11 +53,11 @@ PROPERTY(FutureEvidence, AddsUpAsInformationDoesInNoMoreRowsThanComponents) {
   const Matrix A = any(2, 3), B = any(3, 3);
   const Column a = any(2, 1), b = any(3, 1);
   auto sum = evidence(A, a);
-  require_near_matrix(Y_of(sum), A.transpose() * A, 1e-12);
+  require_near(Y_of(sum), A.transpose() * A, 1e-12);
   sum.add(evidence(B, b));
   RC_ASSERT(sum.rows() == 3);
-  require_near_matrix(Y_of(sum), A.transpose() * A + B.transpose() * B, 1e-12);
-  require_near_matrix(y_of(sum), A.transpose() * a + B.transpose() * b, 1e-12);
+  require_near(Y_of(sum), A.transpose() * A + B.transpose() * B, 1e-12);
+  require_near(y_of(sum), A.transpose() * a + B.transpose() * b, 1e-12);
   const Matrix R = R_of(sum);
   RC_ASSERT(R(1, 0) == 0.0 && R(2, 0) == 0.0 && R(2, 1) == 0.0);
 }
@@ -74,7 +72,7 @@ TEST(FutureEvidence, InOtherCoordinatesSaysTheSameOfTheSameState) {
   Column moved = u;
   moved.head<2>() = A * u.head<2>();
   moved.segment<2>(2) = A * u.segment<2>(2);
-  EXPECT_PRED_FORMAT3(near_matrix, R_of(told) * moved, before * u, 1e-12);
+  EXPECT_CLOSE(R_of(told) * moved, before * u, 1e-12);
 }
 
 /// u = offset + B x + A η: the mean of the likelihood over η.
@@ -85,8 +83,8 @@ PROPERTY(FutureEvidence, CarriedBackIsAveragedOverTheNoise) {
   FutureEvidence before;
   const double log = told.carry_back(offset.data(), B.data(), 2, A.data(), 2, before);
   const Matrix S = Matrix::Identity(3, 3) + R * A * A.transpose() * R.transpose();
-  require_near_matrix(Y_of(before), B.transpose() * R.transpose() * S.llt().solve(R * B), 1e-10);
-  require_near_matrix(y_of(before), B.transpose() * R.transpose() * S.llt().solve(r - R * offset), 1e-10);
+  require_near(Y_of(before), B.transpose() * R.transpose() * S.llt().solve(R * B), 1e-10);
+  require_near(y_of(before), B.transpose() * R.transpose() * S.llt().solve(r - R * offset), 1e-10);
   require_near(log, -0.5 * std::log(S.determinant()), 1e-10);
 }
 
@@ -96,8 +94,8 @@ PROPERTY(FutureEvidence, MeetsAnEstimateAsAMeasurementDoes) {
   const Met found = met(evidence(R, r), L);
   const Matrix P = L * L.transpose(), S = R * P * R.transpose() + Matrix::Identity(2, 2);
   const Matrix W = P * R.transpose() * S.inverse();
-  require_near_matrix(found.mean, W * r, 1e-10);
-  require_near_matrix(found.covariance, P - W * S * W.transpose(), 1e-10);
+  require_near(found.mean, W * r, 1e-10);
+  require_near(found.covariance, P - W * S * W.transpose(), 1e-10);
   require_near(found.log, -0.5 * (std::log(S.determinant()) + r.dot(S.inverse() * r)), 1e-10);
 }
 
@@ -117,13 +115,13 @@ PROPERTY(FutureEvidence, CollapsedGivesTheEstimateTheMomentsOfTheMixture) {
   FutureEvidence one, with_more;
   detail::collapse(parts, weights, L.data(), FutureEvidence(3), one);
   const Met found = met(one, L);
-  require_near_matrix(found.mean, mean, 1e-9);
-  require_near_matrix(found.covariance, square - mean * mean.transpose(), 1e-9);
+  require_near(found.mean, mean, 1e-9);
+  require_near(found.covariance, square - mean * mean.transpose(), 1e-9);
 
   const auto seen = evidence(any(2, 3), any(2, 1));
   detail::collapse(parts, weights, L.data(), seen, with_more);
-  require_near_matrix(Y_of(with_more), Y_of(one) + Y_of(seen), 1e-9);
-  require_near_matrix(y_of(with_more), y_of(one) + y_of(seen), 1e-9);
+  require_near(Y_of(with_more), Y_of(one) + Y_of(seen), 1e-9);
+  require_near(y_of(with_more), y_of(one) + y_of(seen), 1e-9);
 }
 
 TEST(FutureEvidence, SaysNothingAlongADirectionInWhichTheMixtureIsWider) {
@@ -133,8 +131,8 @@ TEST(FutureEvidence, SaysNothingAlongADirectionInWhichTheMixtureIsWider) {
   FutureEvidence one;
   detail::collapse(parts, {0.5, 0.5}, L.data(), FutureEvidence(2), one);
   EXPECT_EQ(one.rows(), 1);
-  EXPECT_PRED_FORMAT3(near_matrix, Y_of(one), (Matrix{{0.0, 0.0}, {0.0, 1.0}}), 1e-12);
-  EXPECT_PRED_FORMAT3(near_matrix, y_of(one), (Column{{0.0, 0.5}}), 1e-12);
+  EXPECT_CLOSE(Y_of(one), (Matrix{{0.0, 0.0}, {0.0, 1.0}}), 1e-12);
+  EXPECT_CLOSE(y_of(one), (Column{{0.0, 0.5}}), 1e-12);
   detail::collapse({FutureEvidence(2), FutureEvidence(2)}, {0.5, 0.5}, L.data(), FutureEvidence(2), one);
   EXPECT_EQ(Y_of(one), Matrix::Zero(2, 2)) << "nothing was told";
 }

@@ -1,8 +1,5 @@
 // A gate does not starve a filter of a hard turn, and no number is too far off for one.
 
-#include <sigmax/estimation/chi_square.hpp>
-#include <sigmax/estimation/start.hpp>
-
 #include "hybrid/targets.hpp"
 
 namespace {

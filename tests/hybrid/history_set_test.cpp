@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/history_set.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

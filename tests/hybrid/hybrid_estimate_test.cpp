@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/hybrid_estimate.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {

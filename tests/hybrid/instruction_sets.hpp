@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinematic/kernels.hpp"
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace sigmax::support {
 

@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {
@@ -38,8 +36,8 @@ void restarts_from_one(const TargetChoice& choice, const One& one, const Counts&
       for (std::size_t j = 0; j < 3; ++j) {
         State expected;
         predict(model_of(choice.motions[j]), from, scan.dt, expected);
-        ASSERT_PRED_FORMAT3(near_matrix, probe.estimates[j].mean, expected.mean, 1e-12);
-        ASSERT_PRED_FORMAT3(near_matrix, probe.estimates[j].covariance, expected.covariance, 1e-9);
+        ASSERT_CLOSE(probe.estimates[j].mean, expected.mean, 1e-12);
+        ASSERT_CLOSE(probe.estimates[j].covariance, expected.covariance, 1e-9);
       }
     filter.step(scan);
   }
@@ -77,8 +75,8 @@ TEST(InteractingMultipleModel, MixingPreservesTheMixturesFirstTwoMoments) {
     for (int k = 0; k < 3; ++k) {
       const State before = filter.estimate;
       filter.step(0.0);
-      require_near_matrix(filter.estimate.mean, before.mean, 1e-11);
-      require_near_matrix(filter.estimate.covariance, before.covariance, 1e-11);
+      require_near(filter.estimate.mean, before.mean, 1e-11);
+      require_near(filter.estimate.covariance, before.covariance, 1e-11);
     }
   });
 }

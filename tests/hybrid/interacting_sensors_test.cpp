@@ -1,7 +1,5 @@
 // Sensors that take turns, step by step, in one multiple-model filter, against the restatement.
 
-#include <sigmax/estimation/any_sensor.hpp>
-
 #include "hybrid/banks.hpp"
 #include "support/nonlinear_restatement.hpp"
 

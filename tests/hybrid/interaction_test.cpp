@@ -1,9 +1,4 @@
-#include <sigmax/hybrid/interaction.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,12 +1,4 @@
-#include <sigmax/hybrid/jump_markov_system.hpp>
-
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/hybrid/filter_bank.hpp>
-#include <sigmax/hybrid/history_filter.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,6 +1,5 @@
 // The short step against textbook matrices: each law alone is their Kalman filter, and two together are the restated
 // filter, along one to three axes, by each instruction set.
-#include <sigmax/hybrid/kinematic_step.hpp>
 
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
@@ -155,8 +154,8 @@ TEST(KinematicStep, AddsAKnownInput) {
     const Gaussian<4> start{Vector<4>(0.0, 100.0, 30.0, 40.0), SquareMatrix<4>::Identity()};
     InteractingMultipleModel filter{std::tuple{dwna<2>(1.0, gravity)}, Relation{mode, mode, {{1.0}}}, start};
     filter.step(2.0);
-    EXPECT_PRED_FORMAT3(
-        near_matrix, filter.estimates()[0].mean,
+    EXPECT_CLOSE(
+        filter.estimates()[0].mean,
         (Vector<4>(60.0 + 0.5 * 2.0 * 2.0 * 0.5, 100.0 + 80.0 - 0.5 * 2.0 * 2.0 * 9.81, 30.0 + 1.0, 40.0 - 2.0 * 9.81)),
         1e-12);
   });

@@ -1,16 +1,6 @@
 // A motion by its name is that of its class.
-#include <sigmax/hybrid/known_model.hpp>
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/known_turn.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/unscented.hpp>
-#include <sigmax/estimation/white_noise.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -37,7 +27,7 @@ void is(const char* name, const Moves& motion) {
       const Gaussian<Axes> z{radar.measure(Vector<Axes>::Constant(100.0)), 1e-3 * SquareMatrix<Axes>::Identity()};
       update(found, a, z, radar, a);
       update(expected, b, z, radar, b);
-      EXPECT_PRED_FORMAT3(near_matrix, a.mean, b.mean, 1e-12);
+      EXPECT_CLOSE(a.mean, b.mean, 1e-12);
     }
   };
   same(known_model(choice(name), Axes), Extended{motion});
@@ -68,16 +58,13 @@ TEST(KnownModel, IsThatOfItsClass) {
 }
 
 TEST(KnownModel, OfAnotherNameOfBadParametersOrATurnAlongOneAxisIsRefused) {
-  const auto refuses = [](MotionChoice motion, int axes, std::initializer_list<std::string_view> words) {
-    EXPECT_TRUE(throws<std::invalid_argument>([&] { known_model(motion, axes); }, words));
-  };
-  refuses(choice("warp"), 2, {"no motion", "'warp'"});
-  refuses(choice("ct"), 1, {"'ct'", "one axis"});
-  refuses(choice("known_turn"), 1, {"'known_turn'", "one axis"});
+  EXPECT_INVALID(("no motion", "'warp'"), known_model(choice("warp"), 2));
+  EXPECT_INVALID(("'ct'", "one axis"), known_model(choice("ct"), 1));
+  EXPECT_INVALID(("'known_turn'", "one axis"), known_model(choice("known_turn"), 1));
   for (const KnownMotion& motion : known_motions())
     for (std::size_t p = 0; p < motion_parameters().size(); ++p) {
       MotionChoice bad = choice(std::string(motion.name).c_str());
-      bad.parameters[p] = std::numeric_limits<double>::quiet_NaN();
+      bad.parameters[p] = not_a_number;
       if (motion.has[p])
         EXPECT_THROW(known_model(bad, 2), std::invalid_argument) << motion.name << ", " << motion_parameters()[p].key;
       else

@@ -1,10 +1,4 @@
-#include <sigmax/hybrid/lift.hpp>
-
-#include <sigmax/estimation/dense.hpp>
-#include <sigmax/estimation/view.hpp>
-#include <sigmax/hybrid/mixture.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,9 +1,4 @@
-#include <sigmax/estimation/discrete_white_noise.hpp>
-#include <sigmax/estimation/gaussian_possibility.hpp>
-#include <sigmax/estimation/grid_filter.hpp>
-#include <sigmax/hybrid/mode_transition.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 /// The code of docs/max_inference.md.
 namespace {

@@ -1,11 +1,5 @@
 // Every member of the Kalman family is a mode of a multiple-model filter.
 
-#include <sigmax/estimation/coordinated_turn.hpp>
-#include <sigmax/estimation/cubature.hpp>
-#include <sigmax/estimation/extended.hpp>
-#include <sigmax/estimation/ornstein_uhlenbeck.hpp>
-#include <sigmax/estimation/unscented.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {

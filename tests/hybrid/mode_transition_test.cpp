@@ -1,10 +1,6 @@
-#include <sigmax/hybrid/mode_transition.hpp>
-
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include <sigmax/core/transform.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -41,21 +37,6 @@ PROPERTY(TimedTransition, IsTheMatrixExponentialAndOfAFuzzyModeThatOnTheRatioSca
       require_near(P(i, j), row(static_cast<Eigen::Index>(j)), 1e-12);
       require_near(pi(i, j), row(static_cast<Eigen::Index>(j)) / row.maxCoeff(), 1e-11);
     }
-}
-
-TEST(TimedTransition, OfTwoModesIsTheClosedForm) {
-  const double leave = 0.3, come_back = 0.1, dt = 2.0;
-  const Rates rates{{-leave, leave}, {come_back, -come_back}};
-  const double p = leave / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
-  const double q = come_back / (leave + come_back) * -std::expm1(-(leave + come_back) * dt);
-  const auto P = TimedTransition<Random>{{"mode", 2}, rates}(dt);
-  EXPECT_CLOSE(P(0, 1), p, 1e-15);
-  EXPECT_CLOSE(P(0, 0), 1.0 - p, 1e-15);
-  EXPECT_CLOSE(P(1, 0), q, 1e-15);
-  const auto pi = TimedTransition<Fuzzy>{{"mode", 2}, rates}(dt);
-  EXPECT_CLOSE(pi(0, 1), p / (1.0 - p), 1e-15);
-  EXPECT_EQ(pi(0, 0), 1.0);
-  EXPECT_CLOSE(pi(1, 0), q / (1.0 - q), 1e-15);
 }
 
 TEST(TimedTransition, ForgetsTheModeInALongTime) {
@@ -110,8 +91,7 @@ TEST(TimedTransition, OverNoTimeIsTheIdentity) {
   const Rates rates = rates_of_sojourns({20.0, 5.0, 1e-3});
   check(TimedTransition<Random>{{"mode", 3}, rates}(0.0));
   check(TimedTransition<Fuzzy>{{"mode", 3}, rates}(0.0));
-  const double for_ever = std::numeric_limits<double>::infinity();
-  check(TimedTransition<Random>{{"mode", 3}, rates_of_sojourns({for_ever, for_ever, for_ever})}(7.0));
+  check(TimedTransition<Random>{{"mode", 3}, rates_of_sojourns({infinity, infinity, infinity})}(7.0));
 }
 
 TEST(TimedTransition, WritesIntoARelationHoweverItIsStored) {

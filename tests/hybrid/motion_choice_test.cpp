@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/motion_choice.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -12,7 +10,7 @@ TEST(MotionChoice, EveryMotionHasANameOfItsOwn) {
   }
   EXPECT_EQ(known_motions().size(), 9U);
   EXPECT_EQ(known_motion("teleport"), nullptr);
-  EXPECT_TRUE(support::throws<std::invalid_argument>([] { MotionChoice{"teleport"}.known(); }, {"'teleport'"}));
+  EXPECT_INVALID(("'teleport'"), MotionChoice{"teleport"}.known());
 }
 
 TEST(MotionChoice, EveryParameterIsOfSomeMotionAndItsDefaultIsValid) {

@@ -1,12 +1,6 @@
 // The code of docs/multiple_models.md.
 
-#include <sigmax/hybrid/filter_bank.hpp>
-#include <sigmax/hybrid/fixed_interval_smoother.hpp>
-#include <sigmax/hybrid/interacting_multiple_model.hpp>
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
-#include <sigmax/hybrid/target.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <sigmax/estimation/sensing.hpp>
-
-#include "support/restatement.hpp"
+#include "support/sigmax.hpp"
 
 namespace sigmax::support {
 

@@ -1,8 +1,4 @@
-#include <sigmax/hybrid/plot.hpp>
-
-#include <sigmax/estimation/sensors.hpp>
-
-#include "support/matrices.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include <sigmax/hybrid/second_order_multiple_model.hpp>
-
 #include "hybrid/banks.hpp"
 
 namespace {

@@ -3,9 +3,6 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <sigmax/estimation/fixed_step_motion.hpp>
-#include <sigmax/estimation/rts_smoother.hpp>
-
 #include "hybrid/flights.hpp"
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"

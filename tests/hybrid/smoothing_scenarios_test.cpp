@@ -1,9 +1,5 @@
 // Smoothing on the paper's scenarios: below the filter's error in every phase, whatever the filter.
 
-#include <sigmax/estimation/metrics.hpp>
-#include <sigmax/estimation/radar.hpp>
-#include <sigmax/estimation/start.hpp>
-
 #include "hybrid/flights.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // The soak of bench/hybrid/soak.cpp in a small size, and whether its judge of covariances can tell good from bad.
 #include "support/soak.hpp"
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,5 +1,4 @@
 // What a target keeps of its life: tags, the record that is smoothed, and both in other coordinates.
-#include <sigmax/hybrid/target_life.hpp>
 
 #include "hybrid/targets.hpp"
 
@@ -145,7 +144,7 @@ TEST(TargetLife, IsToldInOtherCoordinatesBackToTheLastStartOnly) {
   std::size_t k = 0;
   target.smoothed([&](const auto&, const auto& state) {
     const Vector<2> was = before[k], expected = k++ >= last_start ? Vector<2>(turned * was + moved) : was;
-    ASSERT_PRED_FORMAT3(near_matrix, state.estimates[2].mean.template head<2>(), expected, 1e-9);
+    ASSERT_CLOSE(state.estimates[2].mean.template head<2>(), expected, 1e-9);
   });
 }
 

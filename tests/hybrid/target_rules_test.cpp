@@ -1,6 +1,4 @@
-#include <sigmax/hybrid/target_rules.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

@@ -1,7 +1,5 @@
 // How a target starts: from one position or several plots, and what waits meanwhile.
 
-#include <sigmax/estimation/start.hpp>
-
 #include "hybrid/targets.hpp"
 
 namespace {

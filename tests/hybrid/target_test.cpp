@@ -1,7 +1,3 @@
-#include <sigmax/hybrid/target.hpp>
-
-#include <sigmax/estimation/chi_square.hpp>
-
 #include "hybrid/targets.hpp"
 
 namespace {
@@ -119,7 +115,7 @@ TEST(Target, WhatIsOlderThanTheBufferIsRefusedWithBothTimes) {
   auto strict = target_with({});
   strict.take(Plot(1.0, near_by));
   EXPECT_INVALID(("0.5", "1.0"), strict.take(Plot(0.5, near_by)));
-  EXPECT_INVALID(("not finite"), strict.take(std::nan("")));
+  EXPECT_INVALID(("not finite"), strict.take(not_a_number));
 }
 
 TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
@@ -146,13 +142,10 @@ TEST(Target, AFailedMeasurementLeavesItAsItWasLateOrNot) {
 }
 
 TEST(Target, RefusesRulesThatMakeNoSense) {
-  const auto refuses = [](double time, const TargetRules& rules, std::string_view word) {
-    EXPECT_INVALID((word), Target{imm(), time, one_point_start, rules});
-  };
-  refuses(0.0, {1.5}, "probability");
-  refuses(0.0, {std::nan("")}, "probability");
-  refuses(0.0, {0.99, 1, 0.0}, "gap");
-  refuses(std::nan(""), {}, "not finite");
+  EXPECT_INVALID(("probability"), target_with({1.5}));
+  EXPECT_INVALID(("probability"), target_with({not_a_number}));
+  EXPECT_INVALID(("gap"), target_with({0.99, 1, 0.0}));
+  EXPECT_INVALID(("not finite"), Target{imm(), not_a_number, one_point_start, TargetRules{}});
 }
 
 /// The same of models whose types are known.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sigmax/hybrid/target.hpp>
-
 #include "hybrid/banks.hpp"
 
 /// What targets of these tests are made of, and meet.

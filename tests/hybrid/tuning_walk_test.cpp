@@ -1,7 +1,5 @@
 // The code of docs/tuning.md, and what it claims of simulated targets.
 
-#include <sigmax/hybrid/fit_target.hpp>
-
 #include "hybrid/two_speeds.hpp"
 
 namespace {

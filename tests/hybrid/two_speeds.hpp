@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sigmax/hybrid/any_target.hpp>
-#include <sigmax/hybrid/fit.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace sigmax::support {
 

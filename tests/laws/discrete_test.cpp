@@ -1,6 +1,3 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {
@@ -202,8 +199,8 @@ TYPED_TEST(DiscreteLaws, UpdateByOtherEvidenceIsNot) {
   const Likelihood likelihood{x, {1.0, 0.5}};
   const auto once = update(uninformative(x), likelihood), twice = update(once, likelihood);
   const double normal = total<TypeParam>(Numbers{1.0, 0.5}), normal_twice = total<TypeParam>(Numbers{1.0, 0.25});
-  EXPECT_PRED_FORMAT3(support::near, once["b"], 0.5 / normal, 1e-12);
-  EXPECT_PRED_FORMAT3(support::near, twice["b"], 0.25 / normal_twice, 1e-12);
+  EXPECT_CLOSE(once["b"], 0.5 / normal, 1e-12);
+  EXPECT_CLOSE(twice["b"], 0.25 / normal_twice, 1e-12);
 }
 
 TYPED_PROPERTY(DiscreteLaws, SupportShrinksToWhatEvidenceAllows) {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <sigmax/core/likelihood.hpp>
-#include <sigmax/core/relation.hpp>
-
 #include "support/plain.hpp"
 
 /// Generated cases for the laws. Zeros, ones, repeated maxima and subnormal numbers are as frequent as the rest, and
@@ -22,7 +19,7 @@ inline double unit_number(rc::Random& random) {
     case 0:
       return 0.0;
     case 1:
-      return std::numeric_limits<double>::denorm_min() * static_cast<double>(1 + (bits >> 40) % 1000);
+      return least_subnormal * static_cast<double>(1 + (bits >> 40) % 1000);
     case 2:
       return 1.0;
     case 3:

@@ -1,7 +1,3 @@
-#include <sigmax/core/network/compose.hpp>
-#include <sigmax/core/network/explanation.hpp>
-#include <sigmax/core/network/query.hpp>
-
 #include "laws/generate.hpp"
 #include "support/plain_network.hpp"
 

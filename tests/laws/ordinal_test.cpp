@@ -1,6 +1,3 @@
-#include <sigmax/core/compose.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

@@ -1,7 +1,3 @@
-#include <sigmax/core/measure.hpp>
-#include <sigmax/core/transform.hpp>
-#include <sigmax/core/update.hpp>
-
 #include "laws/generate.hpp"
 
 namespace {

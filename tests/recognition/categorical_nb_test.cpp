@@ -1,9 +1,7 @@
 #include <sys/wait.h>
 
-#include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/counts.hpp>
-
 #include "apps/temporary_directory.hpp"
+#include "support/sigmax.hpp"
 
 /// Sigma inference over learned relations, with Laplace smoothing, is categorical naive Bayes as scikit-learn has it.
 namespace {
@@ -87,7 +85,7 @@ TEST_P(CategoricalNB, OfScikitLearnHasTheSamePosteriors) {
                                 static_cast<std::streamsize>(expected.size() * sizeof(double))));
     classifier.reset();
     classifier.observe(row(r));
-    ASSERT_PRED_FORMAT3(support::near, classifier.belief().values(), expected, 1e-9) << "row " << r;
+    ASSERT_CLOSE(classifier.belief().values(), expected, 1e-9) << "row " << r;
   }
   EXPECT_EQ(posteriors.peek(), std::ifstream::traits_type::eof());
 }

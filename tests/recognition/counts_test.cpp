@@ -1,7 +1,5 @@
-#include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/counts.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -90,24 +88,13 @@ TEST(LearnedRelations, AsPossibilitiesAreTransformsOfTheProbabilities) {
   EXPECT_CLOSE(ratio[1].row(1), (Numbers{1.0, 0.0}), 0.0);
 }
 
-TEST(LearnedRelations, MakeNaiveBayes) {
-  const Counts counts = farm();
-  Classifier classifier{pattern_prior(counts), learned_relations(counts, 1.0)};
-  classifier.observe(Row{2, 0});
-  // cat: 3/4 · 3/5 · 2/5; hen: 1/4 · 1/4 · 2/3.
-  EXPECT_CLOSE(classifier.belief()["cat"], 0.18 / (0.18 + 1.0 / 24.0), 1e-14);
-  classifier.reset();
-  classifier.observe(Row{missing, 0});
-  EXPECT_CLOSE(classifier.belief()["cat"], 0.3 / (0.3 + 1.0 / 6.0), 1e-14);
-}
-
 TEST(Counts, RefuseWhatDoesNotFitAndCountNothingOfIt) {
   Counts counts = farm();
   EXPECT_INVALID(("'animal'", "2"), counts.observe(2, Row{0, 0}));
   EXPECT_INVALID(("'legs'", "3"), counts.observe(0, Row{3, 0}));
   EXPECT_INVALID(("'milk'", "2"), counts.observe(0, Row{0, 2}));
   EXPECT_INVALID(("'animal'", "2 features", "1 values"), counts.observe(0, Row{0}));
-  for (const double times : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+  for (const double times : {-1.0, not_a_number, infinity}) {
     EXPECT_INVALID((std::to_string(times)), counts.observe(0, Row{0, 0}, times));
     EXPECT_THROW(counts.observe_value(0, 0, 0, times), std::invalid_argument);
     EXPECT_THROW(learned_relation(counts, 0, times), std::invalid_argument);

@@ -1,7 +1,5 @@
-#include <sigmax/core/measure.hpp>
-#include <sigmax/recognition/decision.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

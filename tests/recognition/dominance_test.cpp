@@ -1,24 +1,7 @@
-#include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/dominance.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
-
-TEST(DominatedPatterns, AreTheAirlinerAndTheBomberOfTheKinematicTables) {
-  const FuzzyVariable type{"type", {"airliner", "bomber", "fighter"}},
-      manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
-  const Relation type_given_manoeuvre{type, manoeuvre, {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
-  const auto dominated =
-      dominated_patterns(invert(type_given_manoeuvre, uninformative(manoeuvre)).relation);  // (46): (1,0,0), (1,1,0), …
-  ASSERT_EQ(dominated.size(), 2U);
-  EXPECT_EQ(dominated[0].pattern, 0U);
-  EXPECT_EQ(dominated[0].dominator, 2U);  // the bomber dominates it too, but is dominated itself
-  EXPECT_FALSE(dominated[0].equal);
-  EXPECT_EQ(dominated[1].pattern, 1U);
-  EXPECT_EQ(dominated[1].dominator, 2U);
-}
-
 TEST(DominatedPatterns, AreNoneOfTheSameTablesAsProbabilities) {
   const RandomVariable type{"type", 3}, manoeuvre{"manoeuvre", 3};
   const Relation type_given_manoeuvre{

@@ -1,6 +1,4 @@
-#include <sigmax/recognition/discretization.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -45,7 +43,7 @@ Values drawn(int shape, std::size_t count, std::mt19937_64& generator) {
         values.push_back(std::round(x));
         break;
       default:
-        values.push_back(i % 7 == 3 ? std::numeric_limits<double>::quiet_NaN() : std::round(30.0 * x) / 10.0);
+        values.push_back(i % 7 == 3 ? not_a_number : std::round(30.0 * x) / 10.0);
     }
   }
   return values;

@@ -1,6 +1,5 @@
-#include <sigmax/recognition/evaluation.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

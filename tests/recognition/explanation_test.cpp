@@ -1,7 +1,5 @@
-#include <sigmax/core/witness.hpp>
-#include <sigmax/recognition/explanation.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -129,7 +127,7 @@ TYPED_PROPERTY(ExplainKind, AddsUpToTheRatioOfTheBeliefsForgettingIncluded) {
 TEST(Explain, OfAnExcludedRivalIsInfinite) {
   const Relation certain{emitter, platform, {{1.0, 0.0}, {0.0, 1.0}}};
   const Classifier classifier{uninformative(platform), certain};
-  EXPECT_EQ(explain(classifier, Readings{0}, 0, 1).log_ratio(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(explain(classifier, Readings{0}, 0, 1).log_ratio(), infinity);
   EXPECT_EQ(explain(classifier, Readings{0}, 1, 0).log_ratio(), log_zero);
   EXPECT_EQ(explain(classifier, Readings{0}, 1, 1).log_ratio(), 0.0);
   EXPECT_EQ(explain(classifier, Readings{0}, 1, 0).contributions.front().share, 0.0);

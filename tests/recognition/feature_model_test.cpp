@@ -1,7 +1,5 @@
-#include <sigmax/core/transform.hpp>
-#include <sigmax/recognition/classifier.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 /// Every kind of sensor over every kind of feature and pattern, by plain loops, and the small worlds with known
 /// answers.
@@ -93,36 +91,6 @@ TEST(FeatureModel, RefusesASensorOfAnotherFeatureAndReadingsThatItHasNot) {
 }
 
 // The authors' kinematic recognition tables: manoeuvres weak, medium, strong; classes airliner, bomber, fighter.
-
-TEST(KinematicTables, InvertToTheProbabilitiesOfManoeuvres) {  // (43)
-  const RandomVariable type{"type", {"airliner", "bomber", "fighter"}},
-      manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
-  const Relation type_given_manoeuvre{
-      type, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
-  const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
-  EXPECT_CLOSE(inverse.relation.row(0), (Numbers{1.0, 0.0, 0.0}), 1e-15);
-  EXPECT_CLOSE(inverse.relation.row(1), (Numbers{2.0 / 5.0, 3.0 / 5.0, 0.0}), 1e-15);
-  EXPECT_CLOSE(inverse.relation.row(2), (Numbers{2.0 / 11.0, 3.0 / 11.0, 6.0 / 11.0}), 1e-15);
-  Classifier classifier{uninformative(type), inverse.relation};
-  classifier.observe(std::vector<std::size_t>{0});
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{55.0 / 87.0, 22.0 / 87.0, 10.0 / 87.0}), 1e-14);
-  classifier.observe(std::vector<std::size_t>{1});
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.0, 242.0 / 292.0, 50.0 / 292.0}), 1e-14);
-}
-
-TEST(KinematicTables, InvertToThePossibilitiesOfManoeuvres) {  // (46)
-  const FuzzyVariable type{"type", {"airliner", "bomber", "fighter"}},
-      manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
-  const Relation type_given_manoeuvre{type, manoeuvre, {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
-  const auto inverse = invert(type_given_manoeuvre, uninformative(manoeuvre));
-  EXPECT_CLOSE(inverse.relation.table().values(), (Numbers{1, 0, 0, 1, 1, 0, 1, 1, 1}), 0.0);
-  Classifier classifier{uninformative(type), inverse.relation};
-  classifier.observe(std::vector<std::size_t>{0});
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{1.0, 1.0, 1.0}), 0.0);  // a weak one says nothing
-  classifier.observe(std::vector<std::size_t>{1});
-  EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.0, 1.0, 1.0}), 0.0);
-}
-
 /// Where every row of the sensor's confusion has the same maximum, dividing by it is one factor for all.
 PROPERTY(SigmaMaxClassifier, CoincidesWithMaxOnTheRatioScaledSensorWheneverItsMaximaAreEqual) {
   const auto target = any_variable<Fuzzy>("target"), emitter = any_variable<Fuzzy>("emitter");

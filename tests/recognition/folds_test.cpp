@@ -1,6 +1,5 @@
-#include <sigmax/recognition/folds.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 

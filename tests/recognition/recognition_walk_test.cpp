@@ -1,15 +1,4 @@
-#include <sigmax/core/transform.hpp>
-#include <sigmax/recognition/classifier.hpp>
-#include <sigmax/recognition/counts.hpp>
-#include <sigmax/recognition/decision.hpp>
-#include <sigmax/recognition/discretization.hpp>
-#include <sigmax/recognition/dominance.hpp>
-#include <sigmax/recognition/evaluation.hpp>
-#include <sigmax/recognition/explanation.hpp>
-#include <sigmax/recognition/folds.hpp>
-#include <sigmax/recognition/triangle.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 /// Every line of code in docs/recognition.md and docs/learning.md, in its order, and the values that it claims.
 namespace {

@@ -1,9 +1,6 @@
 #include <boost/math/distributions/normal.hpp>
 
-#include <sigmax/core/distribution.hpp>
-#include <sigmax/recognition/reliability.hpp>
-
-#include "support/test.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -100,7 +97,7 @@ TEST(Reliability, RefusesWhatIsNoDegree) {
   using Bad = std::invalid_argument;
   Reliability reliability;
   EXPECT_REFUSED(Bad, ("[0, 1]", "1.5"), reliability.add(1.5, true));
-  EXPECT_REFUSED(Bad, ("[0, 1]"), reliability.add(std::nan(""), true));
+  EXPECT_REFUSED(Bad, ("[0, 1]"), reliability.add(not_a_number, true));
   EXPECT_REFUSED(Bad, ("bin"), Reliability{0});
   EXPECT_REFUSED(Bad, ("10", "3"), reliability.add(Reliability{3}));
   EXPECT_REFUSED(Bad, ("0.5"), reliability.bins(0.5));

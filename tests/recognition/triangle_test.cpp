@@ -1,6 +1,5 @@
-#include <sigmax/recognition/triangle.hpp>
-
 #include "laws/generate.hpp"
+#include "support/sigmax.hpp"
 
 namespace {
 
@@ -61,7 +60,7 @@ TEST(Triangular, GivesABinItsMostPossibleValue) {
 
 TEST(Triangle, RefusesCornersOutOfOrder) {
   EXPECT_INVALID(("minimum", "2.0", "1.0", "3.0"), Triangle(2.0, 1.0, 3.0));
-  EXPECT_THROW(Triangle(0.0, std::nan(""), 1.0), std::invalid_argument);
+  EXPECT_THROW(Triangle(0.0, not_a_number, 1.0), std::invalid_argument);
   EXPECT_THROW(Triangle(0.0, 1.0, infinity), std::invalid_argument);
   EXPECT_THROW(Triangle(-infinity, 0.0, 1.0), std::invalid_argument);
   const Discretization bins{{10.0}};

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sigmax/core/kernels/compose.hpp>
-#include <sigmax/core/table.hpp>
-
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// Tables for the kernels, and what a composition of them is by its definition.
 namespace sigmax::drawn_tables {

@@ -41,9 +41,9 @@ inline Eigen::VectorXd vector_of(const restatement::Vector& vector) {
   return Eigen::Map<const Eigen::VectorXd>(vector.data(), static_cast<Eigen::Index>(vector.size()));
 }
 
-/// EXPECT_PRED_FORMAT3(near_matrix, found, expected, tolerance): of one shape, and near entry by entry.
-inline testing::AssertionResult near_matrix(const char* a_text, const char* b_text, const char* tolerance_text,
-                                            const AnyMatrix& a, const AnyMatrix& b, double tolerance) {
+/// EXPECT_CLOSE(found, expected, tolerance) for matrices: of one shape, and near entry by entry.
+inline testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text,
+                                     const AnyMatrix& a, const AnyMatrix& b, double tolerance) {
   if (a.rows() != b.rows() || a.cols() != b.cols())
     return testing::AssertionFailure() << a_text << " and " << b_text << " are not of one shape";
   return near(a_text, b_text, tolerance_text, entries(a), entries(b), tolerance);
@@ -59,24 +59,35 @@ concept Estimated = requires(const T& estimate) {
 template <Estimated A, Estimated B>
 testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text, const A& a,
                               const B& b, double tolerance) {
-  const auto mean = near_matrix(a_text, b_text, tolerance_text, a.mean, b.mean, tolerance);
+  const auto mean = near(a_text, b_text, tolerance_text, a.mean, b.mean, tolerance);
   if (!mean) return testing::AssertionResult(mean) << ", of the mean";
-  return near_matrix(a_text, b_text, tolerance_text, a.covariance, b.covariance, tolerance);
+  return near(a_text, b_text, tolerance_text, a.covariance, b.covariance, tolerance);
+}
+
+/// A restated state, and EXPECT_CLOSE(found, expected, tolerance) for Gaussians beside one.
+using Estimate = Gaussian<Eigen::Dynamic, 40>;
+inline Estimate estimate_of(const restatement::State& state) {
+  return {vector_of(state.mean), matrix_of(state.covariance)};
+}
+template <Estimated A>
+testing::AssertionResult near(const char* a_text, const char* b_text, const char* tolerance_text, const A& a,
+                              const restatement::State& b, double tolerance) {
+  return near(a_text, b_text, tolerance_text, a, estimate_of(b), tolerance);
 }
 
 /// Fails the current case of a property unless the matrices are of one shape and near entry by entry.
-inline void require_near_matrix(const AnyMatrix& found, const AnyMatrix& expected, double tolerance = 1e-9) {
-  if (const auto result = near_matrix("found", "expected", "", found, expected, tolerance); !result)
+inline void require_near(const AnyMatrix& found, const AnyMatrix& expected, double tolerance = 1e-9) {
+  if (const auto result = near("found", "expected", "", found, expected, tolerance); !result)
     RC_FAIL(std::string(result.message()));
 }
-inline void require_near_matrix(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
-  require_near_matrix(found, matrix_of(expected), tolerance);
+inline void require_near(const AnyMatrix& found, const restatement::Matrix& expected, double tolerance = 1e-9) {
+  require_near(found, matrix_of(expected), tolerance);
 }
 
 template <int N, int MaxN, int OtherN, int OtherMaxN>
 void require_near(const Gaussian<N, MaxN>& found, const Gaussian<OtherN, OtherMaxN>& expected, double tolerance) {
-  require_near_matrix(found.mean, expected.mean, tolerance);
-  require_near_matrix(found.covariance, expected.covariance, tolerance);
+  require_near(found.mean, expected.mean, tolerance);
+  require_near(found.covariance, expected.covariance, tolerance);
 }
 
 /// A generated number between two, in steps fine enough to be generic.

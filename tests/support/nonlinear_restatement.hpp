@@ -16,33 +16,17 @@ struct NonlinearModel {
   std::vector<bool> is_angle;  // Of each measured quantity.
 };
 
-struct Updated {
-  State posterior;
-  Vector nu;
-  Matrix S;
-  double squared = 0.0;
-  double log_likelihood = 0.0;
-};
+/// An angle less whole turns.
+inline double in_half_a_turn(double angle) {
+  while (angle > std::numbers::pi) angle -= 2.0 * std::numbers::pi;
+  while (angle < -std::numbers::pi) angle += 2.0 * std::numbers::pi;
+  return angle;
+}
 
 inline Vector measured_difference(const NonlinearModel& model, const Vector& a, const Vector& b) {
   Vector result = difference(a, b);
-  for (Index i = 0; i < result.size(); ++i) {
-    while (model.is_angle[i] && result[i] > std::numbers::pi) result[i] -= 2.0 * std::numbers::pi;
-    while (model.is_angle[i] && result[i] < -std::numbers::pi) result[i] += 2.0 * std::numbers::pi;
-  }
-  return result;
-}
-
-/// (29), (30) as printed, with the gain W, and the likelihood of the innovation.
-inline Updated corrected(const State& prior, const Vector& nu, const Matrix& S, const Matrix& cross) {
-  const Inverse S_inverse = inverse(S);
-  const Matrix W = cross * S_inverse.matrix;
-  Updated result{prior, nu, S, dot(nu, S_inverse.matrix * nu), 0.0};
-  const Vector correction = W * nu;
-  for (Index i = 0; i < correction.size(); ++i) result.posterior.mean[i] += correction[i];
-  result.posterior.covariance = prior.covariance - W * S * transposed(W);
-  result.log_likelihood = -0.5 * (result.squared + S_inverse.log_determinant +
-                                  static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  for (Index i = 0; i < result.size(); ++i)
+    if (model.is_angle[i]) result[i] = in_half_a_turn(result[i]);
   return result;
 }
 
@@ -50,7 +34,7 @@ inline State extended_prediction(const NonlinearModel& model, const State& prior
   const Matrix F = model.F(prior.mean, dt);
   return {model.f(prior.mean, dt), F * prior.covariance * transposed(F) + model.Q(dt)};
 }
-inline Updated extended_update(const NonlinearModel& model, const State& prior, const Vector& z, const Matrix& R) {
+inline Sighting extended_update(const NonlinearModel& model, const State& prior, const Vector& z, const Matrix& R) {
   const Matrix H = model.H(prior.mean);
   return corrected(prior, measured_difference(model, z, model.h(prior.mean)), H * prior.covariance * transposed(H) + R,
                    prior.covariance * transposed(H));
@@ -123,8 +107,8 @@ inline Matrix points_cross_covariance(const NonlinearModel& model, const State& 
   return weighted_outer(points.covariance_weights, offsets, images);  // the offsets' weighted sum is zero
 }
 
-inline Updated points_update(const NonlinearModel& model, const State& prior, const Points& points, const Vector& z,
-                             const Matrix& R) {
+inline Sighting points_update(const NonlinearModel& model, const State& prior, const Points& points, const Vector& z,
+                              const Matrix& R) {
   std::vector<Vector> seen, offsets;
   for (const Vector& x : points.at) {
     const Vector h = model.h(x);
@@ -141,13 +125,6 @@ inline Updated points_update(const NonlinearModel& model, const State& prior, co
   return corrected(prior, measured_difference(model, z, mean),
                    weighted_outer(points.covariance_weights, seen, seen) + R,
                    weighted_outer(points.covariance_weights, offsets, seen));
-}
-
-/// An angle less whole turns.
-inline double in_half_a_turn(double angle) {
-  while (angle > std::numbers::pi) angle -= 2.0 * std::numbers::pi;
-  while (angle < -std::numbers::pi) angle += 2.0 * std::numbers::pi;
-  return angle;
 }
 
 /// What a radar in the plane at (x0, y0) saw: range and azimuth of the first two components of a model.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/test.hpp"
+#include "support/core.hpp"
 
 /// The discrete calculus restated with plain loops over vectors: no code shared with the library. It runs in long
 /// double, which holds the product of any two doubles.

@@ -238,19 +238,26 @@ struct Sighting {
   double squared_distance = 0.0;
   double log_density = 0.0;
 };
+/// By what is seen about its prediction, its covariance S, and its covariance with the state; (30) as printed.
+inline Sighting corrected(const State& prior, const Vector& nu, const Matrix& S, const Matrix& cross) {
+  const Inverse S_inverse = inverse(S);
+  const Matrix W = cross * S_inverse.matrix;  // (32)
+  Sighting result{prior, nu, S, dot(nu, S_inverse.matrix * nu), 0.0};
+  const Vector correction = W * nu;
+  for (Index i = 0; i < correction.size(); ++i) result.posterior.mean[i] += correction[i];  // (29)
+  result.posterior.covariance = prior.covariance - W * S * transposed(W);
+  result.log_density = -0.5 * (result.squared_distance + S_inverse.log_determinant +
+                               static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
+  return result;
+}
+/// The same with (30) in Joseph's form.
 inline Sighting sighted(const State& prior, const Seen& seen, const Matrix& R) {
   const auto& [nu, H] = seen;
   const Matrix& P = prior.covariance;
   const Matrix S = symmetrised(H * P * transposed(H) + R);  // (31)
-  const Inverse S_inverse = inverse(S);
-  const Matrix W = P * transposed(H) * S_inverse.matrix;  // (32)
-  Sighting result{prior, nu, S, dot(nu, S_inverse.matrix * nu), 0.0};
-  result.log_density = -0.5 * (result.squared_distance + S_inverse.log_determinant +
-                               static_cast<double>(nu.size()) * std::log(2.0 * std::numbers::pi));
-  const Vector correction = W * nu;
-  for (Index i = 0; i < correction.size(); ++i) result.posterior.mean[i] += correction[i];  // (29)
-  const Matrix kept = identity(correction.size()) - W * H;
-  result.posterior.covariance = symmetrised(kept * P * transposed(kept) + W * R * transposed(W));  // (30)
+  Sighting result = corrected(prior, nu, S, P * transposed(H));
+  const Matrix W = P * transposed(H) * inverse(S).matrix, kept = identity(P.rows) - W * H;
+  result.posterior.covariance = symmetrised(kept * P * transposed(kept) + W * R * transposed(W));
   return result;
 }
 
