@@ -80,8 +80,9 @@ class GaussianPossibility {
 template <int N>
 GaussianPossibility(Gaussian<N, N>) -> GaussianPossibility<N>;
 
-/// The possibility function of a model's state.
+/// The possibility function of a model's state, whose size the type says.
 template <LinearMotion Model>
+  requires(Model::state_size > 0)
 using PossibilityOf = GaussianPossibility<Model::state_size>;
 
 /// Prediction by supremum, (36): π(x_k) = sup over x_{k−1} of π(x_k|x_{k−1}) π(x_{k−1}).
