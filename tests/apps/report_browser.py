@@ -381,7 +381,7 @@ TEXTS = """(() => {
     const numbers = [...picture.querySelectorAll('.dygraph-axis-label-y')].map((one) => one.textContent).filter((text) => text);
     if (new Set(numbers).size < numbers.length) found.push(`${title}: a number stands twice along y`);
   }
-  for (const one of document.querySelectorAll('td, th')) {
+  for (const one of document.querySelectorAll('.scroll td, .scroll th')) {
     if (!/[\\s-]/.test(one.textContent.trim()) && boxOf(one).height > 2.2 * parseFloat(getComputedStyle(one).fontSize))
       found.push(`${one.textContent} is broken in a table`);
   }
