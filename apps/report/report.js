@@ -7,26 +7,16 @@
   let charts = [];           // of this view: {graph, resize}
   let plans = [];            // functions that draw again
 
-  // Okabe and Ito's colours, which the colour-blind tell apart; lighter on dark paper. Dashes tell more than colours on paper.
-  const palettes = {
-    light: ['#0072b2', '#d55e00', '#009e73', '#b0508a', '#a87400', '#3d8fc4', '#5d3fa0', '#6b6b00'],
-    dark: ['#56b4e9', '#ff8c42', '#2fc49a', '#e39ac6', '#f0c03a', '#a5d8ff', '#b79cff', '#d4d45a'],
-  };
   const dashes = [[], [8, 3], [2, 3], [9, 3, 2, 3], [14, 4], [5, 5], [3, 3, 9, 3], [1, 5]];
-  const printing = () => document.documentElement.classList.contains('printing');
-  const dark = () => !printing() && matchMedia('(prefers-color-scheme: dark)').matches;
+  const dark = () => !document.documentElement.classList.contains('printing') && matchMedia('(prefers-color-scheme: dark)').matches;
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const neutral = new Map(data.groups.filter((group) => group.neutral).map(({name}, i) => [name, i ? '--ink' : '--grey']));
   const numberOf = (name) => data.groups.filter((group) => !group.neutral).findIndex((group) => group.name === name);
-  const colour = (name, fallback = 0) => {
-    const group = data.groups.find((one) => one.name === name);
-    const palette = palettes[dark() ? 'dark' : 'light'];
-    if (group && group.neutral) return data.groups.indexOf(group) ? css('--ink') : (dark() ? '#9aa0a6' : '#7a7a7a');
-    return palette[(group ? numberOf(name) : fallback) % palette.length];
-  };
-  const dashOf = (curve, fallback) => {
-    const number = curve.dash ?? (curve.group ? Math.max(0, numberOf(curve.group)) : fallback);
-    return dashes[number % dashes.length];
-  };
+  const nameOf = (group, fallback = 0) => neutral.get(group) ?? `--colour-${(numberOf(group) < 0 ? fallback : numberOf(group)) % 8}`;
+  const colour = (group, fallback) => `var(${nameOf(group, fallback)})`;  // a canvas wants css(nameOf(…))
+  const dashOf = (curve, fallback) => dashes[(curve.dash ?? (curve.group ? Math.max(0, numberOf(curve.group)) : fallback)) % dashes.length];
+  const finite = (value) => value !== null && value !== undefined;
+  const rule = 'rgba(128, 128, 128, .35)';
   const views = new Map(data.views.map((view, i) => [view.name, i]));
   const told = (panel, value) => shown(panel.period && finite(value) ? (value % panel.period + panel.period) % panel.period : value);
   const shown = (value) => value === null || value === undefined ? '–' : String(Number(value.toPrecision(5)));
@@ -43,15 +33,13 @@
   ruler.font = '12px system-ui, sans-serif';
   const widthOf = (text) => ruler.measureText(text).width;
   const symbolOf = (i) => d3.symbol().type(d3.symbols[i % d3.symbols.length]).size(44)();
-  const crossed = 'M-4,-4L4,4M-4,4L4,-4';
 
-  function swatch(colourOf, dash, shape = 'line') {
-    const svg = d3.create('svg').attr('width', shape === 'line' ? 26 : 12).attr('height', 10).attr('aria-hidden', 'true');
-    if (shape === 'crosses') svg.append('path').attr('d', crossed).attr('transform', 'translate(6,5)').attr('stroke', colourOf).attr('stroke-width', 1.6);
-    else if (shape === 'symbol') svg.append('path').attr('d', dash).attr('transform', 'translate(6,5)').attr('fill', colourOf);
-    else if (shape === 'dots') svg.append('circle').attr('cx', 6).attr('cy', 5).attr('r', 3).attr('fill', colourOf);
-    else svg.append('line').attr('x1', 0).attr('x2', 26).attr('y1', 5).attr('y2', 5).attr('stroke', colourOf)
-      .attr('stroke-width', 2.5).attr('stroke-dasharray', dash.join(' '));
+  function swatch(paint, dash, shape = 'line') {
+    const [path, stroke, width] = {line: ['M0,5H26', 2.5, 26], area: ['M0,5H26', 9, 26], dots: ['M6,5h.01', 6, 12],
+      crosses: ['M2,1L10,9M2,9L10,1', 1.6, 12], symbol: [dash, 0, 12]}[shape];
+    const svg = d3.create('svg').attr('width', width).attr('height', 10).attr('aria-hidden', 'true');
+    svg.append('path').attr('d', path).attr('stroke', paint).attr('stroke-width', stroke).attr('stroke-linecap', shape === 'dots' ? 'round' : null)
+      .attr('fill', paint).attr('stroke-dasharray', shape === 'line' ? dash.join(' ') : null).attr('transform', shape === 'symbol' ? 'translate(6,5)' : null);
     return svg.node();
   }
 
@@ -76,44 +64,38 @@
   // ---- Charts, by dygraphs
 
   function drawMarked(panel, canvas, area, graph) {
+    const write = (text, x, y, ink = '--faint') => { canvas.fillStyle = css(ink); canvas.fillText(text, x, y); };
+    const fill = (paint, left, right, top, bottom) => {
+      canvas.fillStyle = css(paint);
+      canvas.fillRect(left, top, Math.max(1, right - left), Math.max(1, bottom - top));
+    };
+    const {x: west, y: north} = area, east = west + area.w;
     canvas.save();
     canvas.beginPath();
-    canvas.rect(area.x, area.y, area.w, area.h);
+    canvas.rect(west, north, area.w, area.h);
     canvas.clip();
     canvas.font = '11px system-ui, sans-serif';
-    canvas.fillStyle = css('--shade');
     for (const {from, to, label} of panel.shaded) {
-      const left = graph.toDomXCoord(from), right = graph.toDomXCoord(to);
-      canvas.fillRect(left, area.y, Math.max(1, right - left), area.h);
-      canvas.fillStyle = css('--faint');
-      canvas.fillText(label, Math.max(left, area.x) + 4, area.y + 12);
-      canvas.fillStyle = css('--shade');
+      fill('--shade', graph.toDomXCoord(from), graph.toDomXCoord(to), north, north + area.h);
+      write(label, Math.max(graph.toDomXCoord(from), west) + 4, north + 12);
     }
     let end = -Infinity;  // of what stands above the points, as far as there is room
     panel.remarks?.forEach((text, k) => {
-      const at = graph.toDomXCoord(panel.x[k]), half = canvas.measureText(text).width / 2;
-      if (!text || at - half < end) return;
-      canvas.fillStyle = css('--faint');
-      canvas.fillText(text, Math.max(area.x, Math.min(at - half, area.x + area.w - 2 * half)), area.y + 10);
-      end = at + half + 4;
+      const {width} = canvas.measureText(text), left = Math.max(west, Math.min(graph.toDomXCoord(panel.x[k]) - width / 2, east - width));
+      if (!text || left < end) return;
+      write(text, left, north + 10);
+      end = left + width + 4;
     });
-    for (const {from, to} of panel.expected) {
-      const top = graph.toDomYCoord(to), bottom = graph.toDomYCoord(from);
-      canvas.fillStyle = css('--expected');
-      canvas.fillRect(area.x, top, area.w, Math.max(1, bottom - top));
-    }
+    for (const {from, to} of panel.expected) fill('--expected', west, east, graph.toDomYCoord(to), graph.toDomYCoord(from));
     visibleHistories(panel).forEach(({group, stays}, i) => {
       const top = graph.toDomYCoord(-historyStep * (i + 0.3)), bottom = graph.toDomYCoord(-historyStep * (i + 1));
       for (const {from, to, label, shade} of stays) {
-        const left = Math.max(area.x, graph.toDomXCoord(from)), right = Math.min(area.x + area.w, graph.toDomXCoord(to));
+        const left = Math.max(west, graph.toDomXCoord(from)), right = Math.min(east, graph.toDomXCoord(to));
         if (right <= left) continue;
         canvas.globalAlpha = [0.22, 0.75, 0.45, 0.95][shade % 4];
-        canvas.fillStyle = colour(group, i);
-        canvas.fillRect(left, top, Math.max(1, right - left), bottom - top);
+        fill(nameOf(group, i), left, right, top, bottom);
         canvas.globalAlpha = 1;
-        canvas.fillStyle = shade % 2 ? css('--paper') : css('--ink');
-        canvas.font = '11px system-ui, sans-serif';
-        if (canvas.measureText(label).width + 6 < right - left) canvas.fillText(label, left + 4, (top + bottom) / 2 + 4);
+        if (canvas.measureText(label).width + 6 < right - left) write(label, left + 4, (top + bottom) / 2 + 4, shade % 2 ? '--paper' : '--ink');
       }
     });
     canvas.restore();
@@ -124,55 +106,49 @@
   const visibleHistories = (panel) => (panel.histories ?? []).filter((band) => !hidden.has(band.group));
   const stayAt = (band, x) => band.stays.find(({from, to}) => x !== null && from <= x && x <= to)?.label;
 
-  function readout(panel, holder, options) {
-    const show = (row) => {
-      holder.replaceChildren();
-      if (row !== null) holder.append(element('span', {textContent: `${panel.x_label}: ${shown(panel.x[row])}`}));
-      if (row !== null && panel.remarks) holder.append(element('span', {textContent: panel.remarks[row]}));
-      panel.curves.forEach((curve, i) => {
-        if (hidden.has(curve.group)) return;
-        const value = row === null ? '' : ` ${told(panel, curve.values[row])}`;
-        holder.append(element('span', {}, swatch(options.colors[i], options.dash[i], curve.dots ? 'dots' : 'line'), ` ${curve.name}${value}`));
-      });
-      for (const band of visibleHistories(panel))
-        holder.append(element('span', {}, element('i', {className: 'history', style: `background: ${colour(band.group)}`}),
-          ` ${band.name}${row === null ? '' : ` ${stayAt(band, panel.x[row]) ?? '–'}`}`));
-      for (const {label} of panel.expected)
-        holder.append(element('span', {}, element('i', {className: 'expected'}), ` ${label}`));
-    };
-    show(null);
-    return {show, plugin: {activate: () => ({select: (event) => show(event.dygraph.lastRow_), deselect: () => show(null)})}};
+  // What a chart's curves are called, and their numbers in a row: the legend of dygraphs.
+  function legend(panel, row) {
+    const all = new DocumentFragment(), chosen = finite(row);
+    const say = (mark, text) => all.append(element('span', {}, mark, text));
+    if (chosen) say(null, `${panel.x_label}: ${shown(panel.x[row])}`);
+    if (chosen && panel.remarks) say(null, panel.remarks[row]);
+    panel.curves.forEach((curve, i) => {
+      if (!hidden.has(curve.group)) say(swatch(colour(panel.stacked ? null : curve.group, i), dashOf(curve, i), curve.dots ? 'dots' : panel.stacked ? 'area' : 'line'),
+        ` ${curve.name}${chosen ? ` ${told(panel, curve.values[row])}` : ''}`);
+    });
+    for (const band of visibleHistories(panel))
+      say(element('i', {className: 'history', style: `background: ${colour(band.group)}`}), ` ${band.name}${chosen ? ` ${stayAt(band, panel.x[row]) ?? '–'}` : ''}`);
+    for (const {label} of panel.expected) say(element('i', {className: 'expected'}), ` ${label}`);
+    return all;
   }
 
-  // A band that goes on over gaps, as the line does: those of dygraphs end there.
+  // A band in one piece, which is drawn in a third of the time that those of dygraphs take.
   function drawBand({points, dygraph, setName, drawingContext: canvas, plotArea: area, color}) {
-    const known = points.filter((point) => Number.isFinite(point.y_top) && Number.isFinite(point.y_bottom));
-    if (!known.length) return;
+    const known = (point) => Number.isFinite(point.y_top) && Number.isFinite(point.y_bottom), joined = dygraph.getOption('connectSeparatedPoints');
     canvas.save();
     canvas.beginPath();
-    known.forEach((point, i) => canvas[i ? 'lineTo' : 'moveTo'](point.canvasx, area.y + area.h * point.y_top));
-    known.reverse().forEach((point) => canvas.lineTo(point.canvasx, area.y + area.h * point.y_bottom));
+    d3.area().defined(known).x((point) => point.canvasx).y0((point) => area.y + area.h * point.y_bottom).y1((point) => area.y + area.h * point.y_top)
+      .context(canvas)(joined ? points.filter(known) : points);
     canvas.fillStyle = color;
     canvas.globalAlpha = dygraph.getNumericOption('fillAlpha', setName);
     canvas.fill();
     canvas.restore();
   }
 
-  function style(panel) {
-    return {
-      colors: panel.curves.map((curve, i) => colour(panel.stacked ? null : curve.group, i)),
-      dash: panel.curves.map((curve, i) => dashOf(curve, i)),
-    };
-  }
+  // Of many points each is small and light, and a line thin, so that one sees where most are.
+  const dense = (curve) => curve.values.filter(finite).length > 1000;
+  const colours = (panel) => panel.curves.map((curve, i) => {
+    const paint = d3.color(css(nameOf(panel.stacked ? null : curve.group, i)));
+    if (curve.dots && dense(curve)) paint.opacity = 0.4;
+    return String(paint);
+  });
 
   function drawLines(panel, place) {
     const banded = panel.curves.some((curve) => curve.lower);
     const cell = (curve, k) => {
       const value = curve.values[k];
-      if (!banded) return value;
-      return value === null ? [null, null, null] : [curve.lower?.[k] ?? value, value, curve.upper?.[k] ?? value];
+      return !banded ? value : value === null ? null : [curve.lower?.[k] ?? value, value, curve.upper?.[k] ?? value];
     };
-    const looks = style(panel);
     const box = element('div', {className: 'chart', role: 'img', ariaLabel: `${panel.title}, ${panel.y_label}; the table below has the numbers`});
     const values = element('div', {className: 'readout'});
     const histories = panel.histories ?? [], remarks = (k) => panel.remarks ? [panel.remarks[k]] : [];
@@ -189,52 +165,37 @@
     };
 
     const turns = (from, to) => {  // the numbers along an axis that begins again after a period
-      const step = [15, 30, 45, 90, 180].find((one) => (to - from) / one <= 8) ?? 360 * Math.ceil((to - from) / 2880);
-      return d3.range(Math.ceil(from / step) * step, to, step).map((v) => ({v, label: told(panel, v)}));
+      const step = [1, 5, 15, 45].find((one) => (to - from) / one <= 8) ?? 90;
+      return d3.range(Math.ceil(from / step) * step, to + 1e-6, step).map((v) => ({v, label: told(panel, v)}));
     };
-    const reading = readout(panel, values, looks);
     const graph = new Dygraph(box, panel.x.map((x, k) => [x, ...panel.curves.map((curve) => cell(curve, k))]), {
       labels: ['x', ...panel.curves.map((_, i) => `c${i}`)],
       connectSeparatedPoints: panel.joined === true, customBars: banded, fillAlpha: panel.stacked ? 0.7 : 0.18, stackedGraph: panel.stacked === true,
-      logscale: panel.logarithmic === true, legend: 'never', plugins: [reading.plugin],
-      colors: looks.colors, strokeWidth: panel.stacked ? 0.5 : 1.8, highlightCircleSize: 4, animatedZooms: false,
+      logscale: panel.logarithmic === true, legend: 'always', labelsDiv: values, legendFormatter: ({i}) => legend(panel, i),
+      colors: colours(panel), highlightCircleSize: 4, animatedZooms: false,
       series: Object.fromEntries(panel.curves.map((curve, i) => [`c${i}`, {
-        strokePattern: looks.dash[i].length ? looks.dash[i] : null,
-        ...(curve.dots ? {strokeWidth: 0, drawPoints: true, pointSize: 2} : {}),
+        strokePattern: panel.stacked || !dashOf(curve, i).length ? null : dashOf(curve, i), strokeWidth: curve.dots ? 0 : panel.stacked ? 0.5 : dense(curve) ? 1 : 1.8,
+        drawPoints: curve.dots, pointSize: dense(curve) ? 1 : 2,
       }])),
       visibility: panel.curves.map((curve) => !hidden.has(curve.group)),
       includeZero: !panel.logarithmic, valueRange: rangeOf(panel),
-      xRangePad: 4, yRangePad: 6, gridLineColor: css('--line'), axisLineColor: css('--line'), gridLineWidth: 0.5,
+      xRangePad: 4, yRangePad: 6, gridLineColor: rule, axisLineColor: rule, gridLineWidth: 0.5,
       axes: {x: {axisLabelFormatter: shown, pixelsPerLabel: 75}, y: {...(panel.period ? {ticker: turns} : {}), axisLabelWidth: 52, axisLabelFormatter: (y) => histories.length && y < -1e-9 ? '' : told(panel, y)}},
-      ...(banded && panel.joined ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
+      ...(banded ? {plotter: [drawBand, Dygraph.Plotters.linePlotter]} : {}), rightGap: 10,
       underlayCallback: (canvas, area, made) => drawMarked(panel, canvas, area, made),
       zoomCallback: () => showReset(), ...(panel.stacked ? {drawCallback: roll} : {}),
       interactionModel: {...Dygraph.defaultInteractionModel, dblclick: () => showAll()},
     });
-    charts.push({graph, panel, reading, looks});
-    hideIfEmpty(graph, panel);
-  }
-
-  // The chart of one filter is gone with it.
-  const hideIfEmpty = (graph, panel) => {
-    graph.graphDiv.closest('figure').hidden = panel.curves.length > 0 && panel.curves.every((curve) => hidden.has(curve.group));
-  };
-
-  function restyle({graph, panel, reading, looks}) {
-    Object.assign(looks, style(panel));
-    hideIfEmpty(graph, panel);
-    const options = {colors: looks.colors, gridLineColor: css('--line'), axisLineColor: css('--line'),
-      visibility: panel.curves.map((curve) => !hidden.has(curve.group))}, before = graph.getArea().w;
-    graph.updateOptions(options, true);
-    reading.show(null);
-    if (graph.graphDiv.closest('figure').hidden) return;
-    graph.resize();  // which draws if there is another width
-    if (graph.getArea().w === before) graph.updateOptions(options);
+    const whole = box.closest('figure'), gone = () => panel.curves.length > 0 && panel.curves.every((curve) => hidden.has(curve.group));
+    whole.hidden = gone();
+    charts.push({graph, panel, look() {
+      whole.hidden = gone();  // the chart of one filter is gone with it
+      graph.updateOptions({colors: colours(panel), visibility: panel.curves.map((curve) => !hidden.has(curve.group))});
+      if (!whole.hidden) graph.resize();
+    }});
   }
 
   // ---- The map, by D3
-
-  const finite = (value) => value !== null && value !== undefined;
 
   function drawPlan(panel, place) {
     const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', panel.title);
@@ -256,20 +217,19 @@
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
       if (!width) return;
-      if (width !== drawnWidth) focused = !panel.focus;
-      drawnWidth = width;
-      const edge = {left: 56, right: 30, top: 10, bottom: 24};  // the left one is wider where coordinates are long
+      if (width !== drawnWidth) [focused, drawnWidth] = [!panel.focus, width];
       const all = panel.traces.filter((trace) => !hidden.has(trace.group));
       const extent = (axis) => d3.extent((all.length ? all : panel.traces).flatMap((trace) => trace[axis]).filter(finite));
-      const [west, east] = extent('x'), [south, north] = extent('y');
+      const [[west, east], [south, north]] = ['x', 'y'].map(extent);
       if (west === undefined) return;
-      edge.left = Math.max(edge.left, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length));
+      // Around it stand numbers, and at the top and on the right what parallels and meridians are called.
+      const edge = {left: Math.max(56, 16 + 7.5 * d3.max([south, north], (y) => d3.format(',.0f')(y).length)), top: panel.graticule.length ? 22 : 10,
+        right: Math.max(30, 12 + (d3.max(panel.graticule, ({label}) => widthOf(label)) ?? 0)), bottom: 24};
       const inner = {width: width - edge.left - edge.right, height: height - edge.top - edge.bottom};
       const metres = 1.06 * (Math.max((east - west) / inner.width, (north - south) / inner.height) || 0.01);
-      const wholeX = d3.scaleLinear().range([edge.left, width - edge.right])
-        .domain([(west + east - metres * inner.width) / 2, (west + east + metres * inner.width) / 2]);
-      const wholeY = d3.scaleLinear().range([height - edge.bottom, edge.top])
-        .domain([(south + north - metres * inner.height) / 2, (south + north + metres * inner.height) / 2]);
+      const around = (from, to, pixels) => [-0.5, 0.5].map((part) => (from + to) / 2 + part * metres * pixels);
+      const wholeX = d3.scaleLinear().range([edge.left, width - edge.right]).domain(around(west, east, inner.width));
+      const wholeY = d3.scaleLinear().range([height - edge.bottom, edge.top]).domain(around(south, north, inner.height));
       if (!focused) {
         focused = true;
         const [left, right, bottom, top] = [wholeX(panel.focus[0]), wholeX(panel.focus[1]), wholeY(panel.focus[2]), wholeY(panel.focus[3])];
@@ -278,44 +238,29 @@
           .scale(k).translate(-(left + right) / 2, -(bottom + top) / 2));
         return;
       }
-      const x = transform.rescaleX(wholeX), y = transform.rescaleY(wholeY);
+      const x = transform.rescaleX(wholeX), y = transform.rescaleY(wholeY), clip = `clip${plans.length}${Math.round(width)}`;
       svg.selectAll('*').remove();
-      const clip = `clip${plans.length}${Math.round(width)}`;
       svg.append('clipPath').attr('id', clip).append('rect').attr('x', edge.left).attr('y', edge.top)
         .attr('width', inner.width).attr('height', inner.height);
       svg.append('g').attr('transform', `translate(0,${height - edge.bottom})`).call(apart(d3.axisBottom(x), x, width));
       svg.append('g').attr('transform', `translate(${edge.left},0)`).call(d3.axisLeft(y).ticks(height / 60).tickSizeOuter(0));
-      const body = svg.append('g').attr('clip-path', `url(#${clip})`);
-      const line = (xs, ys) => d3.line().defined((k) => finite(xs[k]) && finite(ys[k])).x((k) => x(xs[k])).y((k) => y(ys[k]))(d3.range(xs.length));
-      const labels = [drawScaleBar(body, x, width, height, edge)];  // left, right and bottom: where one stands there is room for no other
-      for (const one of panel.graticule) {
-        body.append('path').attr('class', 'graticule').attr('d', line(one.x, one.y));
-        const room = ([left, right, bottom]) => left > edge.left && right < width - edge.right && bottom > edge.top + 12
-          && bottom < height - edge.bottom - 2 && !labels.some(([from, to, low]) => left < to + 8 && from < right + 8 && Math.abs(low - bottom) < 16);
-        const found = one.x.map((east, k) => [x(east) + 3, x(east) + 3 + widthOf(one.label), y(one.y[k]) - 3]).find(room);
-        if (!found) continue;
-        labels.push(found);
-        body.append('text').attr('class', 'graticule-label').attr('x', found[0]).attr('y', found[2]).text(one.label);
+      const body = svg.append('g').attr('clip-path', `url(#${clip})`), labels = [];
+      for (const {label, x: xs, y: ys} of panel.graticule) {
+        const places = xs.map((east, k) => [x(east), y(ys[k])]), ends = [0, 1].map((i) => Math.abs(places[places.length - 1][i] - places[0][i]));
+        body.append('path').attr('class', 'graticule').attr('d', d3.line()(places));
+        const [u, v] = places.filter(([u, v]) => u >= edge.left && u <= width - edge.right && v >= edge.top && v <= height - edge.bottom)
+          .sort((a, b) => ends[0] > ends[1] ? b[0] - a[0] : a[1] - b[1])[0] ?? [];
+        const at = ends[0] > ends[1] ? [width - edge.right + 6, v + 4] : [Math.max(edge.left, u - widthOf(label) / 2), edge.top - 8];
+        if (u === undefined || labels.some(([left, low]) => Math.abs(left - at[0]) < widthOf(label) + 8 && Math.abs(low - at[1]) < 14)) continue;
+        labels.push(at);
+        svg.append('text').attr('class', 'graticule-label').attr('x', at[0]).attr('y', at[1]).text(label);
       }
       for (const ellipse of panel.ellipses.filter((one) => !hidden.has(one.group))) {
-        const scale = Math.abs(x(1) - x(0));
-        body.append('ellipse').attr('rx', ellipse.semi_major * scale).attr('ry', ellipse.semi_minor * scale)
-          .attr('transform', `translate(${x(ellipse.x)},${y(ellipse.y)}) rotate(${-ellipse.angle_deg})`)
-          .attr('fill', colour(ellipse.group)).attr('fill-opacity', 0.15).attr('stroke', colour(ellipse.group));
+        const scale = Math.abs(x(1) - x(0)), paint = colour(ellipse.group);
+        body.append('ellipse').attr('rx', ellipse.semi_major * scale).attr('ry', ellipse.semi_minor * scale).attr('fill', paint).attr('stroke', paint)
+          .attr('fill-opacity', 0.15).attr('transform', `translate(${x(ellipse.x)},${y(ellipse.y)}) rotate(${-ellipse.angle_deg})`);
       }
-      panel.traces.forEach((trace, i) => {
-        if (hidden.has(trace.group)) return;
-        const stroke = colour(trace.group, i);
-        if (trace.shape === 'line') {
-          for (const look of views.has(trace.name) ? ['near', 'own'] : ['own'])  // a click near a line is one on it
-            opening(body.append('path'), trace.name).attr('class', look).attr('stroke', stroke)
-              .attr('stroke-dasharray', crowded ? null : dashOf(trace, i).join(' ')).attr('d', line(trace.x, trace.y));
-          return;
-        }
-        const dots = trace.shape === 'dots', at = (k) => `M${x(trace.x[k]).toFixed(1)},${y(trace.y[k]).toFixed(1)}${dots ? 'h.01' : 'm-4,-4l8,8m-8,0l8,-8'}`;
-        opening(body.append('path'), trace.name).attr('d', d3.range(trace.x.length).filter((k) => finite(trace.x[k])).map(at).join(''))
-          .attr('fill', 'none').attr('stroke', stroke).attr('stroke-width', dots ? 3.4 : 1.6).attr('stroke-linecap', 'round').attr('opacity', 0.8);
-      });
+      drawTraces(panel, body, (east, north) => [x(east), y(north)], crowded);
       if (!crowded) key.replaceChildren(...groups.filter((trace) => !hidden.has(trace.group)).map((trace) => element('span', {},
         swatch(colour(trace.group, panel.traces.indexOf(trace)), dashOf(trace, panel.traces.indexOf(trace)), trace.shape), ` ${trace.name}`)));
     }
@@ -323,45 +268,56 @@
     if (panel.traces.some((trace) => trace.z)) drawSpace(panel, place);
   }
 
+  // Lines, dots and crosses where at(x, y, z) puts them.
+  function drawTraces(panel, body, at, solid) {
+    panel.traces.forEach((trace, i) => {
+      if (hidden.has(trace.group)) return;
+      const line = trace.shape === 'line', dots = trace.shape === 'dots', many = trace.x.length > 1000;
+      const places = trace.x.map((x, k) => at(x ?? NaN, trace.y[k] ?? NaN, trace.z?.[k] ?? NaN).map((one) => Math.round(10 * one) / 10))
+        .filter(([u, v]) => Number.isFinite(u + v));
+      for (const look of line && views.has(trace.name) ? ['near', 'own'] : ['own'])  // a click near a line is one on it
+        opening(body.append('path'), trace.name).attr('class', line ? look : 'points').attr('stroke', colour(trace.group, i)).attr('stroke-linecap', 'round')
+          .attr('stroke-width', line ? null : dots ? (many ? 2 : 3.4) : 1.6).attr('opacity', line ? null : 0.8)
+          .attr('stroke-dasharray', line && !solid ? dashOf(trace, i).join(' ') : null)
+          .attr('d', line ? d3.line()(places) : places.map((place) => `M${place}${dots ? 'h.01' : 'm-4,-4l8,8m-8,0l8,-8'}`).join(''));
+      const aside = places[0]?.[0] > body.node().closest('svg').clientWidth / 2 ? -8 : 8;
+      if (neutral.has(trace.group) && places.length === 1) body.append('text').attr('x', places[0][0] + aside).attr('y', places[0][1] + 4)
+        .attr('text-anchor', aside < 0 ? 'end' : 'start').text(trace.name);
+    });
+  }
+
   // The same in space, turned by dragging; heights are stretched. By hand: neither library draws in space.
   function drawSpace(panel, place) {
     const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', `${panel.title} in space`);
     const names = [panel.x_label, panel.y_label, 'up'].map((label) => label.replace(', m', ''));
-    const extents = ['x', 'y', 'z'].map((axis) => d3.extent(panel.traces.flatMap((trace) => trace[axis]).filter(finite)));
-    place.append(figure({kind: 'plan', title: `${panel.title}, in space`, note: 'Drag to turn. Heights are stretched.'},
-      element('div', {className: 'y-label', textContent: names.map((name, i) => `${name} from ${shown(extents[i][0])} to ${shown(extents[i][1])} m`).join(', ')}), svg.node()));
+    const extents = ['x', 'y', 'z'].map((axis) => d3.extent(panel.traces.filter((trace) => trace.z).flatMap((trace) => trace[axis]).filter(finite)));
+    const words = names.map((name, i) => `${name} ${extents[i].map(d3.format(',.3~r')).join(' to ')} m`).join(', ');
+    place.append(figure({kind: 'plan', title: `${panel.title}, in space`, note: 'Drag to turn. Heights are stretched; below is the shadow.'},
+      element('div', {className: 'y-label', textContent: words}), svg.node()));
     let yaw = -0.6, pitch = 0.5;
-    const [xs, ys, zs] = extents, centre = extents.map(([from, to]) => (from + to) / 2);
-    const across = Math.max(xs[1] - xs[0], ys[1] - ys[0]) || 1, up = zs[1] - zs[0] || 1;
+    const [xs, ys, zs] = extents, across = Math.max(xs[1] - xs[0], ys[1] - ys[0]) || 1, up = zs[1] - zs[0] || 1;
+    const turned = ([x, y, z]) => {
+      const [u, v, w] = [x / across, y / across, 0.45 * z / up];
+      return [u * Math.cos(yaw) - v * Math.sin(yaw), -w * Math.cos(pitch) - (u * Math.sin(yaw) + v * Math.cos(yaw)) * Math.sin(pitch)];
+    };
 
     function draw() {
       const {width, height} = svg.node().getBoundingClientRect();
       if (!width) return;
-      const size = 0.62 * Math.min(width, 1.5 * height);
-      const at = (x, y, z) => {
-        const [u, v, w] = [(x - centre[0]) / across, (y - centre[1]) / across, 0.45 * (z - centre[2]) / up];
-        const right = u * Math.cos(yaw) - v * Math.sin(yaw), away = u * Math.sin(yaw) + v * Math.cos(yaw);
-        return [width / 2 + size * right, height / 2 - size * (w * Math.cos(pitch) + away * Math.sin(pitch))];
-      };
+      const corners = d3.cross(xs, ys).flatMap((corner) => zs.map((z) => turned([...corner, z])));
+      const [[left, right], [top, bottom]] = [0, 1].map((i) => d3.extent(corners, (corner) => corner[i]));
+      const size = Math.min((width - 110) / (right - left || 1), (height - 70) / (bottom - top || 1));
+      const at = (...place) => turned(place).map((one, i) => i ? height / 2 + size * (one - (top + bottom) / 2) : width / 2 + size * (one - (left + right) / 2));
+      const path = (...places) => d3.line()(places.map((place) => at(...place)));
       svg.selectAll('*').remove();
-      const path = (corners) => `M${corners.map(([x, y, z]) => at(x, y, z).join(',')).join('L')}`;
-      const floor = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]);
-      svg.append('path').attr('class', 'graticule').attr('d', path(floor));
-      svg.append('path').attr('class', 'graticule').attr('d', path([[xs[0], ys[0], zs[0]], [xs[0], ys[0], zs[1]]]));
-      [0, 1, 2].forEach((axis) => {  // its name stands beyond the end of each axis
-        const [px, py] = at(...extents.map(([from, to], i) => i === axis ? to + 0.1 * (i === 2 ? up : across) : from));
-        if (extents[axis][1] > extents[axis][0]) svg.append('text').attr('class', 'graticule-label').attr('text-anchor', 'middle')
+      svg.append('path').attr('class', 'graticule').attr('d', path(...[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]].map(([i, j]) => [xs[i], ys[j], zs[0]]), [xs[0], ys[0], zs[1]]));
+      for (const {x, y} of panel.traces.filter((trace) => trace.shape === 'line' && !hidden.has(trace.group)).slice(0, 1))
+        svg.append('path').attr('class', 'shadow').attr('d', path(...x.map((east, k) => [east, y[k], zs[0]])));
+      drawTraces(panel, svg, at);
+      extents.forEach(([from, to], axis) => {  // its name stands beyond the end of each axis
+        const [px, py] = at(...extents.map(([first, last], i) => i !== axis ? first : last + 0.07 * (i === 2 ? up : across)));
+        if (to > from) svg.append('text').attr('class', 'graticule-label').attr('text-anchor', 'middle')
           .attr('x', Math.max(20, Math.min(px, width - 20))).attr('y', Math.max(14, Math.min(py, height - 8))).text(names[axis]);
-      });
-      panel.traces.forEach((trace, i) => {
-        if (hidden.has(trace.group)) return;
-        const all = d3.range(trace.x.length).filter((k) => finite(trace.x[k]) && finite(trace.z[k]));
-        if (trace.shape === 'line')
-          svg.append('path').attr('d', path(all.map((k) => [trace.x[k], trace.y[k], trace.z[k]]))).attr('fill', 'none')
-            .attr('stroke', colour(trace.group, i)).attr('stroke-width', 1.8).attr('stroke-dasharray', dashOf(trace, i).join(' '));
-        else
-          svg.append('path').attr('d', all.map((k) => `M${at(trace.x[k], trace.y[k], trace.z[k]).map((c) => c.toFixed(1)).join(',')}h.01`).join(''))
-            .attr('stroke', colour(trace.group, i)).attr('stroke-width', 3.5).attr('stroke-linecap', 'round').attr('opacity', 0.7);
       });
     }
     svg.call(d3.drag().on('drag', () => {
@@ -370,17 +326,6 @@
       draw();
     }));
     plans.push(draw);
-  }
-
-  function drawScaleBar(body, x, width, height, edge) {
-    const [from, to] = x.domain();
-    const length = d3.tickStep(0, (to - from) / 3, 1) || 1;
-    const pixels = x(from + length) - x(from);
-    const bar = body.append('g').attr('transform', `translate(${width - edge.right - pixels - 12},${height - edge.bottom - 12})`);
-    bar.append('path').attr('d', `M0,-4V0H${pixels}V-4`).attr('fill', 'none').attr('stroke', css('--ink')).attr('stroke-width', 1.5);
-    const text = length >= 1000 ? `${length / 1000} km` : `${length} m`, spare = Math.max(0, (widthOf(text) - pixels) / 2);
-    bar.append('text').attr('x', pixels / 2 - spare).attr('y', -5).attr('text-anchor', 'middle').text(text);
-    return [width - edge.right - pixels - 12 - 2 * spare, width - edge.right - 12, height - edge.bottom - 12];
   }
 
   // Numbers along an axis, so few that they do not touch.
@@ -439,12 +384,6 @@
 
   // ---- Numbers with their intervals, by D3: a row for each, the series below each other in it
 
-  const fitting = (text, width) => {
-    let cut = text;
-    while (cut.length > 1 && widthOf(cut === text ? cut : `${cut}…`) > width) cut = cut.slice(0, -1);
-    return cut === text ? text : `${cut}…`;
-  };
-
   function drawIntervals(panel, place) {
     const values = element('div', {className: 'readout'});
     const svg = d3.create('svg').attr('class', 'intervals').attr('role', 'img').attr('aria-label', `${panel.title}, ${panel.x_label}`);
@@ -461,7 +400,7 @@
       if (!width) return;
       const shownSeries = panel.series.map((series, i) => [series, i]).filter(([series]) => !hidden.has(series.group));
       const slot = shownSeries.length > 3 ? 9 : 12, row = Math.max(24, slot * shownSeries.length + 8);
-      const left = Math.min(14 + d3.max(panel.rows, widthOf), 0.5 * width), right = width - 14;
+      const left = 14 + d3.max(panel.rows, widthOf), right = width - 14;
       const above = panel.rows.length > 12 ? 20 : 6, bottom = above + row * panel.rows.length;
       const ends = shownSeries.flatMap(([series]) => series.values.flat()
         .concat(series.wanted.flatMap((one) => [one.from, one.to]))).concat(panel.reference ?? null).filter(finite);
@@ -477,8 +416,8 @@
       panel.rows.forEach((name, r) => {
         const top = above + row * r;
         if (r) svg.append('path').attr('class', 'between').attr('d', `M0,${top}H${right}`);
-        svg.append('text').text(fitting(name, left - 10)).attr('text-anchor', 'end')
-          .attr('x', left - 6).attr('y', top + row / 2 + 4).append('title').text(name);
+        svg.append('text').text(name).attr('text-anchor', 'end')
+          .attr('x', left - 6).attr('y', top + row / 2 + 4);
         shownSeries.forEach(([series, i], s) => {
           const [mean, lower, upper] = series.values[r], wanted = series.wanted[r];
           const y = top + row / 2 + slot * (s - (shownSeries.length - 1) / 2);
@@ -503,17 +442,12 @@
   // ---- Tables and words
 
   function drawTable(panel, place) {
-    const head = [];
-    if (panel.columns.some((column) => column.group)) {
-      const groups = element('tr');
-      for (let i = 0; i < panel.columns.length;) {
-        let end = i + 1;
-        while (end < panel.columns.length && panel.columns[i].group && panel.columns[end].group === panel.columns[i].group) ++end;
-        groups.append(element('th', {textContent: panel.columns[i].group, colSpan: end - i, scope: 'colgroup'}));
-        i = end;
-      }
-      head.push(groups);
+    const groups = [];  // each over its columns
+    for (const {group} of panel.columns) {
+      const last = groups[groups.length - 1];
+      if (group && last?.textContent === group) ++last.colSpan; else groups.push(element('th', {textContent: group, scope: 'colgroup'}));
     }
+    const head = groups.some((one) => one.textContent) ? [element('tr', {}, ...groups)] : [];
     head.push(element('tr', {}, ...panel.columns.map((column, i) =>
       element('th', {textContent: column.header, className: column.left ? 'left' : '', scope: 'col', onclick: ({target}) => sort(target, i)}))));
     const body = element('tbody');
@@ -634,7 +568,7 @@
   }
 
   function redraw() {
-    charts.forEach(restyle);
+    charts.forEach(({look}) => look());
     plans.forEach((again) => again());
   }
 
@@ -654,21 +588,13 @@
   const fixedPlans = plans.slice(), fixedCharts = charts.slice();
   if (data.views.length) showView(0); else synchronize();
 
-  const relook = () => {
-    if (controls) { const again = bar(); const chosen = controls.querySelector('select')?.value;
-      if (chosen) again.querySelector('select').value = chosen;
-      controls.replaceWith(again); controls = again; }
-    redraw();
-  };
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', relook);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
   // On paper charts are enlarged as they are: what a browser draws while it prints would be tens of thousands of shapes.
   const print = (begins) => {
     document.documentElement.classList.toggle('printing', begins);
     plans.forEach((again) => again());
-    charts.forEach(({graph}) => {
-      const box = graph.graphDiv.parentNode;
+    for (const {graph, graph: {graphDiv: {parentNode: box}}} of charts)
       box.style.zoom = begins ? box.parentNode.clientWidth / graph.size().width : '';
-    });
   };
   addEventListener('beforeprint', () => print(true));
   addEventListener('afterprint', () => print(false));

@@ -213,11 +213,20 @@ Picture drawn(const LineChart& chart, const Groups& groups) {
   Script script(groups);
   script.say("set xlabel {} textcolor '#5c5c5c'", in_gnuplot(chart.x_label));
   const bool begins = chart.greatest_y || chart.least_y != 0.0;
-  script.say("set yrange [{}:{}]", begins ? fmt::format("{}", chart.least_y) : "*<0",
+  script.say("set yrange [{}:{}]",
+             begins              ? fmt::format("{}", chart.least_y)
+             : chart.logarithmic ? "*"
+                                 : "*<0",
              chart.greatest_y    ? fmt::format("{}", *chart.greatest_y)
              : chart.logarithmic ? "*"
                                  : "0<*");
   if (chart.logarithmic) script.say("set logscale y");
+  if (chart.period > 0.0 && chart.greatest_y) {  // numbers that begin again
+    std::string tics;
+    for (double at = 0.0; at < *chart.greatest_y; at += chart.period / 8.0)
+      tics += fmt::format("{}'{}' {}", tics.empty() ? "" : ", ", std::fmod(at, chart.period), at);
+    script.say("set ytics ({})", tics);
+  }
   if (chart.stacked && !chart.curves.empty() && !script.hidden(chart.curves.front().group)) {
     mark(chart, script);
     stack(chart, script);
@@ -243,6 +252,9 @@ Picture drawn(const LineChart& chart, const Groups& groups) {
   return script.finished(chart.title, chart.y_label, chart.note, {});
 }
 
+/// Whether there are too many traces to name them, and one is to be clicked at.
+bool crowded(const Plan& plan) { return plan.traces.size() > 12; }
+
 /// Traces in plan or in space, `columns` of their coordinates.
 void plot_traces(const Plan& plan, const char* columns, Script& script) {
   for (std::size_t i = 0; i < plan.traces.size(); ++i) {
@@ -254,27 +266,16 @@ void plot_traces(const Plan& plan, const char* columns, Script& script) {
                                  ? script.line(one.group, i)
                                  : fmt::format("points pointtype {} pointsize {} linecolor '{}'", dots ? 7 : 2,
                                                dots ? 0.3 : 0.7, script.colour(one.group, i));
-    script.plot(fmt::format("{} using {} with {}", data, columns, look), one.name);
+    script.plot(fmt::format("{} using {} with {}", data, columns, look), crowded(plan) ? "" : one.name);
   }
-}
-
-/// Least and greatest x and y of what is shown, with a margin.
-std::array<double, 4> bounds_of(const Plan& plan, const Script& script) {
-  std::array<double, 4> bounds;
-  bounds.fill(std::nan(""));
-  if (!plan.focus.empty()) std::copy_n(plan.focus.begin(), 4, bounds.begin());
-  for (const PlanTrace& one : plan.traces)
-    for (std::size_t k = 0; k < one.x.size() && plan.focus.empty() && !script.hidden(one.group); ++k)
-      bounds = {std::fmin(bounds[0], one.x[k]), std::fmax(bounds[1], one.x[k]), std::fmin(bounds[2], one.y[k]),
-                std::fmax(bounds[3], one.y[k])};
-  const double margin = 0.1 * std::max(bounds[1] - bounds[0], bounds[3] - bounds[2]);
-  return {bounds[0] - margin, bounds[1] + margin, bounds[2] - margin, bounds[3] + margin};
 }
 
 Picture drawn(const Plan& plan, const Groups& groups) {
   Script script(groups);
   script.say("set xlabel {} textcolor '#5c5c5c'\nset size ratio -1", in_gnuplot(plan.x_label));
-  const auto [west, east, south, north] = bounds_of(plan, script);
+  const auto b = plan.bounds();
+  const double margin = 0.1 * std::max(b[1] - b[0], b[3] - b[2]);
+  const double west = b[0] - margin, east = b[1] + margin, south = b[2] - margin, north = b[3] + margin;
   if (!(west < east || south < north)) return {plan.title, ""};
   script.say("set xrange [{}:{}]\nset yrange [{}:{}]", west, east, south, north);
   for (const GraticuleLine& line : plan.graticule) {
@@ -300,7 +301,7 @@ Picture drawn(const Plan& plan, const Groups& groups) {
               .width = std::clamp(highest * ratio, 4.0, widest),
               .height = std::clamp(widest / std::max(ratio, 1e-9), 3.0, highest)};
   frame.right = 15.0 - frame.left - frame.width;  // for legend and note
-  return script.finished(plan.title, plan.y_label, plan.note, frame);
+  return script.finished(plan.title, plan.y_label, crowded(plan) ? "" : plan.note, frame);
 }
 
 /// The same from above and aside, if heights are known.

@@ -196,6 +196,16 @@ void HeatMap::fill(const std::function<Cell(std::size_t row, std::size_t column)
     }
 }
 
+std::array<double, 4> Plan::bounds() const {
+  std::array<double, 4> all{NAN, NAN, NAN, NAN};
+  if (!focus.empty()) std::copy_n(focus.begin(), all.size(), all.begin());
+  for (const PlanTrace& one : traces)
+    for (std::size_t k = 0; focus.empty() && k < one.x.size(); ++k)
+      all = {std::fmin(all[0], one.x[k]), std::fmax(all[1], one.x[k]), std::fmin(all[2], one.y[k]),
+             std::fmax(all[3], one.y[k])};
+  return all;
+}
+
 std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
   const std::string number = sized_text(map.scale * map.values[row][column], map.digits, map.sign);
   return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;

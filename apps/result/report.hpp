@@ -111,6 +111,9 @@ struct Plan {
   std::vector<GraticuleLine> graticule{};
   std::vector<double> focus{};  ///< least and greatest x and y of what it opens with; empty: of all
   std::string note{};
+
+  /// Least and greatest x and y of what it opens with; NaN if there is nothing.
+  std::array<double, 4> bounds() const;
 };
 
 /// A number with its interval in each row of a chart, and where it should be; both may be open or missing (NaN).

@@ -153,9 +153,7 @@ void expect_the_same(const Found& found, const Expected& expected) {
   EstimateOf<Expected> start{StateOf<Expected>::LinSpaced(n, 40.0, 1.0), StateMatrixOf<Expected>::Constant(n, n, 0.5)};
   start.covariance.diagonal().setLinSpaced(n, 1.0, 2.0);
   const EstimateOf<Found> same{start.mean, start.covariance};
-  EstimateOf<Expected> predicted;
-  predict(expected, start, 0.7, predicted);
-  EXPECT_CLOSE(predict(found, same, 0.7), predicted, 0.0);
+  EXPECT_CLOSE(predict(found, same, 0.7), predict(expected, start, 0.7), 0.0);
   EXPECT_EQ(prediction_covariance(found, same, 0.7), prediction_covariance(expected, start, 0.7));
   const auto step = linearised_step(found, same, 0.7);
   const auto expected_step = linearised_step(expected, start, 0.7);

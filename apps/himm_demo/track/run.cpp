@@ -588,4 +588,18 @@ TrackOutcome run_track(const TrackOptions& options, RecordingReader& recording,
   return TrackRun(options, recording, filters, sinks, shares).run();
 }
 
+void TrackTally::goes_to(const std::vector<double>& mean, int axes) {
+  Position here{};
+  std::copy_n(mean.begin(), axes, here.begin());
+  if (before) way_m += std::hypot(here[0] - (*before)[0], here[1] - (*before)[1], here[2] - (*before)[2]);
+  before = here;
+}
+
+std::string TrackTally::why_silent() const {
+  constexpr std::size_t start = 3;  // measurements
+  return fmt::format("{} measurement{}; a filter starts from {} whole positions, and tells from the next on{}",
+                     measurements, measurements == 1 ? "" : "s", start,
+                     measurements > start ? ", and these do not lie so near each other" : "");
+}
+
 }  // namespace sigmax::apps

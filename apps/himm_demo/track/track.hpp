@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <deque>
+#include <set>
 
 #include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/root_mean_square.hpp>
@@ -108,6 +109,17 @@ class TrackPage {
   void finish();
 
  private:
+  static constexpr std::size_t most_marks = 300;  // of each kind and track
+  static constexpr std::size_t recent_rows = 20;  // whose mean NIS is drawn
+
+  /// Columns of a measurement: its position, its error, where the target was, and its speed, course and climb.
+  static constexpr std::size_t plot_at = 0, plot_error_at = 3, truth_at = 6, truth_moves_at = 9, plot_columns = 12;
+
+  /// Columns of an estimate; the weights of the models follow. Speed, course and climb have their σ beside them.
+  static constexpr std::size_t position_at = 0, error_at = 3, sigma_at = 6, moves_at = 9, nis_at = 15,
+                               quantities_at = 16, outlier_at = 17, sensor_at = 18, innovation_at = 19, innovations = 4,
+                               weights_at = innovation_at + innovations;
+
   struct Mark {
     double time;
     std::size_t filter;
@@ -153,8 +165,9 @@ class TrackPage {
   const RecordingReader& recording_;
   bool truth_known_;
   std::vector<std::string> models_;
-  bool smooths_;                      // so that estimates come at the end
-  std::vector<std::string> sensors_;  // as they appear
+  bool smooths_;                                        // so that estimates come at the end
+  std::vector<std::string> sensors_;                    // as they appear
+  std::map<Position, std::set<std::string>> stations_;  // who stands where and measures ranges or angles
   std::map<std::string, Track> tracks_;
   std::size_t kept_ = 0;       // rows of all tracks
   std::size_t not_shown_ = 0;  // rows of tracks beyond
