@@ -134,7 +134,7 @@ class ColumnReader {
          .what = fmt::format("column {}", in_quotes(name)),
          .found = in_quotes(slip_->word),
          .expected = fmt::format("a number with a decimal point, as {} of {} cells have", numeric_cells_, cells_),
-         .remedy = fmt::format("correct it, name it by --missing {}, or take the column as words "
+         .remedy = fmt::format("correct it, name it by --missing={}, or take the column as words "
                                "by --categorical {}",
                                typed(slip_->word), typed(name))}));
   }

@@ -10,19 +10,41 @@ namespace {
 
 constexpr std::size_t few = 10, many = 10000;
 
-double distance(const Position& a, const Position& b) {
+// Over so many rows the two kinds of rates are compared.
+constexpr std::array<std::size_t, 3> lengths = {1, 10, 100};
+
+double distance(const auto& a, const auto& b) {
   double square = 0.0;
   for (std::size_t i = 0; i < 3; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
   return std::sqrt(square);
 }
 
+/// Whether two rays in the plane cross.
+bool cross(const Position& a, double alpha, const Position& b, double beta) {
+  const double x = b[0] - a[0], y = b[1] - a[1], turn = std::sin(beta - alpha);
+  return (x * std::sin(beta) - y * std::cos(beta)) * turn > 0.0 &&
+         (x * std::sin(alpha) - y * std::cos(alpha)) * turn > 0.0;
+}
+
 }  // namespace
 
 void Doubts::Agreement::add(double told_now, double growth) {
+  if (std::isnan(told_now)) return;
   product += told_now * growth;
   told += told_now * told_now;
   grew += growth * growth;
   ++count;
+}
+
+/// Numbers as 101559 that are hours, minutes and seconds never end on 60 to 99.
+void Doubts::see_time(double time) {
+  const double hundreds = std::floor(time / 100.0);
+  ++times_;
+  if (std::fmod(time, 100.0) < 60.0 && std::fmod(hundreds, 100.0) < 60.0) ++clocks_;
+  if (std::fmod(time, 50.0) != 0.0) ++uneven_;
+  if (hundreds != hundreds_) ++minutes_;
+  hundreds_ = hundreds;
+  latest_ = time;
 }
 
 void Doubts::see_azimuth(double azimuth, const Position& from_radar) {
@@ -33,44 +55,77 @@ void Doubts::see_azimuth(double azimuth, const Position& from_radar) {
   ++azimuths_;
 }
 
-void Doubts::see_rates(const Spoke& before, const Spoke& now) {
-  const double dt = now.time - before.time;
+void Doubts::see_bearing(const Bearing& now, std::optional<Bearing>& before) {
+  const double north = 90.0 * degree;
+  if (before && now.from != before->from && std::abs(std::sin(now.azimuth - before->azimuth)) > 0.1) {
+    ++pairs_;
+    if (cross(before->from, before->azimuth, now.from, now.azimuth)) ++crossing_;
+    if (cross(before->from, north - before->azimuth, now.from, north - now.azimuth)) ++crossing_other_;
+  }
+  before = now;
+}
+
+void Doubts::see_rates(Sensor& before, Spoke now) {
+  const Spoke& last = before.last;
+  const double dt = now.time - last.time;
   if (!(dt > 0.0)) return;
-  const double jump = distance(before.position, now.position);
+  const double jump = distance(last.at, now.at);
   path_ += jump;
   ++jumps_;
   if (jump == 0.0) ++held_;
-  const double range_rate = (before.range_rate + now.range_rate) / 2.0;
-  if (!std::isnan(range_rate)) range_rates_.add(range_rate, (now.range - before.range) / dt);
-  Position grew{}, told{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    grew[i] = (now.position[i] - before.position[i]) / dt;
-    told[i] = (before.velocity[i] + now.velocity[i]) / 2.0;
+  if (now.twice != last.twice) to_twice_ += jump;
+  if (const double off = distance(now.error, Position{}); !std::isnan(off + last.error[0])) {
+    ++errors_;
+    off_ += off;
+    if (off > 5.0 * distance(now.error, last.error)) ++same_;
   }
-  if (!std::isnan(told[2])) climbs_.add(told[2], grew[2]);
-  if (std::isnan(told[0] + told[1])) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    velocities_.add(told[i], grew[i]);
-    swapped_velocities_.add(told[1 - i], grew[i]);
+  for (std::size_t i = 0; i < now.rate.size(); ++i)
+    if (std::isnan(now.rate[i])) now.rate[i] = last.rate[i];
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    Since& since = before.since[k];
+    for (std::size_t i = 0; i < now.rate.size(); ++i) since.told[i] += dt * (last.rate[i] + now.rate[i]) / 2.0;
+    if (++since.rows < lengths[k]) continue;
+    const double T = now.time - since.time;
+    std::array<double, 4> grew{};
+    for (std::size_t i = 0; i < grew.size(); ++i) {
+      grew[i] = (now.at[i] - since.at[i]) / T;
+      since.told[i] /= T;
+      rates_[k].each[i].add(since.told[i], grew[i]);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      rates_[k].velocities.add(since.told[i], grew[i]);
+      rates_[k].exchanged.add(since.told[1 - i], grew[i]);
+    }
+    since = {now.time, now.at};
   }
+  before.last = now;
 }
 
 void Doubts::see(const Row& row, const std::optional<Position>& position, int axes) {
   const AnyPlot& plot = row.plot;
   const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing, has_rate = plot.sensor == AnyPlot::Sensor::doppler;
   const bool is_radar = has_rate || plot.sensor == AnyPlot::Sensor::polar;
+  see_time(plot.time);
   Track& track = tracks_[row.track];
   const auto& reference = row.truth ? row.truth : track.located;
   if ((is_bearing || is_radar) && reference)
     see_azimuth(plot.z[is_bearing ? 0 : 1], {(*reference)[0] - plot.origin[0], (*reference)[1] - plot.origin[1], 0.0});
+  if (is_bearing) see_bearing({plot.origin, plot.z[0]}, track.bearing);
   if (!position || axes_seen(plot, axes) < axes) return;
-  Position velocity{nan, nan, nan};
-  for (int i = 0; i < axes && axes > 1; ++i)
-    velocity[static_cast<std::size_t>(i)] = component_of(plot, axes + i).value_or(nan);
-  const Spoke now{plot.time, *position, velocity, is_radar ? plot.z[0] : 0.0,
-                  has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan};
-  const auto [before, first] = track.spoke.try_emplace(row.sensor, now);
-  if (!first) see_rates(std::exchange(before->second, now), now);
+  const Position& at = *position;
+  if (!twice_) twice_ = row.twice;
+  Spoke now{plot.time,
+            {at[0], at[1], at[2], is_radar ? plot.z[0] : 0.0},
+            {nan, nan, nan, has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
+            {nan, nan, nan},
+            row.twice && row.twice == twice_};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(axes) && axes > 1; ++i)
+    now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
+  for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
+  if (now.twice) ++twice_rows_;
+  const Since since{now.time, now.at};
+  const auto [before, first] = track.spoke.try_emplace(row.sensor, Sensor{now, {since, since, since}});
+  if (!first) see_rates(before->second, now);
   if (!is_radar) track.located = position;
   if (!track.first) {
     track.first = position;
@@ -94,23 +149,38 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const auto say = [&](bool holds, std::string_view format, const auto&... words) {
     if (holds) sentences.push_back(recording.file() + ": " + fmt::format(fmt::runtime(format), words...));
   };
-  say(range_rates_.count >= few && range_rates_.correlation() < -0.5,
-      "the range rates have the other sign than the growth of the ranges (correlation {:.2f}); where a radar counts "
-      "closing as positive, its column is closing_rate_mps, else range_rate_mps: name it {}",
-      range_rates_.correlation(), recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
-  const bool swapped = swapped_velocities_.correlation() > 0.9 && velocities_.correlation() < 0.5;
-  say(velocities_.count >= few && swapped,
+  const std::string range_remedy = fmt::format(
+      "where a radar counts closing as positive, its column is closing_rate_mps, else range_rate_mps: name "
+      "it {}",
+      recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
+  const std::array<std::array<std::string_view, 3>, 4> kinds = {
+      {{"velocities along x", "x", "vx is along x, or east, and longitudes west are negative"},
+       {"velocities along y", "y", "vy is along y, or north, and latitudes south are negative"},
+       {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
+       {"range rates", "the ranges", range_remedy}}};
+  const auto fit = [](const Agreement& rates) { return rates.count >= few && rates.correlation() > 0.9; };
+  const bool exchanged = std::ranges::any_of(
+      rates_, [&](const Rates& rates) { return fit(rates.exchanged) && rates.velocities.correlation() < 0.5; });
+  say(exchanged,
       "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
-      "east, vy along y, or north, and a course is clockwise from north");
-  say(climbs_.count >= few && climbs_.correlation() < -0.7,
-      "the vertical velocities have the other sign than the growth of the heights (correlation {:.2f}): vz and a "
-      "vertical rate are upwards",
-      climbs_.correlation());
-  const double growth = velocities_.growth_per_told();
-  say(velocities_.count >= few && velocities_.correlation() > 0.9 && !(growth > 0.7 && growth < 1.4),
-      "the velocities are {:.2g} times what the positions say: see whether their unit, or that of the positions or "
-      "times, is that of their header",
-      1.0 / growth);
+      "east, vy along y, or north, a latitude is along y, and a course is clockwise from north");
+  for (std::size_t i = exchanged ? 2 : 0; i < kinds.size(); ++i) {
+    const auto found = std::ranges::find_if(rates_, [&](const Rates& rates) { return rates.each[i].other_sign(); });
+    say(found != rates_.end(), "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i][0],
+        kinds[i][1], found == rates_.end() ? 0.0 : found->each[i].correlation(), kinds[i][2]);
+  }
+  const auto say_scale = [&](std::string_view name, std::string_view others, const auto& agreement) {
+    for (const Rates& rates : rates_) {
+      const double growth = agreement(rates).growth_per_told();
+      if (!fit(agreement(rates)) || (growth > 0.7 && growth < 1.4)) continue;
+      return say(true,
+                 "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that "
+                 "of their header",
+                 name, 1.0 / growth, others, others);
+    }
+  };
+  say_scale("velocities", "positions", [](const Rates& rates) { return rates.velocities; });
+  say_scale("range rates", "ranges", [](const Rates& rates) { return rates.each[3]; });
   const auto n = static_cast<double>(azimuths_);
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
   const auto fits = [&](double sum) { return azimuths_ >= few && n - as_read_ > std::max(9.0 * (n - sum), 1e-3 * n); };
@@ -120,6 +190,26 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       recording.from_north() ? "name the column azimuth_deg, without --azimuth-from" : "give --azimuth-from north");
   say(fits(radians_) && !recording.from_north(),
       "the azimuths do not fit the {}, but would if they were radians: name the column azimuth_rad", reference);
+  const bool diverge = pairs_ >= few && 2 * crossing_<pairs_, would_cross = 10 * crossing_other_> 9 * pairs_;
+  say(diverge, "of {} pairs of bearings {} cross ahead of both their stations; {}", pairs_, crossing_,
+      would_cross && !recording.from_north()
+          ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
+          : "see whether the stations stand where it is said, and how azimuths run");
+  say(errors_ >= few && 2 * same_ > errors_,
+      "the measurements are off the truth by {:.3g} m on the average, and in {} of {} rows by much the same as in the "
+      "row before, which is no noise: see whether both have the same axes, units and times, and whether the truth is "
+      "empty where there is none",
+      off_ / static_cast<double>(errors_), same_, errors_);
+  say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
+      "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
+      "position, empty those cells or name them by --missing",
+      twice_rows_, twice_.value_or(0.0));
+  const auto& [abroad, first_abroad] = recording.abroad();
+  say(abroad > 0,
+      "{} positive latitudes or longitudes stand beside an S or a W, first on line {}, and were taken as north and "
+      "east: "
+      "give those of the south and the west a minus sign",
+      abroad, first_abroad);
   double moved = 0.0, duration = 0.0;
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;
@@ -129,11 +219,20 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
   say(held_ >= few && 4 * held_ > jumps_ && moved > 0.5 * path_,
       "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
-      "count "
-      "as new measurements, and the filters take their estimates for better than they are; leave one row of each",
+      "count as new measurements, and the filters take their estimates for better than they are; leave one row of each",
       held_, jumps_);
-  if (steps_.size() < few || !recording.times_are_seconds()) return sentences;
+  if (steps_.size() < few) return sentences;
   const double step = median_step(), speed = moved / duration;
+  const auto by_an_hour = [&](double other) { return std::abs(other - step - 3600.0) < 0.1 * step; };
+  say(!recording.times_are_numbers() && step <= 60.0 && std::ranges::any_of(steps_, by_an_hour),
+      "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
+      "forward, write them with their zone",
+      step);
+  if (!recording.times_are_seconds()) return sentences;
+  say(times_ >= 2 * few && clocks_ == times_ && minutes_ > 2 && uneven_ > 0,
+      "no time ends on 60 to 99, as numbers of seconds would; if they are hours, minutes and seconds in a row, give "
+      "--time-format {}",
+      latest_ < 1e6 ? "%H%M%S" : "%Y%m%d%H%M%S");
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.

@@ -24,29 +24,65 @@ class Doubts {
     void add(double told_now, double growth);
     double correlation() const { return product / std::sqrt(told * grew); }
     double growth_per_told() const { return product / told; }
+    /// Whether the rate has the other sign, by four standard errors of a correlation that is none.
+    bool other_sign() const {
+      return correlation() < -0.5 && correlation() * correlation() * static_cast<double>(count) > 16.0;
+    }
   };
+  /// The rates along x, y and z, and of the range; those of the first two together, and taken for each other.
+  struct Rates {
+    std::array<Agreement, 4> each;
+    Agreement velocities, exchanged;
+  };
+  /// What a sensor told: a position and its range, and how fast they grow.
   struct Spoke {
     double time;
-    Position position, velocity;
-    double range, range_rate;
+    std::array<double, 4> at, rate;
+    Position error;  ///< about the truth
+    bool twice;      ///< whether it is the number that comes twice
+  };
+  /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
+  struct Since {
+    double time;
+    std::array<double, 4> at, told{};
+    std::size_t rows = 0;
+  };
+  struct Sensor {
+    Spoke last;
+    std::array<Since, 3> since;
+  };
+  struct Bearing {
+    Position from;
+    double azimuth;
   };
   struct Track {
     double first_time = 0.0, time = 0.0;  // of those with a position
     std::optional<Position> first{}, last{};
-    std::optional<Position> located{};     // by a sensor of positions
-    std::map<std::string, Spoke> spoke{};  // by sensor
+    std::optional<Position> located{};      // by a sensor of positions
+    std::optional<Bearing> bearing{};       // the last one
+    std::map<std::string, Sensor> spoke{};  // by sensor
   };
+  void see_time(double time);
   void see_azimuth(double azimuth, const Position& from_radar);
-  void see_rates(const Spoke& before, const Spoke& now);
+  void see_bearing(const Bearing& now, std::optional<Bearing>& before);
+  void see_rates(Sensor& before, Spoke now);
   double median_step() const;
 
   std::map<std::string, Track> tracks_;
-  std::vector<double> steps_;  // between measurements of a track, the first thousands
-  Agreement range_rates_, velocities_, swapped_velocities_, climbs_;
+  std::vector<double> steps_;         // between measurements of a track, the first thousands
+  std::array<Rates, 3> rates_;        // from row to row, where noise hides what is slow, and over many rows
   double path_ = 0.0;                 // of all positions, each sensor's own
   std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
+  std::optional<double> twice_;       // the first number that is both coordinates of a position
+  std::size_t twice_rows_ = 0;
+  double to_twice_ = 0.0;              // the path there and back
+  std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
+  double off_ = 0.0;                   // sum of those
   std::size_t azimuths_ = 0;
-  double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;  // sums of cosines of azimuths' errors
+  double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
+  std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places
+  std::size_t times_ = 0, clocks_ = 0, minutes_ = 0, uneven_ = 0;
+  double hundreds_ = nan, latest_ = 0.0;  // of the last time
 };
 
 }  // namespace sigmax::apps

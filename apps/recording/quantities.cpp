@@ -43,8 +43,9 @@ std::optional<double> not_available(std::string_view header) {
 
 std::string_view instead_of(std::string_view header) {
   constexpr std::string_view sigma = "one standard deviation along each axis is sigma_position_m";
+  constexpr std::string_view rate = "how fast the range grows is range_rate_mps, how fast it falls closing_rate_mps";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
-      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}};
+      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}, {"doppler", rate}, {"radial_velocity", rate}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;
   return {};

@@ -29,11 +29,9 @@ inline constexpr double nautical_mile = 1852.0;
 inline constexpr double mile = 1609.344;
 inline constexpr double hour = 3600.0;
 
-inline constexpr Unit lengths[] = {{"m", 1.0, "m"},
-                                   {"km", 1e3, "km"},
-                                   {"ft", foot, "ft"},
-                                   {"nmi", nautical_mile, "nautical miles"},
-                                   {"mi", mile, "miles"}};
+inline constexpr Unit lengths[] = {
+    {"m", 1.0, "m"},       {"km", 1e3, "km"},  {"ft", foot, "ft"}, {"nmi", nautical_mile, "nautical miles"},
+    {"mi", mile, "miles"}, {"cm", 1e-2, "cm"}, {"mm", 1e-3, "mm"}};
 inline constexpr Unit areas[] = {{"m2", 1.0, "m²"}, {"", 1.0, "m²"}};
 inline constexpr Unit speeds[] = {
     {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},

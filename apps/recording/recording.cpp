@@ -214,9 +214,19 @@ bool RecordingReader::next(Row& row) {
   const auto plot = measured();
   take_place_of_sensor(row);
   if (!plot && senseless_.rows++ == 0) senseless_.first_line = row.line;
+  const Role where = geodetic() ? Role::place : Role::position;
+  row.twice = axes_ > 1 && said(where) == said(where, 1) ? said(where) : std::nullopt;
+  if (geodetic()) see_hemispheres();
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
   return true;
+}
+
+std::optional<double> RecordingReader::time_of(std::string_view text, bool& of_day) const {
+  of_day = time_format_.empty() && is_time_of_day(text);
+  if (!time_format_.empty()) return parse_timestamp(text, time_format_, of_day);
+  if (const auto number = parse_number(text)) return in_seconds(*number, time_unit_->unit_s);
+  return parse_timestamp(text);
 }
 
 /// Takes the row's line, track and time; false if the row is to be skipped for its time.
@@ -224,9 +234,8 @@ bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
   if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
-  bool of_day = time_format_.empty() && is_time_of_day(row_[time_]);
-  const auto found =
-      time_format_.empty() ? parse_timestamp(row_[time_]) : parse_timestamp(row_[time_], time_format_, of_day);
+  bool of_day = false;
+  const auto found = time_of(row_[time_], of_day);
   if (!found && !time_format_.empty())
     throw row_.error(time_, "a time as --time-format says, " + in_quotes(time_format_),
                      "correct the cell or drop the row");
@@ -236,9 +245,7 @@ bool RecordingReader::take_time(Row& row) {
         "correct the cell or drop the row; if all are written otherwise, say how, as --time-format '%d/%m/%Y "
         "%H:%M:%S'");
   times_are_numbers_ = time_format_.empty() && parse_number(row_[time_]);
-  const double time = of_day               ? on_its_day(row, *found)
-                      : times_are_numbers_ ? in_seconds(*found, time_unit_->unit_s)
-                                           : *found;
+  const double time = of_day ? on_its_day(row, *found) : *found;
   row.plot.time = time;
   if (!refused_time(row, time)) {
     last_.find(row.track)->second.of_day = of_day;
@@ -296,10 +303,11 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
     return cell == word || (number && number == parse_number(cell));
   };
   if (cell.empty() || std::ranges::none_of(missing_, is_cell)) {
-    const bool is_word = !cell.empty() && !parse_number(cell) && cell.find(',') == std::string_view::npos;
+    // A digit may follow a sign; 1 234, 1.234,5 and 33.88°S are no words for nothing.
+    const bool is_word = !cell.empty() && !parse_number(cell) && cell.find_first_of("0123456789") > 1;
     if (is_word)
       throw row_.error(column, "a finite number with a decimal point",
-                       "leave the cell empty where there is none, or name such cells by --missing " + typed(cell));
+                       "leave the cell empty where there is none, or name such cells by --missing=" + typed(cell));
     return row_.optional_number(column);
   }
   ++missing_cells_[column];
@@ -361,6 +369,16 @@ Geodetic RecordingReader::place(Role role) const {
     return Geodetic::checked(*said(role), *said(role, 1), said(role, 2).value_or(0.0));
   } catch (const std::invalid_argument& refusal) {
     throw error(role, std::abs(*said(role)) > 90.0 ? 0 : 1, refusal.what(), "correct the cell or drop the row");
+  }
+}
+
+/// A positive number whose hemisphere is in one of the next two columns, as in NMEA's sentences.
+void RecordingReader::see_hemispheres() {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto first = columns_[place_of(Role::place) + i]->index + 1;
+    for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
+      if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W") && abroad_.rows++ == 0)
+        abroad_.first_line = row_.line();
   }
 }
 
@@ -489,6 +507,7 @@ std::string RecordingReader::taken() const {
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
                           located() && bearings() ? " in rows without a position" : "");
+    if (q == place_of(Role::polar) && axes_ == 2) part += " along the ground";
     if (is_accuracy(quantity.role)) part += " for the row's accuracy";
     parts.push_back(std::move(part));
   }

@@ -36,6 +36,7 @@ struct Row {
   AnyPlot plot{};
   std::optional<Position> sensor_at{};     ///< where the sensor stands, if the row tells it, in m
   std::optional<Geodetic> sensor_place{};  ///< the same on the Earth
+  std::optional<double> twice{};  ///< the number that is both its x and its y, or its latitude and its longitude
   std::optional<Position> truth{};
   std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
@@ -78,10 +79,14 @@ class RecordingReader {
   bool counts_closing() const {
     return has(Role::range_rate) && columns_[place_of(Role::range_rate)]->unit->value < 0.0;
   }
-  /// Whether times are numbers of seconds.
+  /// Whether times are numbers, and of seconds.
+  bool times_are_numbers() const { return times_are_numbers_; }
   bool times_are_seconds() const { return times_are_numbers_ && time_unit_->unit_s == 1.0; }
   const CsvReader& csv() const { return csv_; }
   const std::string& file() const { return csv_.file(); }
+
+  /// A time written as those of the recording, in s, and whether it is a time of day; nothing if it is none.
+  std::optional<double> time_of(std::string_view text, bool& of_day) const;
 
   /// Where the frame of every track begins, if not at its own first row.
   const std::optional<Geodetic>& origin() const { return origin_; }
@@ -101,6 +106,9 @@ class RecordingReader {
   };
   /// Rows whose measurement is beyond all numbers of this world, and so counts as missed.
   const Counted& senseless() const { return senseless_; }
+
+  /// Numbers of a place beside which stands another hemisphere than that which they were taken for.
+  const Counted& abroad() const { return abroad_; }
 
   /// Whether there were times of day.
   bool times_of_day() const { return latest_of_day_.has_value(); }
@@ -146,6 +154,7 @@ class RecordingReader {
   bool is_senseless(Role role) const;
   void require_whole(Role role, std::size_t size) const;
   Geodetic place(Role role) const;
+  void see_hemispheres();
   void take_place_of_sensor(Row& row) const;
   InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
   std::optional<AnyPlot> measured();
@@ -175,7 +184,7 @@ class RecordingReader {
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t skipped_ = 0;
-  Counted senseless_;
+  Counted senseless_, abroad_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;

@@ -19,27 +19,37 @@ constexpr std::size_t longest_record = std::size_t{1} << 20;
 
 bool is_blank(std::string_view text) { return trimmed(text).empty(); }
 
-/// A tab if the header has tabs and no comma, both outside quotes, which open at the beginning of a field only.
+/// A comma if the header has one, else a tab, else a semicolon, all outside quotes, which open at the beginning of a
+/// field only. Lines of words before it that begin with # have none.
 char separator_of(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos) text.remove_prefix(text.find_last_of("\r\n", first) + 1);
   char found = ',';
-  bool quoted = false, in_field = false;
+  bool quoted = false, in_field = false, blank = true, comment = false;
   for (const char byte : text) {
     if (quoted) {
       quoted = byte != '"';
-    } else if (byte == '"' && !in_field) {
-      quoted = true;
-    } else if (byte == ',' || byte == '\n' || byte == '\r') {
-      return byte == ',' ? ',' : found;
-    } else if (byte == '\t') {
-      found = '\t';
+    } else if (byte == ',') {
+      return byte;
+    } else if (byte == '\n' || byte == '\r') {
+      if (!blank && !(comment && found == ',')) return found;
+      found = ',';
+      in_field = comment = false;
+      blank = true;
+    } else if (byte == '\t' || byte == ';') {
+      if (found != '\t') found = byte;
       in_field = false;
-    } else {
-      in_field = in_field || byte != ' ';
+      blank = blank && byte == '\t';
+    } else if (byte != ' ') {
+      quoted = byte == '"' && !in_field;
+      comment = comment || (blank && byte == '#');
+      in_field = !quoted;
+      blank = false;
     }
   }
   return found;
+}
+
+std::string_view plural_of(char separator) {
+  return separator == ',' ? "commas" : separator == '\t' ? "tabs" : "semicolons";
 }
 
 }  // namespace
@@ -81,7 +91,8 @@ std::string listed(std::span<const std::string> names, std::size_t most) {
 
 std::string typed(std::string_view word) {
   const std::string field = csv_field(word);
-  return field.find_first_of(" \"") == std::string::npos ? field : "'" + field + "'";
+  const bool plain = field.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == std::string::npos;
+  return plain ? field : "'" + field + "'";
 }
 
 std::string csv_field(std::string_view text) {
@@ -127,13 +138,9 @@ std::optional<std::size_t> CsvReader::find(std::string_view name) const {
 
 std::size_t CsvReader::column(std::string_view name) const {
   if (const auto index = find(name)) return *index;
-  const auto& names = header_->names;
-  const bool other_separator = names.size() == 1 && names[0].find(';') != std::string::npos;
-  throw InputError(
-      message({.where = file(),
-               .what = fmt::format("there is no column {}", in_quotes(name)),
-               .remedy = other_separator ? "the fields seem to be separated by ';': separate them by commas or tabs"
-                                         : fmt::format("the columns are {}", fmt::join(names, ", "))}));
+  throw InputError(message({.where = file(),
+                            .what = fmt::format("there is no column {}", in_quotes(name)),
+                            .remedy = fmt::format("the columns are {}", fmt::join(header_->names, ", "))}));
 }
 
 void CsvReader::read_header() {
@@ -145,7 +152,10 @@ void CsvReader::read_header() {
 
   separator_ = separator_of(start.substr(position_));
   CsvRow row;
-  if (!read_record(row))
+  const bool may_tell = start.substr(position_).starts_with("sep=");  // as a spreadsheet does, in a line before
+  bool some = read_record(row);
+  if (some && may_tell && row.size() == 2 && row[0] == "sep=" && row[1].empty()) some = read_record(row);
+  if (!some)
     throw InputError("{}: is empty: expected a line with the names of the columns; see whether it was written whole",
                      file());
   std::set<std::string_view> seen;
@@ -166,7 +176,8 @@ bool CsvReader::next(CsvRow& row) {
     throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
                              .expected = fmt::format("{} as in the header", header_->names.size()),
                              .remedy = ended_ ? "the file ends within this line: see whether it is whole"
-                                              : "add or drop commas; text with commas stands in quotes"});
+                                              : fmt::format("add or drop {0}; text with {0} stands in quotes",
+                                                            plural_of(separator_))});
   return true;
 }
 
@@ -188,8 +199,7 @@ bool CsvReader::read_record(CsvRow& row) {
           while (peek() != separator_ && (peek() == ' ' || peek() == '\t')) get();
           if (const int after = peek(); after != separator_ && after != '\n' && after != '\r' && after != end_of_file)
             throw error(line_, {.found = in_quotes({&buffer_[position_], 1}) + " after a closing quote",
-                                .expected = separator_ == ',' ? "a comma or the end of the line"
-                                                              : "a tab or the end of the line",
+                                .expected = "the next field or the end of the line",
                                 .remedy = "write a quote inside quotes twice"});
         } else {
           append(row, byte);
@@ -200,7 +210,7 @@ bool CsvReader::read_record(CsvRow& row) {
       in_record = byte == separator_;
       if (!in_record) end_line(byte);
     }
-  } while (row.ends_.size() == 1 && !had_quotes && is_blank(row.text_));
+  } while (row.ends_.size() == 1 && !had_quotes && (is_blank(row.text_) || row.text_.starts_with('#')));
   return true;
 }
 

@@ -54,9 +54,9 @@ class CsvRow {
 ///     const std::size_t x = reader.column("x_m");
 ///     for (CsvRow row; reader.next(row);) use(row.number(x));
 ///
-/// Fields are separated by commas, or by tabs if the header has tabs and no comma outside quotes. Lines end with LF,
-/// CR LF or CR, and blank ones are skipped; blanks around a quoted field are allowed. Malformed input throws InputError
-/// with file and line.
+/// Fields are separated by commas, or by tabs or else semicolons if the header has these and no comma outside quotes;
+/// a first line "sep=;" is skipped. Lines end with LF, CR LF or CR; those are skipped that are blank, or a single field
+/// that begins with #. Blanks around a quoted field are allowed. Malformed input throws InputError with file and line.
 class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path);

@@ -58,6 +58,10 @@ TEST(Csv, TheSeparatorIsThatOfTheHeaderOutsideQuotes) {
   EXPECT_EQ(records(" \n\"a,b\"\tc\n1,5\t2"), (Records{{"a,b", "c"}, {"1,5", "2"}}));
   EXPECT_EQ(records("\"a\tx\ny\",b\n1,2"), (Records{{"a\tx\ny", "b"}, {"1", "2"}}));
   EXPECT_EQ(records(" \n\"a\tb\"\n1\n"), (Records{{"a\tb"}, {"1"}}));
+  EXPECT_EQ(records("a;\"b,c\";d\n1,5;2;x"), (Records{{"a", "b,c", "d"}, {"1,5", "2", "x"}}));
+  EXPECT_EQ(records("a;b\tc\n1;2\t3"), (Records{{"a;b", "c"}, {"1;2", "3"}}));
+  EXPECT_EQ(records("sep=;\na;b\n1;2"), (Records{{"a", "b"}, {"1", "2"}}));
+  EXPECT_EQ(records("\"sep=\",\n1,2"), (Records{{"sep=", ""}, {"1", "2"}}));
 }
 
 TEST(Csv, TrimsTheHeaderOnly) { EXPECT_EQ(records(" a ,\tb\n 1 , 2"), (Records{{"a", "b"}, {" 1 ", " 2"}})); }
@@ -123,9 +127,10 @@ TEST(Csv, RefusesAnOpenQuote) {
 }
 
 TEST(Csv, RefusesTextAfterAClosingQuote) {
-  EXPECT_EQ(refusal("a,b\n\"1\"2,3\n"),
-            "f.csv:2: found '2' after a closing quote, expected a comma or the end of the line; write a quote inside "
-            "quotes twice");
+  EXPECT_EQ(
+      refusal("a,b\n\"1\"2,3\n"),
+      "f.csv:2: found '2' after a closing quote, expected the next field or the end of the line; write a quote inside "
+      "quotes twice");
 }
 
 TEST(Csv, RefusesWhatIsNotText) {
@@ -148,10 +153,9 @@ TEST(Csv, FindsColumnsByName) {
             "f.csv: there is no column 'x_m'; the columns are time_s, altitude (m), ");
 }
 
-TEST(Csv, NoticesAnotherSeparator) {
-  const Read read{"time_s;x_m\n1;2"};
-  EXPECT_EQ(message_of<InputError>([&] { read.reader.column("x_m"); }),
-            "f.csv: there is no column 'x_m'; the fields seem to be separated by ';': separate them by commas or tabs");
+TEST(Csv, SkipsLinesOfWords) {
+  EXPECT_EQ(records("# 1\n\n#\na;b\n1;2\n# low\n#;3\n"), (Records{{"a", "b"}, {"1", "2"}, {"#", "3"}}));
+  EXPECT_EQ(records("# a,b\n1,2\n"), (Records{{"# a", "b"}, {"1", "2"}}));  // a header
 }
 
 TEST(Csv, ReadsNumbers) {

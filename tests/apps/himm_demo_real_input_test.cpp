@@ -69,6 +69,9 @@ std::string tracked_as_told(const Case& test) {
   for (const auto& words : test.words("never")) EXPECT_FALSE(says(output, {words})) << output;
   for (const auto& words : test.words("once")) EXPECT_EQ(output.find(words), output.rfind(words)) << output;
   for (const auto& words : test.words("writes")) EXPECT_TRUE(says(written, {words}));
+  const std::string summary = contents(directory.path() / "out" / "summary.json");
+  for (const auto& words : test.words("tells")) EXPECT_TRUE(says(summary, {words}));
+  for (const auto& words : test.words("conceals")) EXPECT_FALSE(says(summary, {words}));
   const auto found = rows(written);
   EXPECT_EQ(found.size(), test.fields.value("estimates", found.size()));
   const auto last = test.fields.value("last", nlohmann::json::object());

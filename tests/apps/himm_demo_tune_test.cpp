@@ -182,6 +182,23 @@ TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 0.001 * 60.0 * 1852.0 * 0.5 / std::sqrt(12.0), 0.01);
 }
 
+TEST_F(Tune, TakesNoEvenMotionForRounding) {
+  const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
+    const double noise = std::cos(7.0 * static_cast<double>(k * k));
+    row = {row[0], 45.0 * row[0] + 0.3 * noise, 0.4 * noise - 40.0 * row[0]};
+  });
+  const auto ending = program::succeeded(tune(quickly(directory.write("flight.csv", text))));
+  EXPECT_EQ(ending.output.find("its column is rounded"), std::string::npos) << ending.output;
+}
+
+TEST_F(Tune, LeavesASigmaAsItIsWhoseColumnsNeverChange) {
+  const auto text =
+      changed(recording(100, false), [](std::vector<double>& row, std::size_t) { row[1] = row[2] = 7.0; });
+  const auto ending = program::succeeded(tune(quickly(directory.write("flight.csv", text))));
+  EXPECT_TRUE(says(ending.on_one_line(), {"all rows: a column never changes, which no noise does"}));
+  EXPECT_EQ(ending.output.find("sigma_position_m"), std::string::npos) << ending.output;
+}
+
 TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVary) {
   const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
     row[0] += k % 3 == 0 ? 0.6 : 0.0;  // steps of 1, 0.4 and 1.6 s

@@ -247,7 +247,7 @@ TEST_F(RecognitionDemoLearning, WordsForMissingNumbersLeaveAColumnNumeric) {
   EXPECT_EQ(result("none at all", {"--missing", "gone,none at all"}), expected);
   EXPECT_EQ(result("\"12,5\"", {"--missing", "gone,\"12,5\""}), expected);
   EXPECT_TRUE(says(result("unknown", {}), {"found 'unknown', expected a number"}));
-  EXPECT_TRUE(says(result("\"12,5\"", {}), {"found '12,5', expected a number", R"(--missing '"12,5"')"}));
+  EXPECT_TRUE(says(result("\"12,5\"", {}), {"found '12,5', expected a number", R"(--missing='"12,5"')"}));
 }
 
 TEST_F(RecognitionDemoLearning, ClassifyTakesTheSameWordsForMissing) {

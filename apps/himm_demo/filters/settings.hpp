@@ -86,6 +86,9 @@ class SensorPlaces {
   /// Whether measurements come from several places.
   bool several() const { return several_; }
 
+  /// Whether nothing told the place of some, which stand where all others do.
+  bool some_unplaced() const { return !unplaced_.empty(); }
+
   /// Sentences on what was placed.
   std::vector<std::string> notes() const;
 

@@ -46,7 +46,7 @@ class Reporter {
     if (const auto& sigma = options_.radar.sigma)
       for (std::size_t i = 0; i < 3; ++i)
         add({"radar", std::array{"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"}[i]}, (*sigma)[i]);
-    if (options_.radar.sigma || recording_.polar() || recording_.bearings())
+    if (options_.radar.sigma || outcome_.some_unplaced)
       for (std::size_t i = 0; i < 3; ++i) add({"radar", "at_m", i}, options_.radar.place()[i]);
     if (const auto& origin = outcome_.origin) {
       add({"origin", "latitude_deg"}, origin->latitude_deg);
@@ -349,7 +349,7 @@ void refuse_what_ranks_cannot_share(const TrackOptions& options) {
         "under mpirun every rank reads the recording, but standard input comes only once; give the name of a file");
 }
 
-void track_and_report(const TrackOptions& options, TrackShares& shares) {
+void track_and_report(TrackOptions options, TrackShares& shares) {
   RecordingOptions what = options.recording;
   auto filters = filters_for(what, options.config, options.sets, options.radar.sigma);
   if (options.print_config) {
@@ -360,6 +360,12 @@ void track_and_report(const TrackOptions& options, TrackShares& shares) {
   what.simulated = options.radar.sigma.has_value();
   RecordingReader recording(what);
   refuse_what_means_nothing(options, recording);
+  if (const std::string& text = options.predict_to_text; !text.empty()) {
+    options.predict_to = recording.time_of(text, options.predict_to_time_of_day);
+    if (!options.predict_to)
+      throw UsageError(
+          message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
+  }
   if (recording.moves_alone()) start_at_zero(filters);
   refuse_to_overwrite(options.output, {options.recording.file, options.config}, {"estimates.csv"});
   if (!shares.first()) {
@@ -393,16 +399,7 @@ void add_track(CLI::App& program, const std::string& command) {
   options->output.command = command;
   app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
-  app.option(
-         "--predict-to",
-         [options](const std::string& text) {
-           options->predict_to = parse_timestamp(text);
-           options->predict_to_time_of_day = is_time_of_day(text);
-           if (!options->predict_to)
-             throw UsageError(
-                 message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
-         },
-         "A time up to which each target is predicted after its last row")
+  app.option("--predict-to", options->predict_to_text, "A time up to which each target is predicted after its last row")
       .type("TIME");
   app.flag("--iso-times", options->iso_times,
            "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");

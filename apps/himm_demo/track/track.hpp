@@ -183,6 +183,7 @@ struct TrackOptions {
   std::string config;
   std::vector<std::string> sets;
   bool print_config = false;
+  std::string predict_to_text;          ///< as it was given
   std::optional<double> predict_to;     ///< a time, up to which targets that ended before are predicted
   bool predict_to_time_of_day = false;  ///< whether that is one, so of the last day
   bool iso_times = false;               ///< a column with dates and times beside the seconds
@@ -283,6 +284,7 @@ struct TrackOutcome {
   std::size_t bearings = 0;
   std::size_t tracks = 0;
   std::vector<std::string> places;                        ///< sentences on where the sensors stand
+  bool some_unplaced = false;                             ///< whether some stand where all others do
   std::map<std::string, TrackTally> each;                 ///< of a recording of tracks
   std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
   std::map<std::string, std::size_t> sensors;             ///< the rows of each

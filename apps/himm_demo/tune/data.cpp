@@ -55,17 +55,21 @@ void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
   if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
 }
 
-/// The standard deviation of the rounding of numbers that come in whole steps; else 0.
+/// The standard deviation of the rounding of numbers that come in whole steps; else 0, and infinite where they never
+/// change.
 double rounding_of(std::vector<double> numbers) {
   std::ranges::sort(numbers);
   std::vector<double> apart;  // those that differ by more than the reading of decimals does
   for (std::size_t k = 1; k < numbers.size(); ++k)
     if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
-  if (apart.empty()) return 0.0;
+  if (apart.empty()) return std::numeric_limits<double>::infinity();
   const double least = *std::ranges::min_element(apart);
   const auto whole = std::ranges::count_if(
       apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
-  return 10 * whole >= 9 * std::ssize(apart) ? least / std::sqrt(12.0) : 0.0;
+  // Where hardly a number comes twice, and all are one step apart, it is the way of what moves evenly.
+  const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
+  const bool is_even = 5 * single > 4 * std::ssize(numbers);
+  return 10 * whole >= 9 * std::ssize(apart) && !is_even ? least / std::sqrt(12.0) : 0.0;
 }
 
 void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data,
@@ -174,6 +178,11 @@ void summarize(TuneData& data, const Columns& columns) {
         const bool is_longitude = data.geodetic && key == QuantityKey{AnyPlot::Sensor::components, 1};
         const double latitude = is_longitude ? own->second.begin()->second.front() / metres_a_degree : 0.0;
         sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
+        if (std::isinf(sensor.rounding[key]))
+          data.notes.push_back(fmt::format(
+              "{}: a column never changes, which no noise does: what is fitted may be too small, and a sigma of such "
+              "columns alone is left as it is; leave out what nothing measured",
+              name.empty() ? "all rows" : "sensor " + name));
       }
   for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 0.9);
   if (steps.empty()) return;
@@ -251,9 +260,14 @@ double quantile(std::vector<double>& numbers, double share) {
 
 double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
   double greatest = 0.0;
-  for (const auto& [key, own] : rounding)
-    if (key.first == kind && key.second >= from && key.second <= to) greatest = std::max(greatest, own);
-  return greatest;
+  bool changes = false, any = false;
+  for (const auto& [key, own] : rounding) {
+    if (key.first != kind || key.second < from || key.second > to) continue;
+    any = true;
+    changes |= std::isfinite(own);
+    if (std::isfinite(own)) greatest = std::max(greatest, own);
+  }
+  return any && !changes ? std::numeric_limits<double>::infinity() : greatest;
 }
 
 double TuneData::log_stray(const AnyPlot& plot) const {

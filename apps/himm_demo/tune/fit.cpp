@@ -84,6 +84,7 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   const Accuracy& now = settings.accuracy_of(name);
   const auto add = [&](std::string_view what, double start, double least,
                        const std::function<void(Accuracy&, double)>& set) {
+    if (std::isinf(least)) return;  // a column that never changes tells nothing of its noise
     FreeNumber& number = numbers.emplace_back();
     number.parameter.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name);
     number.sensor = number.noise = true;

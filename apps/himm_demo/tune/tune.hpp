@@ -65,7 +65,7 @@ struct TuneSensor {
   /// Of quantities that come in whole steps, as altitudes in 25 ft do: the standard deviation of the rounding.
   std::map<QuantityKey, double> rounding{};
 
-  /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none.
+  /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none, infinite if none changes.
   double rounding_of(AnyPlot::Sensor kind, int from, int to) const;
 };
 
