@@ -190,7 +190,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       recording.from_north() ? "name the column azimuth_deg, without --azimuth-from" : "give --azimuth-from north");
   say(fits(radians_) && !recording.from_north(),
       "the azimuths do not fit the {}, but would if they were radians: name the column azimuth_rad", reference);
-  const bool diverge = pairs_ >= few && 2 * crossing_<pairs_, would_cross = 10 * crossing_other_> 9 * pairs_;
+  const bool diverge = pairs_ >= few && pairs_ > 3 * crossing_;
+  const bool would_cross = 9 * pairs_ < 10 * crossing_other_;
   say(diverge, "of {} pairs of bearings {} cross ahead of both their stations; {}", pairs_, crossing_,
       would_cross && !recording.from_north()
           ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
