@@ -53,10 +53,11 @@ TEST(Pictures, ShowTheGroupsThatAreShownInTheColoursOfTheReport) {
   EXPECT_FALSE(says(script, {"'imm'"}));
   EXPECT_TRUE(says(script, {"linecolor '#7a7a7a' dashtype 1 linewidth 1.8 title 'measurement'"}));
   EXPECT_TRUE(says(script, {"linecolor '#d55e00' dashtype (8,3) linewidth 1.8 title 'himm'"}));
-  const std::string drawing = contents(SIGMAX_SOURCE "/apps/report/report.js");
-  EXPECT_TRUE(says(drawing, {"light: ['#0072b2', '#d55e00', '#009e73', '#b0508a', '#a87400', '#3d8fc4', '#5d3fa0', "
-                             "'#6b6b00']"}));
-  EXPECT_TRUE(says(drawing, {"dashes = [[], [8, 3], [2, 3], [9, 3, 2, 3], [14, 4], [5, 5], [3, 3, 9, 3], [1, 5]]"}));
+  EXPECT_TRUE(says(contents(SIGMAX_SOURCE "/apps/report/report.css"),
+                   {"--colour-0: #0072b2; --colour-1: #d55e00; --colour-2: #009e73; --colour-3: #b0508a; "
+                    "--colour-4: #a87400; --colour-5: #3d8fc4; --colour-6: #5d3fa0; --colour-7: #6b6b00;"}));
+  EXPECT_TRUE(says(contents(SIGMAX_SOURCE "/apps/report/report.js"),
+                   {"dashes = [[], [8, 3], [2, 3], [9, 3, 2, 3], [14, 4], [5, 5], [3, 3, 9, 3], [1, 5]]"}));
 }
 
 TEST(Pictures, OfAPlanHaveOneScaleFocusEllipsesAndHeights) {
