@@ -199,7 +199,7 @@
 
   function drawPlan(panel, place) {
     const svg = d3.create('svg').attr('class', 'map').attr('role', 'img').attr('aria-label', panel.title);
-    const groups = [...new Map(panel.traces.map((trace) => [trace.name, trace])).values()], crowded = groups.length > 12;
+    const groups = [...new Map(panel.traces.map((trace) => [trace.name, trace])).values()], crowded = groups.length > 12, clip = `clip${plans.length}`;
     const key = element('div', {className: 'readout'});
     const points = (trace) => trace.x.map((x, k) => [shown(x), shown(trace.y[k]), ...(trace.z ? [shown(trace.z[k])] : [])]);
     const table = folded('Table', () => grid(['', panel.x_label, panel.y_label, 'up, m'].slice(0, panel.traces.some((t) => t.z) ? 4 : 3),
@@ -238,7 +238,7 @@
           .scale(k).translate(-(left + right) / 2, -(bottom + top) / 2));
         return;
       }
-      const x = transform.rescaleX(wholeX), y = transform.rescaleY(wholeY), clip = `clip${plans.length}${Math.round(width)}`;
+      const x = transform.rescaleX(wholeX), y = transform.rescaleY(wholeY);
       svg.selectAll('*').remove();
       svg.append('clipPath').attr('id', clip).append('rect').attr('x', edge.left).attr('y', edge.top)
         .attr('width', inner.width).attr('height', inner.height);
@@ -594,7 +594,7 @@
     document.documentElement.classList.toggle('printing', begins);
     plans.forEach((again) => again());
     for (const {graph, graph: {graphDiv: {parentNode: box}}} of charts)
-      box.style.zoom = begins ? box.parentNode.clientWidth / graph.size().width : '';
+      box.style.zoom = begins ? Math.min(box.parentNode.clientWidth / graph.size().width, 240 / graph.size().height) : '';
   };
   addEventListener('beforeprint', () => print(true));
   addEventListener('afterprint', () => print(false));

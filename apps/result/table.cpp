@@ -153,8 +153,9 @@ std::string number_text(double value, int digits, bool sign) {
 }
 
 std::string sized_text(double value, int digits, bool sign) {
-  const bool vanishes = value != 0.0 && std::abs(value) < 0.5 * std::pow(10.0, -digits);
-  if (!vanishes) return number_text(value, digits, sign);
+  const double size = std::abs(value);
+  const bool legible = size >= 0.5 * std::pow(10.0, -digits) && size < 1e6;
+  if (value == 0.0 || !std::isfinite(value) || legible) return number_text(value, digits, sign);
   return sign ? fmt::format("{:+.2g}", value) : fmt::format("{:.2g}", value);
 }
 

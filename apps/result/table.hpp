@@ -20,7 +20,7 @@ enum class Align { left, right };
 /// A number with so many digits after the point. Great numbers come as 1.5e+150, NaN as "–".
 std::string number_text(double value, int digits, bool sign = false);
 
-/// As `number_text`, but what would be 0.00 keeps two digits that count: 0.0012, 3.4e-07.
+/// As `number_text`, but what would be 0.00, and millions, have two digits that count: 0.0012, 3.4e-07, 6.4e+07.
 std::string sized_text(double value, int digits, bool sign = false);
 
 /// What a cell of a result holds: nothing, words, a number, a count, whether something holds, or a mean with its

@@ -385,6 +385,7 @@ TEXTS = """(() => {
     if (!/[\\s-]/.test(one.textContent.trim()) && boxOf(one).height > 2.2 * parseFloat(getComputedStyle(one).fontSize))
       found.push(`${one.textContent} is broken in a table`);
   }
+  if (document.querySelectorAll('clipPath').length > new Set([...document.querySelectorAll('clipPath')].map((one) => one.id)).size) found.push('two maps share a clip');
   for (const one of document.querySelectorAll('.scroll'))
     if (paper && one.scrollWidth > one.clientWidth + 1) found.push(`${one.closest('figure').querySelector('h2').textContent}: is cut on paper`);
   return found;

@@ -11,6 +11,10 @@ constexpr std::size_t most_sensors = 6;    // with a chart of their own
 
 constexpr std::array<const char*, 3> cartesian_names = {"x", "y", "z"}, geodetic_names = {"east", "north", "up"};
 
+Curve dots(std::string name, const std::string& group, std::vector<double> values) {
+  return {.name = std::move(name), .group = group, .values = std::move(values), .dots = true};
+}
+
 /// Adds a curve unless nothing of it is known, with a band of ± 2 σ where there is a σ.
 void add(Curve curve, LineChart& chart, const std::vector<double>& sigma = {}) {
   if (std::ranges::all_of(curve.values, [](double value) { return std::isnan(value); })) return;
@@ -207,8 +211,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
     LineChart made = chart(track, title, y_label + "; band: ± 2 σ");
     const bool is_height = estimate == position_at + 2;
     const auto values = [&](std::size_t from) { return is_height ? heights(track, from) : track.rows.column(from); };
-    if (estimate < error_at)
-      add({measurement_name, measurement_name, values(plot_at + estimate), {}, {}, -1, true}, made);
+    if (estimate < error_at) add(dots(measurement_name, measurement_name, values(plot_at + estimate)), made);
     add({truth_name, truth_name, values(truth)}, made);
     for (std::size_t f = 0; f < filters_.size(); ++f)
       add({filters_[f].name, filters_[f].name, values(column(f, estimate))}, made, track.rows.column(column(f, sigma)));
@@ -243,11 +246,7 @@ std::vector<LineChart> TrackPage::error_charts(const Track& track) const {
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
     const std::string along = (recording_.on_the_earth() ? geodetic_names : cartesian_names)[axis];
     LineChart errors = chart(track, "Error in " + along, "error, m; band: ± 2 σ");
-    add({.name = measurement_name,
-         .group = measurement_name,
-         .values = track.rows.column(plot_error_at + axis),
-         .dots = true},
-        errors);
+    add(dots(measurement_name, measurement_name, track.rows.column(plot_error_at + axis)), errors);
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       const std::string& filter = filters_[f].name;
       const auto sigma = track.rows.column(column(f, sigma_at + axis));
@@ -280,7 +279,7 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
   LineChart nis = chart(track, "NIS a measured quantity",
                         fmt::format("mean of {} rows; right is 1; dots: single ones beyond 99.9 %", recent_rows));
   nis.logarithmic = true;
-  nis.least_y = 0.01;
+  std::vector<double> means;
   Curve usual{
       .name = "95 % if consistent", .group = measurement_name, .values = track.rows.column(column(0, quantities_at))};
   for (double& number : usual.values) {
@@ -292,13 +291,13 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
   add(std::move(usual), nis);
   for (std::size_t f = 0; f < filters_.size(); ++f) {
     const std::string& filter = filters_[f].name;
-    add({filter, filter, track.rows.column(column(f, nis_at))}, nis);
-    add({.name = filter + " outliers",
-         .group = filter,
-         .values = track.rows.column(column(f, outlier_at)),
-         .dots = true},
-        nis);
+    const std::vector<double> recent = track.rows.column(column(f, nis_at));
+    std::ranges::copy_if(recent, std::back_inserter(means), [](double mean) { return mean > 0.0; });
+    add({filter, filter, recent}, nis);
+    add(dots(filter + " outliers", filter, track.rows.column(column(f, outlier_at))), nis);
   }
+  std::ranges::sort(means);  // the first rows, and rest, would take half of the axis
+  nis.least_y = means.empty() ? 0.1 : std::clamp(0.8 * means[means.size() / 100], 0.01, 0.3);
   if (!nis.curves.empty()) panels.emplace_back(std::move(nis));
   for (std::size_t s = 0; s < std::min(most_sensors, sensors_.size()); ++s) {
     constexpr double end = 5.0;
@@ -310,10 +309,8 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       const auto sensor = track.rows.column(column(f, sensor_at));
       for (std::size_t i = 0; i < innovations; ++i) {
-        Curve one{.name = fmt::format("{} {}", filters_[f].name, i + 1),
-                  .group = filters_[f].name,
-                  .values = track.rows.column(column(f, innovation_at + i)),
-                  .dots = true};
+        Curve one = dots(fmt::format("{} {}", filters_[f].name, i + 1), filters_[f].name,
+                         track.rows.column(column(f, innovation_at + i)));
         for (std::size_t k = 0; k < sensor.size(); ++k)
           if (sensor[k] != static_cast<double>(s)) one.values[k] = nan;
         add(std::move(one), made);
