@@ -240,7 +240,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     say(unit.unit_s < 1.0 && !in_minutes && step * unit.unit_s >= 0.1 && step * unit.unit_s <= 20.0 &&
             speed / unit.unit_s >= 0.5 && speed / unit.unit_s < 500.0,
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
-        step, speed, unit.unit_s == 1e-3 ? "milliseconds" : "microseconds", unit.name);
+        step, speed, unit.words, unit.name);
   say(speed > 1.2e4,  // nothing on the Earth or about it is as fast
       "a speed of {:.2g} m/s, where times are {:.2g} s apart: if times are not seconds, name the column "
       "time_min, time_h or time_days",

@@ -120,15 +120,16 @@ inline constexpr std::array<Quantity, 39> quantities = {
      {Role::sensor_place, {"sensor_longitude"}, units::degrees, " east"},
      {Role::sensor_place, {"sensor_altitude"}, units::lengths, " above the ellipsoid"}}};
 
-/// Headers of times, and the unit of their numbers, in s; the first that there is counts.
+/// Headers of times, and the unit of their numbers, in s; one that --columns names counts, else the first that there
+/// is.
 struct TimeColumn {
   std::string_view name;
   double unit_s;
   std::string_view words;
 };
-inline constexpr TimeColumn time_columns[] = {{"time_s", 1.0, "s"},        {"time_ms", 1e-3, "ms"},
-                                              {"time_us", 1e-6, "µs"},     {"time_min", 60.0, "minutes"},
-                                              {"time_h", 3600.0, "hours"}, {"time_days", 86400.0, "days"}};
+inline constexpr TimeColumn time_columns[] = {
+    {"time_s", 1.0, "s"},          {"time_ms", 1e-3, "ms"},     {"time_us", 1e-6, "µs"},       {"time_ns", 1e-9, "ns"},
+    {"time_min", 60.0, "minutes"}, {"time_h", 3600.0, "hours"}, {"time_days", 86400.0, "days"}};
 
 /// Where a role begins among them, and how many it has.
 constexpr std::size_t place_of(Role role) {

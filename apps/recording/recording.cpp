@@ -100,8 +100,9 @@ void RecordingReader::drop(Role role, std::size_t from) {
 void RecordingReader::find_columns(const RecordingOptions& options) {
   std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
   std::optional<std::size_t> time;
-  for (const TimeColumn& unit : time_columns)
-    if (!time && (time = find(unit.name))) time_unit_ = &unit;
+  for (const bool mapped : {true, false})
+    for (const TimeColumn& unit : time_columns)
+      if (!time && mapping_.contains(unit.name) == mapped && (time = find(unit.name))) time_unit_ = &unit;
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   if (!has(Role::polar, 1)) std::swap(column(Role::polar, 1), column(Role::polar, 3));
