@@ -176,7 +176,8 @@ void summarize(TuneData& data, const Columns& columns) {
     if (const auto own = columns.find(name); own != columns.end())
       for (const auto& [key, numbers] : own->second) {
         const bool is_longitude = data.geodetic && key == QuantityKey{AnyPlot::Sensor::components, 1};
-        const double latitude = is_longitude ? own->second.begin()->second.front() / metres_a_degree : 0.0;
+        const double latitude =
+            is_longitude ? own->second.at({AnyPlot::Sensor::components, 0}).front() / metres_a_degree : 0.0;
         sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
         if (std::isinf(sensor.rounding[key]))
           data.notes.push_back(fmt::format(
