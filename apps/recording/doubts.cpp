@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "recording/plots.hpp"
 
@@ -12,6 +13,8 @@ constexpr std::size_t few = 10, many = 10000;
 
 // Over so many rows the two kinds of rates are compared.
 constexpr std::array<std::size_t, 3> lengths = {1, 10, 100};
+
+double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 double distance(const auto& a, const auto& b) {
   double square = 0.0;
@@ -101,6 +104,44 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   before.last = now;
 }
 
+void Doubts::Apart::add(const Position& now, const Position& velocity, double own_now) {
+  for (std::size_t i = 0; i < 3; ++i) off[i] += now[i];
+  squares += dot(now, now);
+  along += dot(now, velocity);
+  moved += dot(velocity, velocity);
+  own += own_now;
+  ++count;
+}
+
+double Doubts::Apart::by_place() const {
+  const auto n = static_cast<double>(count);
+  return dot(off, off) / (n * n);
+}
+
+/// What another sensor told between this one's last row and now, beside the way between these two.
+void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track) {
+  const auto own = track.spoke.find(sensor);
+  if (own == track.spoke.end()) return;
+  const Spoke& last = own->second.last;
+  const double T = now.time - last.time;
+  const auto off_the_way = [](double t, const auto& at, double from, const auto& a, double to, const auto& b) {
+    Position off{};
+    for (std::size_t i = 0; i < 3; ++i) off[i] = at[i] - a[i] - (b[i] - a[i]) * (t - from) / (to - from);
+    return off;
+  };
+  if (const auto& before = own->second.before; before && T > 0.0 && T <= 2.0 * (last.time - before->first)) {
+    const auto bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
+    if (const auto other = track.spoke.find(track.latest); other != own && other->second.last.time >= last.time) {
+      Position velocity{};
+      for (std::size_t i = 0; i < 3; ++i) velocity[i] = (now.at[i] - last.at[i]) / T;
+      const Spoke& told = other->second.last;
+      apart_[{sensor, other->first}].add(off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
+                                         velocity, dot(bend, bend));
+    }
+  }
+  own->second.before = {last.time, {last.at[0], last.at[1], last.at[2]}};
+}
+
 void Doubts::see(const Row& row, const std::optional<Position>& position, int axes) {
   const AnyPlot& plot = row.plot;
   const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing, has_rate = plot.sensor == AnyPlot::Sensor::doppler;
@@ -123,6 +164,8 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
   for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
   if (now.twice) ++twice_rows_;
+  see_other(row.sensor, now, track);
+  track.latest = row.sensor;
   const Since since{now.time, now.at};
   const auto [before, first] = track.spoke.try_emplace(row.sensor, Sensor{now, {since, since, since}});
   if (!first) see_rates(before->second, now);
@@ -201,6 +244,30 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "row before, which is no noise: see whether both have the same axes, units and times, and whether the truth is "
       "empty where there is none",
       off_ / static_cast<double>(errors_), same_, errors_);
+  std::set<std::string> doubted;  // so that none is named twice
+  for (const auto& [sensors, apart] : apart_) {
+    const auto& [one, other] = sensors;
+    const double place = apart.by_place(), clock = apart.by_clock(), best = std::max(place, clock);
+    const auto of = static_cast<double>(apart.count);
+    if (apart.count < few || 2.0 * best * of < apart.squares || best * of < apart.own || doubted.contains(one))
+      continue;
+    doubted.insert(other);
+    std::vector<std::string> off;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(recording.axes()); ++i)
+      off.push_back(fmt::format("{:.3g}", apart.off[i] / of));
+    const std::string by_place = fmt::format("{:.3g} m away, by ({})", std::sqrt(place), fmt::join(off, ", "));
+    const double late = apart.along / apart.moved;  // where its times are too early
+    const std::string by_clock =
+        fmt::format("{:.2g} s too {} in its times", std::abs(late), late > 0.0 ? "early" : "late");
+    say(true,
+        "beside sensor '{}', sensor '{}' is {} on the average of {} rows, more than either scatters: see whether both "
+        "count from one origin and datum (sensor.{}.at), and by one clock",
+        one, other,
+        place > 1.2 * clock   ? by_place
+        : clock > 1.2 * place ? by_clock
+                              : by_place + ", or " + by_clock,
+        apart.count, other);
+  }
   say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
       "position, empty those cells or name them by --missing",

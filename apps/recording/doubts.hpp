@@ -50,6 +50,19 @@ class Doubts {
   struct Sensor {
     Spoke last;
     std::array<Since, 3> since;
+    std::optional<std::pair<double, Position>> before{};  // the last one
+  };
+  /// How far a sensor's positions are off the way between two of another one, as sums over the rows.
+  struct Apart {
+    std::size_t count = 0;
+    Position off{};
+    double squares = 0.0, along = 0.0, moved = 0.0;  // of that, of it times that way's velocity, and of the latter
+    double own = 0.0;                                // of what the other one is off the way between two of its own
+
+    void add(const Position& now, const Position& velocity, double own_now);
+    /// The mean square that one shift of the place, or of the clock, accounts for.
+    double by_place() const;
+    double by_clock() const { return moved > 0.0 ? along * along / moved / static_cast<double>(count) : 0.0; }
   };
   struct Bearing {
     Position from;
@@ -61,11 +74,13 @@ class Doubts {
     std::optional<Position> located{};      // by a sensor of positions
     std::optional<Bearing> bearing{};       // the last one
     std::map<std::string, Sensor> spoke{};  // by sensor
+    std::string latest{};                   // of them
   };
   void see_time(double time);
   void see_azimuth(double azimuth, const Position& from_radar);
   void see_bearing(const Bearing& now, std::optional<Bearing>& before);
   void see_rates(Sensor& before, Spoke now);
+  void see_other(const std::string& sensor, const Spoke& now, Track& track);
   double median_step() const;
 
   std::map<std::string, Track> tracks_;
@@ -75,7 +90,8 @@ class Doubts {
   std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
   std::optional<double> twice_;       // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
-  double to_twice_ = 0.0;              // the path there and back
+  double to_twice_ = 0.0;                                       // the path there and back
+  std::map<std::pair<std::string, std::string>, Apart> apart_;  // sensors of one track
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
   std::size_t azimuths_ = 0;

@@ -58,7 +58,10 @@ const Quantity* without_known_unit(std::string_view header) {
   for (const Quantity& quantity : quantities) {
     for_each_header(quantity, [&](const std::string& name, const Unit&) { known |= name == header; });
     for (const std::string_view stem : quantity.stems) {
-      if (stem.size() <= longest || !has_stem(header, stem)) continue;
+      const bool has_unit = std::ranges::any_of(quantity.units, [&](const Unit& unit) {
+        return !unit.suffix.empty() && header.ends_with("_" + std::string(unit.suffix));
+      });
+      if (stem.size() <= longest || !has_stem(header, stem) || has_unit) continue;
       found = &quantity;
       longest = stem.size();
     }

@@ -253,11 +253,14 @@ bool RecordingReader::take_time(Row& row) {
     if (of_day) latest_of_day_ = time;
     return true;
   }
+  const double week_s = 7.0 * day_s, before = last_.find(row.track)->second.time;
   if (!skip_bad_times_)
     throw row_.error(
-        time_, fmt::format("a time after that of the row before, {}", shortest(last_.find(row.track)->second.time)),
-        sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
-        : time == last_.find(row.track)->second.time
+        time_, fmt::format("a time after that of the row before, {}", shortest(before)),
+        time >= 0.0 && time < day_s && before > week_s - day_s && before < week_s
+            ? "if these are seconds of the week, a new one begins here: add 604800 from here on"
+        : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
+        : time == before
             ? "where several sensors measure at one time, name them in a column sensor; else drop repeated rows, or "
               "give --on-bad-time skip"
             : "sort the rows by time, or give --on-bad-time skip");

@@ -302,12 +302,17 @@ class TrackRun {
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
     auto news = shares_.by(target.rank, [&] { return followed(target, again); });
     if (!news) return;
-    std::optional<double> least;  // of the filters' NIS
+    std::optional<double> least;    // of the filters' NIS
+    std::vector<std::size_t> lost;  // who does not expect the row
     for (Said& said : news->said) {
       const auto nis = said.point.tag + 1 == target.taken ? said.point.nis : std::nullopt;
       if (nis && (!least || *nis < *least)) least = nis;
+      if (nis && *nis > Outliers::limit) lost.push_back(said.filter);
       tell(target, said);
     }
+    for (const std::size_t f : lost)
+      if (Lost& its = outcome_.filters[f].lost; *least <= Outliers::limit && its.count++ == 0)
+        its.first_line = target.rows.back().line;
     stepped(target.rows.back(), target.tallies, news->tallies);
     if (least && *least > Outliers::limit) {
       Outliers& outliers = outcome_.outliers;

@@ -109,7 +109,7 @@ class Reporter {
             numbered(outcome_.range_rate_unknown));
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
-        fmt::format("{} tracks by {}{}", outcome_.tracks, options_.recording.track_id,
+        fmt::format("{} track{} by {}{}", outcome_.tracks, outcome_.tracks == 1 ? "" : "s", options_.recording.track_id,
                     short_ones == 0 ? ""
                     : outcome_.bearings == outcome_.measurements
                         ? fmt::format(", {} of them without bearings that cross, from which every filter could start",
@@ -134,7 +134,7 @@ class Reporter {
   }
 
   std::vector<std::string> make_warnings() const {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = outcome_.doubts.sentences(recording_);  // causes before what they bring about
     const auto warn = [&](bool holds, const auto& words) {
       if (holds) warnings.push_back(words());
     };
@@ -158,6 +158,18 @@ class Reporter {
           file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
           many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
     });
+    const auto lost =
+        std::ranges::max_element(outcome_.filters, {}, [](const FilterOutcome& one) { return one.lost.count; });
+    warn(
+        lost->lost.count >= 5 && 20 * lost->lost.count >= outcome_.measurements && lost->lost.count > outliers.count,
+        [&] {
+          return fmt::format(
+              "{}:{}: filter '{}' does not expect this measurement, though another filter does; so it is with {} of {} "
+              "(NIS "
+              "above {}); raise its sigma_w, or see what the other one has that it lacks",
+              file_, lost->lost.first_line, filters_[static_cast<std::size_t>(lost - outcome_.filters.begin())].name,
+              lost->lost.count, outcome_.measurements, Outliers::limit);
+        });
     const Refusals& worst = outcome_.refusals;
     warn(worst.many > 0, [&] {
       return fmt::format(
@@ -202,7 +214,6 @@ class Reporter {
           "later; write it as the recording writes its times",
           file_);
     });
-    for (const std::string& doubt : outcome_.doubts.sentences(recording_)) warnings.push_back(doubt);
     return warnings;
   }
 

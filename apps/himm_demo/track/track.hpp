@@ -213,11 +213,18 @@ struct Sums {
 };
 using SumsByPart = std::array<Sums, parts.size()>;
 
+/// Measurements that one filter alone does not expect so: another one does.
+struct Lost {
+  std::size_t count = 0;
+  std::size_t first_line = 0;
+};
+
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
-  std::size_t rejected = 0;                                ///< by the gate
-  std::size_t restarts = 0;                                ///< after a gap
+  std::size_t rejected = 0;  ///< by the gate
+  std::size_t restarts = 0;  ///< after a gap
+  Lost lost;
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
 };
 
