@@ -98,24 +98,11 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     for (std::size_t i = 0; i < 2; ++i) {
       rates_[k].velocities.add(since.told[i], grew[i]);
       rates_[k].exchanged.add(since.told[1 - i], grew[i]);
+      rates_[k].to_the_left.add(i == 0 ? -since.told[1] : since.told[0], grew[i]);
     }
     since = {now.time, now.at};
   }
   before.last = now;
-}
-
-void Doubts::Apart::add(const Position& now, const Position& velocity, double own_now) {
-  for (std::size_t i = 0; i < 3; ++i) off[i] += now[i];
-  squares += dot(now, now);
-  along += dot(now, velocity);
-  moved += dot(velocity, velocity);
-  own += own_now;
-  ++count;
-}
-
-double Doubts::Apart::by_place() const {
-  const auto n = static_cast<double>(count);
-  return dot(off, off) / (n * n);
 }
 
 /// What another sensor told between this one's last row and now, beside the way between these two.
@@ -135,11 +122,70 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
       Position velocity{};
       for (std::size_t i = 0; i < 3; ++i) velocity[i] = (now.at[i] - last.at[i]) / T;
       const Spoke& told = other->second.last;
-      apart_[{sensor, other->first}].add(off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
-                                         velocity, dot(bend, bend));
+      auto& all = apart_[{sensor, other->first}];
+      if (all.size() < many)
+        all.push_back({off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
+                       velocity,
+                       {told.at[0], told.at[1], told.at[2]},
+                       told.from_radar,
+                       dot(bend, bend)});
     }
   }
   own->second.before = {last.time, {last.at[0], last.at[1], last.at[2]}};
+}
+
+/// What accounts for most of it: a shift, or so many times something of the row. Empty if nothing does.
+std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
+  const auto median = [&](const auto& number) {
+    std::vector<double> all;
+    for (const Off& row : rows)
+      if (const double one = number(row); std::isfinite(one)) all.push_back(one);
+    if (all.size() < few) return nan;
+    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
+    return all[all.size() / 2];
+  };
+  Position shift;
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = median([&](const Off& row) { return row.by[i]; });
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) parts.push_back(fmt::format("{:.3g}", shift[i]));
+  std::vector<std::pair<double, std::string>> causes = {
+      {median([&](const Off& row) { return std::pow(distance(row.by, shift), 2); }),
+       fmt::format("{:.3g} m away, by ({})", std::sqrt(dot(shift, shift)), fmt::join(parts, ", "))}};
+  const auto consider = [&](std::string_view format, double unit, const auto& of) {
+    const double times = median([&](const Off& row) {
+      const Position direction = of(row);
+      return dot(row.by, direction) / dot(direction, direction);
+    });
+    causes.emplace_back(median([&](const Off& row) {
+                          Position expected = of(row);
+                          for (double& along : expected) along *= times;
+                          return std::pow(distance(row.by, expected), 2);
+                        }),
+                        fmt::format(fmt::runtime(format), std::abs(times) / unit, times > 0.0 ? "early" : "late"));
+  };
+  const auto across = [](const Position& at) { return Position{-at[1], at[0], 0.0}; };
+  consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.velocity; });
+  if (rows.front().from_radar) {
+    const auto from = [](const Off& row) { return row.from_radar.value_or(Position{}); };
+    consider("turned by {:.2g}° about where it stands", degree, [&](const Off& row) { return across(from(row)); });
+    consider("{:.3g} m off in its ranges", 1.0, [&](const Off& row) {
+      Position at = from(row);
+      const double range = std::sqrt(dot(at, at));
+      for (double& along : at) along /= range;
+      return at;
+    });
+  } else {
+    consider("turned by {:.2g}°", degree, [&](const Off& row) { return across(row.at); });
+    consider("{:.2g} % off in scale", 0.01, [](const Off& row) { return row.at; });
+  }
+  const double all = median([](const Off& row) { return dot(row.by, row.by); });
+  const double bend = median([](const Off& row) { return row.bend; });
+  const double best = std::ranges::min_element(causes)->first;
+  if (!(best < 0.5 * all) || !(all - best > bend)) return {};
+  std::string why;
+  for (const auto& [left, words] : causes)
+    if (left - best <= 0.05 * (all - best)) why += (why.empty() ? "" : ", or ") + words;
+  return why;
 }
 
 void Doubts::see(const Row& row, const std::optional<Position>& position, int axes) {
@@ -154,12 +200,15 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
   if (is_bearing) see_bearing({plot.origin, plot.z[0]}, track.bearing);
   if (!position || axes_seen(plot, axes) < axes) return;
   const Position& at = *position;
+  farthest_ = std::max(farthest_, std::hypot(at[0], at[1]));
   if (!twice_) twice_ = row.twice;
   Spoke now{plot.time,
             {at[0], at[1], at[2], is_radar ? plot.z[0] : 0.0},
             {nan, nan, nan, has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
             {nan, nan, nan},
+            {},
             row.twice && row.twice == twice_};
+  if (is_radar) now.from_radar = {at[0] - plot.origin[0], at[1] - plot.origin[1], at[2] - plot.origin[2]};
   for (std::size_t i = 0; i < static_cast<std::size_t>(axes) && axes > 1; ++i)
     now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
   for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
@@ -214,15 +263,27 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   const auto say_scale = [&](std::string_view name, std::string_view others, const auto& agreement) {
     for (const Rates& rates : rates_) {
-      const double growth = agreement(rates).growth_per_told();
-      if (!fit(agreement(rates)) || (growth > 0.7 && growth < 1.4)) continue;
+      if (!fit(agreement(rates)) || !agreement(rates).other_size()) continue;
       return say(true,
                  "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that "
                  "of their header",
-                 name, 1.0 / growth, others, others);
+                 name, 1.0 / agreement(rates).growth_per_told(), others, others);
     }
   };
   say_scale("velocities", "positions", [](const Rates& rates) { return rates.velocities; });
+  for (const Rates& rates : rates_) {
+    constexpr double earth = 6.4e6;  // of whose north one is another's, far away
+    const double angle = std::atan2(rates.to_the_left.product, rates.velocities.product);
+    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(rates.velocities.error_square(), 0.0)) +
+                          (recording.on_the_earth() ? 2.0 * farthest_ / earth : 0.0);
+    if (!fit(rates.velocities) || std::abs(angle) < margin) continue;
+    say(true,
+        "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
+        "and "
+        "whether it is one, and no heading",
+        std::abs(angle) / degree, angle > 0.0 ? "right" : "left");
+    break;
+  }
   say_scale("range rates", "ranges", [](const Rates& rates) { return rates.each[3]; });
   const auto n = static_cast<double>(azimuths_);
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
@@ -245,28 +306,15 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "empty where there is none",
       off_ / static_cast<double>(errors_), same_, errors_);
   std::set<std::string> doubted;  // so that none is named twice
-  for (const auto& [sensors, apart] : apart_) {
+  for (const auto& [sensors, rows] : apart_) {
     const auto& [one, other] = sensors;
-    const double place = apart.by_place(), clock = apart.by_clock(), best = std::max(place, clock);
-    const auto of = static_cast<double>(apart.count);
-    if (apart.count < few || 2.0 * best * of < apart.squares || best * of < apart.own || doubted.contains(one))
-      continue;
+    const std::string why = rows.size() < few || doubted.contains(one) ? "" : why_apart(rows, recording.axes());
+    if (why.empty()) continue;
     doubted.insert(other);
-    std::vector<std::string> off;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(recording.axes()); ++i)
-      off.push_back(fmt::format("{:.3g}", apart.off[i] / of));
-    const std::string by_place = fmt::format("{:.3g} m away, by ({})", std::sqrt(place), fmt::join(off, ", "));
-    const double late = apart.along / apart.moved;  // where its times are too early
-    const std::string by_clock =
-        fmt::format("{:.2g} s too {} in its times", std::abs(late), late > 0.0 ? "early" : "late");
     say(true,
-        "beside sensor '{}', sensor '{}' is {} on the average of {} rows, more than either scatters: see whether both "
-        "count from one origin and datum (sensor.{}.at), and by one clock",
-        one, other,
-        place > 1.2 * clock   ? by_place
-        : clock > 1.2 * place ? by_clock
-                              : by_place + ", or " + by_clock,
-        apart.count, other);
+        "beside sensor '{}', sensor '{}' is {} in most of {} rows, which is more than either scatters: see where both "
+        "count from (sensor.{}.at), their datum and north, and their clocks",
+        one, other, why, rows.size(), other);
   }
   say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
@@ -297,7 +345,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "forward, write them with their zone",
       step);
   if (!recording.times_are_seconds()) return sentences;
-  say(times_ >= 2 * few && clocks_ == times_ && minutes_ > 2 && uneven_ > 0,
+  const bool of_a_date = latest_ >= 1.9e13 && latest_ < 2.1e13;
+  say(times_ >= 2 * few && clocks_ == times_ && (minutes_ > 2 || of_a_date) && uneven_ > 0,
       "no time ends on 60 to 99, as numbers of seconds would; if they are hours, minutes and seconds in a row, give "
       "--time-format {}",
       latest_ < 1e6 ? "%H%M%S" : "%Y%m%d%H%M%S");

@@ -24,22 +24,31 @@ class Doubts {
     void add(double told_now, double growth);
     double correlation() const { return product / std::sqrt(told * grew); }
     double growth_per_told() const { return product / told; }
+    /// The square of the relative standard error of that.
+    double error_square() const { return (told * grew / (product * product) - 1.0) / static_cast<double>(count); }
+    /// Whether what is told is too small, or too great, whichever of the two is noisy.
+    bool other_size() const {
+      const double margin = 0.08 + 5.0 * std::sqrt(std::max(error_square(), 0.0));
+      return growth_per_told() > 1.0 + margin || grew / product < 1.0 / (1.0 + margin);
+    }
     /// Whether the rate has the other sign, by four standard errors of a correlation that is none.
     bool other_sign() const {
       return correlation() < -0.5 && correlation() * correlation() * static_cast<double>(count) > 16.0;
     }
   };
-  /// The rates along x, y and z, and of the range; those of the first two together, and taken for each other.
+  /// The rates along x, y and z, and of the range; those of the first two together, taken for each other, and a right
+  /// angle to the left.
   struct Rates {
     std::array<Agreement, 4> each;
-    Agreement velocities, exchanged;
+    Agreement velocities, exchanged, to_the_left;
   };
   /// What a sensor told: a position and its range, and how fast they grow.
   struct Spoke {
     double time;
     std::array<double, 4> at, rate;
     Position error;  ///< about the truth
-    bool twice;      ///< whether it is the number that comes twice
+    std::optional<Position> from_radar;
+    bool twice;  ///< whether it is the number that comes twice
   };
   /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
   struct Since {
@@ -52,17 +61,11 @@ class Doubts {
     std::array<Since, 3> since;
     std::optional<std::pair<double, Position>> before{};  // the last one
   };
-  /// How far a sensor's positions are off the way between two of another one, as sums over the rows.
-  struct Apart {
-    std::size_t count = 0;
-    Position off{};
-    double squares = 0.0, along = 0.0, moved = 0.0;  // of that, of it times that way's velocity, and of the latter
-    double own = 0.0;                                // of what the other one is off the way between two of its own
-
-    void add(const Position& now, const Position& velocity, double own_now);
-    /// The mean square that one shift of the place, or of the clock, accounts for.
-    double by_place() const;
-    double by_clock() const { return moved > 0.0 ? along * along / moved / static_cast<double>(count) : 0.0; }
+  /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
+  struct Off {
+    Position by, velocity, at;
+    std::optional<Position> from_radar;  ///< where it is from the sensor, of a radar
+    double bend;                         ///< squared, of the other one's own last position off its own way
   };
   struct Bearing {
     Position from;
@@ -80,18 +83,20 @@ class Doubts {
   void see_azimuth(double azimuth, const Position& from_radar);
   void see_bearing(const Bearing& now, std::optional<Bearing>& before);
   void see_rates(Sensor& before, Spoke now);
+  static std::string why_apart(const std::vector<Off>& rows, int axes);
   void see_other(const std::string& sensor, const Spoke& now, Track& track);
   double median_step() const;
 
   std::map<std::string, Track> tracks_;
   std::vector<double> steps_;         // between measurements of a track, the first thousands
   std::array<Rates, 3> rates_;        // from row to row, where noise hides what is slow, and over many rows
+  double farthest_ = 0.0;             // of positions from where they are counted
   double path_ = 0.0;                 // of all positions, each sensor's own
   std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
   std::optional<double> twice_;       // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
-  double to_twice_ = 0.0;                                       // the path there and back
-  std::map<std::pair<std::string, std::string>, Apart> apart_;  // sensors of one track
+  double to_twice_ = 0.0;                                                  // the path there and back
+  std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousands
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
   std::size_t azimuths_ = 0;

@@ -44,8 +44,12 @@ std::optional<double> not_available(std::string_view header) {
 std::string_view instead_of(std::string_view header) {
   constexpr std::string_view sigma = "one standard deviation along each axis is sigma_position_m";
   constexpr std::string_view rate = "how fast the range grows is range_rate_mps, how fast it falls closing_rate_mps";
+  constexpr std::string_view height = "a height is altitude_m beside a latitude, else z_m";
+  constexpr std::string_view elevation = "an angle upwards from the horizon is elevation_deg";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
-      {"accuracy", sigma}, {"sigma_m", sigma}, {"std_m", sigma}, {"doppler", rate}, {"radial_velocity", rate}};
+      {"accuracy", sigma},       {"sigma_m", sigma},       {"std_m", sigma},         {"doppler", rate},
+      {"radial_velocity", rate}, {"elevation_m", height},  {"elevation_ft", height}, {"height", height},
+      {"zenith", elevation},     {"depression", elevation}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;
   return {};

@@ -508,6 +508,10 @@ std::string RecordingReader::taken() const {
     const Quantity& quantity = quantities[q];
     std::string part =
         fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
+    for (const Unit& other : quantity.units)
+      if (other.value != columns_[q]->unit->value &&
+          csv_.names()[columns_[q]->index].ends_with(fmt::format("_{}", other.suffix)))
+        part += fmt::format(", as --columns says, and not in {}", other.words);
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
                           located() && bearings() ? " in rows without a position" : "");
@@ -561,6 +565,8 @@ std::string RecordingReader::unused() const {
     if (same == reasons.end()) same = reasons.insert(same, {std::string(reason), {}});
     same->second.push_back(names[index].empty() ? fmt::format("column {}", index + 1) : names[index]);
   };
+  for (std::size_t index = 0; index < names.size(); ++index)
+    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     bool named = false;
     for_each_header(quantities[q], [&](const std::string& header, const Unit&) {
@@ -572,8 +578,6 @@ std::string RecordingReader::unused() const {
       if (!is_a_name(names[index]) && without_known_unit(names[index]) == &quantities[q])
         add(index, advice(quantities[q]));
   }
-  for (std::size_t index = 0; index < names.size(); ++index)
-    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t index = 0; index < names.size(); ++index) add(index, {});
   std::vector<std::string> parts;
   for (const auto& [reason, columns] : reasons)

@@ -211,13 +211,13 @@ std::string shown_in(const HeatMap& map, std::size_t row, std::size_t column) {
   return !map.marked.empty() && map.marked[row][column] ? number + "*" : number;
 }
 
-void limit_axis(LineChart& chart) {
+void limit_axis(LineChart& chart, double share, double times) {
   std::vector<double> all;
   for (const Curve& curve : chart.curves)
     std::ranges::copy_if(curve.values, std::back_inserter(all), [](double value) { return std::isfinite(value); });
   if (all.empty()) return;
   std::ranges::sort(all);
-  double usual = 3.0 * all[all.size() / 2];
+  double usual = times * all[static_cast<std::size_t>(share * static_cast<double>(all.size()))];
   for (const Marked& expected : chart.expected) usual = std::max(usual, 2.0 * expected.to);
   if (all.back() <= 2.0 * usual) return;
   chart.greatest_y = usual;

@@ -71,8 +71,8 @@ struct LineChart {
 };
 
 /// A curve that is far above where it should be does not make all others unreadable: the axis ends at a few times what
-/// is usual and expected, and the note says so.
-void limit_axis(LineChart& chart);
+/// is usual, what this share of all values is below, and expected, and the note says so.
+void limit_axis(LineChart& chart, double share = 0.5, double times = 3.0);
 
 /// One trace of a map: a line or points, with a height where there is one.
 struct PlanTrace {

@@ -204,7 +204,9 @@ Option& Option::list() { return option_->delimiter(','), *this; }
 
 Option& Option::list_alone() { return option_->delimiter(',')->allow_extra_args(false), *this; }
 
-Option& Option::repeated() { return option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll), *this; }
+Option& Option::repeated() {
+  return option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll), *this;
+}
 
 Option& Option::required() { return option_->required(), *this; }
 

@@ -191,6 +191,43 @@ TEST_F(Tune, TakesNoEvenMotionForRounding) {
   EXPECT_EQ(ending.output.find("its column is rounded"), std::string::npos) << ending.output;
 }
 
+// A mode may pass a row that is a thousand times as far off as its likely ones; one such row is no reason to change
+// all.
+TEST_F(Tune, OneRowAfterAPauseChangesNoSigma) {
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(0.0, 2.0);
+  const auto text = sigmax::apps::recording(
+      "time_s,x_m,y_m,true_x_m,true_y_m",
+      [&](int k) {
+        const double x = 100.0 + 12.0 * k, y = 50.0 - 5.0 * k;
+        return fmt::format("{},{},{},{},{}", k < 120 ? k : k + 300, x + normal(generator), y + normal(generator), x, y);
+      },
+      240);
+  const auto file = directory.write("pause.csv", text);
+  const auto best = (directory.path() / "best.toml").string();
+  const auto ending = program::succeeded(
+      tune(Arguments{file, "--out", best} +
+           words("--set filters=himm --set sigma_position_m=5 --set sigma_w=1 --starts 1 --folds 2")));
+  EXPECT_TRUE(says(ending.on_one_line(), {"a step of 301 s is among those of 1 s", "RMSE against the truth"}));
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 2.0, 0.3) << contents(best);
+}
+
+TEST_F(Tune, SaysWhereToBeginWithSmallNumbersAndWhatBecameWorse) {
+  const auto small = changed(recording(100, true), [](std::vector<double>& row, std::size_t) {
+    for (std::size_t i = 1; i < row.size(); ++i) row[i] *= 1e-9;
+  });
+  const auto ending = program::succeeded(tune(quickly(directory.write("small.csv", small))));
+  EXPECT_TRUE(says(ending.on_one_line(), {"begin nearer, with --set sigma_position_m="}));
+  // what is measured swings about the truth, and settings that predict that best follow it
+  const auto swings = sigmax::apps::recording(
+      "time_s,x_m,true_x_m",
+      [](int k) { return fmt::format("{},{},{}", k, 20 * k + 30.0 * std::sin(0.3 * k) + k * k * 7919 % 5, 20 * k); },
+      200);
+  const auto file = directory.write("swings.csv", swings);
+  const auto worse = program::succeeded(tune(quickly(file, words("--set sigma_position_m=100 --set sigma_w=0.01"))));
+  EXPECT_TRUE(says(worse.on_one_line(), {"which is worse: see the rows set aside"}));
+}
+
 TEST_F(Tune, LeavesASigmaAsItIsWhoseColumnsNeverChange) {
   const auto text =
       changed(recording(100, false), [](std::vector<double>& row, std::size_t) { row[1] = row[2] = 7.0; });

@@ -223,6 +223,7 @@ std::vector<Panel> TrackPage::charts(const Track& track) const {
   for (Curve& curve : speed.curves)
     for (double& lower : curve.lower)
       if (axes > 1 && lower < 0.0) lower = 0.0;
+  if (axes > 1) limit_axis(speed, 0.98, 1.5);  // the first rows may tell hardly any
   put(std::move(speed));
   LineChart course = motion("Course", geodetic ? "° from north, clockwise" : "° from x, counter-clockwise",
                             truth_moves_at + 1, moves_at + 2, moves_at + 3);

@@ -202,6 +202,23 @@ class Reporter {
                        "name one, as range_nmi, range_km, altitude_ft",
                        file_, nis, usual);
     });
+    const Sums* const nearest = nearest_to_truth();
+    const auto error = nearest ? length_of(nearest->error) : 0.0, stated = nearest ? length_of(nearest->sigma) : 1.0;
+    const auto measured = length_of(outcome_.raw[0].error);
+    warn(nearest && error > 2.0 * stated, [&] {
+      return fmt::format(
+          "{}: the truth is {:.3g} m off the estimates (RMS), which are told to be {:.3g} m off at most{}: see whether "
+          "it "
+          "has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
+          file_, error, stated,
+          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
+    });
+    warn(warnings.empty() && best && best->innovations.count() >= 50 && best->innovations.share_inside() < 0.8, [&] {
+      return fmt::format(
+          "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
+          "himm_demo tune fits them",
+          file_, 100.0 * best->innovations.share_inside());
+    });
     for (const auto& filter : filters_)
       for (const auto& own : filter.sensors)
         warn(!outcome_.sensors.contains(own.first), [&] {
@@ -215,6 +232,21 @@ class Reporter {
           file_);
     });
     return warnings;
+  }
+
+  static double length_of(const std::array<RootMeanSquare, 3>& axes) {
+    return std::hypot(axes[0].value(), axes[1].value(), axes[2].value());
+  }
+
+  /// Of the filter whose errors are the least, if they are known of many rows; else null.
+  const Sums* nearest_to_truth() const {
+    const Sums* best = nullptr;
+    for (const auto& filter : outcome_.filters) {
+      const Sums& sums = filter.sums[0];
+      if (sums.error[0].count() < 30 || sums.error[0].count() < sums.count) return nullptr;
+      if (!best || length_of(sums.error) < length_of(best->error)) best = &sums;
+    }
+    return best;
   }
 
   /// Of the filter with the greatest mean NIS for what is expected of it, if all have some; else null.

@@ -511,13 +511,15 @@ bool fits_noises(const TuneOptions& options) {
   return options.objective == Objective::prequential && options.fits("models") && options.fits("sensors");
 }
 
-/// What the rows that pass the gate say of settings, and how many do not pass.
+/// What the rows say of settings, and how many do not pass the gate.
 struct Kept {
-  double nis = 1.0;    ///< the mean, a measured quantity
+  double nis =
+      1.0;  ///< the mean of those that do, a measured quantity; none counts for more than the usual gate lets pass
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
   std::size_t set_aside = 0;
 };
 
+/// Rows in a row that do not pass are one event, beyond all others.
 Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective objective) {
   constexpr double stated = 0.95;
   double sum = 0.0, numbers = 0.0;
@@ -526,7 +528,7 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
   const auto look = [&](std::size_t, const TargetPoint& now) {
     if (!now.nis) return;
     const auto size = static_cast<int>(now.normalized_innovation.size());
-    sum += *now.nis;
+    sum += std::min(*now.nis, chi_square_quantile(usual_gate, size));
     numbers += size;
     parts.push_back(*now.nis / chi_square_quantile(stated, size));
   };
@@ -536,19 +538,24 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
     return {};
   }
   if (parts.empty()) return {.set_aside = set_aside.size()};
+  for (std::size_t k = 0; k < set_aside.size(); ++k)
+    if (k == 0 || set_aside[k].track != set_aside[k - 1].track || set_aside[k].row > set_aside[k - 1].row + 1)
+      parts.push_back(std::numeric_limits<double>::infinity());
   return {sum / numbers, quantile(parts, stated), set_aside.size()};
 }
 
 /// Real errors have long tails, and what is most likely need not be as wide as the errors are: all noises change by
 /// one factor, which leaves the filter's gains as they are, until the region that is stated to hold 95 % holds as many
-/// of the rows kept, or until the mean NIS is near the end of 0.9 to 1.1. The result is to four digits, and without a
-/// gate of ours that turns nothing away.
+/// of the rows. Of several targets, of which some move as no others do, that goes no farther than until the mean NIS is
+/// near the end of 0.9 to 1.1. The result is to four digits, and without a gate of ours that turns nothing away.
 void finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
-  constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03;
-  constexpr std::size_t most_steps = 8;
+  constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03, most_at_once = 2.0;
+  constexpr std::size_t most_steps = 12;
   for (std::size_t k = 0; k < most_steps && fits_noises(options); ++k) {
     const Kept kept = kept_by(settings, data, options.objective);
-    const double factor = std::clamp(kept.reach, kept.nis / greatest_nis, kept.nis / least_nis);
+    const double wanted =
+        data.tracks.size() > 1 ? std::clamp(kept.reach, kept.nis / greatest_nis, kept.nis / least_nis) : kept.reach;
+    const double factor = std::clamp(wanted, 1.0 / most_at_once, most_at_once);
     if (!(std::abs(factor - 1.0) > tolerance)) break;
     const auto numbers = free_numbers(settings, data, options);
     const auto held = [](const FreeNumber& number) {

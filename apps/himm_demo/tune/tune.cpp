@@ -263,6 +263,17 @@ IntervalChart fold_chart(const TunedFilter& tuned, const TuneOptions& options, c
   return chart;
 }
 
+/// Where the truth is known, else nothing.
+std::string text_of_truth(const Diagnosis& before, const Diagnosis& after) {
+  if (!before.rmse_m || !after.rmse_m) return {};
+  return fmt::format(
+      "RMSE against the truth: {:.4g} m before, {:.4g} m now{}.", *before.rmse_m, *after.rmse_m,
+      *after.rmse_m > 1.2 * *before.rmse_m
+          ? ", which is worse: see the rows set aside, and gaps, after which restart_after_s begins anew; --truth rmse "
+            "fits to the truth"
+          : "");
+}
+
 /// What came of it.
 std::string sentence_of(const TuneFindings& findings, Objective objective) {
   const TunedFilter& tuned = findings.tuned;
@@ -272,10 +283,8 @@ std::string sentence_of(const TuneFindings& findings, Objective objective) {
       fmt::format("{}: {} with {} fitted numbers is best; held out it has {:.4g} {} rather than {:.4g}.",
                   name_of(findings), best.name, tuned.numbers[tuned.selected.best], figure_of(best.held_out, objective),
                   unit_of(objective), figure_of(tuned.before().held_out, objective));
-  if (findings.before.rmse_m && findings.after->rmse_m)
-    text += fmt::format(" RMSE against the truth: {:.4g} m before, {:.4g} m now.", *findings.before.rmse_m,
-                        *findings.after->rmse_m);
-  return text;
+  const std::string truth = text_of_truth(findings.before, *findings.after);
+  return truth.empty() ? text : text + " " + truth;
 }
 
 /// When the gate turned rows away, and of which track they are.
@@ -519,8 +528,8 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
                text_of(*after, options.page.width()));
     fmt::print("{}{}", rows_text(after->set_aside, "set aside, as the gate will in track", data),
                rows_text(tuned.strays, "left out of the fit, since those after tell that they are stray", data));
-    if (before.rmse_m && after->rmse_m)
-      fmt::print("RMSE against the truth: {:.4g} m before, {:.4g} m now.\n", *before.rmse_m, *after->rmse_m);
+    const std::string truth = text_of_truth(before, *after);
+    if (!truth.empty()) fmt::print("{}", wrapped(truth, options.page.width()));
   }
   written.push_back(tuned.best().settings);
   if (tuned.selected.simple != tuned.selected.best) {
