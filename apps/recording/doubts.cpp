@@ -122,13 +122,15 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
       Position velocity{};
       for (std::size_t i = 0; i < 3; ++i) velocity[i] = (now.at[i] - last.at[i]) / T;
       const Spoke& told = other->second.last;
-      auto& all = apart_[{sensor, other->first}];
-      if (all.size() < many)
-        all.push_back({off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
-                       velocity,
-                       {told.at[0], told.at[1], told.at[2]},
-                       told.from_radar,
-                       dot(bend, bend)});
+      constexpr std::size_t most_pairs = 100, enough = 1000;
+      const std::pair pair(sensor, other->first);
+      if (const auto known = apart_.find(pair);
+          known == apart_.end() ? apart_.size() < most_pairs : known->second.size() < enough)
+        apart_[pair].push_back({off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
+                                velocity,
+                                {told.at[0], told.at[1], told.at[2]},
+                                told.from_radar,
+                                dot(bend, bend)});
     }
   }
   own->second.before = {last.time, {last.at[0], last.at[1], last.at[2]}};
@@ -184,7 +186,7 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
   if (!(best < 0.5 * all) || !(all - best > bend)) return {};
   std::string why;
   for (const auto& [left, words] : causes)
-    if (left - best <= 0.05 * (all - best)) why += (why.empty() ? "" : ", or ") + words;
+    if (left <= 3.0 * best + 2e-3 * all) why += (why.empty() ? "" : ", or ") + words;
   return why;
 }
 

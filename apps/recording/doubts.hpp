@@ -96,7 +96,7 @@ class Doubts {
   std::optional<double> twice_;       // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
   double to_twice_ = 0.0;                                                  // the path there and back
-  std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousands
+  std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousand
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
   std::size_t azimuths_ = 0;

@@ -565,8 +565,6 @@ std::string RecordingReader::unused() const {
     if (same == reasons.end()) same = reasons.insert(same, {std::string(reason), {}});
     same->second.push_back(names[index].empty() ? fmt::format("column {}", index + 1) : names[index]);
   };
-  for (std::size_t index = 0; index < names.size(); ++index)
-    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     bool named = false;
     for_each_header(quantities[q], [&](const std::string& header, const Unit&) {
@@ -575,9 +573,12 @@ std::string RecordingReader::unused() const {
       if (index) add(*index, why_unused(q));
     });
     for (std::size_t index = 0; index < names.size() && !named; ++index)
-      if (!is_a_name(names[index]) && without_known_unit(names[index]) == &quantities[q])
+      if (!is_a_name(names[index]) && instead_of(names[index]).empty() &&
+          without_known_unit(names[index]) == &quantities[q])
         add(index, advice(quantities[q]));
   }
+  for (std::size_t index = 0; index < names.size(); ++index)
+    if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t index = 0; index < names.size(); ++index) add(index, {});
   std::vector<std::string> parts;
   for (const auto& [reason, columns] : reasons)

@@ -218,13 +218,18 @@ TEST_F(Tune, SaysWhereToBeginWithSmallNumbersAndWhatBecameWorse) {
   });
   const auto ending = program::succeeded(tune(quickly(directory.write("small.csv", small))));
   EXPECT_TRUE(says(ending.on_one_line(), {"begin nearer, with --set sigma_position_m="}));
-  // what is measured swings about the truth, and settings that predict that best follow it
-  const auto swings = sigmax::apps::recording(
+  // another target, an hour later, which the settings before take for the same, and those after do not
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(0.0, 2.0);
+  const auto two = sigmax::apps::recording(
       "time_s,x_m,true_x_m",
-      [](int k) { return fmt::format("{},{},{}", k, 20 * k + 30.0 * std::sin(0.3 * k) + k * k * 7919 % 5, 20 * k); },
-      200);
-  const auto file = directory.write("swings.csv", swings);
-  const auto worse = program::succeeded(tune(quickly(file, words("--set sigma_position_m=100 --set sigma_w=0.01"))));
+      [&](int k) {
+        const double x = k < 120 ? 100.0 + 12.0 * k : -20000.0 - 8.0 * k;
+        return fmt::format("{},{},{}", k < 120 ? k : k + 3600, x + normal(generator), x);
+      },
+      240);
+  const auto worse = program::succeeded(
+      tune(quickly(directory.write("two.csv", two), words("--set sigma_position_m=5 --set sigma_w=1"))));
   EXPECT_TRUE(says(worse.on_one_line(), {"which is worse: see the rows set aside"}));
 }
 
