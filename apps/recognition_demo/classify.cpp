@@ -54,6 +54,7 @@ class RowReader {
         label_(reader.find(model.label)),
         classes_(labels_of(model.counts.pattern())) {
     for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
+    numbers_.resize(columns_.size());
   }
 
   bool has_truth() const { return label_.has_value(); }
@@ -74,6 +75,26 @@ class RowReader {
   /// How many numbers were far from those that the model was learned from, and the first of them.
   std::size_t far_cells() const { return far_cells_; }
   const std::string& first_far() const { return first_far_; }
+
+  /// Says of which columns more than a fifth of the numbers is on one side of all that the model was learned from; of
+  /// few it needs more, for then it may be chance.
+  void say_outside(Result& result) const {
+    constexpr unsigned enough = 20;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      const FeatureCode& feature = model_.features[i];
+      double learned = 0.0;
+      for (std::size_t c = 0; c < classes_.size(); ++c)
+        for (const double count : model_.counts.of(i, c)) learned += count;
+      const auto& [all, below, above] = numbers_[i];
+      const auto outside = std::max(below, above);
+      const double share = static_cast<double>(outside) / static_cast<double>(all);
+      if (all < enough || share <= std::max(0.2, enough / learned)) continue;
+      result.say("\nColumn {}: {} of {} numbers are {} that was learned, {}: are they in the same unit?",
+                 in_quotes(feature.name), outside, all, below > above ? "below the least" : "above the greatest",
+                 shortest(below > above ? feature.least : feature.greatest));
+      result.fact({"numbers_outside_those_learned_from", feature.name}, outside);
+    }
+  }
 
   /// How many cells held what the model does not know, and the first of them.
   std::size_t unseen_cells() const { return unseen_cells_; }
@@ -103,6 +124,8 @@ class RowReader {
     if (feature.bins) {
       if (missing_.among_numbers(cell)) return missing;
       if (const auto number = parse_number(cell)) {
+        auto& [all, below, above] = numbers_[i];
+        ++all, below += *number < feature.least ? 1U : 0U, above += *number > feature.greatest ? 1U : 0U;
         if (is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
           first_far_ =
               row.error(columns_[i],
@@ -129,6 +152,7 @@ class RowReader {
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
   std::vector<std::size_t> columns_;
+  std::vector<std::array<std::size_t, 3>> numbers_;  // of each column: all, below and above those learned from
   std::size_t unseen_cells_ = 0, far_cells_ = 0;
   std::string first_unseen_, first_far_;
 };
@@ -374,6 +398,7 @@ void run_classify(const ClassifyOptions& options) {
     result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
                rows.far_cells() == 1 ? "1 number is" : fmt::format("{} numbers are", rows.far_cells()),
                rows.first_far());
+  rows.say_outside(result);
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), all, found), {});
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -86,6 +86,13 @@ bool has_decimal_comma(std::string_view word) {
   return comma != std::string::npos && parse_number(number);
 }
 
+/// The word behind a number, as in "23.93 kg"; or nothing.
+std::string_view unit_of(std::string_view cell) {
+  const auto end = std::min(cell.find_first_not_of("+-.0123456789"), cell.size());
+  const std::string_view unit = trimmed(cell.substr(end));
+  return parse_number(cell.substr(0, end)) && unit.find_first_of("0123456789") == unit.npos ? unit : "";
+}
+
 /// A word among numbers, where it was found first.
 struct Slip {
   std::size_t line;
@@ -114,6 +121,10 @@ class ColumnReader {
     last_ = number.value_or(last_);
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
     if (is_word && has_decimal_comma(cell)) ++comma_cells_;
+    if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
+      ++unit_cells_;
+      if (units_.size() <= most_units) units_.code(unit);
+    }
     DataCell result{number.value_or(nan)};
     if (too_many_words_) return result;
     if (!empty) result.code = words_.code(cell);
@@ -121,7 +132,7 @@ class ColumnReader {
     too_many_words_ = true;
     if (!could_be_numeric() && !nearly_all_numbers())
       throw row.error(index_, fmt::format("one of at most {} different values", most_values),
-                      "leave the column out by --ignore");
+                      holds_units() ? "write the numbers without their unit" : "leave the column out by --ignore");
     return result;
   }
 
@@ -153,14 +164,23 @@ class ColumnReader {
   /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
   bool names_rows() const {
     if (cells_ < few_rows) return false;
-    return is_numeric() ? counts_ : !too_many_words_ && 2 * words_.size() > cells_;
+    return is_numeric() ? counts_ : !too_many_words_ && !holds_units() && 2 * words_.size() > cells_;
   }
+
+  /// Whether most cells, of more than a few different ones, are a number and one of few words.
+  bool holds_units() const {
+    constexpr std::size_t few_words = 8;
+    return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
+  }
+  std::string units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
 
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
   std::size_t index() const { return index_; }
 
  private:
+  static constexpr std::size_t most_units = 3;
+
   bool could_be_numeric() const { return !categorical_ && !slip_; }
   /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
   bool nearly_all_numbers() const {
@@ -175,10 +195,11 @@ class ColumnReader {
   std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
   std::size_t numeric_cells_ = 0;
   std::size_t comma_cells_ = 0;
+  std::size_t unit_cells_ = 0;
   bool counts_ = true;  // so far, in whole numbers upwards
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
-  Vocabulary words_;
+  Vocabulary words_, units_;
 };
 
 /// Columns with their lone values, all at once: throws if there is such a one.
@@ -216,6 +237,18 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
         fmt::format("{}: column {} has {} classes in {} rows: of most there is a single row, from which nothing can be "
                     "learned; is it the right --label?",
                     reader.file(), in_quotes(table.label), table.classes.size(), table.size()));
+  for (std::size_t k = 0; k < table.classes.size(); ++k)
+    if (constexpr std::array words = {"na", "n/a", "#n/a", "nan", "null"};
+        std::ranges::find(words, lower_case(table.classes[k])) != words.end())
+      warnings.push_back(fmt::format(
+          "{}: column {}: {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
+          reader.file(), in_quotes(table.label), table.rows_of_class[k], table.size(), in_quotes(table.classes[k])));
+  for (const ColumnReader& column : columns)
+    if (column.holds_units())
+      warnings.push_back(
+          fmt::format("{}: column {} holds numbers with a unit ({}), which count as words: write the numbers alone, "
+                      "all in one unit, and the unit into the name of the column",
+                      reader.file(), in_quotes(reader.names()[column.index()]), column.units()));
   for (const ColumnReader& column : columns)
     if (column.names_rows())
       warnings.push_back(
@@ -235,6 +268,94 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
     if (reader.names()[i].empty())
       warnings.push_back(fmt::format("{}: column {} has no name and is left out", reader.file(), i + 1));
   return warnings;
+}
+
+/// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
+struct DistinctRows {
+  std::vector<std::vector<double>> cells;  ///< of each the number or code by column, NaN where it is missing
+  std::size_t with_copies = 0;
+
+  explicit DistinctRows(const DataTable& table) {
+    constexpr std::size_t most = 1024;
+    std::map<std::size_t, std::pair<std::vector<double>, std::size_t>> found;  // by hash, the least, and how often
+    std::vector<double> row_cells;
+    table.for_each([&](const DataRow& row) {
+      row_cells.clear();
+      for (std::size_t i = 0; i < table.columns.size(); ++i)
+        row_cells.push_back(table.columns[i].numeric ? row.number(i) : row.code(i) == missing_code ? nan : row.code(i));
+      row_cells.push_back(static_cast<double>(row.label()));
+      const auto hash = std::hash<std::string_view>{}(
+          {reinterpret_cast<const char*>(row_cells.data()), row_cells.size() * sizeof(double)});
+      if (found.size() == most && hash > found.rbegin()->first) return;
+      ++found.try_emplace(hash, row_cells, 0).first->second.second;
+      if (found.size() > most) found.erase(std::prev(found.end()));
+    });
+    for (auto& [hash, row] : found) {
+      cells.push_back(std::move(row.first));
+      with_copies += row.second;
+    }
+  }
+
+  /// Twice the place of each cell of a column when sorted, the same for equal ones; -1 where it is missing.
+  std::vector<double> ranks(std::size_t column) const {
+    std::vector<double> sorted, result;
+    for (const auto& row : cells)
+      if (!std::isnan(row[column])) sorted.push_back(row[column]);
+    std::ranges::sort(sorted);
+    for (const auto& row : cells) {
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), row[column]);
+      const auto place = static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
+      result.push_back(std::isnan(row[column]) ? -1.0 : place);
+    }
+    return result;
+  }
+};
+
+/// Whether two columns put the rows in the same order, or the opposite one, but for what rounding does.
+bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] >= 0.0 && b[i] >= 0.0) {
+      ++n, x += a[i], y += b[i];
+      xx += a[i] * a[i], yy += b[i] * b[i], xy += a[i] * b[i];
+    }
+  constexpr double nearly_one = 0.999;
+  const double both = n * xy - x * y;
+  return n >= few_rows && both * both > nearly_one * (n * xx - x * x) * (n * yy - y * y);
+}
+
+/// What the rows and the columns tell twice.
+void warn_of_repeats(DataTable& table) {
+  const DistinctRows rows(table);
+  const std::size_t size = rows.cells.size();
+  if (size < few_rows) return;
+  std::vector<std::vector<double>> ranks;
+  std::vector<bool> told;  // too few numbers to compare, or said of an earlier column
+  std::size_t fine = 0;    // columns that most of these rows differ in, as they would not by chance
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    ranks.push_back(rows.ranks(i));
+    const std::size_t different = std::set(ranks[i].begin(), ranks[i].end()).size();
+    fine += 2 * different > size ? 1U : 0U;
+    told.push_back(!table.columns[i].numeric || different < 4);
+  }
+  if (rows.with_copies >= 2 * size && fine >= 2)
+    table.warnings.push_back(fmt::format(
+        "{}: {:.0f} % of {} rows repeat another, label included: what is learned from one is asked of its "
+        "copy, so the shares of right answers are too good; drop the copies",
+        table.file, 100.0 - 100.0 * static_cast<double>(size) / static_cast<double>(rows.with_copies), table.size()));
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    std::vector<std::string> others;
+    for (std::size_t j = i + 1; j < ranks.size(); ++j)
+      if (!told[i] && !told[j] && same_order(ranks[i], ranks[j])) {
+        told[j] = true;
+        others.push_back(typed(table.columns[j].name));
+      }
+    if (!others.empty())
+      table.warnings.push_back(
+          fmt::format("{0}: column {1} says the same as {2}, as if in another unit: it counts {3} times; leave the "
+                      "others out by --ignore {2}",
+                      table.file, in_quotes(table.columns[i].name), fmt::join(others, ","), others.size() + 1));
+  }
 }
 
 std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions& options, std::size_t label) {
@@ -328,6 +449,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     if (!columns[i].is_numeric())
       std::tie(table.columns[i].values, table.value_order_[i]) = columns[i].words().sorted();
   }
+  warn_of_repeats(table);
   return table;
 }
 

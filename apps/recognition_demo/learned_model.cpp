@@ -7,9 +7,8 @@
 namespace sigmax::apps {
 namespace {
 
-/// The bins of every numeric column of some rows; several passes over long tables.
-std::vector<std::optional<Discretization>> fitted(const DataTable& data, const RowChoice& chosen,
-                                                  const LearningOptions& options) {
+/// The columns with the bins of numeric ones, of some rows; several passes over long tables.
+std::vector<FeatureCode> fitted(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
   std::vector<std::size_t> numeric;
   std::vector<EqualFrequencyFit> fits;
   for (std::size_t i = 0; i < data.columns.size(); ++i)
@@ -25,13 +24,16 @@ std::vector<std::optional<Discretization>> fitted(const DataTable& data, const R
     another_pass = false;
     for (auto& fit : fits) another_pass |= fit.wants_another_pass();
   }
-  std::vector<std::optional<Discretization>> bins(data.columns.size());
+  std::vector<FeatureCode> codes;
+  for (const DataColumn& column : data.columns) codes.push_back({column.name, column.values, std::nullopt});
   for (std::size_t k = 0; k < fits.size(); ++k) {
-    const bool wide = options.equal_width && fits[k].least() < fits[k].greatest();
-    bins[numeric[k]] =
-        wide ? equal_width(std::array{fits[k].least(), fits[k].greatest()}, options.bins) : fits[k].discretization();
+    FeatureCode& code = codes[numeric[k]];
+    code.least = fits[k].least();
+    code.greatest = fits[k].greatest();
+    const bool wide = options.equal_width && code.least < code.greatest;
+    code.bins = wide ? equal_width(std::array{code.least, code.greatest}, options.bins) : fits[k].discretization();
   }
-  return bins;
+  return codes;
 }
 
 /// p(reading|feature): right with probability 1 − misread, else any other value.
@@ -79,13 +81,9 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
 }  // namespace
 
 LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
-  auto bins = fitted(data, chosen, options);
-  std::vector<FeatureCode> codes;
+  auto codes = fitted(data, chosen, options);
   std::vector<RandomVariable> variables;
-  for (std::size_t i = 0; i < data.columns.size(); ++i) {
-    codes.push_back({data.columns[i].name, data.columns[i].values, std::move(bins[i])});
-    variables.emplace_back(codes.back().name, codes.back().labels());
-  }
+  for (const FeatureCode& code : codes) variables.emplace_back(code.name, code.labels());
   Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
   LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
   Readings readings;

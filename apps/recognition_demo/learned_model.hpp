@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <sigmax/recognition/counts.hpp>
 #include <sigmax/recognition/discretization.hpp>
 
@@ -11,8 +13,9 @@ namespace sigmax::apps {
 /// How one column of data becomes readings: an index into its values, or into bins of its numbers.
 struct FeatureCode {
   std::string name;
-  std::vector<std::string> values;     ///< of a categorical feature
-  std::optional<Discretization> bins;  ///< of a numeric one
+  std::vector<std::string> values;                       ///< of a categorical feature
+  std::optional<Discretization> bins;                    ///< of a numeric one
+  double least = std::nan(""), greatest = std::nan("");  ///< number learned from, NaN where it is not known
 
   std::vector<std::string> labels() const { return bins ? bins->labels() : values; }
 };

@@ -313,6 +313,84 @@ TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseAndFarNumbersArePointedOut)
   EXPECT_EQ(summary().at("numbers_far_from_those_learned_from"), 2);
 }
 
+TEST_F(RecognitionDemoLearning, NumbersOnOneSideOfAllThatWereLearnedArePointedOut) {
+  const auto rooms = [](int rows, int outside, int first, int step) {
+    std::string text = "warmth,kind\n";
+    for (int k = 0; k < rows; ++k)
+      text += fmt::format("{},{}\n", k < outside ? first + step * (k % 3) : 15 + k % 11, k % 2 ? "a" : "b");
+    return text;
+  };
+  const std::string outside = "that was learned, ";
+  train(rooms(110, 0, 0, 0));
+  EXPECT_TRUE(says(classify(rooms(30, 7, 26, 1)),
+                   {"Column 'warmth': 7 of 30 numbers are above the greatest " + outside + "25:"}));
+  EXPECT_EQ(summary().at("numbers_outside_those_learned_from").at("warmth"), 7);
+  EXPECT_TRUE(says(classify(rooms(30, 7, 14, -1)), {"7 of 30 numbers are below the least that was learned, 15: "}));
+  EXPECT_EQ(classify(rooms(30, 6, 26, 1)).find(outside), std::string::npos);
+  EXPECT_EQ(classify(rooms(19, 7, 26, 1)).find(outside), std::string::npos);
+  auto old = nlohmann::json::parse(contents(model));
+  old.at("features").at(0).erase("range");
+  directory.write("model.json", old.dump());
+  EXPECT_EQ(classify(rooms(30, 7, 26, 1)).find(outside), std::string::npos);
+  train(rooms(30, 0, 0, 0));  // too few to know the range by
+  EXPECT_EQ(classify(rooms(30, 7, 26, 1)).find(outside), std::string::npos);
+}
+
+TEST_F(RecognitionDemoLearning, WhatATableTellsTwiceIsPointedOut) {
+  std::mt19937_64 engine(5);
+  const auto said = [&](const std::string& names, const std::string& rows) {
+    const auto data = directory.write("t.csv", names + ",kind\n" + rows);
+    return recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model}).output;
+  };
+  const auto times = [](int n, const std::string& rows) {
+    std::string all;
+    while (n-- > 0) all += rows;
+    return all;
+  };
+  std::string fine, coarse, same;
+  for (int k = 0; k < 3000; ++k) {
+    const auto x = engine() % 100'000, y = engine() % 100'000;
+    const double m = 1e-3 * static_cast<double>(x);
+    if (k < 200) fine += fmt::format("{},{},{}\n", m, y, k % 2 ? "a" : "b");
+    if (k < 200) coarse += fmt::format("{},{},{}\n", 0.5 * static_cast<double>(x % 7), y % 5, k % 2 ? "a" : "b");
+    same += fmt::format("{},{},{:.3f},{},{}\n", m, y, 0.001 * m, -3.28 * m, k % 2 ? "a" : "b");
+  }
+  const std::string copies = "t.csv: 67 % of 600 rows repeat another, label included: ";
+  EXPECT_TRUE(says(said("x,y", times(3, fine)), {copies}));
+  EXPECT_EQ(said("x,y", fine).find("warning"), std::string::npos);
+  EXPECT_EQ(said("x,y", coarse).find("warning"), std::string::npos);  // 70 different rows, by chance
+  // Of a long table the rows to compare are chosen by chance.
+  const std::string all = said("m,y,km,ft", times(2, same));
+  EXPECT_TRUE(says(all, {"t.csv: 50 % of 6000 rows repeat another",
+                         "column 'm' says the same as km,ft, as if in another unit: it counts 3 times",
+                         "leave the others out by --ignore km,ft"}));
+  EXPECT_EQ(all.find("column 'y'"), std::string::npos) << all;
+}
+
+TEST_F(RecognitionDemoLearning, MissingLabelsAndUnitsInCellsArePointedOut) {
+  const auto said = [&](const std::string& missing, const Arguments& units, const Arguments& options = {}) {
+    std::string text = "weight,flag,kind\n";
+    for (std::size_t k = 0; k < 40; ++k)
+      text += fmt::format("{}.5{},{},{}\n", k, units[k % units.size()], k % 3, k % 4 ? k % 2 ? "a" : "b" : missing);
+    const auto data = directory.write("t.csv", text);
+    return recognition_demo_succeeds(Arguments{"train", data, "--label", "kind", "--model", model} + options).output;
+  };
+  for (const char* missing : {"NA", "n/a", "nan", "NULL"})
+    EXPECT_TRUE(says(said(missing, {""}), {fmt::format("10 of 40 rows hold '{}', which counts as a class", missing)}));
+  EXPECT_EQ(said("none", {""}).find("warning"), std::string::npos);
+  const std::string units = said("c", {" kg", "g"});
+  EXPECT_TRUE(says(units, {"column 'weight' holds numbers with a unit (g, kg)"}));
+  EXPECT_EQ(units.find("--ignore"), std::string::npos) << units;
+  const std::string names = "column 'weight' seems to name the rows";
+  EXPECT_TRUE(says(said("c", {" kg"}, {"--categorical", "weight"}), {names}));
+  EXPECT_TRUE(says(said("c", {"a", "b", "c", "d"}), {names}));
+  EXPECT_TRUE(says(said("c", {" m 2"}), {names}));
+  std::string many = "weight,kind\n";
+  for (int k = 0; k < 5000; ++k) many += fmt::format("{}.5 kg,a\n", k);
+  const auto refused = recognition_demo({"train", directory.write("t.csv", many), "--label", "kind", "--model", model});
+  EXPECT_TRUE(says(refused.output, {"4096 different values; write the numbers without their unit"}));
+}
+
 TEST_F(RecognitionDemoLearning, ClassesThatNobodyRecognisesAreNamed) {
   std::string text = "colour,kind\n";
   for (int k = 0; k < 40; ++k) text += k % 10 == 9 ? "\"red, dark\",rare\n" : "\"red, dark\",usual\nblue,other\n";
