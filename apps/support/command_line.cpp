@@ -221,7 +221,13 @@ Subcommand::Subcommand(CLI::App& program, const std::string& name, const std::st
 
 template <class Value>
 Option Subcommand::option(const std::string& name, Value& value, const std::string& meaning) {
-  return Option(app_.add_option(name, value, meaning));
+  Option added(app_.add_option(name, value, meaning));
+  if constexpr (std::is_same_v<Value, std::string>)  // CLI11 takes what follows, whatever it is
+    added.check([app = &app_](const std::string& text) -> std::string {
+      const bool is_option = text.starts_with("--") && app->get_option_no_throw(text) != nullptr;
+      return is_option ? fmt::format("found the option {}, expected a value", text) : "";
+    });
+  return added;
 }
 
 template Option Subcommand::option(const std::string&, int&, const std::string&);

@@ -87,6 +87,7 @@ TEST(CommandLine, NamesWhatAWordResembles) {
   says({"train", "--xyzzy"}, "see example train --help");
   says({"trian"}, "there is no subcommand 'trian'; did you mean 'train'?");
   says({"train"}, "--label is required");
+  says({"train", "--label", "--wide"}, "--label: found the option --wide, expected a value");
 }
 
 TEST(CommandLine, RefusesNumbersThatAreNone) {
