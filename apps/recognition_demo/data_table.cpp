@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "support/input.hpp"
 #include "support/numbers.hpp"
+#include "support/output.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {
