@@ -165,8 +165,7 @@ class Reporter {
         [&] {
           return fmt::format(
               "{}:{}: filter '{}' does not expect this measurement, though another filter does; so it is with {} of {} "
-              "(NIS "
-              "above {}); raise its sigma_w, or see what the other one has that it lacks",
+              "(NIS above {}); raise its sigma_w, or see what the other one has that it lacks",
               file_, lost->lost.first_line, filters_[static_cast<std::size_t>(lost - outcome_.filters.begin())].name,
               lost->lost.count, outcome_.measurements, Outliers::limit);
         });
@@ -208,8 +207,7 @@ class Reporter {
     warn(nearest && error > 2.0 * stated, [&] {
       return fmt::format(
           "{}: the truth is {:.3g} m off the estimates (RMS), which are told to be {:.3g} m off at most{}: see whether "
-          "it "
-          "has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
+          "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
           file_, error, stated,
           measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
     });

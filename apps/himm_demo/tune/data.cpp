@@ -192,8 +192,7 @@ void summarize(TuneData& data, const Columns& columns) {
   if (longest > 200.0 * data.step_s)
     data.notes.push_back(
         fmt::format("a step of {:.4g} s is among those of {:.4g} s: if a target may do anything meanwhile, let filters "
-                    "start anew by "
-                    "--set restart_after_s=…, and where it is another target, tell both apart",
+                    "start anew by --set restart_after_s=…, and where it is another target, tell both apart",
                     longest, data.step_s));
   data.uneven_steps = quantile(steps, 0.9) >= 2.0 * quantile(steps, 0.1);
 }
@@ -255,11 +254,10 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
-    data.notes.push_back(
-        fmt::format("positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so "
-                    "far away nothing "
-                    "is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
-                    width->second / 6.0, sigma, width->second / 6.0));
+    data.notes.push_back(fmt::format(
+        "positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so "
+        "far away nothing is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
+        width->second / 6.0, sigma, width->second / 6.0));
   if (data.measurements < fewest_in_all)
     throw InputError(
         "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "

@@ -513,8 +513,7 @@ bool fits_noises(const TuneOptions& options) {
 
 /// What the rows say of settings, and how many do not pass the gate.
 struct Kept {
-  double nis =
-      1.0;  ///< the mean of those that do, a measured quantity; none counts for more than the usual gate lets pass
+  double nis = 1.0;    ///< the mean of those that do, none for more than the usual gate lets pass, a measured quantity
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
   std::size_t set_aside = 0;
 };

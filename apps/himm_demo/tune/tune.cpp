@@ -269,7 +269,7 @@ std::string text_of_truth(const Diagnosis& before, const Diagnosis& after) {
   return fmt::format(
       "RMSE against the truth: {:.4g} m before, {:.4g} m now{}.", *before.rmse_m, *after.rmse_m,
       *after.rmse_m > 1.2 * *before.rmse_m
-          ? ", which is worse: see the rows set aside, and gaps, after which restart_after_s begins anew; --truth rmse "
+          ? ", which is worse: see the rows set aside, and gaps, after which restart_after_s begins anew; --truth "
             "fits to the truth"
           : "");
 }
