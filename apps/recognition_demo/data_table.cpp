@@ -360,33 +360,6 @@ void warn_of_repeats(DataTable& table) {
   }
 }
 
-/// Columns that bins of equal frequency, eight as usual, do not cut: the least number is all that there is but for few.
-void warn_of_one_bin(DataTable& table) {
-  struct Least {
-    double number = std::numeric_limits<double>::infinity();
-    std::size_t count = 0, all = 0;
-  };
-  std::vector<Least> least(table.columns.size());
-  table.for_each([&](const DataRow& row) {
-    for (std::size_t i = 0; i < least.size(); ++i) {
-      const double number = table.columns[i].numeric ? row.number(i) : nan;
-      if (std::isnan(number)) continue;
-      auto& [known, count, all] = least[i];
-      ++all;
-      if (number < known) count = 0, known = number;
-      if (number == known) ++count;
-    }
-  });
-  for (std::size_t i = 0; i < least.size(); ++i)
-    if (const auto& [number, count, all] = least[i]; all >= few_rows && 8 * count > 7 * all)
-      table.warnings.push_back(fmt::format(
-          "{}: column {}: {:.1f} % of its numbers are the least, {}, and bins of equal frequency do not part "
-          "these from the others, so that the column tells nothing: --equal-width parts them, and so does "
-          "--categorical {} where there are few",
-          table.file, in_quotes(table.columns[i].name), 100.0 * static_cast<double>(count) / static_cast<double>(all),
-          shortest(number), typed(table.columns[i].name)));
-}
-
 std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions& options, std::size_t label) {
   std::set<std::size_t> left_out = {label}, categorical;
   for (const auto& name : options.ignore) left_out.insert(reader.column(name));
@@ -479,7 +452,6 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
       std::tie(table.columns[i].values, table.value_order_[i]) = columns[i].words().sorted();
   }
   warn_of_repeats(table);
-  warn_of_one_bin(table);
   return table;
 }
 

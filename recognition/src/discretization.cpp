@@ -4,12 +4,15 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace sigmax {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The shortest text that reads back as the same number, so that different cuts never look alike.
 std::string shown(double value) {
@@ -31,6 +34,21 @@ std::vector<double> sorted(std::span<const double> values, std::size_t bins) {
   if (bins > 1 && result.front() == result.back())
     throw std::invalid_argument("a discretization cannot be fitted: every value is " + shown(result.front()));
   return result;
+}
+
+/// The values at ranks are cuts, unless that is the least, or a cut already; a value at two ranks, the end below
+/// counted as one, fills a bin, which then ends at the next greater value.
+bool fills_a_bin(double least, std::span<const double> at_ranks, std::size_t i) {
+  return at_ranks[i] == (i == 0 ? least : at_ranks[i - 1]);
+}
+
+Discretization cut(double least, std::span<const double> at_ranks, const std::function<double(double)>& next_greater) {
+  std::vector<double> cuts;
+  for (std::size_t i = 0; i < at_ranks.size(); ++i) {
+    const double cut = fills_a_bin(least, at_ranks, i) ? next_greater(at_ranks[i]) : at_ranks[i];
+    if (cut > (cuts.empty() ? least : cuts.back()) && std::isfinite(cut)) cuts.push_back(cut);
+  }
+  return Discretization{std::move(cuts)};
 }
 
 constexpr std::size_t most_keys = 8192;  // in all ranges
@@ -62,13 +80,13 @@ std::size_t Discretization::bin(double value) const {
 double Discretization::lower(std::size_t bin) const {
   if (bin >= size())
     throw std::invalid_argument("there are " + std::to_string(size()) + " bins, no number " + std::to_string(bin));
-  return bin == 0 ? -std::numeric_limits<double>::infinity() : cuts_[bin - 1];
+  return bin == 0 ? -infinity : cuts_[bin - 1];
 }
 
 double Discretization::upper(std::size_t bin) const {
   if (bin + 1 < size()) return cuts_[bin];
   lower(bin);  // throws if there is no such bin
-  return std::numeric_limits<double>::infinity();
+  return infinity;
 }
 
 std::vector<std::string> Discretization::labels() const {
@@ -92,12 +110,12 @@ Discretization equal_width(std::span<const double> values, std::size_t bins) {
 
 Discretization equal_frequency(std::span<const double> values, std::size_t bins) {
   const std::vector<double> ascending = sorted(values, bins);
-  std::vector<double> cuts;
-  for (std::size_t j = 1; j < bins; ++j) {
-    const double cut = ascending[j * ascending.size() / bins];
-    if (cut > (cuts.empty() ? ascending.front() : cuts.back())) cuts.push_back(cut);
-  }
-  return Discretization{std::move(cuts)};
+  std::vector<double> at_ranks;
+  for (std::size_t j = 1; j < bins; ++j) at_ranks.push_back(ascending[j * ascending.size() / bins]);
+  return cut(ascending.front(), at_ranks, [&](double value) {
+    const auto above = std::upper_bound(ascending.begin(), ascending.end(), value);
+    return above == ascending.end() ? infinity : *above;
+  });
 }
 
 EqualFrequencyFit::EqualFrequencyFit(std::size_t bins)
@@ -117,6 +135,7 @@ void EqualFrequencyFit::see(double value) {
     least_ = std::fmin(least_, value);
     greatest_ = std::fmax(greatest_, value);
   }
+  if (!full_.empty()) return see_above(value);
   const Key key = key_of(value);
   const auto above = std::upper_bound(ranges_.begin(), ranges_.end(), key,
                                       [](Key wanted, const Range& range) { return wanted < range.first; });
@@ -132,47 +151,63 @@ void EqualFrequencyFit::see(double value) {
   for (const Key seen : std::exchange(range.keys, {})) count(range, seen);
 }
 
+void EqualFrequencyFit::see_above(double value) {
+  const auto full = std::lower_bound(full_.begin(), full_.end(), value);  // the first that is not below the value
+  if (full == full_.begin()) return;
+  double& next = next_greater_[static_cast<std::size_t>(full - full_.begin()) - 1];
+  next = std::fmin(next, value);
+}
+
 void EqualFrequencyFit::settle(Range& range, std::vector<Range>& next) {
   std::sort(range.keys.begin(), range.keys.end());
   const int free_bits = range.free_bits - bits;
   std::size_t below = range.below;
   std::size_t part = 0;
   for (std::size_t i = 0; i < ranks_.size(); ++i) {
-    if (!std::isnan(cuts_[i]) || ranks_[i] < range.below) continue;
+    if (!std::isnan(at_ranks_[i]) || ranks_[i] < range.below) continue;
     if (range.counts.empty()) {
-      if (ranks_[i] - range.below < range.keys.size()) cuts_[i] = value_of(range.keys[ranks_[i] - range.below]);
+      if (ranks_[i] - range.below < range.keys.size()) at_ranks_[i] = value_of(range.keys[ranks_[i] - range.below]);
       continue;
     }
     while (part < range.counts.size() && ranks_[i] >= below + range.counts[part]) below += range.counts[part++];
     if (part == range.counts.size()) return;
     const Key first = range.first + (Key{part} << free_bits);
     if (range.least == range.greatest)
-      cuts_[i] = value_of(range.least);
+      at_ranks_[i] = value_of(range.least);
     else if (free_bits == 0)
-      cuts_[i] = value_of(first);
+      at_ranks_[i] = value_of(first);
     else if (next.empty() || next.back().first != first)
       next.push_back({.first = first, .free_bits = free_bits, .below = below});
   }
 }
 
 bool EqualFrequencyFit::wants_another_pass() {
-  if (ranks_.empty() && size_ > 0) {
+  if (!full_.empty()) return false;
+  const bool first = ranks_.empty();
+  if (first && size_ > 0) {
     for (std::size_t j = 1; j < bins_; ++j) ranks_.push_back(j * size_ / bins_);
-    cuts_.assign(ranks_.size(), std::numeric_limits<double>::quiet_NaN());
+    at_ranks_.assign(ranks_.size(), std::numeric_limits<double>::quiet_NaN());
   }
   std::vector<Range> next;
   for (Range& range : ranges_) settle(range, next);
-  ranges_ = std::move(next);
-  if (ranges_.empty() && std::any_of(cuts_.begin(), cuts_.end(), [](double cut) { return std::isnan(cut); }))
-    throw std::logic_error("EqualFrequencyFit: this pass had other values than those before");
-  return !ranges_.empty();
+  ranges_.swap(next);
+  if (!ranges_.empty()) return true;
+  for (std::size_t i = 0; i < at_ranks_.size(); ++i) {
+    if (std::isnan(at_ranks_[i]))
+      throw std::logic_error("EqualFrequencyFit: this pass had other values than those before");
+    if (fills_a_bin(least_, at_ranks_, i) && (full_.empty() || full_.back() < at_ranks_[i]))
+      full_.push_back(at_ranks_[i]);
+  }
+  next_greater_.assign(full_.size(), infinity);
+  if (!first || next.empty() || !next.front().counts.empty()) return !full_.empty();
+  for (const Key key : next.front().keys) see_above(value_of(key));
+  return false;
 }
 
 Discretization EqualFrequencyFit::discretization() const {
-  std::vector<double> cuts;
-  for (const double cut : cuts_)
-    if (cut > (cuts.empty() ? least_ : cuts.back())) cuts.push_back(cut);
-  return Discretization{std::move(cuts)};
+  return cut(least_, at_ranks_, [&](double value) {
+    return next_greater_[static_cast<std::size_t>(std::lower_bound(full_.begin(), full_.end(), value) - full_.begin())];
+  });
 }
 
 }  // namespace sigmax

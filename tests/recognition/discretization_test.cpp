@@ -78,10 +78,36 @@ TEST(EqualFrequency, PutsAsManyValuesIntoEveryBin) {
   EXPECT_CLOSE(bins.cuts(), (Numbers{4.0, 7.0}), 0.0);  // 1 2 3 | 4 5 6 | 7 8 9
 }
 
-TEST(EqualFrequency, NeverSplitsATie) {
-  // The cuts would be at 0, 0 and 2: below the least there is nothing to cut off.
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3}, 4).cuts(), (Numbers{2.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 2}, 3).cuts(), (Numbers{1.0}), 0.0);
+TEST(EqualFrequency, NeverSplitsATieAndLeavesAValueThatFillsABinAlone) {
+  // The cuts would be at 0, 0 and 2: below the least there is nothing to cut off, but above it.
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3}, 4).cuts(), (Numbers{1.0, 2.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 2}, 3).cuts(), (Numbers{1.0, 2.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 0, 0, 0, 0, 5}, 2).cuts(), (Numbers{5.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{1, 2, 3, 3, 3, 3}, 3).cuts(), (Numbers{3.0}), 0.0);  // nothing is above 3
+}
+
+/// Restated: the bins of a list of ranks, by what stands before and after.
+PROPERTY(EqualFrequency, CutsAsThePlainRestatement) {
+  Numbers values;
+  for (std::size_t i = 0, n = *rc::gen::inRange<std::size_t>(2, 60); i < n; ++i)
+    values.push_back(*rc::gen::inRange(0, *rc::gen::element(2, 5, 30)));
+  values.push_back(-1.0);
+  const auto bins = *rc::gen::inRange<std::size_t>(1, 12);
+  Numbers ascending = values;
+  std::sort(ascending.begin(), ascending.end());
+  std::set<double> expected;
+  for (const double value : std::set<double>(ascending.begin(), ascending.end())) {
+    std::size_t cuts_here = value == ascending.front() ? 1 : 0;  // below the least the first bin begins
+    for (std::size_t j = 1; j < bins; ++j) cuts_here += ascending[j * ascending.size() / bins] == value;
+    if (cuts_here > 0 && value > ascending.front()) expected.insert(value);
+    if (cuts_here < 2) continue;
+    for (const double next : ascending)
+      if (next > value) {
+        expected.insert(next);
+        break;
+      }
+  }
+  RC_ASSERT(equal_frequency(values, bins).cuts() == Numbers(expected.begin(), expected.end()));
 }
 
 PROPERTY(EqualFrequency, HasBinsOfEqualSizeWhereNothingIsTied) {

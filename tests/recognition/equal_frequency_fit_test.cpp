@@ -42,6 +42,9 @@ Values drawn(int shape, std::size_t count, std::mt19937_64& generator) {
       case 3:
         values.push_back(std::round(x));
         break;
+      case 4:
+        values.push_back(x < 1.2 ? 0.0 : x);  // most are the least
+        break;
       default:
         values.push_back(i % 7 == 3 ? not_a_number : std::round(30.0 * x) / 10.0);
     }
@@ -51,7 +54,7 @@ Values drawn(int shape, std::size_t count, std::mt19937_64& generator) {
 
 TEST(EqualFrequencyFit, FindsTheCutsOfEqualFrequencyExactly) {
   std::mt19937_64 generator(5);
-  for (const int shape : {0, 1, 2, 3, 4})
+  for (const int shape : {0, 1, 2, 3, 4, 5})
     for (const std::size_t count : {2U, 9U, 8192U, 8193U, 60000U})
       for (const std::size_t bins : {1U, 2U, 8U, 300U}) {
         SCOPED_TRACE(testing::Message() << "shape " << shape << ", " << count << " values, " << bins << " bins");
@@ -59,7 +62,7 @@ TEST(EqualFrequencyFit, FindsTheCutsOfEqualFrequencyExactly) {
         values.back() = 7.5;  // another one, however they are rounded
         const Fitted found = fitted(values, bins);
         EXPECT_EQ(found.cuts, cuts(equal_frequency(values, bins)));
-        EXPECT_LE(found.passes, count <= 8192U ? 1 : 8);
+        EXPECT_LE(found.passes, count <= 8192U ? 1 : 9);
       }
 }
 

@@ -54,8 +54,9 @@ class Discretization {
 Discretization equal_width(std::span<const double> values, std::size_t bins);
 
 /// `bins` bins with equal numbers of values, as far as ties allow: of n values in ascending order each cut is number
-/// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. Equal cuts, and cuts at the
-/// least value, are dropped, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does. For more values
+/// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. A value that fills a bin, since
+/// two cuts fall on it, or one that is the least, has a bin of its own: in place of the second cut is the next greater
+/// value, if there is one, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does. For more values
 /// than memory should hold there is `EqualFrequencyFit`.
 Discretization equal_frequency(std::span<const double> values, std::size_t bins);
 
@@ -68,8 +69,8 @@ Discretization equal_frequency(std::span<const double> values, std::size_t bins)
 ///     } while (fit.wants_another_pass());
 ///     const Discretization bins = fit.discretization();
 ///
-/// One pass is enough for 8192 values, and there are never more than eight: in each, the values near a cut are told
-/// apart by eight further bits, until few are left.
+/// One pass is enough for 8192 values, and there are never more than nine: in each, the values near a cut are told
+/// apart by eight further bits, until few are left; the last looks for what follows the values that fill a bin.
 class EqualFrequencyFit {
  public:
   /// Throws std::invalid_argument if `bins` is zero.
@@ -105,15 +106,17 @@ class EqualFrequencyFit {
   };
 
   static void count(Range& range, Key key);
+  void see_above(double value);
   void settle(Range& range, std::vector<Range>& next);
 
   std::size_t bins_;
   std::size_t size_ = 0;
   double least_ = std::numeric_limits<double>::quiet_NaN();
   double greatest_ = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::size_t> ranks_;  // of the values that are cuts, ascending, once the first pass has ended
-  std::vector<double> cuts_;        // those values, as far as they are known
-  std::vector<Range> ranges_;       // where to look for the others, ascending
+  std::vector<std::size_t> ranks_;           // of the values that are cuts, ascending, once the first pass has ended
+  std::vector<double> at_ranks_;             // those values, as far as they are known
+  std::vector<Range> ranges_;                // where to look for the others, ascending
+  std::vector<double> full_, next_greater_;  // once all are: which of them fill a bin, and what follows each
 };
 
 }  // namespace sigmax
