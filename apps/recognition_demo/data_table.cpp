@@ -14,6 +14,7 @@
 #include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -47,13 +48,10 @@ class Vocabulary {
   }
   const std::string& first_in_order() const { return codes_.begin()->first; }
 
-  /// "'red' and 'Red'", the first that differ in case only; or nothing.
   std::string alike() const {
-    std::map<std::string, std::string_view> by_letters;
-    for (const auto& [word, code] : codes_)
-      if (const auto [other, is_new] = by_letters.emplace(lower_case(word), word); !is_new)
-        return fmt::format("{} and {}", in_quotes(other->second), in_quotes(word));
-    return "";
+    std::vector<std::string_view> words;
+    for (const auto& [word, code] : codes_) words.push_back(word);
+    return apps::alike(words);
   }
 
   /// The words in order, numbers by their value, and for each code the place of its word.
@@ -119,6 +117,7 @@ class ColumnReader {
     const bool is_word = !empty && !number && !missing.among_numbers(cell);
     if (number || is_word) ++cells_;
     if (number) ++numeric_cells_;
+    if (number) see_nines(cell, *number);
     counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
     last_ = number.value_or(last_);
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
@@ -176,12 +175,32 @@ class ColumnReader {
   }
   std::string units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
 
+  /// A number of nines only, as -999, that is farther from the others than these are from each other, and in how many
+  /// cells; else in none.
+  std::pair<std::string, std::size_t> nines() const {
+    const auto found = parse_number(nines_);
+    const bool is_far = found && std::max(*found - greatest_, least_ - *found) > greatest_ - least_;
+    return {nines_, is_far && numeric_cells_ - nine_cells_ >= few_rows ? nine_cells_ : 0};
+  }
+
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
   std::size_t index() const { return index_; }
 
  private:
   static constexpr std::size_t most_units = 3;
+
+  void see_nines(std::string_view cell, double number) {
+    if (nines_.empty() && std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
+        cell.substr(0, cell.find('.')).find('0') == cell.npos)
+      nines_ = cell;
+    if (cell == nines_) {
+      ++nine_cells_;
+    } else {
+      least_ = std::min(least_, number);
+      greatest_ = std::max(greatest_, number);
+    }
+  }
 
   bool could_be_numeric() const { return !categorical_ && !slip_; }
   /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
@@ -198,7 +217,10 @@ class ColumnReader {
   std::size_t numeric_cells_ = 0;
   std::size_t comma_cells_ = 0;
   std::size_t unit_cells_ = 0;
-  bool counts_ = true;  // so far, in whole numbers upwards
+  std::string nines_;  // the first number of nines only
+  std::size_t nine_cells_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  // of the other numbers
+  bool counts_ = true;                                                           // so far, in whole numbers upwards
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_, units_;
@@ -227,9 +249,10 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
   std::vector<std::string> warnings;
   const auto warn_of_alike = [&](const std::string& column, const Vocabulary& words) {
     if (const std::string alike = words.alike(); !alike.empty())
-      warnings.push_back(
-          fmt::format("{}: column {}: {} differ in case only, and count as two; write them alike, if they are the same",
-                      reader.file(), in_quotes(column), alike));
+      warnings.push_back(fmt::format(
+          "{}: column {}: {} differ in case, blanks or the writing of a number only, and count as two; write "
+          "them alike, if they are the same",
+          reader.file(), in_quotes(column), alike));
   };
   warn_of_alike(table.label, classes);
   for (const ColumnReader& column : columns)
@@ -251,6 +274,11 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
           fmt::format("{}: column {} holds numbers with a unit ({}), which count as words: write the numbers alone, "
                       "all in one unit, and the unit into the name of the column",
                       reader.file(), in_quotes(reader.names()[column.index()]), column.units()));
+  for (const ColumnReader& column : columns)
+    if (const auto [nines, cells] = column.nines(); cells > 0 && column.is_numeric())
+      warnings.push_back(fmt::format(
+          "{}: column {}: {} {} {}, far from the others; if that stands for no value, give --missing={}", reader.file(),
+          in_quotes(reader.names()[column.index()]), cells, cells == 1 ? "cell is" : "cells are", nines, nines));
   for (const ColumnReader& column : columns)
     if (column.names_rows())
       warnings.push_back(

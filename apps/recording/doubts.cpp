@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <span>
 
 #include "recording/plots.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -81,6 +84,8 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     ++errors_;
     off_ += off;
     if (off > 5.0 * distance(now.error, last.error)) ++same_;
+    for (std::size_t i = 0; i < 3; ++i)
+      lag_.add((now.at[i] - now.error[i] - last.at[i] + last.error[i]) / dt, now.error[i]);
   }
   for (std::size_t i = 0; i < now.rate.size(); ++i)
     if (std::isnan(now.rate[i])) now.rate[i] = last.rate[i];
@@ -118,6 +123,10 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
   };
   if (const auto& before = own->second.before; before && T > 0.0 && T <= 2.0 * (last.time - before->first)) {
     const auto bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
+    if (distance(before->second, last.at) > 0.0 && bent_ < many) {
+      bends_[&own->second].push_back(std::sqrt(dot(bend, bend)));
+      ++bent_;
+    }
     if (const auto other = track.spoke.find(track.latest); other != own && other->second.last.time >= last.time) {
       Position velocity{};
       for (std::size_t i = 0; i < 3; ++i) velocity[i] = (now.at[i] - last.at[i]) / T;
@@ -136,34 +145,43 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
   own->second.before = {last.time, {last.at[0], last.at[1], last.at[2]}};
 }
 
-/// What accounts for most of it: a shift, or so many times something of the row. Empty if nothing does.
+/// What accounts for most of it, in each quarter of the rows, since errors that last come and go: a shift, or so many
+/// times something of the row. Empty if nothing does.
 std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
-  const auto median = [&](const auto& number) {
+  const auto median_of = [](std::span<const Off> some, const auto& number) {
     std::vector<double> all;
-    for (const Off& row : rows)
+    for (const Off& row : some)
       if (const double one = number(row); std::isfinite(one)) all.push_back(one);
-    if (all.size() < few) return nan;
+    if (all.size() < few / 4) return nan;
     std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
     return all[all.size() / 2];
+  };
+  const auto median = [&](const auto& number) { return median_of(rows, number); };
+  struct Cause {
+    std::string words;
+    std::function<Position(const Off&)> off;
+  };
+  std::vector<Cause> causes;
+  const auto left_of = [&](std::span<const Off> some, const Cause& cause) {
+    return median_of(some, [&](const Off& row) { return std::pow(distance(row.by, cause.off(row)), 2); });
   };
   Position shift;
   for (std::size_t i = 0; i < 3; ++i) shift[i] = median([&](const Off& row) { return row.by[i]; });
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) parts.push_back(fmt::format("{:.3g}", shift[i]));
-  std::vector<std::pair<double, std::string>> causes = {
-      {median([&](const Off& row) { return std::pow(distance(row.by, shift), 2); }),
-       fmt::format("{:.3g} m away, by ({})", std::sqrt(dot(shift, shift)), fmt::join(parts, ", "))}};
-  const auto consider = [&](std::string_view format, double unit, const auto& of) {
+  causes.push_back({fmt::format("{:.3g} m away, by ({})", std::sqrt(dot(shift, shift)), fmt::join(parts, ", ")),
+                    [shift](const Off&) { return shift; }});
+  const auto consider = [&](std::string_view format, double unit, const std::function<Position(const Off&)>& of) {
     const double times = median([&](const Off& row) {
       const Position direction = of(row);
       return dot(row.by, direction) / dot(direction, direction);
     });
-    causes.emplace_back(median([&](const Off& row) {
-                          Position expected = of(row);
-                          for (double& along : expected) along *= times;
-                          return std::pow(distance(row.by, expected), 2);
-                        }),
-                        fmt::format(fmt::runtime(format), std::abs(times) / unit, times > 0.0 ? "early" : "late"));
+    causes.push_back({fmt::format(fmt::runtime(format), std::abs(times) / unit, times > 0.0 ? "early" : "late"),
+                      [of, times](const Off& row) {
+                        Position expected = of(row);
+                        for (double& along : expected) along *= times;
+                        return expected;
+                      }});
   };
   const auto across = [](const Position& at) { return Position{-at[1], at[0], 0.0}; };
   consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.velocity; });
@@ -180,13 +198,21 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
     consider("turned by {:.2g}°", degree, [&](const Off& row) { return across(row.at); });
     consider("{:.2g} % off in scale", 0.01, [](const Off& row) { return row.at; });
   }
-  const double all = median([](const Off& row) { return dot(row.by, row.by); });
-  const double bend = median([](const Off& row) { return row.bend; });
-  const double best = std::ranges::min_element(causes)->first;
-  if (!(best < 0.5 * all) || !(all - best > bend)) return {};
+  const auto square = [](const Off& row) { return dot(row.by, row.by); };
+  const double all = median(square), bend = median([](const Off&row) { return row.bend; });
+  std::vector<double> left;
+  for (const Cause& cause : causes) left.push_back(left_of(rows, cause));
+  const auto best = std::ranges::min_element(left);
+  if (!(*best < 0.5 * all) || !(all - *best > bend)) return {};
+  const Cause& nearest = causes[static_cast<std::size_t>(best - left.begin())];
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const std::size_t from = quarter * rows.size() / 4, to = (quarter + 1) * rows.size() / 4;
+    const std::span<const Off> some(rows.data() + from, to - from);
+    if (!(left_of(some, nearest) < 0.5 * median_of(some, square))) return {};
+  }
   std::string why;
-  for (const auto& [left, words] : causes)
-    if (left <= 3.0 * best + 2e-3 * all) why += (why.empty() ? "" : ", or ") + words;
+  for (std::size_t i = 0; i < causes.size(); ++i)
+    if (left[i] <= 3.0 * *best + 2e-3 * all) why += (why.empty() ? "" : ", or ") + causes[i].words;
   return why;
 }
 
@@ -302,7 +328,15 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       would_cross && !recording.from_north()
           ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
           : "see whether the stations stand where it is said, and how azimuths run");
-  say(errors_ >= few && 2 * same_ > errors_,
+  const double lag = lag_.growth_per_told();
+  const bool lags =
+      errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 && std::abs(lag) > 0.3 * median_step();
+  say(lags,
+      "the measurements are off the truth as if it told where the target {} {:.2g} s {} (that leaves {:.0f} % of the "
+      "squares of their distances): see whether rows or clocks are shifted",
+      lag > 0.0 ? "was" : "will be", std::abs(lag), lag > 0.0 ? "before" : "later",
+      100.0 * (1.0 - lag_.correlation() * lag_.correlation()));
+  say(!lags && errors_ >= few && 2 * same_ > errors_,
       "the measurements are off the truth by {:.3g} m on the average, and in {} of {} rows by much the same as in the "
       "row before, which is no noise: see whether both have the same axes, units and times, and whether the truth is "
       "empty where there is none",
@@ -318,6 +352,26 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "count from (sensor.{}.at), their datum and north, and their clocks",
         one, other, why, rows.size(), other);
   }
+  std::size_t straight = 0;
+  for (const auto& [sensor, all] : bends_) {
+    std::vector<double> bends = all;
+    std::ranges::sort(bends);
+    const auto below = std::ranges::lower_bound(bends, 0.02 * bends[bends.size() * 19 / 20]) - bends.begin();
+    if (bends.size() >= 2 * few) straight += static_cast<std::size_t>(below);
+  }
+  say(5 * straight > 2 * bent_,
+      "{} of {} positions are on the line between those before and after, to within a fiftieth of what others are off "
+      "it, as if they were interpolated: they count as new measurements, and the filters take their estimates for "
+      "better than they are; leave the measured rows alone",
+      straight, bent_);
+  std::vector<std::string_view> names;
+  for (const auto& [name, track] : tracks_) names.push_back(name);
+  const std::string twins = alike(names);
+  say(!twins.empty(),
+      "tracks {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
+      "are "
+      "the same",
+      twins);
   say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
       "position, empty those cells or name them by --missing",

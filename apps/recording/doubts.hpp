@@ -97,8 +97,11 @@ class Doubts {
   std::size_t twice_rows_ = 0;
   double to_twice_ = 0.0;                                                  // the path there and back
   std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousand
-  std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
-  double off_ = 0.0;                   // sum of those
+  std::map<const Sensor*, std::vector<double>> bends_;  // of positions off the line between the two beside them
+  std::size_t bent_ = 0;                                // of those, the first thousands
+  std::size_t errors_ = 0, same_ = 0;                   // about the truth, and those that are much as the one before
+  double off_ = 0.0;                                    // sum of those
+  Agreement lag_;                                       // of the truth's velocity with them
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places

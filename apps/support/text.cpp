@@ -2,6 +2,10 @@
 
 #include <clocale>
 #include <cwchar>
+#include <map>
+
+#include "support/input.hpp"
+#include "support/output.hpp"
 
 namespace sigmax::apps {
 
@@ -68,6 +72,28 @@ std::string wrapped(std::string_view text, std::size_t width) {
   if (text.ends_with('\n')) text.remove_suffix(1);
   for (const std::string& line : lines_of(printable(text, true), width)) result += line + "\n";
   return result;
+}
+
+std::string alike(const std::vector<std::string_view>& words) {
+  constexpr std::string_view no_break = "\u00a0";
+  const auto folded = [&](std::string_view word) {
+    std::string key;
+    for (; !word.empty(); word.remove_prefix(word.starts_with(no_break) ? no_break.size() : 1)) {
+      const bool blank = word.front() == ' ' || word.front() == '\t' || word.starts_with(no_break);
+      if (!blank)
+        key += 'A' <= word.front() && word.front() <= 'Z' ? static_cast<char>(word.front() - 'A' + 'a') : word.front();
+      else if (!key.empty() && key.back() != ' ')
+        key += ' ';
+    }
+    if (key.ends_with(' ')) key.pop_back();
+    const auto number = parse_number(key);
+    return number ? shortest(*number + 0.0) : key;
+  };
+  std::map<std::string, std::string_view> by_key;
+  for (const std::string_view word : words)
+    if (const auto [other, is_new] = by_key.emplace(folded(word), word); !is_new)
+      return fmt::format("{} and {}", in_quotes(other->second), in_quotes(word));
+  return "";
 }
 
 }  // namespace sigmax::apps

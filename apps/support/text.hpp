@@ -30,6 +30,10 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width);
 /// `any_width` breaks none.
 std::string wrapped(std::string_view text, std::size_t width = terminal_width);
 
+/// "'red' and 'Red'", the first two of the words that differ in nothing but case, blanks, or the writing of a number;
+/// or nothing.
+std::string alike(const std::vector<std::string_view>& words);
+
 /// Letters to change, to add or to leave out until one word is the other (Levenshtein).
 inline std::size_t spelling_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);

@@ -212,6 +212,15 @@ TEST_F(Tune, OneRowAfterAPauseChangesNoSigma) {
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 2.0, 0.3) << contents(best);
 }
 
+TEST_F(Tune, SaysHowGreatAnErrorTheFilterExpectsWhereItIsGreater) {
+  const auto beside = [&](double by) {
+    const auto text = changed(recording(120, true), [&](std::vector<double>& row, std::size_t) { row[3] += by; });
+    return program::succeeded(tune(quickly(directory.write("flight.csv", text)))).on_one_line();
+  };
+  EXPECT_TRUE(says(beside(150.0), {"m now. The filter takes it for 1", "m: errors that last from row to row"}));
+  EXPECT_EQ(beside(0.0).find("takes it for"), std::string::npos);
+}
+
 TEST_F(Tune, SaysWhereToBeginWithSmallNumbersAndWhatBecameWorse) {
   const auto small = changed(recording(100, true), [](std::vector<double>& row, std::size_t) {
     for (std::size_t i = 1; i < row.size(); ++i) row[i] *= 1e-9;

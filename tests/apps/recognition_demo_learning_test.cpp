@@ -306,7 +306,7 @@ TEST_F(RecognitionDemoLearning, WordsThatDifferInCaseAndFarNumbersArePointedOut)
     text += fmt::format("{},{},{}\n", 15 + k % 10 + k % 2, k % 3 ? "True" : "TRUE", k % 2 ? "a" : "b");
   const auto data = directory.write("rooms.csv", text);
   const auto learned = recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model});
-  EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in case only"}));
+  EXPECT_TRUE(says(learned.output, {"column 'flag': 'TRUE' and 'True' differ in case, blanks or"}));
   EXPECT_EQ(classify("warmth,flag\n0,True\n40,True\n").find("far"), std::string::npos);
   const std::string said = classify("warmth,flag\n20,True\n68,True\n70,True\n");  // degrees Fahrenheit
   EXPECT_TRUE(says(said, {"2 numbers are far from those that the model was learned from", "'68'"}));
@@ -370,12 +370,26 @@ TEST_F(RecognitionDemoLearning, WhatATableTellsTwiceIsPointedOut) {
 TEST_F(RecognitionDemoLearning, ANumberThatIsNearlyAlwaysZeroTellsTheRest) {
   std::string rows = "reading,kind\n";
   for (int k = 0; k < 200; ++k)
-    rows += k % 10 == 0 ? fmt::format("{},rare\n", 0.001 * (k + 1)) : std::string{"0,usual\n"};
-  directory.write("zeros.csv", rows);
-  recognition_demo_succeeds(
-      Arguments{"evaluate", directory.write("zeros.csv", rows), "--label", "kind", "--out", directory.path()});
+    rows += k % 10 == 0 ? fmt::format("{},rare\n", 1 + k / 10 % 5) : std::string{"0,usual\n"};
+  recognition_demo_succeeds(Arguments{"evaluate", directory.write("zeros.csv", rows), "--label", "kind", "--out", out});
   for (const char* classifier : {"sigma", "max, ratio scale", "max, Dubois-Prade"})
     EXPECT_EQ(summary().at("classifiers").at(classifier).at("accuracy"), 1.0) << classifier;
+}
+
+TEST_F(RecognitionDemoLearning, NinesFarFromTheOthersArePointedOut) {
+  const auto said = [&](const std::string& word) {
+    std::string rows = "reading,kind\n";
+    for (int k = 0; k < 40; ++k)
+      rows += fmt::format("{},{}\n", k % 20 == 5 ? word : std::to_string(90 + k % 12), k % 2 ? "a" : "b");
+    return recognition_demo_succeeds(
+               {"train", directory.write("nines.csv", rows), "--label", "kind", "--model", model, "--wide"})
+        .output;
+  };
+  for (const char* word : {"-999", "9999", "-99.9", "999.0"})
+    EXPECT_TRUE(says(said(word), {fmt::format("column 'reading': 2 cells are {0}, far from the others; if that stands "
+                                              "for no value, give --missing={0}",
+                                              word)}));
+  for (const char* word : {"99", "-500", "NA"}) EXPECT_EQ(said(word).find("far from"), std::string::npos) << word;
 }
 
 TEST_F(RecognitionDemoLearning, MissingLabelsAndUnitsInCellsArePointedOut) {
