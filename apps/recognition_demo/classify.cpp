@@ -126,7 +126,8 @@ class RowReader {
       if (const auto number = parse_number(cell)) {
         auto& [all, below, above] = numbers_[i];
         ++all, below += *number < feature.least ? 1U : 0U, above += *number > feature.greatest ? 1U : 0U;
-        if (is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
+        const bool was_learned = feature.least <= *number && *number <= feature.greatest;
+        if (!was_learned && is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
           first_far_ =
               row.error(columns_[i],
                         fmt::format("a number as those learned from, most of which are from {} to {}",

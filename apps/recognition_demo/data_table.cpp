@@ -118,6 +118,7 @@ class ColumnReader {
     if (number || is_word) ++cells_;
     if (number) ++numeric_cells_;
     if (number) see_nines(cell, *number);
+    if (number) see_whole(*number);
     counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
     last_ = number.value_or(last_);
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
@@ -141,6 +142,13 @@ class ColumnReader {
   void refuse_slip(const CsvReader& reader) const {
     if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
     const std::string& name = reader.names()[index_];
+    if (comma_cells_ > numeric_cells_)
+      throw InputError(
+          message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                   .what = fmt::format("column {}", in_quotes(name)),
+                   .found = in_quotes(slip_->word),
+                   .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
+                   .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
     throw InputError(message(
         {.where = fmt::format("{}:{}", reader.file(), slip_->line),
          .what = fmt::format("column {}", in_quotes(name)),
@@ -162,10 +170,12 @@ class ColumnReader {
     return words_.size() == 0 ? "no value" : in_quotes(words_.first_in_order());
   }
 
+  std::size_t filled() const { return cells_; }
+
   /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
   bool names_rows() const {
     if (cells_ < few_rows) return false;
-    return is_numeric() ? counts_ : !too_many_words_ && !holds_units() && 2 * words_.size() > cells_;
+    return is_numeric() ? counts_ || is_run() : !too_many_words_ && !holds_units() && 2 * words_.size() > cells_;
   }
 
   /// Whether most cells, of more than a few different ones, are a number and one of few words.
@@ -189,6 +199,23 @@ class ColumnReader {
 
  private:
   static constexpr std::size_t most_units = 3;
+
+  void see_whole(double number) {
+    if (numeric_cells_ == 1) first_ = low_ = high_ = number;
+    low_ = std::min(low_, number);
+    high_ = std::max(high_, number);
+    sum_ += number - first_;
+    squares_ += (number - first_) * (number - first_);
+    whole_ = whole_ && number == std::floor(number);
+  }
+  /// Whether the cells are whole numbers one after another, each once, in any order, by their sum and squares.
+  bool is_run() const {
+    const auto n = static_cast<double>(cells_);
+    const double a = low_ - first_, sum = n * a + n * (n - 1) / 2;
+    const double squares = n * a * a + a * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6;
+    return whole_ && numeric_cells_ == cells_ && high_ - low_ + 1 == n &&
+           std::abs(sum_ - sum) <= 1e-9 * std::abs(sum) && std::abs(squares_ - squares) <= 1e-9 * squares;
+  }
 
   void see_nines(std::string_view cell, double number) {
     if (nines_.empty() && std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
@@ -217,7 +244,10 @@ class ColumnReader {
   std::size_t numeric_cells_ = 0;
   std::size_t comma_cells_ = 0;
   std::size_t unit_cells_ = 0;
-  std::string nines_;  // the first number of nines only
+  bool whole_ = true;  // all numbers are
+  double first_ = 0.0, low_ = 0.0, high_ = 0.0, sum_ = 0.0,
+         squares_ = 0.0;  // the sums of their distances from the first
+  std::string nines_;     // the first number of nines only
   std::size_t nine_cells_ = 0;
   double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  // of the other numbers
   bool counts_ = true;                                                           // so far, in whole numbers upwards
@@ -229,18 +259,23 @@ class ColumnReader {
 /// Columns with their lone values, all at once: throws if there is such a one.
 void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
   std::vector<std::string> found, names;
+  bool gaps = false;
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
     names.push_back(typed(reader.names()[column.index()]));
-    found.push_back(fmt::format("{} in column {}", value, in_quotes(reader.names()[column.index()])));
+    const std::size_t empty = rows - column.filled();
+    gaps = gaps || (0 < empty && empty < rows);
+    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(reader.names()[column.index()]),
+                                empty > 0 && empty < rows ? fmt::format(" (and no value in {} rows)", empty) : ""));
   }
   if (names.empty()) return;
   throw InputError(
       message({.where = reader.file(),
                .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
                .expected = "at least two different values",
-               .remedy = fmt::format("leave out what never changes by --ignore {}", fmt::join(names, ","))}));
+               .remedy = fmt::format("{}leave out what never changes by --ignore {}",
+                                     gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))}));
 }
 
 /// What a reader of the results should know of the file.
@@ -281,10 +316,10 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
           in_quotes(reader.names()[column.index()]), cells, cells == 1 ? "cell is" : "cells are", nines, nines));
   for (const ColumnReader& column : columns)
     if (column.names_rows())
-      warnings.push_back(
-          fmt::format("{0}: column {1} seems to name the rows, or to count them, and tells nothing of others; leave it "
-                      "out by --ignore {2}",
-                      reader.file(), in_quotes(reader.names()[column.index()]), typed(reader.names()[column.index()])));
+      warnings.push_back(fmt::format(
+          "{0}: column {1} seems to name the rows, or to count them, and tells nothing of others, unless they "
+          "are in its order; leave it out by --ignore {2}",
+          reader.file(), in_quotes(reader.names()[column.index()]), typed(reader.names()[column.index()])));
   std::vector<std::string> like_cells;
   for (const ColumnReader& column : columns)
     if (column.contains(reader.names()[column.index()]))
@@ -302,8 +337,10 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
 
 /// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
 struct DistinctRows {
-  std::vector<std::vector<double>> cells;  ///< of each the number or code by column, NaN where it is missing
+  std::vector<std::vector<double>>
+      cells;  ///< of each the number or code by column, NaN where it is missing, and the class
   std::size_t with_copies = 0;
+  std::map<double, std::pair<std::size_t, std::size_t>> of_class;  ///< how many differ, and with their copies
 
   explicit DistinctRows(const DataTable& table) {
     constexpr std::size_t most = 1024;
@@ -321,9 +358,29 @@ struct DistinctRows {
       if (found.size() > most) found.erase(std::prev(found.end()));
     });
     for (auto& [hash, row] : found) {
+      auto& [differ, all] = of_class[row.first.back()];
+      ++differ, all += row.second;
       cells.push_back(std::move(row.first));
       with_copies += row.second;
     }
+  }
+
+  /// How many values a column has that may name groups of rows, and of how many rows each: several, each of one class,
+  /// and the classes of numbers not in their order; else none.
+  std::pair<std::size_t, double> groups(std::size_t column, bool numeric, std::size_t classes) const {
+    std::map<double, double> class_of;
+    std::size_t known = 0, changes = 0;
+    for (const auto& row : cells) {
+      if (std::isnan(row[column])) continue;
+      const auto [found, is_new] = class_of.emplace(row[column], row.back());
+      if (found->second != row.back() || (numeric && row[column] != std::floor(row[column]))) return {};
+      ++known;
+    }
+    for (auto next = class_of.begin(); next != class_of.end() && std::next(next) != class_of.end(); ++next)
+      if (next->second != std::next(next)->second) ++changes;
+    const std::size_t values = class_of.size();
+    if (values < 8 || values < 2 * classes || known < 3 * values || (numeric && 4 * changes < values)) return {};
+    return {values, static_cast<double>(known) / static_cast<double>(values)};
   }
 
   /// Twice the place of each cell of a column when sorted, the same for equal ones; -1 where it is missing.
@@ -368,11 +425,25 @@ void warn_of_repeats(DataTable& table) {
     fine += 2 * different > size ? 1U : 0U;
     told.push_back(!table.columns[i].numeric || different < 4);
   }
-  if (rows.with_copies >= 2 * size && fine >= 2)
-    table.warnings.push_back(fmt::format(
-        "{}: {:.0f} % of {} rows repeat another, label included: what is learned from one is asked of its "
-        "copy, so the shares of right answers are too good; drop the copies",
-        table.file, 100.0 - 100.0 * static_cast<double>(size) / static_cast<double>(rows.with_copies), table.size()));
+  const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
+    table.warnings.push_back(
+        fmt::format("{}: {:.0f} % of {} repeat another, label included: what is learned from one is asked of its "
+                    "copy, so the shares of right answers are too good; drop the copies",
+                    table.file, 100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which));
+  };
+  const bool all_of_them = rows.with_copies >= 2 * size;
+  if (fine >= 2 && all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
+  for (const auto& [label, counts] : rows.of_class)
+    if (const auto [differ, all] = counts; fine >= 2 && !all_of_them && all >= few_rows && all >= 2 * differ)
+      warn_of_copies(fmt::format("the rows of class {}", in_quotes(table.classes[static_cast<std::size_t>(label)])),
+                     differ, all);
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (const auto [values, each] = rows.groups(i, table.columns[i].numeric, table.classes.size()); values > 0)
+      table.warnings.push_back(fmt::format(
+          "{0}: each of {1} values of column {2}, of {3:.2g} rows on the average, is of one class only: if it "
+          "names what rows are of, as a patient or a session, these are parted by the folds, and the shares of "
+          "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
+          table.file, values, in_quotes(table.columns[i].name), each, typed(table.columns[i].name)));
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t j = i + 1; j < ranks.size(); ++j)

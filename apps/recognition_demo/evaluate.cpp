@@ -180,6 +180,11 @@ class Results {
   ScratchArray<TimesRight> times_right_;  // by row
 };
 
+/// Rows that excluded every class, the mean over the foldings.
+double excluded(const Outcome& outcome, std::size_t foldings) {
+  return static_cast<double>(outcome.excluded) / static_cast<double>(foldings);
+}
+
 ResultTable outcomes_table(const Results& results, std::size_t foldings) {
   ResultTable table;
   for (std::size_t i = 0; i < results.outcomes().size(); ++i) {
@@ -206,7 +211,8 @@ ResultTable outcomes_table(const Results& results, std::size_t foldings) {
                    fuzzy ? Cell(fuzzy->coverage()) : Cell()},
                   {{.key = "mean_classes_in_the_cut", .header = "classes at ½ or more"},
                    fuzzy ? Cell(fuzzy->cut_size()) : Cell()},
-                  {{.key = "rows_that_excluded_every_class"}, outcome.excluded > 0 ? Cell(outcome.excluded) : Cell()}});
+                  {{.key = "rows_that_excluded_every_class"},
+                   outcome.excluded > 0 ? Cell(excluded(outcome, foldings)) : Cell()}});
   }
   return table;
 }
@@ -319,7 +325,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
-      result.say("{}: {} rows excluded every class and were judged by the prior", outcome.name, outcome.excluded);
+      result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
+                 excluded(outcome, options.foldings));
   std::vector<std::string> names;
   std::vector<std::vector<double>> recognised;
   for (const Outcome& outcome : results.outcomes()) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
 #include <span>
 
 #include "recording/plots.hpp"
@@ -78,7 +77,14 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   const double jump = distance(last.at, now.at);
   path_ += jump;
   ++jumps_;
-  if (jump == 0.0) ++held_;
+  if (jump == 0.0) {
+    ++held_;
+    if (before.jump > 0.0) {
+      ++stays_;
+      if (ways_.size() <= few) ways_.insert(static_cast<float>(before.jump));
+    }
+  }
+  before.jump = jump;
   if (now.twice != last.twice) to_twice_ += jump;
   if (const double off = distance(now.error, Position{}); !std::isnan(off + last.error[0])) {
     ++errors_;
@@ -124,7 +130,7 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
   if (const auto& before = own->second.before; before && T > 0.0 && T <= 2.0 * (last.time - before->first)) {
     const auto bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
     if (distance(before->second, last.at) > 0.0 && bent_ < many) {
-      bends_[&own->second].push_back(std::sqrt(dot(bend, bend)));
+      bends_[&own->second].emplace_back(std::sqrt(dot(bend, bend)), distance(before->second, now.at));
       ++bent_;
     }
     if (const auto other = track.spoke.find(track.latest); other != own && other->second.last.time >= last.time) {
@@ -329,8 +335,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
           ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
           : "see whether the stations stand where it is said, and how azimuths run");
   const double lag = lag_.growth_per_told();
-  const bool lags =
-      errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 && std::abs(lag) > 0.3 * median_step();
+  const bool lags = errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 &&
+                    std::abs(lag) > 0.3 * median_step() && std::abs(lag) < 20.0 * median_step();
   say(lags,
       "the measurements are off the truth as if it told where the target {} {:.2g} s {} (that leaves {:.0f} % of the "
       "squares of their distances): see whether rows or clocks are shifted",
@@ -354,10 +360,11 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   std::size_t straight = 0;
   for (const auto& [sensor, all] : bends_) {
-    std::vector<double> bends = all;
+    auto bends = all;
     std::ranges::sort(bends);
-    const auto below = std::ranges::lower_bound(bends, 0.02 * bends[bends.size() * 19 / 20]) - bends.begin();
-    if (bends.size() >= 2 * few) straight += static_cast<std::size_t>(below);
+    const double usual = bends[bends.size() * 19 / 20].first;
+    const auto is_straight = [&](const auto& each) { return each.first < std::min(0.02 * usual, 5e-4 * each.second); };
+    if (bends.size() >= 2 * few) straight += static_cast<std::size_t>(std::ranges::count_if(bends, is_straight));
   }
   say(5 * straight > 2 * bent_,
       "{} of {} positions are on the line between those before and after, to within a fiftieth of what others are off "
@@ -389,7 +396,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     moved += distance(*track.first, *track.last);
   }
   // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
-  say(held_ >= few && 4 * held_ > jumps_ && moved > 0.5 * path_,
+  // So does what is rounded, by steps that are few; a held position goes any way, and is held again.
+  const bool held_again = 4 * stays_ > 3 * (jumps_ - held_) && ways_.size() > few;
+  say(held_ >= few && 4 * held_ > jumps_ && (moved > 0.5 * path_ || held_again),
       "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
       "count as new measurements, and the filters take their estimates for better than they are; leave one row of each",
       held_, jumps_);

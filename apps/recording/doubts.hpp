@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "recording/recording.hpp"
 
@@ -60,6 +62,7 @@ class Doubts {
     Spoke last;
     std::array<Since, 3> since;
     std::optional<std::pair<double, Position>> before{};  // the last one
+    double jump = 0.0;                                    // between these
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
@@ -93,15 +96,18 @@ class Doubts {
   double farthest_ = 0.0;             // of positions from where they are counted
   double path_ = 0.0;                 // of all positions, each sensor's own
   std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
+  std::size_t stays_ = 0;             // those that lead somewhere, where the next leads nowhere
+  std::set<float> ways_;              // how long those are, some
   std::optional<double> twice_;       // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
   double to_twice_ = 0.0;                                                  // the path there and back
   std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousand
-  std::map<const Sensor*, std::vector<double>> bends_;  // of positions off the line between the two beside them
-  std::size_t bent_ = 0;                                // of those, the first thousands
-  std::size_t errors_ = 0, same_ = 0;                   // about the truth, and those that are much as the one before
-  double off_ = 0.0;                                    // sum of those
-  Agreement lag_;                                       // of the truth's velocity with them
+  // How far positions are off the line between the two beside them, and these from each other.
+  std::map<const Sensor*, std::vector<std::pair<double, double>>> bends_;
+  std::size_t bent_ = 0;               // of those, the first thousands
+  std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
+  double off_ = 0.0;                   // sum of those
+  Agreement lag_;                      // of the truth's velocity with them
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -34,6 +36,12 @@ std::vector<double> sorted(std::span<const double> values, std::size_t bins) {
   if (bins > 1 && result.front() == result.back())
     throw std::invalid_argument("a discretization cannot be fitted: every value is " + shown(result.front()));
   return result;
+}
+
+/// Where there are no more different values than bins, each has one.
+Discretization one_each(const std::set<double>& different) {
+  return Discretization{different.empty() ? std::vector<double>{}
+                                          : std::vector(std::next(different.begin()), different.end())};
 }
 
 /// The values at ranks are cuts, unless that is the least, or a cut already; a value at two ranks, the end below
@@ -110,6 +118,11 @@ Discretization equal_width(std::span<const double> values, std::size_t bins) {
 
 Discretization equal_frequency(std::span<const double> values, std::size_t bins) {
   const std::vector<double> ascending = sorted(values, bins);
+  std::set<double> different;
+  for (auto value = ascending.begin(); value != ascending.end() && different.size() <= bins;
+       value = std::upper_bound(value, ascending.end(), *value))
+    different.insert(*value);
+  if (different.size() <= bins) return one_each(different);
   std::vector<double> at_ranks;
   for (std::size_t j = 1; j < bins; ++j) at_ranks.push_back(ascending[j * ascending.size() / bins]);
   return cut(ascending.front(), at_ranks, [&](double value) {
@@ -134,6 +147,7 @@ void EqualFrequencyFit::see(double value) {
     ++size_;
     least_ = std::fmin(least_, value);
     greatest_ = std::fmax(greatest_, value);
+    if (different_.size() <= bins_) different_.insert(value);
   }
   if (!full_.empty()) return see_above(value);
   const Key key = key_of(value);
@@ -182,7 +196,7 @@ void EqualFrequencyFit::settle(Range& range, std::vector<Range>& next) {
 }
 
 bool EqualFrequencyFit::wants_another_pass() {
-  if (!full_.empty()) return false;
+  if (!full_.empty() || different_.size() <= bins_) return false;
   const bool first = ranks_.empty();
   if (first && size_ > 0) {
     for (std::size_t j = 1; j < bins_; ++j) ranks_.push_back(j * size_ / bins_);
@@ -205,6 +219,7 @@ bool EqualFrequencyFit::wants_another_pass() {
 }
 
 Discretization EqualFrequencyFit::discretization() const {
+  if (different_.size() <= bins_) return one_each(different_);
   return cut(least_, at_ranks_, [&](double value) {
     return next_greater_[static_cast<std::size_t>(std::lower_bound(full_.begin(), full_.end(), value) - full_.begin())];
   });

@@ -212,6 +212,21 @@ TEST_F(Tune, OneRowAfterAPauseChangesNoSigma) {
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 2.0, 0.3) << contents(best);
 }
 
+TEST_F(Tune, FitsTheNoiseBesideManyOutliersAndBesideSigmasOfTheRows) {
+  const auto best = (directory.path() / "best.toml").string();
+  const auto outliers = changed(recording(400, false), [](std::vector<double>& row, std::size_t k) {
+    if (k > 5 && k % 14 == 0) row[1] += k % 28 == 0 ? 900.0 : -600.0;
+  });
+  program::succeeded(tune(quickly(directory.write("flight.csv", outliers), {"--out", best})));
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 3.0) << contents(best);
+  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 1.0, 0.4) << contents(best);
+  std::string stated = recording(400, false);  // that say 60 for 20
+  for (std::size_t at = 0; (at = stated.find('\n', at)) != stated.npos; at += 4)
+    stated.insert(at, at < 20 ? ",sigma_position_m" : ",60"), at += at < 20 ? 17 : 0;
+  program::succeeded(tune(quickly(directory.write("stated.csv", stated), {"--out", best})));
+  EXPECT_GT(value_in(contents(best), "sigma_w"), 0.4) << contents(best);
+}
+
 TEST_F(Tune, SaysHowGreatAnErrorTheFilterExpectsWhereItIsGreater) {
   const auto beside = [&](double by) {
     const auto text = changed(recording(120, true), [&](std::vector<double>& row, std::size_t) { row[3] += by; });

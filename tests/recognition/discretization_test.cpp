@@ -79,11 +79,17 @@ TEST(EqualFrequency, PutsAsManyValuesIntoEveryBin) {
 }
 
 TEST(EqualFrequency, NeverSplitsATieAndLeavesAValueThatFillsABinAlone) {
-  // The cuts would be at 0, 0 and 2: below the least there is nothing to cut off, but above it.
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3}, 4).cuts(), (Numbers{1.0, 2.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 2}, 3).cuts(), (Numbers{1.0, 2.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 0, 0, 0, 0, 5}, 2).cuts(), (Numbers{5.0}), 0.0);
-  EXPECT_CLOSE(equal_frequency(Numbers{1, 2, 3, 3, 3, 3}, 3).cuts(), (Numbers{3.0}), 0.0);  // nothing is above 3
+  // The cuts would be at 0, 1 and 3: below the least there is nothing to cut off, but above it.
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 1, 2, 3, 4, 5}, 4).cuts(), (Numbers{1.0, 3.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 1, 1, 1, 1, 1, 2, 3}, 3).cuts(), (Numbers{1.0, 2.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{0, 0, 0, 0, 0, 0, 0, 0, 5, 6}, 2).cuts(), (Numbers{5.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{1, 2, 3, 4, 4, 4, 4, 4}, 3).cuts(), (Numbers{3.0, 4.0}),
+               0.0);  // none is above 4
+}
+
+TEST(EqualFrequency, GivesEachValueABinWhereTheyAreFew) {
+  EXPECT_CLOSE(equal_frequency(Numbers{7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2}, 8).cuts(), (Numbers{2.0, 7.0}), 0.0);
+  EXPECT_CLOSE(equal_frequency(Numbers{5, 5, 5, 4}, 2).cuts(), (Numbers{5.0}), 0.0);
 }
 
 /// Restated: the bins of a list of ranks, by what stands before and after.
@@ -96,7 +102,12 @@ PROPERTY(EqualFrequency, CutsAsThePlainRestatement) {
   Numbers ascending = values;
   std::sort(ascending.begin(), ascending.end());
   std::set<double> expected;
-  for (const double value : std::set<double>(ascending.begin(), ascending.end())) {
+  const std::set<double> different(ascending.begin(), ascending.end());
+  for (const double value : different) {
+    if (different.size() <= bins) {  // each has one
+      if (value > ascending.front()) expected.insert(value);
+      continue;
+    }
     std::size_t cuts_here = value == ascending.front() ? 1 : 0;  // below the least the first bin begins
     for (std::size_t j = 1; j < bins; ++j) cuts_here += ascending[j * ascending.size() / bins] == value;
     if (cuts_here > 0 && value > ascending.front()) expected.insert(value);

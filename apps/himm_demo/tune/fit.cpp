@@ -515,6 +515,7 @@ bool fits_noises(const TuneOptions& options) {
 struct Kept {
   double nis = 1.0;    ///< the mean of those that do, none for more than the usual gate lets pass, a measured quantity
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
+  double reach_of_kept = 1.0;  ///< likewise, of those that pass alone
   std::size_t set_aside = 0;
 };
 
@@ -537,25 +538,42 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
     return {};
   }
   if (parts.empty()) return {.set_aside = set_aside.size()};
+  const double reach_of_kept = quantile(parts, stated);
   for (std::size_t k = 0; k < set_aside.size(); ++k)
     if (k == 0 || set_aside[k].track != set_aside[k - 1].track || set_aside[k].row > set_aside[k - 1].row + 1)
       parts.push_back(std::numeric_limits<double>::infinity());
-  return {sum / numbers, quantile(parts, stated), set_aside.size()};
+  return {sum / numbers, quantile(parts, stated), reach_of_kept, set_aside.size()};
 }
 
 /// Real errors have long tails, and what is most likely need not be as wide as the errors are: all noises change by
 /// one factor, which leaves the filter's gains as they are, until the region that is stated to hold 95 % holds as many
 /// of the rows. Of several targets, of which some move as no others do, that goes no farther than until the mean NIS is
-/// near the end of 0.9 to 1.1. The result is to four digits, and without a gate of ours that turns nothing away.
+/// near the end of 0.9 to 1.1. Rows that not even sigmas four times as great reach are no noise: where they are too
+/// many, the others alone count. So it does nothing where the rows state their sigmas, since sigma_w alone would change
+/// the gains. The result is to four digits, and without a gate of ours that turns nothing away.
 void finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
   constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03, most_at_once = 2.0;
   constexpr std::size_t most_steps = 12;
-  for (std::size_t k = 0; k < most_steps && fits_noises(options); ++k) {
+  constexpr double most_in_all = 16.0;  // of variances
+  const FilterSettings fitted = settings;
+  const auto fits_sensors = [&] {
+    return std::ranges::any_of(free_numbers(settings, data, options),
+                               [](const FreeNumber& number) { return number.sensor && number.noise; });
+  };
+  double in_all = 1.0;
+  bool kept_alone = false;
+  for (std::size_t k = 0; k < most_steps && fits_noises(options) && fits_sensors(); ++k) {
+    if (in_all > most_in_all && !kept_alone) {
+      settings = fitted;
+      kept_alone = true;
+    }
     const Kept kept = kept_by(settings, data, options.objective);
+    const double reach = kept_alone ? kept.reach_of_kept : kept.reach;
     const double wanted =
-        data.tracks.size() > 1 ? std::clamp(kept.reach, kept.nis / greatest_nis, kept.nis / least_nis) : kept.reach;
+        data.tracks.size() > 1 ? std::clamp(reach, kept.nis / greatest_nis, kept.nis / least_nis) : reach;
     const double factor = std::clamp(wanted, 1.0 / most_at_once, most_at_once);
     if (!(std::abs(factor - 1.0) > tolerance)) break;
+    in_all *= factor;
     const auto numbers = free_numbers(settings, data, options);
     const auto held = [](const FreeNumber& number) {
       return number.least > 0.0 && number.parameter.start <= number.least;

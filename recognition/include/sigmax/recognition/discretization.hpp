@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -56,7 +57,8 @@ Discretization equal_width(std::span<const double> values, std::size_t bins);
 /// `bins` bins with equal numbers of values, as far as ties allow: of n values in ascending order each cut is number
 /// ⌊jn/bins⌋, counted from 0, for j = 1 … bins−1; that value belongs to the bin above. A value that fills a bin, since
 /// two cuts fall on it, or one that is the least, has a bin of its own: in place of the second cut is the next greater
-/// value, if there is one, so there may be fewer bins. NaN are skipped. Throws as `equal_width` does. For more values
+/// value, if there is one, so there may be fewer bins; and where there are no more different values than bins, each has
+/// one. NaN are skipped. Throws as `equal_width` does. For more values
 /// than memory should hold there is `EqualFrequencyFit`.
 Discretization equal_frequency(std::span<const double> values, std::size_t bins);
 
@@ -113,6 +115,7 @@ class EqualFrequencyFit {
   std::size_t size_ = 0;
   double least_ = std::numeric_limits<double>::quiet_NaN();
   double greatest_ = std::numeric_limits<double>::quiet_NaN();
+  std::set<double> different_;               // values, one more than there are bins at most
   std::vector<std::size_t> ranks_;           // of the values that are cuts, ascending, once the first pass has ended
   std::vector<double> at_ranks_;             // those values, as far as they are known
   std::vector<Range> ranges_;                // where to look for the others, ascending
