@@ -245,9 +245,9 @@ class ColumnReader {
   std::size_t comma_cells_ = 0;
   std::size_t unit_cells_ = 0;
   bool whole_ = true;  // all numbers are
-  double first_ = 0.0, low_ = 0.0, high_ = 0.0, sum_ = 0.0,
-         squares_ = 0.0;  // the sums of their distances from the first
-  std::string nines_;     // the first number of nines only
+  double first_ = 0.0, low_ = 0.0, high_ = 0.0;
+  double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
+  std::string nines_;                 // the first number of nines only
   std::size_t nine_cells_ = 0;
   double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  // of the other numbers
   bool counts_ = true;                                                           // so far, in whole numbers upwards
@@ -337,8 +337,8 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
 
 /// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
 struct DistinctRows {
-  std::vector<std::vector<double>>
-      cells;  ///< of each the number or code by column, NaN where it is missing, and the class
+  /// Of each the number or code by column, NaN where it is missing, and the class.
+  std::vector<std::vector<double>> cells;
   std::size_t with_copies = 0;
   std::map<double, std::pair<std::size_t, std::size_t>> of_class;  ///< how many differ, and with their copies
 

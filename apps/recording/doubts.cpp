@@ -376,8 +376,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const std::string twins = alike(names);
   say(!twins.empty(),
       "tracks {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
-      "are "
-      "the same",
+      "are the same",
       twins);
   say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "

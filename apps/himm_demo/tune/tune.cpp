@@ -276,8 +276,7 @@ std::string text_of_truth(const Diagnosis& before, const Diagnosis& after) {
   if (*after.rmse_m > 2.0 * after.told_m)
     text += fmt::format(
         " The filter takes it for {:.3g} m: errors that last from row to row, as of GNSS or of a clock, are no noise "
-        "that "
-        "innovations show; --truth=density fits the sigmas to the truth.",
+        "that innovations show; --truth=density fits the sigmas to the truth.",
         after.told_m);
   return text;
 }
