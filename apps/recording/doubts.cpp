@@ -388,6 +388,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "east: "
       "give those of the south and the west a minus sign",
       abroad, first_abroad);
+  const auto& [left, left_by] = recording.left_behind();
+  say(left >= few,
+      "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "
+      "it; "
+      "or, where seconds of the week begin anew, add 604800 from there on",
+      left, left_by);
   double moved = 0.0, duration = 0.0;
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;

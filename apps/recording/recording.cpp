@@ -253,7 +253,8 @@ bool RecordingReader::take_time(Row& row) {
     if (of_day) latest_of_day_ = time;
     return true;
   }
-  const double week_s = 7.0 * day_s, before = last_.find(row.track)->second.time;
+  Last& last = last_.find(row.track)->second;
+  const double week_s = 7.0 * day_s, before = last.time;
   if (!skip_bad_times_)
     throw row_.error(
         time_, fmt::format("a time after that of the row before, {}", shortest(before)),
@@ -265,6 +266,7 @@ bool RecordingReader::take_time(Row& row) {
               "give --on-bad-time skip"
             : "sort the rows by time, or give --on-bad-time skip");
   ++skipped_;
+  if (++last.left > left_behind_.rows) left_behind_ = {last.left, last.line};
   return false;
 }
 
@@ -286,11 +288,11 @@ double RecordingReader::on_its_day(const Row& row, double time_of_day) {
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.
 bool RecordingReader::refused_time(const Row& row, double time) {
   const std::string sensor{sensor_ ? trimmed(row_[*sensor_]) : std::string_view{}};
-  const auto [found, first] = last_.try_emplace(row.track, Last{time, {sensor}});
+  const auto [found, first] = last_.try_emplace(row.track, Last{time, {sensor}, row.line});
   if (first) return false;
   Last& last = found->second;
   if (time > last.time) {
-    last = {time, {sensor}};
+    last = {time, {sensor}, row.line};
     return false;
   }
   const bool spoke = std::ranges::find(last.sensors, sensor) != last.sensors.end();

@@ -116,6 +116,9 @@ class RecordingReader {
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
+  /// The most of them after one row, and its line.
+  const Counted& left_behind() const { return left_behind_; }
+
  private:
   /// Where a quantity stands, in which unit, and the number that stands for none.
   struct Column {
@@ -127,7 +130,9 @@ class RecordingReader {
   struct Last {
     double time;
     std::vector<std::string> sensors;
-    bool of_day = false;  ///< whether it was a time of day
+    std::size_t line;
+    bool of_day = false;   ///< whether it was a time of day
+    std::size_t left = 0;  ///< rows dropped since
   };
 
   std::optional<Column>& column(Role role, std::size_t i = 0) { return columns_[place_of(role) + i]; }
@@ -184,7 +189,7 @@ class RecordingReader {
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t skipped_ = 0;
-  Counted senseless_, abroad_;
+  Counted senseless_, abroad_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   Counted midnights_;                                 // that tracks passed
   std::size_t unused_velocities_ = 0;
