@@ -25,13 +25,6 @@ constexpr std::size_t most_values = 4096;
 /// Among fewer rows it is no wonder that all values differ.
 constexpr std::size_t few_rows = 20;
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return result;
-}
-
 /// Words numbered as they come.
 class Vocabulary {
  public:
@@ -116,9 +109,11 @@ class ColumnReader {
     const auto number = empty ? std::nullopt : parse_number(cell);
     const bool is_word = !empty && !number && !missing.among_numbers(cell);
     if (number || is_word) ++cells_;
-    if (number) ++numeric_cells_;
-    if (number) see_nines(cell, *number);
-    if (number) see_whole(*number);
+    if (number) {
+      ++numeric_cells_;
+      see_nines(cell, *number);
+      see_whole(*number);
+    }
     counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
     last_ = number.value_or(last_);
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
@@ -372,8 +367,8 @@ struct DistinctRows {
     std::size_t known = 0, changes = 0;
     for (const auto& row : cells) {
       if (std::isnan(row[column])) continue;
-      const auto [found, is_new] = class_of.emplace(row[column], row.back());
-      if (found->second != row.back() || (numeric && row[column] != std::floor(row[column]))) return {};
+      const double its_class = class_of.emplace(row[column], row.back()).first->second;
+      if (its_class != row.back() || (numeric && row[column] != std::floor(row[column]))) return {};
       ++known;
     }
     for (auto next = class_of.begin(); next != class_of.end() && std::next(next) != class_of.end(); ++next)

@@ -74,18 +74,21 @@ std::string wrapped(std::string_view text, std::size_t width) {
   return result;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return result;
+}
+
 std::string alike(const std::vector<std::string_view>& words) {
-  constexpr std::string_view no_break = "\u00a0";
-  const auto folded = [&](std::string_view word) {
-    std::string key;
-    for (; !word.empty(); word.remove_prefix(word.starts_with(no_break) ? no_break.size() : 1)) {
-      const bool blank = word.front() == ' ' || word.front() == '\t' || word.starts_with(no_break);
-      if (!blank)
-        key += 'A' <= word.front() && word.front() <= 'Z' ? static_cast<char>(word.front() - 'A' + 'a') : word.front();
-      else if (!key.empty() && key.back() != ' ')
-        key += ' ';
-    }
-    if (key.ends_with(' ')) key.pop_back();
+  const auto folded = [](std::string_view word) {
+    constexpr std::string_view no_break = "\u00a0";
+    std::string text = lower_case(word);
+    for (std::size_t at = 0; (at = text.find(no_break, at)) != text.npos;) text.replace(at, no_break.size(), " ");
+    auto parts = words_of(text);
+    std::erase(parts, "");
+    const auto key = fmt::format("{}", fmt::join(parts, " "));
     const auto number = parse_number(key);
     return number ? shortest(*number + 0.0) : key;
   };

@@ -30,6 +30,9 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width);
 /// `any_width` breaks none.
 std::string wrapped(std::string_view text, std::size_t width = terminal_width);
 
+/// With the letters A to Z as a to z.
+std::string lower_case(std::string_view text);
+
 /// "'red' and 'Red'", the first two of the words that differ in nothing but case, blanks, or the writing of a number;
 /// or nothing.
 std::string alike(const std::vector<std::string_view>& words);

@@ -143,7 +143,7 @@ void EqualFrequencyFit::count(Range& range, Key key) {
 void EqualFrequencyFit::see(double value) {
   if (std::isnan(value)) return;
   if (std::isinf(value)) throw std::invalid_argument("a discretization cannot be fitted to an infinite value");
-  if (ranks_.empty()) {
+  if (first_pass_) {
     ++size_;
     least_ = std::fmin(least_, value);
     greatest_ = std::fmax(greatest_, value);
@@ -196,9 +196,10 @@ void EqualFrequencyFit::settle(Range& range, std::vector<Range>& next) {
 }
 
 bool EqualFrequencyFit::wants_another_pass() {
-  if (!full_.empty() || different_.size() <= bins_) return false;
-  const bool first = ranks_.empty();
-  if (first && size_ > 0) {
+  const bool first = std::exchange(first_pass_, false);
+  if (different_.size() <= bins_) ranges_.clear();
+  if (!full_.empty() || ranges_.empty()) return false;
+  if (first) {
     for (std::size_t j = 1; j < bins_; ++j) ranks_.push_back(j * size_ / bins_);
     at_ranks_.assign(ranks_.size(), std::numeric_limits<double>::quiet_NaN());
   }
@@ -213,7 +214,7 @@ bool EqualFrequencyFit::wants_another_pass() {
       full_.push_back(at_ranks_[i]);
   }
   next_greater_.assign(full_.size(), infinity);
-  if (!first || next.empty() || !next.front().counts.empty()) return !full_.empty();
+  if (!first || !next.front().counts.empty()) return !full_.empty();
   for (const Key key : next.front().keys) see_above(value_of(key));
   return false;
 }

@@ -83,6 +83,19 @@ TEST(EqualFrequencyFit, KnowsHowManyValuesThereAreAndTheirEnds) {
   EXPECT_EQ(fit.greatest(), 100.0);
 }
 
+TEST(EqualFrequencyFit, CountsNothingTwiceWhereOthersWantAnotherPass) {
+  for (const std::size_t bins : {1U, 3U, 8U}) {
+    EqualFrequencyFit fit(bins);
+    for (int pass = 0; pass < 3; ++pass) {
+      for (int i = 0; i < 100; ++i) fit.see(i % 5);
+      EXPECT_FALSE(fit.wants_another_pass());
+      EXPECT_EQ(fit.size(), 100U);
+      const Discretization found = fit.discretization();
+      EXPECT_EQ(cuts(found), bins == 1 ? Values{} : bins == 3 ? (Values{1.0, 3.0}) : (Values{1.0, 2.0, 3.0, 4.0}));
+    }
+  }
+}
+
 TEST(EqualFrequencyFit, GivesOneBinWhereNoTwoValuesDiffer) {
   EXPECT_TRUE(fitted({}, 4).cuts.empty());
   EXPECT_TRUE(fitted({NAN, NAN}, 4).cuts.empty());

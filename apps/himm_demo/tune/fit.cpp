@@ -556,13 +556,13 @@ void finish(FilterSettings& settings, double gate, const TuneData& data, const T
   constexpr std::size_t most_steps = 12;
   constexpr double most_in_all = 16.0;  // of variances
   const FilterSettings fitted = settings;
-  const auto fits_sensors = [&] {
-    return std::ranges::any_of(free_numbers(settings, data, options),
-                               [](const FreeNumber& number) { return number.sensor && number.noise; });
-  };
+  const bool all_may_change =
+      fits_noises(options) && std::ranges::any_of(free_numbers(settings, data, options), [](const FreeNumber& number) {
+        return number.sensor && number.noise;
+      });
   double in_all = 1.0;
   bool kept_alone = false;
-  for (std::size_t k = 0; k < most_steps && fits_noises(options) && fits_sensors(); ++k) {
+  for (std::size_t k = 0; k < most_steps && all_may_change; ++k) {
     if (in_all > most_in_all && !kept_alone) {
       settings = fitted;
       kept_alone = true;

@@ -112,6 +112,7 @@ class EqualFrequencyFit {
   void settle(Range& range, std::vector<Range>& next);
 
   std::size_t bins_;
+  bool first_pass_ = true;
   std::size_t size_ = 0;
   double least_ = std::numeric_limits<double>::quiet_NaN();
   double greatest_ = std::numeric_limits<double>::quiet_NaN();
