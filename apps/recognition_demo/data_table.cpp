@@ -1,6 +1,7 @@
 #include "recognition_demo/data_table.hpp"
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "support/input.hpp"
+#include "support/nines.hpp"
 #include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
@@ -79,12 +81,19 @@ bool has_decimal_comma(std::string_view word) {
   return comma != std::string::npos && parse_number(number);
 }
 
-/// The word behind a number, as in "23.93 kg"; or nothing.
+/// The word behind a number, as in "23.93 kg", or before it, as in "$12.50" or "<0.1"; or nothing.
 std::string_view unit_of(std::string_view cell) {
-  const auto end = std::min(cell.find_first_not_of("+-.0123456789"), cell.size());
-  const std::string_view unit = trimmed(cell.substr(end));
-  return parse_number(cell.substr(0, end)) && unit.find_first_of("0123456789") == unit.npos ? unit : "";
+  constexpr std::string_view of_numbers = "+-.0123456789";
+  const auto begin = std::min(cell.find_first_of(of_numbers), cell.size());
+  const auto end = std::min(cell.find_first_not_of(of_numbers, begin), cell.size());
+  const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
+  const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
+  const bool alone = (before.empty() || after.empty()) && is_sign && after.find_first_of("0123456789") == after.npos;
+  return alone && parse_number(cell.substr(begin, end - begin)) ? (before.empty() ? after : before) : "";
 }
+
+/// Whether it says that a value is beyond what could be measured.
+bool is_limit(std::string_view unit) { return unit == "<" || unit == ">" || unit == "≤" || unit == "≥"; }
 
 /// A word among numbers, where it was found first.
 struct Slip {
@@ -111,7 +120,7 @@ class ColumnReader {
     if (number || is_word) ++cells_;
     if (number) {
       ++numeric_cells_;
-      see_nines(cell, *number);
+      nines_.see(cell, *number);
       see_whole(*number);
     }
     counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
@@ -119,8 +128,8 @@ class ColumnReader {
     if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
     if (is_word && has_decimal_comma(cell)) ++comma_cells_;
     if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
-      ++unit_cells_;
-      if (units_.size() <= most_units) units_.code(unit);
+      ++(is_limit(unit) ? limit_cells_ : unit_cells_);
+      if (!is_limit(unit) && units_.size() <= most_units) units_.code(unit);
     }
     DataCell result{number.value_or(nan)};
     if (too_many_words_) return result;
@@ -144,6 +153,14 @@ class ColumnReader {
                    .found = in_quotes(slip_->word),
                    .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
                    .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
+    if (is_limit(unit_of(slip_->word)))
+      throw InputError(
+          message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                   .what = fmt::format("column {}", in_quotes(name)),
+                   .found = in_quotes(slip_->word),
+                   .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
+                   .remedy = "write one for what is beyond a limit, as the limit itself; as a missing value it would "
+                             "tell nothing"}));
     throw InputError(message(
         {.where = fmt::format("{}:{}", reader.file(), slip_->line),
          .what = fmt::format("column {}", in_quotes(name)),
@@ -170,7 +187,8 @@ class ColumnReader {
   /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
   bool names_rows() const {
     if (cells_ < few_rows) return false;
-    return is_numeric() ? counts_ || is_run() : !too_many_words_ && !holds_units() && 2 * words_.size() > cells_;
+    return is_numeric() ? counts_ || is_run()
+                        : !too_many_words_ && !holds_units() && limit_cells_ == 0 && 2 * words_.size() > cells_;
   }
 
   /// Whether most cells, of more than a few different ones, are a number and one of few words.
@@ -178,15 +196,10 @@ class ColumnReader {
     constexpr std::size_t few_words = 8;
     return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
   }
+  std::size_t limits() const { return limit_cells_; }
   std::string units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
 
-  /// A number of nines only, as -999, that is farther from the others than these are from each other, and in how many
-  /// cells; else in none.
-  std::pair<std::string, std::size_t> nines() const {
-    const auto found = parse_number(nines_);
-    const bool is_far = found && std::max(*found - greatest_, least_ - *found) > greatest_ - least_;
-    return {nines_, is_far && numeric_cells_ - nine_cells_ >= few_rows ? nine_cells_ : 0};
-  }
+  const Nines& nines() const { return nines_; }
 
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
@@ -212,18 +225,6 @@ class ColumnReader {
            std::abs(sum_ - sum) <= 1e-9 * std::abs(sum) && std::abs(squares_ - squares) <= 1e-9 * squares;
   }
 
-  void see_nines(std::string_view cell, double number) {
-    if (nines_.empty() && std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
-        cell.substr(0, cell.find('.')).find('0') == cell.npos)
-      nines_ = cell;
-    if (cell == nines_) {
-      ++nine_cells_;
-    } else {
-      least_ = std::min(least_, number);
-      greatest_ = std::max(greatest_, number);
-    }
-  }
-
   bool could_be_numeric() const { return !categorical_ && !slip_; }
   /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
   bool nearly_all_numbers() const {
@@ -238,14 +239,12 @@ class ColumnReader {
   std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
   std::size_t numeric_cells_ = 0;
   std::size_t comma_cells_ = 0;
-  std::size_t unit_cells_ = 0;
+  std::size_t unit_cells_ = 0, limit_cells_ = 0;
   bool whole_ = true;  // all numbers are
   double first_ = 0.0, low_ = 0.0, high_ = 0.0;
   double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
-  std::string nines_;                 // the first number of nines only
-  std::size_t nine_cells_ = 0;
-  double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;  // of the other numbers
-  bool counts_ = true;                                                           // so far, in whole numbers upwards
+  Nines nines_;
+  bool counts_ = true;  // so far, in whole numbers upwards
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_, units_;
@@ -293,7 +292,7 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
                     "learned; is it the right --label?",
                     reader.file(), in_quotes(table.label), table.classes.size(), table.size()));
   for (std::size_t k = 0; k < table.classes.size(); ++k)
-    if (constexpr std::array words = {"na", "n/a", "#n/a", "nan", "null"};
+    if (constexpr std::array words = {"-", "--", "na", "n/a", "#n/a", "nan", "null", "unknown"};
         std::ranges::find(words, lower_case(table.classes[k])) != words.end())
       warnings.push_back(fmt::format(
           "{}: column {}: {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
@@ -305,10 +304,15 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
                       "all in one unit, and the unit into the name of the column",
                       reader.file(), in_quotes(reader.names()[column.index()]), column.units()));
   for (const ColumnReader& column : columns)
-    if (const auto [nines, cells] = column.nines(); cells > 0 && column.is_numeric())
+    if (column.limits() > 0 && !column.is_numeric() && column.words().numbers() > 1)
       warnings.push_back(fmt::format(
-          "{}: column {}: {} {} {}, far from the others; if that stands for no value, give --missing={}", reader.file(),
-          in_quotes(reader.names()[column.index()]), cells, cells == 1 ? "cell is" : "cells are", nines, nines));
+          "{}: column {} holds numbers and {} limits, as <0.1, and all count as words: write a number for what is "
+          "beyond a limit, as the limit itself",
+          reader.file(), in_quotes(reader.names()[column.index()]), column.limits()));
+  for (const ColumnReader& column : columns)
+    if (const std::string nines = column.nines().doubt(reader.names()[column.index()]);
+        !nines.empty() && column.is_numeric())
+      warnings.push_back(reader.file() + ": " + nines);
   for (const ColumnReader& column : columns)
     if (column.names_rows())
       warnings.push_back(fmt::format(
@@ -378,6 +382,19 @@ struct DistinctRows {
     return {values, static_cast<double>(known) / static_cast<double>(values)};
   }
 
+  /// Whether each value of one column stands beside one of another only, and the other way.
+  bool one_to_one(std::size_t a, std::size_t b) const {
+    std::map<double, double> to, from;
+    std::size_t known = 0;
+    for (const auto& row : cells) {
+      if (std::isnan(row[a]) || std::isnan(row[b])) continue;
+      ++known;
+      if (to.emplace(row[a], row[b]).first->second != row[b] || from.emplace(row[b], row[a]).first->second != row[a])
+        return false;
+    }
+    return known >= few_rows && to.size() > 1 && 3 * to.size() < 2 * known;
+  }
+
   /// Twice the place of each cell of a column when sorted, the same for equal ones; -1 where it is missing.
   std::vector<double> ranks(std::size_t column) const {
     std::vector<double> sorted, result;
@@ -412,13 +429,13 @@ void warn_of_repeats(DataTable& table) {
   const std::size_t size = rows.cells.size();
   if (size < few_rows) return;
   std::vector<std::vector<double>> ranks;
-  std::vector<bool> told;  // too few numbers to compare, or said of an earlier column
-  std::size_t fine = 0;    // columns that most of these rows differ in, as they would not by chance
+  std::vector<bool> comparable;  // by their order
+  std::size_t fine = 0;          // columns that most of these rows differ in, as they would not by chance
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     ranks.push_back(rows.ranks(i));
     const std::size_t different = std::set(ranks[i].begin(), ranks[i].end()).size();
     fine += 2 * different > size ? 1U : 0U;
-    told.push_back(!table.columns[i].numeric || different < 4);
+    comparable.push_back(table.columns[i].numeric && different >= 4);
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
     table.warnings.push_back(
@@ -439,16 +456,30 @@ void warn_of_repeats(DataTable& table) {
           "names what rows are of, as a patient or a session, these are parted by the folds, and the shares of "
           "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
           table.file, values, in_quotes(table.columns[i].name), each, typed(table.columns[i].name)));
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (rows.one_to_one(i, table.columns.size()))
+      table.warnings.push_back(
+          fmt::format("{0}: column {1} says the same as the label, in other words, in all rows compared: if it is not "
+                      "known before the class is, "
+                      "leave it out by --ignore {2}",
+                      table.file, in_quotes(table.columns[i].name), typed(table.columns[i].name)));
+  std::vector<bool> repeated(ranks.size());  // an earlier column
+  const auto says_the_same = [&](std::size_t i, std::size_t j) {
+    if (repeated[i] || repeated[j] || table.columns[i].numeric != table.columns[j].numeric) return false;
+    return table.columns[i].numeric ? comparable[i] && comparable[j] && same_order(ranks[i], ranks[j])
+                                    : rows.one_to_one(i, j);
+  };
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t j = i + 1; j < ranks.size(); ++j)
-      if (!told[i] && !told[j] && same_order(ranks[i], ranks[j])) {
-        told[j] = true;
+      if (says_the_same(i, j)) {
+        repeated[j] = true;
         others.push_back(typed(table.columns[j].name));
       }
     if (!others.empty())
       table.warnings.push_back(
-          fmt::format("{0}: column {1} says the same as {2}, as if in another unit: it counts {3} times; leave the "
+          fmt::format("{0}: column {1} says the same as {2}, as if in another unit or in other words: it counts {3} "
+                      "times; leave the "
                       "others out by --ignore {2}",
                       table.file, in_quotes(table.columns[i].name), fmt::join(others, ","), others.size() + 1));
   }

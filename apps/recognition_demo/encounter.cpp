@@ -118,10 +118,18 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
   struct Row {
     double time, altitude, speed, track, climb;
   };
+  std::optional<std::size_t> name;  // of the aircraft
+  for (const char* header : {"icao24", "hex", "track_id", "id"})
+    if (!name) name = reader.find(header);
+  std::string first;
   std::vector<Row> rows;
   const auto value = [&](const CsvRow& row, std::size_t column) { return row.optional_number(column).value_or(nan); };
   double lowest = std::numeric_limits<double>::infinity();
   for (CsvRow row; reader.next(row);) {
+    if (name && rows.empty()) first = row[*name];
+    if (name && row[*name] != first)
+      throw row.error(*name, fmt::format("{}, as in the rows before: one aircraft", in_quotes(first)),
+                      "write each aircraft to a file of its own");
     rows.push_back({row.number(time), value(row, altitude), value(row, speed), value(row, track), value(row, climb)});
     if (rows.size() > 1 && rows.back().time < rows[rows.size() - 2].time)
       throw row.error(time, fmt::format("a time not before {}", rows[rows.size() - 2].time));

@@ -83,7 +83,15 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
 LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
   auto codes = fitted(data, chosen, options);
   std::vector<RandomVariable> variables;
-  for (const FeatureCode& code : codes) variables.emplace_back(code.name, code.labels());
+  for (const FeatureCode& code : codes) {
+    variables.emplace_back(code.name, code.labels());
+    const auto n = static_cast<double>(variables.back().size());
+    if (n > 1.0 && n * options.misread > n - 1.0)
+      throw UsageError(
+          "--misread {0}: feature {1} has {2} values, so that each other one would be read more often than the right "
+          "one: give at most {3:.2f}",
+          options.misread, in_quotes(code.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
+  }
   Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
   LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
   Readings readings;

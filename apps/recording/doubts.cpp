@@ -41,6 +41,29 @@ void Doubts::Agreement::add(double told_now, double growth) {
   ++count;
 }
 
+void Doubts::Stays::see(double change, std::size_t& run) {
+  if (std::isnan(change)) return;
+  if (change == 0.0) {
+    ++run;
+    ++same;
+    return;
+  }
+  ++changed;
+  ++after[std::exchange(run, 0)];
+  if (changes.size() <= few) changes.insert(static_cast<float>(change));
+}
+
+bool Doubts::Stays::regular() const {
+  std::size_t usual = 0, nearly = 0;
+  for (const auto& [run, times] : after) {
+    if (run == 0) continue;
+    const auto next = after.find(run + 1);
+    usual = std::max(usual, times);
+    nearly = std::max(nearly, times + (next == after.end() ? 0 : next->second));
+  }
+  return changed >= few && 10 * (changes.size() > few ? nearly : usual) >= 9 * changed;
+}
+
 /// Numbers as 101559 that are hours, minutes and seconds never end on 60 to 99.
 void Doubts::see_time(double time) {
   const double hundreds = std::floor(time / 100.0);
@@ -70,29 +93,52 @@ void Doubts::see_bearing(const Bearing& now, std::optional<Bearing>& before) {
   before = now;
 }
 
+void Doubts::see_error(const Spoke& last, const Spoke& now) {
+  const double off = distance(now.error, Position{});
+  if (std::isnan(off + last.error[0])) return;
+  ++errors_;
+  off_ += off;
+  if (off > 5.0 * distance(now.error, last.error)) ++same_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lag_.add((now.at[i] - now.error[i] - last.at[i] + last.error[i]) / (now.time - last.time), now.error[i]);
+    error_[i] += now.error[i];
+    square_[i] += now.error[i] * now.error[i];
+    next_[i] += now.error[i] * last.error[i];
+  }
+}
+
+void Doubts::see_return(Sensor& before, const Spoke& now, double jump) {
+  constexpr std::size_t reach = 8;
+  const auto is_nearer = [&](const Position& at) {
+    const double off = distance(at, now.at);
+    return off > 0.0 && off < 0.2 * jump;
+  };
+  if (std::ranges::any_of(before.recent, is_nearer)) ++returns_;
+  if (before.recent.size() == reach) before.recent.erase(before.recent.begin());
+  before.recent.push_back({now.at[0], now.at[1], now.at[2]});
+}
+
 void Doubts::see_rates(Sensor& before, Spoke now) {
   const Spoke& last = before.last;
   const double dt = now.time - last.time;
   if (!(dt > 0.0)) return;
   const double jump = distance(last.at, now.at);
   path_ += jump;
-  ++jumps_;
-  if (jump == 0.0) {
-    ++held_;
-    if (before.jump > 0.0) {
-      ++stays_;
-      if (ways_.size() <= few) ways_.insert(static_cast<float>(before.jump));
-    }
+  if (jump == 0.0 && before.jump > 0.0) {
+    ++held_again_;
+    if (ways_.size() <= few) ways_.insert(static_cast<float>(before.jump));
   }
   before.jump = jump;
+  stays_[0].see(jump, before.runs[0]);
+  stays_[1].see(std::abs(now.height - last.height), before.runs[1]);
+  Position change{};
+  for (std::size_t i = 0; i < 3; ++i) change[i] = i == 2 && std::isnan(now.rate[i]) ? 0.0 : now.rate[i] - last.rate[i];
+  stays_[2].see(std::sqrt(dot(change, change)), before.runs[2]);
+  if (!std::isnan(now.height + last.height))
+    zero_heights_.see((now.height == 0.0) != (last.height == 0.0), std::abs(now.height - last.height));
+  see_return(before, now, jump);
   if (now.twice != last.twice) to_twice_ += jump;
-  if (const double off = distance(now.error, Position{}); !std::isnan(off + last.error[0])) {
-    ++errors_;
-    off_ += off;
-    if (off > 5.0 * distance(now.error, last.error)) ++same_;
-    for (std::size_t i = 0; i < 3; ++i)
-      lag_.add((now.at[i] - now.error[i] - last.at[i] + last.error[i]) / dt, now.error[i]);
-  }
+  see_error(last, now);
   for (std::size_t i = 0; i < now.rate.size(); ++i)
     if (std::isnan(now.rate[i])) now.rate[i] = last.rate[i];
   for (std::size_t k = 0; k < lengths.size(); ++k) {
@@ -241,11 +287,18 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
             {nan, nan, nan, has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
             {nan, nan, nan},
             {},
-            row.twice && row.twice == twice_};
+            row.twice && row.twice == twice_,
+            axes == 3 ? component_of(plot, 2).value_or(nan) : nan};
+  if (now.height == 0.0) ++zero_heights_.rows;
   if (is_radar) now.from_radar = {at[0] - plot.origin[0], at[1] - plot.origin[1], at[2] - plot.origin[2]};
   for (std::size_t i = 0; i < static_cast<std::size_t>(axes) && axes > 1; ++i)
     now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
   for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
+  if (row.truth) {
+    const bool is_zero = axes > 1 && (*row.truth)[0] == 0.0 && (*row.truth)[1] == 0.0;
+    if (is_zero) ++zero_truths_.rows;
+    zero_truths_.see(is_zero, distance(at, *row.truth));
+  }
   if (now.twice) ++twice_rows_;
   see_other(row.sensor, now, track);
   track.latest = row.sensor;
@@ -268,6 +321,45 @@ double Doubts::median_step() const {
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
+}
+
+/// By how much the measurements are off the truth on the average, where that is half of their scatter or more and six
+/// standard errors, of errors that last as these do; else nothing.
+std::string Doubts::shifted() const {
+  const auto n = static_cast<double>(errors_);
+  Position mean{};
+  std::vector<std::string> parts;
+  double scatter = 0.0;
+  bool is_shifted = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mean[i] = error_[i] / n;
+    const double variance = square_[i] / n - mean[i] * mean[i];
+    if (!(variance > 0.0)) continue;
+    const double lasting = std::clamp((next_[i] / n - mean[i] * mean[i]) / variance, 0.0, 0.99);
+    const double independent = n * (1.0 - lasting) / (1.0 + lasting);
+    is_shifted |= mean[i] * mean[i] > variance * std::max(0.25, 36.0 / independent);
+    scatter += variance;
+    parts.push_back(fmt::format("{:.3g}", mean[i]));
+  }
+  if (!is_shifted) return {};
+  return fmt::format("{:.3g} m on the average, by ({}), where they scatter by {:.3g} m", std::sqrt(dot(mean, mean)),
+                     fmt::join(parts, ", "), std::sqrt(scatter));
+}
+
+/// Where the steps of a lone track become a thousand times what they were, or a thousandth; else nothing.
+std::string Doubts::other_times() const {
+  if (tracks_.size() != 1 || steps_.size() < 2 * few) return {};
+  double time = tracks_.begin()->second.first_time;
+  const auto median = [](std::vector<double> some) {
+    std::ranges::nth_element(some, some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2));
+    return some[some.size() / 2];
+  };
+  const auto longest = std::ranges::max_element(steps_);
+  for (auto step = steps_.begin(); step != longest; ++step) time += *step;
+  if (longest - steps_.begin() < std::ptrdiff_t{few} || steps_.end() - longest <= std::ptrdiff_t{few}) return {};
+  const double before = median({steps_.begin(), longest}), then = median({longest + 1, steps_.end()});
+  if (std::abs(std::log10(then / before) - 3.0) > 0.05) return {};
+  return fmt::format("{:.6g} s apart up to {:.6g} and {:.6g} s from {:.6g} on", before, time, then, time + *longest);
 }
 
 std::vector<std::string> Doubts::sentences(const RecordingReader& recording) const {
@@ -337,12 +429,22 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const double lag = lag_.growth_per_told();
   const bool lags = errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 &&
                     std::abs(lag) > 0.3 * median_step() && std::abs(lag) < 20.0 * median_step();
-  say(lags,
+  const bool no_truth = zero_truths_.stands_out();
+  say(no_truth,
+      "the truth is (0, 0) in {} rows, where it is farther from what was measured than in all others: if that stands "
+      "for no truth, empty those cells or name them by --missing",
+      zero_truths_.rows);
+  say(lags && !no_truth,
       "the measurements are off the truth as if it told where the target {} {:.2g} s {} (that leaves {:.0f} % of the "
       "squares of their distances): see whether rows or clocks are shifted",
       lag > 0.0 ? "was" : "will be", std::abs(lag), lag > 0.0 ? "before" : "later",
       100.0 * (1.0 - lag_.correlation() * lag_.correlation()));
-  say(!lags && errors_ >= few && 2 * same_ > errors_,
+  const bool same = errors_ >= few && 2 * same_ > errors_;
+  const std::string shift = errors_ >= 2 * few && !same && !lags && !no_truth ? shifted() : "";
+  say(!shift.empty(),
+      "the measurements are off the truth by {}: see whether both count from the same place and have the same datum",
+      shift);
+  say(!lags && !no_truth && same,
       "the measurements are off the truth by {:.3g} m on the average, and in {} of {} rows by much the same as in the "
       "row before, which is no noise: see whether both have the same axes, units and times, and whether the truth is "
       "empty where there is none",
@@ -378,7 +480,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "tracks {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
       "are the same",
       twins);
-  say(twice_rows_ > 1 && 2.0 * to_twice_ > path_,
+  const auto nines = recording.nines();
+  for (const std::string& sentence : nines) say(true, "{}", sentence);
+  say(nines.empty() && twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
       "position, empty those cells or name them by --missing",
       twice_rows_, twice_.value_or(0.0));
@@ -394,6 +498,24 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "it; "
       "or, where seconds of the week begin anew, add 604800 from there on",
       left, left_by);
+  const auto& [positions, heights, velocities] = stays_;
+  const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {velocities, "velocities"}};
+  for (const auto& [stays, what] : slower)
+    say(stays.regular() && stays.changes.size() > few && !positions.regular(),
+        "the {} change {} times in {} rows, after as many rows each time, and stay the same to the last digit between: "
+        "values that are held count as new measurements, and the filters take their estimates for better than they "
+        "are; empty the cells that repeat one",
+        what, stays.changed, stays.same + stays.changed + 1);
+  say(zero_heights_.stands_out(),
+      "the height is 0 in {} rows, and goes farther to or from there than between any others: if that stands for no "
+      "height, empty those cells or name them by --missing",
+      zero_heights_.rows);
+  const std::size_t jumps = positions.same + positions.changed;
+  say(3 * returns_ > 2 * jumps && jumps >= 2 * few,
+      "{} of {} positions are near one a few rows before, and five times as far from the last: if rows of several "
+      "targets are mixed, name the column that tells them apart by --track-id, and if those of several sensors, one "
+      "that is called sensor",
+      returns_, jumps);
   double moved = 0.0, duration = 0.0;
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;
@@ -401,12 +523,14 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     moved += distance(*track.first, *track.last);
   }
   // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
-  // So does what is rounded, by steps that are few; a held position goes any way, and is held again.
-  const bool held_again = 4 * stays_ > 3 * (jumps_ - held_) && ways_.size() > few;
-  say(held_ >= few && 4 * held_ > jumps_ && (moved > 0.5 * path_ || held_again),
+  // So does what is rounded, by steps that are few; a held position goes any way, and is held again, or as long.
+  const bool goes_any_way = ways_.size() > few;
+  const bool held_again = 4 * held_again_ > 3 * positions.changed && goes_any_way;
+  const bool on_its_way = moved > 0.5 * path_ && (goes_any_way || positions.regular());
+  say(positions.same >= few && 4 * positions.same > jumps && (on_its_way || held_again),
       "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
       "count as new measurements, and the filters take their estimates for better than they are; leave one row of each",
-      held_, jumps_);
+      positions.same, jumps);
   if (steps_.size() < few) return sentences;
   const double step = median_step(), speed = moved / duration;
   const auto by_an_hour = [&](double other) { return std::abs(other - step - 3600.0) < 0.1 * step; };
@@ -420,6 +544,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "no time ends on 60 to 99, as numbers of seconds would; if they are hours, minutes and seconds in a row, give "
       "--time-format {}",
       latest_ < 1e6 ? "%H%M%S" : "%Y%m%d%H%M%S");
+  const std::string others = other_times();
+  say(!others.empty(), "times are {}: write all in one unit", others);
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.

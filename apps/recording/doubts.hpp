@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -50,7 +52,30 @@ class Doubts {
     std::array<double, 4> at, rate;
     Position error;  ///< about the truth
     std::optional<Position> from_radar;
-    bool twice;  ///< whether it is the number that comes twice
+    bool twice;     ///< whether it is the number that comes twice
+    double height;  ///< as the row tells it
+  };
+  /// How often something stays as it was, to the last digit, and after how many rows it changes.
+  struct Stays {
+    std::size_t same = 0, changed = 0;
+    std::map<std::size_t, std::size_t> after{};  ///< so many that were the same, so often
+    std::set<float> changes{};                   ///< how great they are, some
+
+    void see(double change, std::size_t& run);
+    /// Whether nearly all changes come after as many rows, as where a slower source is repeated; but for one row, if it
+    /// changes by more than a few steps, as what is rounded does.
+    bool regular() const;
+  };
+  /// A number that may stand for none: in how many rows it is, and whether it is always farther off than all else.
+  struct Stranger {
+    std::size_t rows = 0;
+    double least = std::numeric_limits<double>::infinity(), others = 0.0;
+
+    void see(bool is_it, double off) {
+      if (is_it) least = std::min(least, off);
+      if (!is_it) others = std::max(others, off);
+    }
+    bool stands_out() const { return rows > 1 && least > others; }
   };
   /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
   struct Since {
@@ -63,6 +88,8 @@ class Doubts {
     std::array<Since, 3> since;
     std::optional<std::pair<double, Position>> before{};  // the last one
     double jump = 0.0;                                    // between these
+    std::array<std::size_t, 3> runs{};                    // of stays_, that last
+    std::vector<Position> recent{};                       // the last few, in a ring
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
@@ -86,28 +113,35 @@ class Doubts {
   void see_azimuth(double azimuth, const Position& from_radar);
   void see_bearing(const Bearing& now, std::optional<Bearing>& before);
   void see_rates(Sensor& before, Spoke now);
+  void see_return(Sensor& before, const Spoke& now, double jump);
+  void see_error(const Spoke& last, const Spoke& now);
+  std::string shifted() const;
+  std::string other_times() const;
   static std::string why_apart(const std::vector<Off>& rows, int axes);
   void see_other(const std::string& sensor, const Spoke& now, Track& track);
   double median_step() const;
 
   std::map<std::string, Track> tracks_;
-  std::vector<double> steps_;         // between measurements of a track, the first thousands
-  std::array<Rates, 3> rates_;        // from row to row, where noise hides what is slow, and over many rows
-  double farthest_ = 0.0;             // of positions from where they are counted
-  double path_ = 0.0;                 // of all positions, each sensor's own
-  std::size_t jumps_ = 0, held_ = 0;  // of that path, and those of them that lead nowhere
-  std::size_t stays_ = 0;             // those that lead somewhere, where the next leads nowhere
-  std::set<float> ways_;              // how long those are, some
-  std::optional<double> twice_;       // the first number that is both coordinates of a position
+  std::vector<double> steps_;   // between measurements of a track, the first thousands
+  std::array<Rates, 3> rates_;  // from row to row, where noise hides what is slow, and over many rows
+  double farthest_ = 0.0;       // of positions from where they are counted
+  double path_ = 0.0;           // of all positions, each sensor's own
+  std::array<Stays, 3> stays_;  // of positions, heights and velocities
+  std::size_t held_again_ = 0;  // positions that change, where the next one does not
+  std::set<float> ways_;        // how far those went, some
+  std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
+  Stranger zero_heights_, zero_truths_;
+  std::optional<double> twice_;  // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;
   double to_twice_ = 0.0;                                                  // the path there and back
   std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousand
   // How far positions are off the line between the two beside them, and these from each other.
   std::map<const Sensor*, std::vector<std::pair<double, double>>> bends_;
-  std::size_t bent_ = 0;               // of those, the first thousands
-  std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
-  double off_ = 0.0;                   // sum of those
-  Agreement lag_;                      // of the truth's velocity with them
+  std::size_t bent_ = 0;                  // of those, the first thousands
+  std::size_t errors_ = 0, same_ = 0;     // about the truth, and those that are much as the one before
+  double off_ = 0.0;                      // sum of those
+  Agreement lag_;                         // of the truth's velocity with them
+  Position error_{}, square_{}, next_{};  // sums of errors, their squares, and their products with those before
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places

@@ -334,7 +334,8 @@ void RecordingReader::leave_out_what_is_not_available() {
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
+    if (said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt; said_[q])
+      nines_[q].see(trimmed(row_[columns_[q]->index]), *said_[q]);
   leave_out_what_is_not_available();
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const Role role = quantities[q].role;
@@ -373,8 +374,10 @@ Geodetic RecordingReader::place(Role role) const {
   require_whole(role, 2);
   try {
     return Geodetic::checked(*said(role), *said(role, 1), said(role, 2).value_or(0.0));
-  } catch (const std::invalid_argument& refusal) {
-    throw error(role, std::abs(*said(role)) > 90.0 ? 0 : 1, refusal.what(), "correct the cell or drop the row");
+  } catch (const std::invalid_argument&) {
+    const bool is_latitude = std::abs(*said(role)) > 90.0;
+    throw error(role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
+                "correct the cell or drop the row");
   }
 }
 
@@ -501,6 +504,14 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
       for (std::size_t j = k + 1; j < n; ++j) left[i * n + j] -= left[i * n + k] * left[k * n + j] / pivot;
   }
   return matrix;
+}
+
+std::vector<std::string> RecordingReader::nines() const {
+  std::vector<std::string> sentences;
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    if (const std::string doubt = columns_[q] ? nines_[q].doubt(csv_.names()[columns_[q]->index]) : ""; !doubt.empty())
+      sentences.push_back(doubt);
+  return sentences;
 }
 
 std::string RecordingReader::taken() const {

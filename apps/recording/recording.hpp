@@ -5,6 +5,7 @@
 #include "recording/quantities.hpp"
 #include "support/csv.hpp"
 #include "support/geodesy.hpp"
+#include "support/nines.hpp"
 
 namespace sigmax::apps {
 
@@ -110,6 +111,9 @@ class RecordingReader {
   /// Numbers of a place beside which stands another hemisphere than that which they were taken for.
   const Counted& abroad() const { return abroad_; }
 
+  /// Numbers of nines that may stand for none, a sentence for each column.
+  std::vector<std::string> nines() const;
+
   /// Whether there were times of day.
   bool times_of_day() const { return latest_of_day_.has_value(); }
 
@@ -191,7 +195,8 @@ class RecordingReader {
   std::size_t skipped_ = 0;
   Counted senseless_, abroad_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
-  Counted midnights_;                                 // that tracks passed
+  std::array<Nines, quantities.size()> nines_;
+  Counted midnights_;  // that tracks passed
   std::size_t unused_velocities_ = 0;
   std::size_t bearings_ = 0;             // that count
   std::size_t unused_azimuths_ = 0;      // beside a position

@@ -25,6 +25,16 @@ TEST_F(RecognitionDemoEncounter, ReadsTheStandardInput) {
   EXPECT_EQ(named, piped);
 }
 
+TEST_F(RecognitionDemoEncounter, TwoAircraftAreNotTakenForOne) {
+  const auto data = directory.write("counts.csv", counts_csv());
+  const auto track = directory.write("track.csv",
+                                     "time_s,icao24,altitude_ft,groundspeed_kt,track_deg,vertical_rate_fpm\n"
+                                     "0,ae01,110,20,0,0\n4,ae01,200,90,10,300\n5,ae02,1150,120,350,-10\n");
+  const auto refused = recognition_demo({"encounter", data, "--track", track});
+  EXPECT_TRUE(says(refused.output, {"track.csv:4: column 'icao24': found 'ae02', expected 'ae01', as in the rows "
+                                    "before: one aircraft; write each aircraft to a file of its own"}));
+}
+
 TEST_F(RecognitionDemoEncounter, ARecordingIsReadIntoBinsAndClassifiedAsPlainLoopsDo) {
   const auto data = directory.write("counts.csv", counts_csv());
   // On the ground (10 ft above it) at 0 s; 5 s is too soon after 4 s; at 14 s the track turns through north by 20° in 9

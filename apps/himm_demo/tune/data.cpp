@@ -103,8 +103,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       places.place(row);
     }
     if (!first && places.frame()) first = places.frame()->origin();
-    const bool told = row.plot.sensor == AnyPlot::Sensor::components;
-    if (recording.geodetic() && told && axes_seen(row.plot, data.axes) > 0) {
+    const Row told = row;
+    if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components && axes_seen(row.plot, data.axes) > 0) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
       if (!its.frame)
@@ -124,7 +124,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       else
         row.plot = AnyPlot::missed(row.plot.time);
     }
-    doubts.see(row, position_of(row.plot, data.axes), data.axes);
+    doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes), data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
     row.plot.tag = rows.size();
