@@ -55,13 +55,18 @@ class RowReader {
         classes_(labels_of(model.counts.pattern())) {
     for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
     numbers_.resize(columns_.size());
+    filled_.resize(columns_.size());
   }
 
   bool has_truth() const { return label_.has_value(); }
 
   Readings readings(const CsvRow& row) {
     Readings result;
-    for (std::size_t i = 0; i < columns_.size(); ++i) result.push_back(reading(row, i));
+    ++rows_;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      result.push_back(reading(row, i));
+      filled_[i] += result.back() == missing ? 0U : 1U;
+    }
     return result;
   }
 
@@ -77,7 +82,7 @@ class RowReader {
   const std::string& first_far() const { return first_far_; }
 
   /// Says of which columns more than a fifth of the numbers is on one side of all that the model was learned from; of
-  /// few it needs more, for then it may be chance.
+  /// few it needs more, for then it may be chance. And which columns have no value in any row.
   void say_outside(Result& result) const {
     constexpr unsigned enough = 20;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
@@ -86,9 +91,15 @@ class RowReader {
       for (std::size_t c = 0; c < classes_.size(); ++c)
         for (const double count : model_.counts.of(i, c)) learned += count;
       const auto& [all, below, above] = numbers_[i];
+      if (filled_[i] == 0 && rows_ > 1 && learned > 0.0)
+        result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
       const auto outside = std::max(below, above);
-      const double share = static_cast<double>(outside) / static_cast<double>(all);
-      if (all < enough || share <= std::max(0.2, enough / learned)) continue;
+      const auto n = static_cast<double>(all);
+      const bool many = all >= enough && static_cast<double>(outside) / n > std::max(0.2, enough / learned);
+      // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
+      const double log_chance = std::lgamma(n + 1.0) + std::lgamma(learned + 1.0) - std::lgamma(n + learned + 1.0);
+      const bool all_of_few = all < enough && all > 0 && outside == all && log_chance < std::log(1e-4);
+      if (!many && !all_of_few) continue;
       result.say("\nColumn {}: {} of {} numbers are {} that was learned, {}: are they in the same unit?",
                  in_quotes(feature.name), outside, all, below > above ? "below the least" : "above the greatest",
                  shortest(below > above ? feature.least : feature.greatest));
@@ -153,6 +164,8 @@ class RowReader {
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
   std::vector<std::size_t> columns_;
+  std::size_t rows_ = 0;
+  std::vector<std::size_t> filled_;                  // of each column, the rows with a value
   std::vector<std::array<std::size_t, 3>> numbers_;  // of each column: all, below and above those learned from
   std::size_t unseen_cells_ = 0, far_cells_ = 0;
   std::string first_unseen_, first_far_;

@@ -83,13 +83,14 @@ bool has_decimal_comma(std::string_view word) {
 
 /// The word behind a number, as in "23.93 kg", or before it, as in "$12.50" or "<0.1"; or nothing.
 std::string_view unit_of(std::string_view cell) {
-  constexpr std::string_view of_numbers = "+-.0123456789";
+  constexpr std::string_view of_numbers = "+-.,0123456789";
   const auto begin = std::min(cell.find_first_of(of_numbers), cell.size());
   const auto end = std::min(cell.find_first_not_of(of_numbers, begin), cell.size());
   const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
   const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
   const bool alone = (before.empty() || after.empty()) && is_sign && after.find_first_of("0123456789") == after.npos;
-  return alone && parse_number(cell.substr(begin, end - begin)) ? (before.empty() ? after : before) : "";
+  const std::string_view number = cell.substr(begin, end - begin);
+  return alone && (parse_number(number) || has_decimal_comma(number)) ? (before.empty() ? after : before) : "";
 }
 
 /// Whether it says that a value is beyond what could be measured.
@@ -112,7 +113,7 @@ class ColumnReader {
  public:
   ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
 
-  DataCell take(const CsvRow& row, const MissingWords& missing) {
+  DataCell take(const CsvRow& row, const MissingWords& missing, Code its_class) {
     const std::string_view cell = trimmed(row[index_]);
     const bool empty = missing(cell);
     const auto number = empty ? std::nullopt : parse_number(cell);
@@ -122,6 +123,9 @@ class ColumnReader {
       ++numeric_cells_;
       nines_.see(cell, *number);
       see_whole(*number);
+      see_writing(cell);
+    } else if (lower_case(cell) == "none" && !is_word) {
+      ++nothings_;
     }
     counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
     last_ = number.value_or(last_);
@@ -133,7 +137,11 @@ class ColumnReader {
     }
     DataCell result{number.value_or(nan)};
     if (too_many_words_) return result;
-    if (!empty) result.code = words_.code(cell);
+    if (!empty) {
+      result.code = words_.code(cell);
+      if (result.code == classes_.size()) classes_.push_back({its_class});
+      ++(classes_[result.code].first == its_class ? classes_[result.code].same : classes_[result.code].others);
+    }
     if (words_.size() <= most_values) return result;
     too_many_words_ = true;
     if (!could_be_numeric() && !nearly_all_numbers())
@@ -196,6 +204,56 @@ class ColumnReader {
     constexpr std::size_t few_words = 8;
     return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
   }
+  /// What the classes are of the rows that have the same value.
+  struct ByValue {
+    std::size_t values = 0, rows = 0, others = 0;  ///< rows of another class than the first of their value
+    std::size_t changes = 0;                       ///< of the class, in the order of the values
+    double log_chance = 0.0;                       ///< that so many rows are of one class with theirs
+    bool numeric = false, whole = false;
+
+    bool tells_all(std::size_t classes) const {
+      const bool few = values < fewest_groups && rows >= 2 * values;
+      return others == 0 && rows >= few_rows && values >= classes && (few || (numeric && changes + 1 == classes));
+    }
+    bool may_be_groups(std::size_t classes) const {
+      constexpr double by_no_chance = -14.0;
+      if (values < fewest_groups || values < 2 * classes || rows < 2 * values || log_chance > by_no_chance)
+        return false;
+      if (numeric && (!whole || 4 * changes < values)) return false;
+      return others == 0 || (20 * others < rows && rows < 30 * values);
+    }
+    static constexpr std::size_t fewest_groups = 8;
+  };
+  ByValue by_value(const std::vector<std::size_t>& rows_of_class) const {
+    if (too_many_words_) return {};
+    ByValue result{.values = classes_.size(), .numeric = is_numeric(), .whole = whole_};
+    const auto places = words_.sorted().second;
+    std::vector<Code> in_order(classes_.size());
+    const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0);
+    for (std::size_t code = 0; code < classes_.size(); ++code) {
+      const auto& [first, same, others] = classes_[code];
+      in_order[places[code]] = first;
+      result.rows += same + others;
+      result.others += others;
+      double alike = 0.0;
+      for (const std::size_t rows : rows_of_class)
+        alike += std::pow(static_cast<double>(rows) / all, static_cast<double>(same));
+      result.log_chance += std::log(alike);
+    }
+    for (std::size_t k = 1; k < in_order.size(); ++k) result.changes += in_order[k] != in_order[k - 1] ? 1U : 0U;
+    return result;
+  }
+
+  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and none
+  /// without is a thousand or more; or nothing.
+  std::string thousands() const {
+    return is_numeric() && below_a_thousand_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
+  }
+  /// A number as 0387 of a column in which all are as long; or nothing.
+  std::string code_with_zeros() const { return is_numeric() && lengths_.size() == 1 ? with_zeros_ : ""; }
+  /// In how many cells "none" counts as missing, if in one of twenty.
+  std::size_t nothings() const { return is_numeric() && 20 * nothings_ >= cells_ ? nothings_ : 0; }
+
   std::size_t limits() const { return limit_cells_; }
   std::string units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
 
@@ -225,6 +283,18 @@ class ColumnReader {
            std::abs(sum_ - sum) <= 1e-9 * std::abs(sum) && std::abs(squares_ - squares) <= 1e-9 * squares;
   }
 
+  void see_writing(std::string_view cell) {
+    const auto point = cell.find('.');
+    const std::size_t digits = point == cell.npos ? cell.size() : point;
+    const bool is_plain = cell.find_first_not_of(".0123456789") == cell.npos;
+    const bool parts = point != cell.npos && cell.size() - point == 4 && digits <= 3 && cell[0] != '0';
+    if (parts && three_digits_.empty()) three_digits_ = cell;
+    if (point == cell.npos && digits <= 3) ++below_a_thousand_;
+    other_writing_ = other_writing_ || !is_plain || !(parts || (point == cell.npos && digits <= 3));
+    if (lengths_.size() < 2) lengths_.insert(is_plain && point == cell.npos ? cell.size() : 0);
+    if (with_zeros_.empty() && digits >= 3 && cell[0] == '0') with_zeros_ = cell;
+  }
+
   bool could_be_numeric() const { return !categorical_ && !slip_; }
   /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
   bool nearly_all_numbers() const {
@@ -244,7 +314,16 @@ class ColumnReader {
   double first_ = 0.0, low_ = 0.0, high_ = 0.0;
   double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
   Nines nines_;
-  bool counts_ = true;  // so far, in whole numbers upwards
+  std::string three_digits_, with_zeros_;  // the first of these
+  std::size_t below_a_thousand_ = 0, nothings_ = 0;
+  bool other_writing_ = false;
+  std::set<std::size_t> lengths_;  // of whole numbers, 0 of others, up to two
+  struct ClassesOfValue {
+    Code first;
+    std::size_t same = 0, others = 0;  // rows of that class, and of others
+  };
+  std::vector<ClassesOfValue> classes_;  // by code
+  bool counts_ = true;                   // so far, in whole numbers upwards
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_, units_;
@@ -291,6 +370,14 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
         fmt::format("{}: column {} has {} classes in {} rows: of most there is a single row, from which nothing can be "
                     "learned; is it the right --label?",
                     reader.file(), in_quotes(table.label), table.classes.size(), table.size()));
+  std::vector<std::string> lone;
+  for (std::size_t k = 0; k < table.classes.size(); ++k)
+    if (table.rows_of_class[k] == 1) lone.push_back(table.classes[k]);
+  if (!lone.empty() && table.size() >= few_rows && 2 * table.classes.size() <= table.size())
+    warnings.push_back(
+        fmt::format("{}: column {}: a single row is of {}: is it a slip of writing? From one row nothing "
+                    "can be learned",
+                    reader.file(), in_quotes(table.label), listed(lone, 12)));
   for (std::size_t k = 0; k < table.classes.size(); ++k)
     if (constexpr std::array words = {"-", "--", "na", "n/a", "#n/a", "nan", "null", "unknown"};
         std::ranges::find(words, lower_case(table.classes[k])) != words.end())
@@ -323,7 +410,7 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
   for (const ColumnReader& column : columns)
     if (column.contains(reader.names()[column.index()]))
       like_cells.push_back(in_quotes(reader.names()[column.index()]));
-  if (2 * like_cells.size() > columns.size())
+  if (2 * like_cells.size() > columns.size() && classes.contains(table.label))
     warnings.push_back(
         fmt::format("{}: the first row looks like data ({}): it was taken for the names of the columns, "
                     "and is not counted; put a row of names above it",
@@ -362,24 +449,6 @@ struct DistinctRows {
       cells.push_back(std::move(row.first));
       with_copies += row.second;
     }
-  }
-
-  /// How many values a column has that may name groups of rows, and of how many rows each: several, each of one class,
-  /// and the classes of numbers not in their order; else none.
-  std::pair<std::size_t, double> groups(std::size_t column, bool numeric, std::size_t classes) const {
-    std::map<double, double> class_of;
-    std::size_t known = 0, changes = 0;
-    for (const auto& row : cells) {
-      if (std::isnan(row[column])) continue;
-      const double its_class = class_of.emplace(row[column], row.back()).first->second;
-      if (its_class != row.back() || (numeric && row[column] != std::floor(row[column]))) return {};
-      ++known;
-    }
-    for (auto next = class_of.begin(); next != class_of.end() && std::next(next) != class_of.end(); ++next)
-      if (next->second != std::next(next)->second) ++changes;
-    const std::size_t values = class_of.size();
-    if (values < 8 || values < 2 * classes || known < 3 * values || (numeric && 4 * changes < values)) return {};
-    return {values, static_cast<double>(known) / static_cast<double>(values)};
   }
 
   /// Whether each value of one column stands beside one of another only, and the other way.
@@ -423,11 +492,11 @@ bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
   return n >= few_rows && both * both > nearly_one * (n * xx - x * x) * (n * yy - y * y);
 }
 
-/// What the rows and the columns tell twice.
-void warn_of_repeats(DataTable& table) {
+/// What the rows and the columns tell twice; whether half of the rows do.
+bool warn_of_repeats(DataTable& table) {
   const DistinctRows rows(table);
   const std::size_t size = rows.cells.size();
-  if (size < few_rows) return;
+  if (size < few_rows) return false;
   std::vector<std::vector<double>> ranks;
   std::vector<bool> comparable;  // by their order
   std::size_t fine = 0;          // columns that most of these rows differ in, as they would not by chance
@@ -443,31 +512,16 @@ void warn_of_repeats(DataTable& table) {
                     "copy, so the shares of right answers are too good; drop the copies",
                     table.file, 100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which));
   };
-  const bool all_of_them = rows.with_copies >= 2 * size;
-  if (fine >= 2 && all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
+  const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
+  if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
   for (const auto& [label, counts] : rows.of_class)
     if (const auto [differ, all] = counts; fine >= 2 && !all_of_them && all >= few_rows && all >= 2 * differ)
       warn_of_copies(fmt::format("the rows of class {}", in_quotes(table.classes[static_cast<std::size_t>(label)])),
                      differ, all);
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (const auto [values, each] = rows.groups(i, table.columns[i].numeric, table.classes.size()); values > 0)
-      table.warnings.push_back(fmt::format(
-          "{0}: each of {1} values of column {2}, of {3:.2g} rows on the average, is of one class only: if it "
-          "names what rows are of, as a patient or a session, these are parted by the folds, and the shares of "
-          "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
-          table.file, values, in_quotes(table.columns[i].name), each, typed(table.columns[i].name)));
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (rows.one_to_one(i, table.columns.size()))
-      table.warnings.push_back(
-          fmt::format("{0}: column {1} says the same as the label, in other words, in all rows compared: if it is not "
-                      "known before the class is, "
-                      "leave it out by --ignore {2}",
-                      table.file, in_quotes(table.columns[i].name), typed(table.columns[i].name)));
   std::vector<bool> repeated(ranks.size());  // an earlier column
   const auto says_the_same = [&](std::size_t i, std::size_t j) {
-    if (repeated[i] || repeated[j] || table.columns[i].numeric != table.columns[j].numeric) return false;
-    return table.columns[i].numeric ? comparable[i] && comparable[j] && same_order(ranks[i], ranks[j])
-                                    : rows.one_to_one(i, j);
+    if (repeated[i] || repeated[j]) return false;
+    return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j]) : rows.one_to_one(i, j);
   };
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     std::vector<std::string> others;
@@ -482,6 +536,52 @@ void warn_of_repeats(DataTable& table) {
                       "times; leave the "
                       "others out by --ignore {2}",
                       table.file, in_quotes(table.columns[i].name), fmt::join(others, ","), others.size() + 1));
+  }
+  return all_of_them;
+}
+
+/// Whether a row holds the names of the columns, the first one perhaps behind a byte order mark, as where files were
+/// joined.
+bool is_header(const CsvRow& row, const CsvReader& reader) {
+  for (std::size_t i = 1; i < row.size(); ++i)
+    if (trimmed(row[i]) != reader.names()[i]) return false;
+  return trimmed(row[0]).ends_with(reader.names()[0]);
+}
+
+/// What the values of a column tell, and how they are written.
+void warn_of_values(const std::vector<ColumnReader>& columns, bool copies, DataTable& table) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string& name = table.columns[i].name;
+    const auto by_value = columns[i].by_value(table.rows_of_class);
+    if (by_value.tells_all(table.classes.size()))
+      table.warnings.push_back(
+          fmt::format("{}: column {} alone tells the class of each row: if it is not known before the class is, leave "
+                      "it out by --ignore {}",
+                      table.file, in_quotes(name), typed(name)));
+    else if (!copies && by_value.may_be_groups(table.classes.size()))
+      table.warnings.push_back(fmt::format(
+          "{0}: each of {1} values of column {2}, of {3:.2g} rows on the average, is of one class only{5}: if it "
+          "names what rows are of, as a patient or a session, these are parted by the folds, and the shares of "
+          "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
+          table.file, by_value.values, in_quotes(name),
+          static_cast<double>(by_value.rows) / static_cast<double>(by_value.values), typed(name),
+          by_value.others == 0 ? "" : fmt::format(", but for {} rows", by_value.others)));
+    if (const std::string thousands = columns[i].thousands(); !thousands.empty())
+      table.warnings.push_back(
+          fmt::format("{}: column {}: every number with a point has three digits behind it, as {}, and all others are "
+                      "below a thousand: if "
+                      "the point parts thousands, leave it out",
+                      table.file, in_quotes(name), thousands));
+    if (const std::string code = columns[i].code_with_zeros(); !code.empty())
+      table.warnings.push_back(
+          fmt::format("{}: column {} holds codes, as {}, that are read as numbers: if their order tells "
+                      "nothing, give --categorical {}",
+                      table.file, in_quotes(name), code, typed(name)));
+    if (const std::size_t cells = columns[i].nothings(); cells > 0)
+      table.warnings.push_back(
+          fmt::format("{}: column {}: {} cells are 'none', which counts as missing among numbers: if it "
+                      "says zero, write 0",
+                      table.file, in_quotes(name), cells));
   }
 }
 
@@ -535,6 +635,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
+    if (trimmed(row[label]) == options.label && is_header(row, reader))
+      throw row.error(label, "the name of a class, and not the header again", "drop the line");
     if (missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
     const Code code = classes.code(trimmed(row[label]));
     if (classes.size() > most_values)
@@ -547,7 +649,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     table.cells_.push_back(code);
     table.cells_.push_back(static_cast<double>(row.line()));
     for (ColumnReader& column : columns) {
-      const DataCell cell = column.take(row, missing);
+      const DataCell cell = column.take(row, missing, code);
       table.cells_.push_back(cell.number);
       table.cells_.push_back(cell.code);
     }
@@ -576,7 +678,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     if (!columns[i].is_numeric())
       std::tie(table.columns[i].values, table.value_order_[i]) = columns[i].words().sorted();
   }
-  warn_of_repeats(table);
+  warn_of_values(columns, warn_of_repeats(table), table);
   return table;
 }
 

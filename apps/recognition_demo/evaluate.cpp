@@ -1,3 +1,4 @@
+#include <cmath>
 #include <random>
 
 #include <sigmax/core/transform.hpp>
@@ -323,6 +324,18 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   result.say(
       "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
+  double of_shares = 0.0;
+  for (const std::size_t rows : data.rows_of_class) {
+    const double share = static_cast<double>(rows) / static_cast<double>(data.size());
+    of_shares -= share * std::log(share);
+  }
+  for (const Outcome& outcome : results.outcomes())
+    if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
+        random != nullptr && random->log_loss() > of_shares)
+      result.say(
+          "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are too sure, as "
+          "where several columns tell the same",
+          outcome.name, of_shares);
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,

@@ -146,9 +146,9 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     for (std::size_t i = 0; i < now.rate.size(); ++i) since.told[i] += dt * (last.rate[i] + now.rate[i]) / 2.0;
     if (++since.rows < lengths[k]) continue;
     const double T = now.time - since.time;
-    std::array<double, 4> grew{};
+    std::array<double, 4> grew = now.grown();
     for (std::size_t i = 0; i < grew.size(); ++i) {
-      grew[i] = (now.at[i] - since.at[i]) / T;
+      grew[i] = (grew[i] - since.at[i]) / T;
       since.told[i] /= T;
       rates_[k].each[i].add(since.told[i], grew[i]);
     }
@@ -157,7 +157,7 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
       rates_[k].exchanged.add(since.told[1 - i], grew[i]);
       rates_[k].to_the_left.add(i == 0 ? -since.told[1] : since.told[0], grew[i]);
     }
-    since = {now.time, now.at};
+    since = {now.time, now.grown()};
   }
   before.last = now;
 }
@@ -300,9 +300,10 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     zero_truths_.see(is_zero, distance(at, *row.truth));
   }
   if (now.twice) ++twice_rows_;
+  if (track.latest != row.sensor || sensors_.empty()) sensors_.insert(row.sensor);
   see_other(row.sensor, now, track);
   track.latest = row.sensor;
-  const Since since{now.time, now.at};
+  const Since since{now.time, now.grown()};
   const auto [before, first] = track.spoke.try_emplace(row.sensor, Sensor{now, {since, since, since}});
   if (!first) see_rates(before->second, now);
   if (!is_radar) track.located = position;
@@ -410,6 +411,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         std::abs(angle) / degree, angle > 0.0 ? "right" : "left");
     break;
   }
+  say_scale("vertical velocities", "heights", [](const Rates& rates) { return rates.each[2]; });
   say_scale("range rates", "ranges", [](const Rates& rates) { return rates.each[3]; });
   const auto n = static_cast<double>(azimuths_);
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
@@ -431,7 +433,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
                     std::abs(lag) > 0.3 * median_step() && std::abs(lag) < 20.0 * median_step();
   const bool no_truth = zero_truths_.stands_out();
   say(no_truth,
-      "the truth is (0, 0) in {} rows, where it is farther from what was measured than in all others: if that stands "
+      "the truth is (0, 0) in {} rows, where it is much farther from what was measured than in all others: if that "
+      "stands "
       "for no truth, empty those cells or name them by --missing",
       zero_truths_.rows);
   say(lags && !no_truth,
@@ -475,11 +478,13 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       straight, bent_);
   std::vector<std::string_view> names;
   for (const auto& [name, track] : tracks_) names.push_back(name);
-  const std::string twins = alike(names);
-  say(!twins.empty(),
-      "tracks {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
-      "are the same",
-      twins);
+  const std::pair<std::string_view, std::string> twins[] = {{"tracks", alike(names)},
+                                                            {"sensors", alike({sensors_.begin(), sensors_.end()})}};
+  for (const auto& [what, two] : twins)
+    say(!two.empty(),
+        "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
+        "are the same",
+        what, two);
   const auto nines = recording.nines();
   for (const std::string& sentence : nines) say(true, "{}", sentence);
   say(nines.empty() && twice_rows_ > 1 && 2.0 * to_twice_ > path_,
@@ -496,7 +501,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   say(left >= few,
       "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "
       "it; "
-      "or, where seconds of the week begin anew, add 604800 from there on",
+      "or, where a clock begins anew (at midnight, with the week, after summer time or a restart), add from there on "
+      "what it went back",
       left, left_by);
   const auto& [positions, heights, velocities] = stays_;
   const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {velocities, "velocities"}};
@@ -506,8 +512,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "values that are held count as new measurements, and the filters take their estimates for better than they "
         "are; empty the cells that repeat one",
         what, stays.changed, stays.same + stays.changed + 1);
-  say(zero_heights_.stands_out(),
-      "the height is 0 in {} rows, and goes farther to or from there than between any others: if that stands for no "
+  constexpr double low_m = 20.0;  // a lift, or an animal that dives
+  say(zero_heights_.stands_out() && zero_heights_.least > low_m,
+      "the height is 0 in {} rows, and goes much farther to or from there than between any others: if that stands for "
+      "no "
       "height, empty those cells or name them by --missing",
       zero_heights_.rows);
   const std::size_t jumps = positions.same + positions.changed;

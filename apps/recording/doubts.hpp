@@ -54,6 +54,9 @@ class Doubts {
     std::optional<Position> from_radar;
     bool twice;     ///< whether it is the number that comes twice
     double height;  ///< as the row tells it
+
+    /// What grows by the rates.
+    std::array<double, 4> grown() const { return {at[0], at[1], std::isnan(height) ? at[2] : height, at[3]}; }
   };
   /// How often something stays as it was, to the last digit, and after how many rows it changes.
   struct Stays {
@@ -66,16 +69,20 @@ class Doubts {
     /// changes by more than a few steps, as what is rounded does.
     bool regular() const;
   };
-  /// A number that may stand for none: in how many rows it is, and whether it is always farther off than all else.
+  /// A number that may stand for none: in how many rows it is, and whether it is always much farther off than all else.
   struct Stranger {
-    std::size_t rows = 0;
-    double least = std::numeric_limits<double>::infinity(), others = 0.0;
+    std::size_t rows = 0, others = 0;
+    double least = std::numeric_limits<double>::infinity(), greatest_other = 0.0;
 
     void see(bool is_it, double off) {
-      if (is_it) least = std::min(least, off);
-      if (!is_it) others = std::max(others, off);
+      if (is_it) {
+        least = std::min(least, off);
+      } else {
+        ++others;
+        greatest_other = std::max(greatest_other, off);
+      }
     }
-    bool stands_out() const { return rows > 1 && least > others; }
+    bool stands_out() const { return rows > 1 && others > 0 && std::isfinite(least) && least > 5.0 * greatest_other; }
   };
   /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
   struct Since {
@@ -122,6 +129,7 @@ class Doubts {
   double median_step() const;
 
   std::map<std::string, Track> tracks_;
+  std::set<std::string> sensors_;
   std::vector<double> steps_;   // between measurements of a track, the first thousands
   std::array<Rates, 3> rates_;  // from row to row, where noise hides what is slow, and over many rows
   double farthest_ = 0.0;       // of positions from where they are counted

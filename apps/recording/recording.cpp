@@ -29,6 +29,12 @@ double in_seconds(double number, double unit_s) {
   return unit_s < 1.0 ? number / std::round(1.0 / unit_s) : number * unit_s;
 }
 
+/// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
+bool says_unit(std::string_view header, std::string_view unit) {
+  return header.ends_with(fmt::format("_{}", unit)) || header.ends_with(fmt::format("({})", unit)) ||
+         header.ends_with(fmt::format("[{}]", unit));
+}
+
 /// Whether it is how accurate others of the row are.
 bool is_accuracy(Role role) {
   return role == Role::covariance || role == Role::sigma_position || role == Role::sigma_all_axes ||
@@ -262,8 +268,11 @@ bool RecordingReader::take_time(Row& row) {
             ? "if these are seconds of the week, a new one begins here: add 604800 from here on"
         : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
         : time == before
-            ? "where several sensors measure at one time, name them in a column sensor; else drop repeated rows, or "
-              "give --on-bad-time skip"
+            ? fmt::format(
+                  "where several sensors measure at one time, name them in a column sensor{}; else drop repeated rows, "
+                  "or "
+                  "give --on-bad-time skip",
+                  track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
             : "sort the rows by time, or give --on-bad-time skip");
   ++skipped_;
   if (++last.left > left_behind_.rows) left_behind_ = {last.left, last.line};
@@ -522,8 +531,7 @@ std::string RecordingReader::taken() const {
     std::string part =
         fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
     for (const Unit& other : quantity.units)
-      if (other.value != columns_[q]->unit->value &&
-          csv_.names()[columns_[q]->index].ends_with(fmt::format("_{}", other.suffix)))
+      if (other.value != columns_[q]->unit->value && says_unit(csv_.names()[columns_[q]->index], other.suffix))
         part += fmt::format(", as --columns says, and not in {}", other.words);
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",

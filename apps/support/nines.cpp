@@ -8,8 +8,9 @@
 namespace sigmax::apps {
 
 void Nines::see(std::string_view cell, double number) {
-  if (word_.empty() && std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
-      cell.substr(0, cell.find('.')).find('0') == cell.npos) {
+  const bool is_nines = std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
+                        cell.substr(0, cell.find('.')).find('0') == cell.npos;
+  if (word_.empty() && (is_nines || number == -32768.0 || std::abs(number) >= 1e20)) {
     word_ = cell;
     number_ = number;
   }

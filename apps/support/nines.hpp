@@ -6,7 +6,8 @@
 
 namespace sigmax::apps {
 
-/// Finds a number of nines only, as -999, among the numbers of a column: that often stands for no value.
+/// Finds a number of nines only, as -999, or the least or greatest that a machine has, as -32768 or 1e20 and beyond,
+/// among the numbers of a column: that often stands for no value.
 class Nines {
  public:
   /// A cell, and the number that it holds.

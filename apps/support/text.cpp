@@ -89,7 +89,8 @@ std::string alike(const std::vector<std::string_view>& words) {
     auto parts = words_of(text);
     std::erase(parts, "");
     const auto key = fmt::format("{}", fmt::join(parts, " "));
-    const auto number = parse_number(key);
+    constexpr std::size_t digits_of_a_double = 15;
+    const auto number = key.size() > digits_of_a_double ? std::nullopt : parse_number(key);
     return number ? shortest(*number + 0.0) : key;
   };
   std::map<std::string, std::string_view> by_key;

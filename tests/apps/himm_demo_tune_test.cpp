@@ -99,13 +99,14 @@ TEST_F(Tune, KeepsWhatItIsTold) {
   EXPECT_TRUE(says(ending.output, {"No setting changes"}));
 }
 
-TEST_F(Tune, SaysWhichColumnsDoNotCount) {
+TEST_F(Tune, SaysWhichColumnsAndRowsDoNotCount) {
   std::istringstream lines(recording(60, false));
   std::string text;
   for (std::string line; std::getline(lines, line);) text += line + (text.empty() ? ",vx_mps\n" : ",80\n");
-  const auto file = directory.write("flight.csv", text);
-  const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors"})));
-  EXPECT_TRUE(says(ending.on_one_line(), {"flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)"}));
+  const auto file = directory.write("flight.csv", text + text.substr(text.rfind('\n', text.size() - 2) + 1));
+  const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors", "--on-bad-time", "skip"})));
+  EXPECT_TRUE(says(ending.on_one_line(), {"flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)",
+                                          "flight.csv: 1 rows were skipped, since their time is not after"}));
 }
 
 /// The recording with lines changed: the numbers of a row, and which it is.
