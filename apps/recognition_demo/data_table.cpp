@@ -533,8 +533,7 @@ bool warn_of_repeats(DataTable& table) {
     if (!others.empty())
       table.warnings.push_back(
           fmt::format("{0}: column {1} says the same as {2}, as if in another unit or in other words: it counts {3} "
-                      "times; leave the "
-                      "others out by --ignore {2}",
+                      "times; leave the others out by --ignore {2}",
                       table.file, in_quotes(table.columns[i].name), fmt::join(others, ","), others.size() + 1));
   }
   return all_of_them;
@@ -565,12 +564,11 @@ void warn_of_values(const std::vector<ColumnReader>& columns, bool copies, DataT
           "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
           table.file, by_value.values, in_quotes(name),
           static_cast<double>(by_value.rows) / static_cast<double>(by_value.values), typed(name),
-          by_value.others == 0 ? "" : fmt::format(", but for {} rows", by_value.others)));
+          by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others)));
     if (const std::string thousands = columns[i].thousands(); !thousands.empty())
       table.warnings.push_back(
           fmt::format("{}: column {}: every number with a point has three digits behind it, as {}, and all others are "
-                      "below a thousand: if "
-                      "the point parts thousands, leave it out",
+                      "below a thousand: if the point parts thousands, leave it out",
                       table.file, in_quotes(name), thousands));
     if (const std::string code = columns[i].code_with_zeros(); !code.empty())
       table.warnings.push_back(

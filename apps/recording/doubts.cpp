@@ -24,6 +24,13 @@ double distance(const auto& a, const auto& b) {
   return std::sqrt(square);
 }
 
+/// The upper one of two.
+double median(std::vector<double> some) {
+  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+  std::ranges::nth_element(some, middle);
+  return *middle;
+}
+
 /// Whether two rays in the plane cross.
 bool cross(const Position& a, double alpha, const Position& b, double beta) {
   const double x = b[0] - a[0], y = b[1] - a[1], turn = std::sin(beta - alpha);
@@ -204,11 +211,9 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
     std::vector<double> all;
     for (const Off& row : some)
       if (const double one = number(row); std::isfinite(one)) all.push_back(one);
-    if (all.size() < few / 4) return nan;
-    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
-    return all[all.size() / 2];
+    return all.size() < few / 4 ? nan : median(all);
   };
-  const auto median = [&](const auto& number) { return median_of(rows, number); };
+  const auto of_all = [&](const auto& number) { return median_of(rows, number); };
   struct Cause {
     std::string words;
     std::function<Position(const Off&)> off;
@@ -218,13 +223,13 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
     return median_of(some, [&](const Off& row) { return std::pow(distance(row.by, cause.off(row)), 2); });
   };
   Position shift;
-  for (std::size_t i = 0; i < 3; ++i) shift[i] = median([&](const Off& row) { return row.by[i]; });
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = of_all([&](const Off& row) { return row.by[i]; });
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) parts.push_back(fmt::format("{:.3g}", shift[i]));
   causes.push_back({fmt::format("{:.3g} m away, by ({})", std::sqrt(dot(shift, shift)), fmt::join(parts, ", ")),
                     [shift](const Off&) { return shift; }});
   const auto consider = [&](std::string_view format, double unit, const std::function<Position(const Off&)>& of) {
-    const double times = median([&](const Off& row) {
+    const double times = of_all([&](const Off& row) {
       const Position direction = of(row);
       return dot(row.by, direction) / dot(direction, direction);
     });
@@ -251,7 +256,7 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
     consider("{:.2g} % off in scale", 0.01, [](const Off& row) { return row.at; });
   }
   const auto square = [](const Off& row) { return dot(row.by, row.by); };
-  const double all = median(square), bend = median([](const Off&row) { return row.bend; });
+  const double all = of_all(square), bend = of_all([](const Off&row) { return row.bend; });
   std::vector<double> left;
   for (const Cause& cause : causes) left.push_back(left_of(rows, cause));
   const auto best = std::ranges::min_element(left);
@@ -317,13 +322,6 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
   track.time = plot.time;
 }
 
-double Doubts::median_step() const {
-  std::vector<double> steps = steps_;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 /// By how much the measurements are off the truth on the average, where that is half of their scatter or more and six
 /// standard errors, of errors that last as these do; else nothing.
 std::string Doubts::shifted() const {
@@ -351,10 +349,6 @@ std::string Doubts::shifted() const {
 std::string Doubts::other_times() const {
   if (tracks_.size() != 1 || steps_.size() < 2 * few) return {};
   double time = tracks_.begin()->second.first_time;
-  const auto median = [](std::vector<double> some) {
-    std::ranges::nth_element(some, some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2));
-    return some[some.size() / 2];
-  };
   const auto longest = std::ranges::max_element(steps_);
   for (auto step = steps_.begin(); step != longest; ++step) time += *step;
   if (longest - steps_.begin() < std::ptrdiff_t{few} || steps_.end() - longest <= std::ptrdiff_t{few}) return {};
@@ -428,9 +422,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       would_cross && !recording.from_north()
           ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
           : "see whether the stations stand where it is said, and how azimuths run");
+  const double step = steps_.empty() ? nan : median(steps_);
   const double lag = lag_.growth_per_told();
-  const bool lags = errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 &&
-                    std::abs(lag) > 0.3 * median_step() && std::abs(lag) < 20.0 * median_step();
+  const bool lags = errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 && std::abs(lag) > 0.3 * step &&
+                    std::abs(lag) < 20.0 * step;
   const bool no_truth = zero_truths_.stands_out();
   say(no_truth,
       "the truth is (0, 0) in {} rows, where it is much farther from what was measured than in all others: if that "
@@ -540,7 +535,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "count as new measurements, and the filters take their estimates for better than they are; leave one row of each",
       positions.same, jumps);
   if (steps_.size() < few) return sentences;
-  const double step = median_step(), speed = moved / duration;
+  const double speed = moved / duration;
   const auto by_an_hour = [&](double other) { return std::abs(other - step - 3600.0) < 0.1 * step; };
   say(!recording.times_are_numbers() && step <= 60.0 && std::ranges::any_of(steps_, by_an_hour),
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "

@@ -96,7 +96,7 @@ class Doubts {
     std::optional<std::pair<double, Position>> before{};  // the last one
     double jump = 0.0;                                    // between these
     std::array<std::size_t, 3> runs{};                    // of stays_, that last
-    std::vector<Position> recent{};                       // the last few, in a ring
+    std::vector<Position> recent{};                       // the last few
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
@@ -126,7 +126,6 @@ class Doubts {
   std::string other_times() const;
   static std::string why_apart(const std::vector<Off>& rows, int axes);
   void see_other(const std::string& sensor, const Spoke& now, Track& track);
-  double median_step() const;
 
   std::map<std::string, Track> tracks_;
   std::set<std::string> sensors_;

@@ -106,7 +106,7 @@ TEST_F(Tune, SaysWhichColumnsAndRowsDoNotCount) {
   const auto file = directory.write("flight.csv", text + text.substr(text.rfind('\n', text.size() - 2) + 1));
   const auto ending = program::succeeded(tune(quickly(file, {"--keep", "models,sensors", "--on-bad-time", "skip"})));
   EXPECT_TRUE(says(ending.on_one_line(), {"flight.csv: Not used: vx_mps (give --set sigma_velocity_mps=…)",
-                                          "flight.csv: 1 rows were skipped, since their time is not after"}));
+                                          "not after that of the row before: 1"}));
 }
 
 /// The recording with lines changed: the numbers of a row, and which it is.

@@ -404,7 +404,7 @@ TEST_F(RecognitionDemoLearning, GroupsThatArePartedAreSeenInLongTablesAndBehindS
       says(said(500, 3, -1), {"each of 500 values of column 'who', of 3 rows on the average, is of one class only: "}));
   EXPECT_TRUE(
       says(said(20, 4, 50),
-           {"each of 20 values of column 'who', of 4 rows on the average, is of one class only, but for 1 rows: "}));
+           {"each of 20 values of column 'who', of 4 rows on the average, is of one class only, but for 1 of them: "}));
   EXPECT_TRUE(says(said(100, 2, -1), {"each of 100 values of column 'who', of 2 rows on the average"}));
   EXPECT_EQ(said(20, 40, 50).find("of one class"), std::string::npos);  // as a feature that tells much
 }

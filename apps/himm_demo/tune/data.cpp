@@ -131,7 +131,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     rows.push_back(std::move(row));
   }
   if (recording.skipped() > 0)
-    data.notes.push_back(fmt::format("{}: {} rows were skipped, since their time is not after that of the row before",
+    data.notes.push_back(fmt::format("{}: Rows skipped, since their time is not after that of the row before: {}",
                                      recording.file(), recording.skipped()));
   for (const auto& notes : {recording.notes(), places.notes()})
     for (const std::string& note : notes) data.notes.push_back(fmt::format("{}: {}", file, note));
