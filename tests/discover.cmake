@@ -1,20 +1,23 @@
-# Read by CTest: adds a test for each suite of the test program, or with each_case for each case. They are named
-# name.Suite.Case, where the program says what its instances are called.
+# Read by CTest: adds a test for each suite of the test program, or with each_case for each case that has a name in the code:
+# those of one table of cases stay together. They are called name.Suite or name.Suite.Case.
 if(EXISTS "${program}")
   execute_process(COMMAND "${program}" --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE " +#[^\n]*" "" lines "${lines}")  # the type or the value of an instance
   string(REPLACE "\n" ";" lines "${lines}")
   foreach(line IN LISTS lines)
     set(filter "")
-    if(line MATCHES "^  (.+)" AND each_case)
-      set(filter "${suite}.${CMAKE_MATCH_1}")
-      set(test "${filter}")
-    elseif(line MATCHES "^([^ ]+)\\.$")
+    if(line MATCHES "^([^ ]+)\\.$")
       set(suite "${CMAKE_MATCH_1}")
-      if(NOT each_case)
+      if(NOT each_case OR suite MATCHES "/")
+        set(together TRUE)
         set(filter "${suite}.*")
         set(test "${suite}")
+      else()
+        set(together FALSE)
       endif()
+    elseif(line MATCHES "^  (.+)" AND NOT together)
+      set(filter "${suite}.${CMAKE_MATCH_1}")
+      set(test "${filter}")
     endif()
     if(filter)
       add_test("${name}.${test}" "${program}" "--gtest_filter=${filter}" --gtest_brief=1)
