@@ -137,13 +137,12 @@ class RowReader {
       if (const auto number = parse_number(cell)) {
         auto& [all, below, above] = numbers_[i];
         ++all, below += *number < feature.least ? 1U : 0U, above += *number > feature.greatest ? 1U : 0U;
-        const bool was_learned = feature.least <= *number && *number <= feature.greatest;
-        if (!was_learned && is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
-          first_far_ =
-              row.error(columns_[i],
-                        fmt::format("a number as those learned from, most of which are from {} to {}",
-                                    shortest(feature.bins->cuts().front()), shortest(feature.bins->cuts().back())))
-                  .what();
+        const double half = (feature.greatest - feature.least) / 2.0;
+        const bool is_near = feature.least - half <= *number && *number <= feature.greatest + half;
+        if (!is_near && is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
+          first_far_ = row.error(columns_[i], fmt::format("a number as those learned from, which are from {} to {}",
+                                                          shortest(feature.least), shortest(feature.greatest)))
+                           .what();
         return feature.bins->bin(*number);
       }
       return unseen(row, columns_[i], "a finite number with a decimal point");

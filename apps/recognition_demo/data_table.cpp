@@ -1,18 +1,13 @@
 #include "recognition_demo/data_table.hpp"
 
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numeric>
-#include <set>
 #include <tuple>
 
 #include <fmt/ranges.h>
 
+#include "recognition_demo/column_reader.hpp"
 #include "support/input.hpp"
-#include "support/nines.hpp"
 #include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
@@ -20,314 +15,6 @@
 
 namespace sigmax::apps {
 namespace {
-
-/// Words beyond this many are names of things, not values of a feature.
-constexpr std::size_t most_values = 4096;
-
-/// Among fewer rows it is no wonder that all values differ.
-constexpr std::size_t few_rows = 20;
-
-/// Words numbered as they come.
-class Vocabulary {
- public:
-  Code code(std::string_view word) {
-    const auto found = codes_.find(word);
-    if (found != codes_.end()) return found->second;
-    return codes_.emplace(std::string(word), static_cast<Code>(codes_.size())).first->second;
-  }
-  std::size_t size() const { return codes_.size(); }
-  bool contains(std::string_view word) const { return codes_.contains(word); }
-  std::size_t numbers() const {
-    return static_cast<std::size_t>(std::count_if(
-        codes_.begin(), codes_.end(), [](const auto& word) { return parse_number(word.first).has_value(); }));
-  }
-  const std::string& first_in_order() const { return codes_.begin()->first; }
-
-  std::string alike() const {
-    std::vector<std::string_view> words;
-    for (const auto& [word, code] : codes_) words.push_back(word);
-    return apps::alike(words);
-  }
-
-  /// The words in order, numbers by their value, and for each code the place of its word.
-  std::pair<std::vector<std::string>, std::vector<Code>> sorted() const {
-    std::vector<std::string> words(codes_.size());
-    for (const auto& [word, code] : codes_) words[code] = word;
-    const bool numbers = std::ranges::all_of(words, [](const auto& word) { return parse_number(word).has_value(); });
-    std::vector<std::size_t> order(words.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-      if (numbers && *parse_number(words[a]) != *parse_number(words[b]))
-        return *parse_number(words[a]) < *parse_number(words[b]);
-      return words[a] < words[b];
-    });
-    std::vector<std::string> in_order;
-    std::vector<Code> place(words.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      in_order.push_back(words[order[i]]);
-      place[order[i]] = static_cast<Code>(i);
-    }
-    return {std::move(in_order), std::move(place)};
-  }
-
- private:
-  std::map<std::string, Code, std::less<>> codes_;
-};
-
-bool has_decimal_comma(std::string_view word) {
-  std::string number(word);
-  const auto comma = number.find(',');
-  if (comma != std::string::npos) number[comma] = '.';
-  return comma != std::string::npos && parse_number(number);
-}
-
-/// The word behind a number, as in "23.93 kg", or before it, as in "$12.50" or "<0.1"; or nothing.
-std::string_view unit_of(std::string_view cell) {
-  constexpr std::string_view of_numbers = "+-.,0123456789";
-  const auto begin = std::min(cell.find_first_of(of_numbers), cell.size());
-  const auto end = std::min(cell.find_first_not_of(of_numbers, begin), cell.size());
-  const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
-  const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
-  const bool alone = (before.empty() || after.empty()) && is_sign && after.find_first_of("0123456789") == after.npos;
-  const std::string_view number = cell.substr(begin, end - begin);
-  return alone && (parse_number(number) || has_decimal_comma(number)) ? (before.empty() ? after : before) : "";
-}
-
-/// Whether it says that a value is beyond what could be measured.
-bool is_limit(std::string_view unit) { return unit == "<" || unit == ">" || unit == "≤" || unit == "≥"; }
-
-/// A word among numbers, where it was found first.
-struct Slip {
-  std::size_t line;
-  std::string word;
-};
-
-/// A cell as a number, NaN if it is none, and as a word, `missing_code` if it is none or there are too many.
-struct DataCell {
-  double number = nan;
-  Code code = missing_code;
-};
-
-/// A column while it is read: numeric until a cell is not, and then the words are what counts.
-class ColumnReader {
- public:
-  ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
-
-  DataCell take(const CsvRow& row, const MissingWords& missing, Code its_class) {
-    const std::string_view cell = trimmed(row[index_]);
-    const bool empty = missing(cell);
-    const auto number = empty ? std::nullopt : parse_number(cell);
-    const bool is_word = !empty && !number && !missing.among_numbers(cell);
-    if (number || is_word) ++cells_;
-    if (number) {
-      ++numeric_cells_;
-      nines_.see(cell, *number);
-      see_whole(*number);
-      see_writing(cell);
-    } else if (lower_case(cell) == "none" && !is_word) {
-      ++nothings_;
-    }
-    counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
-    last_ = number.value_or(last_);
-    if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
-    if (is_word && has_decimal_comma(cell)) ++comma_cells_;
-    if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
-      ++(is_limit(unit) ? limit_cells_ : unit_cells_);
-      if (!is_limit(unit) && units_.size() <= most_units) units_.code(unit);
-    }
-    DataCell result{number.value_or(nan)};
-    if (too_many_words_) return result;
-    if (!empty) {
-      result.code = words_.code(cell);
-      if (result.code == classes_.size()) classes_.push_back({its_class});
-      ++(classes_[result.code].first == its_class ? classes_[result.code].same : classes_[result.code].others);
-    }
-    if (words_.size() <= most_values) return result;
-    too_many_words_ = true;
-    if (!could_be_numeric() && !nearly_all_numbers())
-      throw row.error(index_, fmt::format("one of at most {} different values", most_values),
-                      holds_units() ? "write the numbers without their unit" : "leave the column out by --ignore");
-    return result;
-  }
-
-  /// Throws if the column is neither numbers nor words.
-  void refuse_slip(const CsvReader& reader) const {
-    if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
-    const std::string& name = reader.names()[index_];
-    if (comma_cells_ > numeric_cells_)
-      throw InputError(
-          message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                   .what = fmt::format("column {}", in_quotes(name)),
-                   .found = in_quotes(slip_->word),
-                   .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
-                   .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
-    if (is_limit(unit_of(slip_->word)))
-      throw InputError(
-          message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                   .what = fmt::format("column {}", in_quotes(name)),
-                   .found = in_quotes(slip_->word),
-                   .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
-                   .remedy = "write one for what is beyond a limit, as the limit itself; as a missing value it would "
-                             "tell nothing"}));
-    throw InputError(message(
-        {.where = fmt::format("{}:{}", reader.file(), slip_->line),
-         .what = fmt::format("column {}", in_quotes(name)),
-         .found = in_quotes(slip_->word),
-         .expected = fmt::format("a number with a decimal point, as {} of {} cells have", numeric_cells_, cells_),
-         .remedy = fmt::format("correct it, name it by --missing={}, or take the column as words "
-                               "by --categorical {}",
-                               typed(slip_->word), typed(name))}));
-  }
-
-  /// Whether the name of the column looks like one of its cells.
-  bool contains(std::string_view name) const {
-    return is_numeric() ? parse_number(name).has_value() : words_.contains(trimmed(name));
-  }
-
-  /// What there is to see, if it is not two different values: "'red'", or "no value".
-  std::string lone_value() const {
-    if (too_many_words_ || words_.size() > 1) return "";
-    return words_.size() == 0 ? "no value" : in_quotes(words_.first_in_order());
-  }
-
-  std::size_t filled() const { return cells_; }
-
-  /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
-  bool names_rows() const {
-    if (cells_ < few_rows) return false;
-    return is_numeric() ? counts_ || is_run()
-                        : !too_many_words_ && !holds_units() && limit_cells_ == 0 && 2 * words_.size() > cells_;
-  }
-
-  /// Whether most cells, of more than a few different ones, are a number and one of few words.
-  bool holds_units() const {
-    constexpr std::size_t few_words = 8;
-    return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
-  }
-  /// What the classes are of the rows that have the same value.
-  struct ByValue {
-    std::size_t values = 0, rows = 0, others = 0;  ///< rows of another class than the first of their value
-    std::size_t changes = 0;                       ///< of the class, in the order of the values
-    double log_chance = 0.0;                       ///< that so many rows are of one class with theirs
-    bool numeric = false, whole = false;
-
-    bool tells_all(std::size_t classes) const {
-      const bool few = values < fewest_groups && rows >= 2 * values;
-      return others == 0 && rows >= few_rows && values >= classes && (few || (numeric && changes + 1 == classes));
-    }
-    bool may_be_groups(std::size_t classes) const {
-      constexpr double by_no_chance = -14.0;
-      if (values < fewest_groups || values < 2 * classes || rows < 2 * values || log_chance > by_no_chance)
-        return false;
-      if (numeric && (!whole || 4 * changes < values)) return false;
-      return others == 0 || (20 * others < rows && rows < 30 * values);
-    }
-    static constexpr std::size_t fewest_groups = 8;
-  };
-  ByValue by_value(const std::vector<std::size_t>& rows_of_class) const {
-    if (too_many_words_) return {};
-    ByValue result{.values = classes_.size(), .numeric = is_numeric(), .whole = whole_};
-    const auto places = words_.sorted().second;
-    std::vector<Code> in_order(classes_.size());
-    const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0);
-    for (std::size_t code = 0; code < classes_.size(); ++code) {
-      const auto& [first, same, others] = classes_[code];
-      in_order[places[code]] = first;
-      result.rows += same + others;
-      result.others += others;
-      double alike = 0.0;
-      for (const std::size_t rows : rows_of_class)
-        alike += std::pow(static_cast<double>(rows) / all, static_cast<double>(same));
-      result.log_chance += std::log(alike);
-    }
-    for (std::size_t k = 1; k < in_order.size(); ++k) result.changes += in_order[k] != in_order[k - 1] ? 1U : 0U;
-    return result;
-  }
-
-  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and none
-  /// without is a thousand or more; or nothing.
-  std::string thousands() const {
-    return is_numeric() && below_a_thousand_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
-  }
-  /// A number as 0387 of a column in which all are as long; or nothing.
-  std::string code_with_zeros() const { return is_numeric() && lengths_.size() == 1 ? with_zeros_ : ""; }
-  /// In how many cells "none" counts as missing, if in one of twenty.
-  std::size_t nothings() const { return is_numeric() && 20 * nothings_ >= cells_ ? nothings_ : 0; }
-
-  std::size_t limits() const { return limit_cells_; }
-  std::string units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
-
-  const Nines& nines() const { return nines_; }
-
-  bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
-  const Vocabulary& words() const { return words_; }
-  std::size_t index() const { return index_; }
-
- private:
-  static constexpr std::size_t most_units = 3;
-
-  void see_whole(double number) {
-    if (numeric_cells_ == 1) first_ = low_ = high_ = number;
-    low_ = std::min(low_, number);
-    high_ = std::max(high_, number);
-    sum_ += number - first_;
-    squares_ += (number - first_) * (number - first_);
-    whole_ = whole_ && number == std::floor(number);
-  }
-  /// Whether the cells are whole numbers one after another, each once, in any order, by their sum and squares.
-  bool is_run() const {
-    const auto n = static_cast<double>(cells_);
-    const double a = low_ - first_, sum = n * a + n * (n - 1) / 2;
-    const double squares = n * a * a + a * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6;
-    return whole_ && numeric_cells_ == cells_ && high_ - low_ + 1 == n &&
-           std::abs(sum_ - sum) <= 1e-9 * std::abs(sum) && std::abs(squares_ - squares) <= 1e-9 * squares;
-  }
-
-  void see_writing(std::string_view cell) {
-    const auto point = cell.find('.');
-    const std::size_t digits = point == cell.npos ? cell.size() : point;
-    const bool is_plain = cell.find_first_not_of(".0123456789") == cell.npos;
-    const bool parts = point != cell.npos && cell.size() - point == 4 && digits <= 3 && cell[0] != '0';
-    if (parts && three_digits_.empty()) three_digits_ = cell;
-    if (point == cell.npos && digits <= 3) ++below_a_thousand_;
-    other_writing_ = other_writing_ || !is_plain || !(parts || (point == cell.npos && digits <= 3));
-    if (lengths_.size() < 2) lengths_.insert(is_plain && point == cell.npos ? cell.size() : 0);
-    if (with_zeros_.empty() && digits >= 3 && cell[0] == '0') with_zeros_ = cell;
-  }
-
-  bool could_be_numeric() const { return !categorical_ && !slip_; }
-  /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
-  bool nearly_all_numbers() const {
-    constexpr std::size_t most_words = 20;
-    if (10 * (numeric_cells_ + comma_cells_) >= 9 * cells_) return true;
-    return 2 * numeric_cells_ >= cells_ && words_.numbers() > most_words;
-  }
-
-  std::size_t index_;
-  bool categorical_;
-  std::optional<Slip> slip_;
-  std::size_t cells_ = 0;  // with a number, or a word that does not stand for a missing one
-  std::size_t numeric_cells_ = 0;
-  std::size_t comma_cells_ = 0;
-  std::size_t unit_cells_ = 0, limit_cells_ = 0;
-  bool whole_ = true;  // all numbers are
-  double first_ = 0.0, low_ = 0.0, high_ = 0.0;
-  double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
-  Nines nines_;
-  std::string three_digits_, with_zeros_;  // the first of these
-  std::size_t below_a_thousand_ = 0, nothings_ = 0;
-  bool other_writing_ = false;
-  std::set<std::size_t> lengths_;  // of whole numbers, 0 of others, up to two
-  struct ClassesOfValue {
-    Code first;
-    std::size_t same = 0, others = 0;  // rows of that class, and of others
-  };
-  std::vector<ClassesOfValue> classes_;  // by code
-  bool counts_ = true;                   // so far, in whole numbers upwards
-  double last_ = -std::numeric_limits<double>::infinity();
-  bool too_many_words_ = false;
-  Vocabulary words_, units_;
-};
 
 /// Columns with their lone values, all at once: throws if there is such a one.
 void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
@@ -349,6 +36,16 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
                .expected = "at least two different values",
                .remedy = fmt::format("{}leave out what never changes by --ignore {}",
                                      gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))}));
+}
+
+/// Whether a class is a number of nines, as 99 or -9, more than its neighbour by more than there are classes.
+bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& other : classes) {
+    if (!parse_number(other)) return false;
+    if (other != name) nearest = std::min(nearest, std::abs(*parse_number(other) - *parse_number(name)));
+  }
+  return name.find_first_not_of("-9") == name.npos && nearest > static_cast<double>(classes.size());
 }
 
 /// What a reader of the results should know of the file.
@@ -379,8 +76,8 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
                     "can be learned",
                     reader.file(), in_quotes(table.label), listed(lone, 12)));
   for (std::size_t k = 0; k < table.classes.size(); ++k)
-    if (constexpr std::array words = {"-", "--", "na", "n/a", "#n/a", "nan", "null", "unknown"};
-        std::ranges::find(words, lower_case(table.classes[k])) != words.end())
+    if (const std::string name = lower_case(table.classes[k]);
+        says_unknown(name) || name == "-" || name == "--" || name == "unknown" || is_nines(name, table.classes))
       warnings.push_back(fmt::format(
           "{}: column {}: {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
           reader.file(), in_quotes(table.label), table.rows_of_class[k], table.size(), in_quotes(table.classes[k])));
@@ -390,6 +87,12 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
           fmt::format("{}: column {} holds numbers with a unit ({}), which count as words: write the numbers alone, "
                       "all in one unit, and the unit into the name of the column",
                       reader.file(), in_quotes(reader.names()[column.index()]), column.units()));
+  for (const ColumnReader& column : columns)
+    if (const std::string notation = column.notation(); !notation.empty())
+      warnings.push_back(fmt::format(
+          "{}: column {} holds no plain numbers, as {}, which count as words: where they are numbers, times "
+          "or dates, write them as 1234.5, in seconds or days",
+          reader.file(), in_quotes(reader.names()[column.index()]), in_quotes(notation)));
   for (const ColumnReader& column : columns)
     if (column.limits() > 0 && !column.is_numeric() && column.words().numbers() > 1)
       warnings.push_back(fmt::format(
@@ -575,6 +278,11 @@ void warn_of_values(const std::vector<ColumnReader>& columns, bool copies, DataT
           fmt::format("{}: column {} holds codes, as {}, that are read as numbers: if their order tells "
                       "nothing, give --categorical {}",
                       table.file, in_quotes(name), code, typed(name)));
+    if (const auto [cells, word] = columns[i].unknowns(); cells > 0)
+      table.warnings.push_back(fmt::format(
+          "{}: column {}: {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give "
+          "--missing={}",
+          table.file, in_quotes(name), cells, table.size(), in_quotes(word), typed(word)));
     if (const std::size_t cells = columns[i].nothings(); cells > 0)
       table.warnings.push_back(
           fmt::format("{}: column {}: {} cells are 'none', which counts as missing among numbers: if it "

@@ -333,9 +333,11 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
     if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
         random != nullptr && random->log_loss() > of_shares)
       result.say(
-          "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are too sure, as "
-          "where several columns tell the same",
-          outcome.name, of_shares);
+          "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
+          outcome.name, of_shares,
+          options.learning.equal_prior ? ", which --equal-prior leaves out"
+          : data.columns.size() > 1    ? ", and too sure, as where several columns tell the same"
+                                       : "");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,

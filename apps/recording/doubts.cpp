@@ -11,7 +11,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t few = 10, many = 10000;
+constexpr std::size_t few = 10, many = 10000, many_ways = 100;
 
 // Over so many rows the two kinds of rates are compared.
 constexpr std::array<std::size_t, 3> lengths = {1, 10, 100};
@@ -131,18 +131,21 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   if (!(dt > 0.0)) return;
   const double jump = distance(last.at, now.at);
   path_ += jump;
-  if (jump == 0.0 && before.jump > 0.0) {
+  // A place that is held may have a height that is not; the Earth's curve moves it along by a little then.
+  const double rise = std::abs(now.height - last.height);
+  const double along = std::hypot(now.at[0] - last.at[0], now.at[1] - last.at[1]);
+  const double way = std::isnan(rise) ? jump : along < 0.005 * rise ? 0.0 : along;
+  if (way == 0.0 && before.way > 0.0) {
     ++held_again_;
-    if (ways_.size() <= few) ways_.insert(static_cast<float>(before.jump));
+    if (ways_.size() < many_ways) ways_.insert(std::lround(1000.0 * std::log(before.way)));
   }
-  before.jump = jump;
-  stays_[0].see(jump, before.runs[0]);
-  stays_[1].see(std::abs(now.height - last.height), before.runs[1]);
+  before.way = way;
+  stays_[0].see(way, before.runs[0]);
+  stays_[1].see(rise, before.runs[1]);
   Position change{};
   for (std::size_t i = 0; i < 3; ++i) change[i] = i == 2 && std::isnan(now.rate[i]) ? 0.0 : now.rate[i] - last.rate[i];
   stays_[2].see(std::sqrt(dot(change, change)), before.runs[2]);
-  if (!std::isnan(now.height + last.height))
-    zero_heights_.see((now.height == 0.0) != (last.height == 0.0), std::abs(now.height - last.height));
+  if (!std::isnan(now.height + last.height)) zero_heights_.see((now.height == 0.0) != (last.height == 0.0), rise);
   see_return(before, now, jump);
   if (now.twice != last.twice) to_twice_ += jump;
   see_error(last, now);
@@ -463,8 +466,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     auto bends = all;
     std::ranges::sort(bends);
     const double usual = bends[bends.size() * 19 / 20].first;
+    std::set<float> different;  // few, where all is rounded
+    for (const auto& [bend, way] : bends)
+      if (different.size() <= few) different.insert(static_cast<float>(bend));
     const auto is_straight = [&](const auto& each) { return each.first < std::min(0.02 * usual, 5e-4 * each.second); };
-    if (bends.size() >= 2 * few) straight += static_cast<std::size_t>(std::ranges::count_if(bends, is_straight));
+    if (bends.size() >= 2 * few && different.size() > few)
+      straight += static_cast<std::size_t>(std::ranges::count_if(bends, is_straight));
   }
   say(5 * straight > 2 * bent_,
       "{} of {} positions are on the line between those before and after, to within a fiftieth of what others are off "
@@ -492,6 +499,11 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "east: "
       "give those of the south and the west a minus sign",
       abroad, first_abroad);
+  const auto& zone = recording.other_zone();
+  say(zone.line > 0 && (zone.is_none || std::abs(zone.step) > 10.0 * step),
+      "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
+      "UTC; see whether each has the zone that it was told in",
+      zone.line, zone.step);
   const auto& [left, left_by] = recording.left_behind();
   say(left >= few,
       "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "
@@ -527,7 +539,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
   // So does what is rounded, by steps that are few; a held position goes any way, and is held again, or as long.
-  const bool goes_any_way = ways_.size() > few;
+  const bool goes_any_way = ways_.size() > few && 2 * ways_.size() > std::min(held_again_, many_ways);
   const bool held_again = 4 * held_again_ > 3 * positions.changed && goes_any_way;
   const bool on_its_way = moved > 0.5 * path_ && (goes_any_way || positions.regular());
   say(positions.same >= few && 4 * positions.same > jumps && (on_its_way || held_again),

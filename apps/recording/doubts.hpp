@@ -94,7 +94,7 @@ class Doubts {
     Spoke last;
     std::array<Since, 3> since;
     std::optional<std::pair<double, Position>> before{};  // the last one
-    double jump = 0.0;                                    // between these
+    double way = 0.0;                                     // between these, along the ground if there is a height
     std::array<std::size_t, 3> runs{};                    // of stays_, that last
     std::vector<Position> recent{};                       // the last few
   };
@@ -135,7 +135,7 @@ class Doubts {
   double path_ = 0.0;           // of all positions, each sensor's own
   std::array<Stays, 3> stays_;  // of positions, heights and velocities
   std::size_t held_again_ = 0;  // positions that change, where the next one does not
-  std::set<float> ways_;        // how far those went, some
+  std::set<long> ways_;         // how far those went, some, as logarithms to three digits
   std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
   Stranger zero_heights_, zero_truths_;
   std::optional<double> twice_;  // the first number that is both coordinates of a position

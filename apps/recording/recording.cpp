@@ -236,6 +236,16 @@ std::optional<double> RecordingReader::time_of(std::string_view text, bool& of_d
   return parse_timestamp(text);
 }
 
+void RecordingReader::see_zone(std::string_view text, double time) {
+  constexpr std::size_t behind_date = 11;
+  const auto begin = text.find_first_of("+-Zz", std::min(behind_date, text.size()));
+  const std::string_view zone = text.substr(std::min(begin, text.size()));
+  if (zone_ && *zone_ != zone && other_zone_.line == 0)
+    other_zone_ = {row_.line(), time - zoned_, zone_->empty() || zone.empty()};
+  zone_ = zone;
+  zoned_ = time;
+}
+
 /// Takes the row's line, track and time; false if the row is to be skipped for its time.
 bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
@@ -252,6 +262,7 @@ bool RecordingReader::take_time(Row& row) {
         "correct the cell or drop the row; if all are written otherwise, say how, as --time-format '%d/%m/%Y "
         "%H:%M:%S'");
   times_are_numbers_ = time_format_.empty() && parse_number(row_[time_]);
+  if (time_format_.empty() && !times_are_numbers_ && !of_day) see_zone(trimmed(row_[time_]), *found);
   const double time = of_day ? on_its_day(row, *found) : *found;
   row.plot.time = time;
   if (!refused_time(row, time)) {

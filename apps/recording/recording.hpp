@@ -114,6 +114,14 @@ class RecordingReader {
   /// Numbers of nines that may stand for none, a sentence for each column.
   std::vector<std::string> nines() const;
 
+  /// Where the zone of dates and times changes first, how far they go on there, and whether it is none before or then.
+  struct OtherZone {
+    std::size_t line = 0;
+    double step = 0.0;
+    bool is_none = false;
+  };
+  const OtherZone& other_zone() const { return other_zone_; }
+
   /// Whether there were times of day.
   bool times_of_day() const { return latest_of_day_.has_value(); }
 
@@ -152,6 +160,7 @@ class RecordingReader {
   std::string why_unused(std::size_t quantity) const;
   std::string unused() const;
 
+  void see_zone(std::string_view text, double time);
   bool take_time(Row& row);
   double on_its_day(const Row& row, double time_of_day);
   bool refused_time(const Row& row, double time);
@@ -196,6 +205,9 @@ class RecordingReader {
   Counted senseless_, abroad_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;
+  std::optional<std::string> zone_;  // of the last date and time, which was
+  double zoned_ = 0.0;
+  OtherZone other_zone_;
   Counted midnights_;  // that tracks passed
   std::size_t unused_velocities_ = 0;
   std::size_t bearings_ = 0;             // that count

@@ -157,7 +157,7 @@ toml::table parsed(std::string_view text, const Origin& origin) {
   }
 }
 
-/// Puts words into quotes where TOML would have none, so that a shell need not carry them.
+/// Puts words into quotes where TOML would have none, so that a shell need not carry them, and digits to points.
 std::string with_quoted_words(std::string_view value) {
   const auto starts_word = [](char byte) {
     const auto code = static_cast<unsigned char>(byte);
@@ -178,12 +178,15 @@ std::string with_quoted_words(std::string_view value) {
       size = value.size();
     } else if (continues_token(first)) {
       while (size < value.size() && continues_token(value[size])) ++size;
-      const std::string_view token = value.substr(0, size);
+      const std::string_view name = value.substr(0, size);
       // A word before '=' is a key of an inline table.
-      word = starts_word(first) && token != "true" && token != "false" && token != "inf" && token != "nan" &&
+      word = starts_word(first) && name != "true" && name != "false" && name != "inf" && name != "nan" &&
              !trimmed(value.substr(size)).starts_with('=');
     }
-    text.append(word ? "\"" : "").append(value.substr(0, size)).append(word ? "\"" : "");
+    std::string token(value.substr(0, size));
+    const bool lacks_digit = token.ends_with('.') || token.find_first_not_of("+-") == token.find('.');
+    if (const auto number = lacks_digit ? parse_number(token) : std::nullopt) token = fmt::format("{}", *number);
+    text.append(word ? "\"" : "").append(token).append(word ? "\"" : "");
     value.remove_prefix(size);
   }
   return text;

@@ -183,6 +183,26 @@ TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 0.001 * 60.0 * 1852.0 * 0.5 / std::sqrt(12.0), 0.01);
 }
 
+TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
+  const auto said = [&](double most) {  // by a sensor of speed that tells no more than that
+    std::string text = "time_s,x_m,y_m,vx_mps,vy_mps\n";
+    double x = 0.0;
+    for (int k = 0; k < 200; ++k) {
+      const double speed = 12.0 + 6.0 * std::sin(k / 20.0), noise = (k * k * 7919 % 11 - 5) / 20.0;
+      x += speed;
+      text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", k, x + (k * k % 25 * 7919 % 25 - 12) / 5.0,
+                          (k * k % 21 * 104729 % 21 - 10) / 5.0, std::min(speed + noise, most),
+                          (k * k % 13 * 104729 % 13 - 6) / 20.0);
+    }
+    return program::succeeded(
+               tune({directory.write("speeds.csv", text), "--set", "filters=imm", "--set", "sigma_velocity_mps=0.5"}))
+        .on_one_line();
+  };
+  EXPECT_TRUE(
+      says(said(12.7), {"times the sigmas that were fitted, so that the regions stated hold 95 % of the rows"}));
+  EXPECT_EQ(said(99.0).find("times the sigmas"), std::string::npos);
+}
+
 TEST_F(Tune, TakesNoEvenMotionForRounding) {
   const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
     const double noise = std::cos(7.0 * static_cast<double>(k * k));

@@ -71,7 +71,7 @@ TEST(Settings, SetsTakeTomlAndBareWords) {
   const Settings settings =
       from_sets({" word = zero ", "snake=borrowed_variance", "number=-1e-3", "flag=false", "string=\"a b\"",
                  "literal='it'", "words=[dwna, \"dwpa\",dwna-2]", "rows=[[1,0.5],[0.5,1]]", "umlaut=größe",
-                 "escape=\"a\\\"b c\"", "table={kind=imm, sigma_w = 3}"});
+                 "escape=\"a\\\"b c\"", "table={kind=imm, sigma_w = .3}", "points=[.25,-.5,+.5,3.,1.5]"});
   EXPECT_EQ(settings.get<std::string>("word"), "zero");
   EXPECT_EQ(settings.get<std::string>("snake"), "borrowed_variance");
   EXPECT_EQ(settings.get<double>("number"), -1e-3);
@@ -83,7 +83,8 @@ TEST(Settings, SetsTakeTomlAndBareWords) {
   EXPECT_EQ(settings.get<std::string>("umlaut"), "größe");
   EXPECT_EQ(settings.get<std::string>("escape"), "a\"b c");
   EXPECT_EQ(settings.sub("table").get<std::string>("kind"), "imm");
-  EXPECT_EQ(settings.sub("table").get<double>("sigma_w"), 3.0);
+  EXPECT_EQ(settings.sub("table").get<double>("sigma_w"), 0.3);
+  EXPECT_EQ(settings.get<Numbers>("points"), (Numbers{0.25, -0.5, 0.5, 3.0, 1.5}));
 }
 
 TEST(Settings, NamesThePlaceOfAWrongType) {

@@ -312,6 +312,7 @@ class Fitter {
     FilterSettings settings{};
     double value = std::numeric_limits<double>::infinity();  ///< of the objective
     std::vector<FittedNumber> numbers{};
+    double widened = 1.0;  ///< see Candidate
   };
 
   /// What of a filter's numbers is looked for from far away.
@@ -550,8 +551,9 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
 /// of the rows. Of several targets, of which some move as no others do, that goes no farther than until the mean NIS is
 /// near the end of 0.9 to 1.1. Rows that not even sigmas four times as great reach are no noise: where they are too
 /// many, the others alone count. So it does nothing where the rows state their sigmas, since sigma_w alone would change
-/// the gains. The result is to four digits, and without a gate of ours that turns nothing away.
-void finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
+/// the gains. The result is to four digits, and without a gate of ours that turns nothing away; and by how much the
+/// sigmas changed.
+double finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
   constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03, most_at_once = 2.0;
   constexpr std::size_t most_steps = 12;
   constexpr double most_in_all = 16.0;  // of variances
@@ -565,6 +567,7 @@ void finish(FilterSettings& settings, double gate, const TuneData& data, const T
   for (std::size_t k = 0; k < most_steps && all_may_change; ++k) {
     if (in_all > most_in_all && !kept_alone) {
       settings = fitted;
+      in_all = 1.0;
       kept_alone = true;
     }
     const Kept kept = kept_by(settings, data, options.objective);
@@ -584,6 +587,7 @@ void finish(FilterSettings& settings, double gate, const TuneData& data, const T
   }
   round_off(settings);
   if (kept_by(settings, data, options.objective).set_aside == 0) settings.gate_probability = gate;
+  return std::sqrt(in_all);
 }
 
 }  // namespace
@@ -696,7 +700,7 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
           progress.advance();
         }
         Fitter::Found found = fitter_of_told.refine(fitted[c], surface, false);
-        finish(found.settings, settings.gate_probability, data, options);
+        found.widened = finish(found.settings, settings.gate_probability, data, options);
         return std::pair(std::move(found), std::move(own));
       },
       [&](std::size_t c, std::pair<Fitter::Found, std::vector<RowLosses>>&& found) {
@@ -705,7 +709,10 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
 
   for (std::size_t c = 0; c <= sets; ++c) {
     Candidate& candidate = tuned.candidates.emplace_back(Candidate{"as before", settings});
-    if (c > 0) candidate = {bases[c - 1].name, fitted[c - 1].settings, fitted[c - 1].numbers, fitted[c - 1].value};
+    if (c > 0) {
+      const Fitter::Found& found = fitted[c - 1];
+      candidate = {bases[c - 1].name, found.settings, found.numbers, found.value, found.widened};
+    }
     tuned.held_out.push_back(c > 0 ? held_out(folds, without[c - 1]) : judged(told, settings, options.objective));
     candidate.held_out = objective_of(tuned.held_out[c], options.objective);
     if (c == 0) candidate.fitted = candidate.held_out;

@@ -540,6 +540,14 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
                text_of(*after, options.page.width()));
     fmt::print("{}{}", rows_text(after->set_aside, "set aside, as the gate will in track", data),
                rows_text(tuned.strays, "left out of the fit, since those after tell that they are stray", data));
+    if (const double widened = tuned.best().widened; std::abs(std::log(widened)) > std::log(2.0))
+      fmt::print("{}",
+                 wrapped(fmt::format("\nWhat is written are {:.2g} times the sigmas that were fitted, so that the "
+                                     "regions stated hold 95 % of the rows. So great a factor says that the "
+                                     "recording is not what the filter takes it for, as where a clock or a "
+                                     "place jumps once, or values are held or limited: look at its rows.\n",
+                                     widened),
+                         options.page.width()));
     const std::string truth = text_of_truth(before, *after);
     if (!truth.empty()) fmt::print("{}", wrapped(truth, options.page.width()));
   }

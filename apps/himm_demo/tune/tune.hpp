@@ -141,6 +141,7 @@ struct Candidate {
   FilterSettings settings{};  ///< fitted to all rows, its noises by one factor more
   std::vector<FittedNumber> numbers{};
   double fitted = 0.0;    ///< the objective over all rows, which those settings have seen
+  double widened = 1.0;   ///< that factor, of standard deviations
   double held_out = 0.0;  ///< the same over all rows, each with settings that have not seen its fold
   MeanDifference gain{};  ///< of the held-out loss of a row on that of the settings before
 };

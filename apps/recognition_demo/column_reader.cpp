@@ -1,0 +1,260 @@
+#include "recognition_demo/column_reader.hpp"
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/ranges.h>
+
+#include "support/input.hpp"
+#include "support/output.hpp"
+#include "support/text.hpp"
+
+namespace sigmax::apps {
+namespace {
+
+bool has_decimal_comma(std::string_view word) {
+  std::string number(word);
+  const auto comma = number.find(',');
+  if (comma != std::string::npos) number[comma] = '.';
+  return comma != std::string::npos && parse_number(number);
+}
+
+/// The word behind a number, as in "23.93 kg", or before it, as in "$12.50" or "<0.1"; or nothing.
+std::string_view unit_of(std::string_view cell) {
+  constexpr std::string_view of_numbers = "+-.,0123456789";
+  const auto begin = std::min(cell.find_first_of(of_numbers), cell.size());
+  const auto end = std::min(cell.find_first_not_of(of_numbers, begin), cell.size());
+  const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
+  const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
+  const bool alone = (before.empty() || after.empty()) && is_sign && after.find_first_of("0123456789") == after.npos;
+  const std::string_view number = cell.substr(begin, end - begin);
+  constexpr std::array no_units = {"'", "=", "~", "*", "−", "\u00A0", "\u202F"};
+  if (std::ranges::find(no_units, before.empty() ? after : before) != no_units.end()) return "";
+  return alone && (parse_number(number) || has_decimal_comma(number)) ? (before.empty() ? after : before) : "";
+}
+
+/// Whether a word has digits and no letters, as 1,000.00 or 12.03.2024.
+bool is_notation(std::string_view word) {
+  const auto has = [&](auto kind) { return std::ranges::any_of(word, [&](unsigned char c) { return kind(c) != 0; }); };
+  return has([](int c) { return std::isdigit(c); }) && !has([](int c) { return std::isalpha(c); });
+}
+
+/// Whether it says that a value is beyond what could be measured.
+bool is_limit(std::string_view unit) { return unit == "<" || unit == ">" || unit == "≤" || unit == "≥"; }
+
+}  // namespace
+
+bool says_unknown(std::string_view word) {
+  constexpr std::array words = {"na", "n/a", "#n/a", "nan", "null"};
+  return std::ranges::find(words, lower_case(word)) != words.end();
+}
+
+std::size_t Vocabulary::numbers() const {
+  return static_cast<std::size_t>(std::count_if(codes_.begin(), codes_.end(),
+                                                [](const auto& word) { return parse_number(word.first).has_value(); }));
+}
+
+std::string Vocabulary::alike() const {
+  std::vector<std::string_view> words;
+  for (const auto& [word, code] : codes_) words.push_back(word);
+  return apps::alike(words);
+}
+
+std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
+  std::vector<std::string> words(codes_.size());
+  for (const auto& [word, code] : codes_) words[code] = word;
+  std::vector<std::pair<double, std::size_t>> order;  // by value, words behind all numbers
+  for (std::size_t i = 0; i < words.size(); ++i)
+    order.emplace_back(parse_number(words[i]).value_or(std::numeric_limits<double>::infinity()), i);
+  std::ranges::sort(order, [&](const auto& a, const auto& b) {
+    return a.first < b.first || (a.first == b.first && words[a.second] < words[b.second]);
+  });
+  std::vector<std::string> in_order;
+  std::vector<Code> place(words.size());
+  for (const auto& [number, code] : order) {
+    place[code] = static_cast<Code>(in_order.size());
+    in_order.push_back(words[code]);
+  }
+  return {std::move(in_order), std::move(place)};
+}
+
+DataCell ColumnReader::take(const CsvRow& row, const MissingWords& missing, Code its_class) {
+  const std::string_view cell = trimmed(row[index_]);
+  const bool empty = missing(cell);
+  const auto number = empty ? std::nullopt : parse_number(cell);
+  const bool is_word = !empty && !number && !missing.among_numbers(cell);
+  if (number || is_word) ++cells_;
+  if (number) {
+    ++numeric_cells_;
+    nines_.see(cell, *number);
+    see_whole(*number);
+    see_writing(cell);
+  } else if (lower_case(cell) == "none" && !is_word) {
+    ++nothings_;
+  }
+  counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
+  last_ = number.value_or(last_);
+  if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
+  if (is_word && has_decimal_comma(cell)) ++comma_cells_;
+  if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
+    ++(is_limit(unit) ? limit_cells_ : unit_cells_);
+    if (!is_limit(unit) && units_.size() <= most_units) units_.code(unit);
+  } else if (is_word && is_notation(cell) && notations_++ == 0) {
+    notation_ = cell;
+  }
+  DataCell result{number.value_or(nan)};
+  if (too_many_words_) return result;
+  if (!empty) {
+    result.code = words_.code(cell);
+    if (result.code == classes_.size()) classes_.push_back({its_class});
+    ++(classes_[result.code].first == its_class ? classes_[result.code].same : classes_[result.code].others);
+  }
+  if (words_.size() <= most_values) return result;
+  too_many_words_ = true;
+  if (!could_be_numeric() && !nearly_all_numbers())
+    throw row.error(index_, fmt::format("one of at most {} different values", most_values),
+                    holds_units() ? "write the numbers without their unit" : "leave the column out by --ignore");
+  return result;
+}
+
+void ColumnReader::refuse_slip(const CsvReader& reader) const {
+  if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
+  const std::string& name = reader.names()[index_];
+  if (comma_cells_ > numeric_cells_)
+    throw InputError(
+        message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                 .what = fmt::format("column {}", in_quotes(name)),
+                 .found = in_quotes(slip_->word),
+                 .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
+                 .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
+  if (is_limit(unit_of(slip_->word)))
+    throw InputError(
+        message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                 .what = fmt::format("column {}", in_quotes(name)),
+                 .found = in_quotes(slip_->word),
+                 .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
+                 .remedy = "write one for what is beyond a limit, as the limit itself; as a missing value it would "
+                           "tell nothing"}));
+  throw InputError(
+      message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+               .what = fmt::format("column {}", in_quotes(name)),
+               .found = in_quotes(slip_->word),
+               .expected = fmt::format("a number with a decimal point, as {} of {} cells have", numeric_cells_, cells_),
+               .remedy = fmt::format("correct it, name it by --missing={}, or take the column as words "
+                                     "by --categorical {}",
+                                     typed(slip_->word), typed(name))}));
+}
+
+bool ColumnReader::contains(std::string_view name) const {
+  return is_numeric() ? parse_number(name).has_value() : words_.contains(trimmed(name));
+}
+
+std::string ColumnReader::lone_value() const {
+  if (too_many_words_ || words_.size() > 1) return "";
+  return words_.size() == 0 ? "no value" : in_quotes(words_.codes().begin()->first);
+}
+
+bool ColumnReader::names_rows() const {
+  if (cells_ < few_rows) return false;
+  return is_numeric() ? counts_ || is_run()
+                      : !too_many_words_ && !holds_units() && notation().empty() && limit_cells_ == 0 &&
+                            2 * words_.size() > cells_;
+}
+
+std::string ColumnReader::notation() const {
+  return !categorical_ && words_.size() > few_words && 2 * notations_ > cells_ && !holds_units() ? notation_ : "";
+}
+
+bool ColumnReader::holds_units() const {
+  return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
+}
+
+std::string ColumnReader::units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
+
+bool ColumnReader::ByValue::tells_all(std::size_t classes) const {
+  const bool few = values < fewest_groups && rows >= 2 * values;
+  return others == 0 && rows >= few_rows && values >= classes && (few || (numeric && changes + 1 == classes));
+}
+
+bool ColumnReader::ByValue::may_be_groups(std::size_t classes) const {
+  constexpr double by_no_chance = -14.0;
+  if (values < fewest_groups || values < 2 * classes || rows < 2 * values || log_chance > by_no_chance) return false;
+  if (numeric && (!whole || 4 * changes < values)) return false;
+  return others == 0 || (20 * others < rows && rows < 30 * values);
+}
+
+ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& rows_of_class) const {
+  if (too_many_words_) return {};
+  ByValue result{.values = classes_.size(), .numeric = is_numeric(), .whole = whole_};
+  const auto places = words_.sorted().second;
+  std::vector<Code> in_order(classes_.size());
+  const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0);
+  for (std::size_t code = 0; code < classes_.size(); ++code) {
+    const auto& [first, same, others] = classes_[code];
+    in_order[places[code]] = first;
+    result.rows += same + others;
+    result.others += others;
+    double alike = 0.0;
+    for (const std::size_t rows : rows_of_class)
+      alike += std::pow(static_cast<double>(rows) / all, static_cast<double>(same));
+    result.log_chance += std::log(alike);
+  }
+  for (std::size_t k = 1; k < in_order.size(); ++k) result.changes += in_order[k] != in_order[k - 1] ? 1U : 0U;
+  return result;
+}
+
+std::string ColumnReader::thousands() const {
+  return is_numeric() && below_a_thousand_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
+}
+
+std::pair<std::size_t, std::string> ColumnReader::unknowns() const {
+  std::pair<std::size_t, std::string> result;
+  if (is_numeric()) return result;
+  for (const auto& [word, code] : words_.codes())
+    if (code < classes_.size() && says_unknown(word)) {
+      result.first += classes_[code].same + classes_[code].others;
+      if (result.second.empty()) result.second = word;
+    }
+  return result;
+}
+
+void ColumnReader::see_whole(double number) {
+  if (numeric_cells_ == 1) first_ = low_ = high_ = number;
+  low_ = std::min(low_, number);
+  high_ = std::max(high_, number);
+  sum_ += number - first_;
+  squares_ += (number - first_) * (number - first_);
+  whole_ = whole_ && number == std::floor(number);
+}
+
+/// Whether the cells are whole numbers one after another, each once, in any order, by their sum and squares.
+bool ColumnReader::is_run() const {
+  const auto n = static_cast<double>(cells_);
+  const double a = low_ - first_, sum = n * a + n * (n - 1) / 2;
+  const double squares = n * a * a + a * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6;
+  return whole_ && numeric_cells_ == cells_ && high_ - low_ + 1 == n && std::abs(sum_ - sum) <= 1e-9 * std::abs(sum) &&
+         std::abs(squares_ - squares) <= 1e-9 * squares;
+}
+
+void ColumnReader::see_writing(std::string_view cell) {
+  const auto point = cell.find('.');
+  const std::size_t digits = point == cell.npos ? cell.size() : point;
+  const bool is_plain = cell.find_first_not_of(".0123456789") == cell.npos;
+  const bool parts = point != cell.npos && cell.size() - point == 4 && digits <= 3 && cell[0] != '0';
+  if (parts && three_digits_.empty()) three_digits_ = cell;
+  if (point == cell.npos && digits <= 3) ++below_a_thousand_;
+  other_writing_ = other_writing_ || !is_plain || !(parts || (point == cell.npos && digits <= 3));
+  if (lengths_.size() < 2) lengths_.insert(is_plain && point == cell.npos ? cell.size() : 0);
+  if (with_zeros_.empty() && digits >= 3 && cell[0] == '0') with_zeros_ = cell;
+}
+
+/// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.
+bool ColumnReader::nearly_all_numbers() const {
+  constexpr std::size_t most_words = 20;
+  if (10 * (numeric_cells_ + comma_cells_) >= 9 * cells_) return true;
+  return 2 * numeric_cells_ >= cells_ && words_.numbers() > most_words;
+}
+
+}  // namespace sigmax::apps

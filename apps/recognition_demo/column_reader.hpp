@@ -1,0 +1,152 @@
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "recognition_demo/data_table.hpp"
+#include "support/nines.hpp"
+#include "support/numbers.hpp"
+
+namespace sigmax::apps {
+
+/// Among fewer rows it is no wonder that all values differ.
+inline constexpr std::size_t few_rows = 20;
+
+/// Words beyond this many are names of things, not values of a feature.
+inline constexpr std::size_t most_values = 4096;
+
+/// Words numbered as they come.
+class Vocabulary {
+ public:
+  Code code(std::string_view word) {
+    const auto found = codes_.find(word);
+    if (found != codes_.end()) return found->second;
+    return codes_.emplace(std::string(word), static_cast<Code>(codes_.size())).first->second;
+  }
+  std::size_t size() const { return codes_.size(); }
+  bool contains(std::string_view word) const { return codes_.contains(word); }
+  const std::map<std::string, Code, std::less<>>& codes() const { return codes_; }
+  std::size_t numbers() const;
+
+  /// Two words that differ in their writing only, see `apps::alike`.
+  std::string alike() const;
+
+  /// The words in order, numbers first and by their value, and for each code the place of its word.
+  std::pair<std::vector<std::string>, std::vector<Code>> sorted() const;
+
+ private:
+  std::map<std::string, Code, std::less<>> codes_;
+};
+
+/// A cell as a number, NaN if it is none, and as a word, `missing_code` if it is none or there are too many.
+struct DataCell {
+  double number = nan;
+  Code code = missing_code;
+};
+
+/// A column while it is read: numeric until a cell is not, and then the words are what counts. It keeps what there is
+/// to ask about the column in the end.
+class ColumnReader {
+ public:
+  ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
+
+  DataCell take(const CsvRow& row, const MissingWords& missing, Code its_class);
+
+  /// Throws if the column is neither numbers nor words.
+  void refuse_slip(const CsvReader& reader) const;
+
+  std::size_t index() const { return index_; }
+  bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
+  const Vocabulary& words() const { return words_; }
+  const Nines& nines() const { return nines_; }
+
+  /// How many cells have a number, or a word that does not stand for a missing one.
+  std::size_t filled() const { return cells_; }
+
+  /// Whether the name of the column looks like one of its cells.
+  bool contains(std::string_view name) const;
+
+  /// What there is to see, if it is not two different values: "'red'", or "no value".
+  std::string lone_value() const;
+
+  /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
+  bool names_rows() const;
+
+  /// Whether most cells, of more than a few different ones, are a number and one of few words, and these words.
+  bool holds_units() const;
+  std::string units() const;
+
+  /// A cell of those without letters that are no plain number, if most are so and more than a few differ; or nothing.
+  std::string notation() const;
+
+  /// How many cells are a number beyond a limit, as <0.1.
+  std::size_t limits() const { return limit_cells_; }
+
+  /// What the classes are of the rows that have the same value.
+  struct ByValue {
+    std::size_t values = 0, rows = 0, others = 0;  ///< rows of another class than the first of their value
+    std::size_t changes = 0;                       ///< of the class, in the order of the values
+    double log_chance = 0.0;                       ///< that so many rows are of one class with theirs
+    bool numeric = false, whole = false;
+
+    bool tells_all(std::size_t classes) const;
+    bool may_be_groups(std::size_t classes) const;
+    static constexpr std::size_t fewest_groups = 8;
+  };
+  ByValue by_value(const std::vector<std::size_t>& rows_of_class) const;
+
+  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and none
+  /// without is a thousand or more; or nothing.
+  std::string thousands() const;
+
+  /// A number as 0387 of a column in which all are as long; or nothing.
+  std::string code_with_zeros() const { return is_numeric() && lengths_.size() == 1 ? with_zeros_ : ""; }
+
+  /// In how many cells of a column of numbers "none" counts as missing, if in one of twenty.
+  std::size_t nothings() const { return is_numeric() && 20 * nothings_ >= cells_ ? nothings_ : 0; }
+
+  /// Among words: how many cells hold what would be missing among numbers, as NA, and the first of these words.
+  std::pair<std::size_t, std::string> unknowns() const;
+
+ private:
+  static constexpr std::size_t most_units = 3, few_words = 8;
+
+  void see_whole(double number);
+  bool is_run() const;
+  void see_writing(std::string_view cell);
+  bool could_be_numeric() const { return !categorical_ && !slip_; }
+  bool nearly_all_numbers() const;
+
+  /// A word among numbers, where it was found first.
+  struct Slip {
+    std::size_t line;
+    std::string word;
+  };
+  struct ClassesOfValue {
+    Code first;
+    std::size_t same = 0, others = 0;  // rows of that class, and of others
+  };
+
+  std::size_t index_;
+  bool categorical_;
+  std::optional<Slip> slip_;
+  std::size_t cells_ = 0, numeric_cells_ = 0, comma_cells_ = 0, unit_cells_ = 0, limit_cells_ = 0, notations_ = 0;
+  bool whole_ = true;  // all numbers are
+  double first_ = 0.0, low_ = 0.0, high_ = 0.0;
+  double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
+  Nines nines_;
+  std::string three_digits_, with_zeros_, notation_;  // the first of these
+  std::size_t below_a_thousand_ = 0, nothings_ = 0;
+  bool other_writing_ = false;
+  std::set<std::size_t> lengths_;        // of whole numbers, 0 of others, up to two
+  std::vector<ClassesOfValue> classes_;  // by code
+  bool counts_ = true;                   // so far, in whole numbers upwards
+  double last_ = -std::numeric_limits<double>::infinity();
+  bool too_many_words_ = false;
+  Vocabulary words_, units_;
+};
+
+/// Whether a word says that a value is not known, as NA does.
+bool says_unknown(std::string_view word);
+
+}  // namespace sigmax::apps
