@@ -134,7 +134,9 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   // A place that is held may have a height that is not; the Earth's curve moves it along by a little then.
   const double rise = std::abs(now.height - last.height);
   const double along = std::hypot(now.at[0] - last.at[0], now.at[1] - last.at[1]);
-  const double way = std::isnan(rise) ? jump : along < 0.005 * rise ? 0.0 : along;
+  constexpr double earth = 6e6, most_tilt = 0.005, rounding = 1e-6;
+  const double tilt = std::min(std::hypot(now.at[0], now.at[1]) / earth, most_tilt);
+  const double way = std::isnan(rise) ? jump : along <= rounding + tilt * rise ? 0.0 : along;
   if (way == 0.0 && before.way > 0.0) {
     ++held_again_;
     if (ways_.size() < many_ways) ways_.insert(std::lround(1000.0 * std::log(before.way)));
