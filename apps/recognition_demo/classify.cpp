@@ -140,9 +140,12 @@ class RowReader {
         const double half = (feature.greatest - feature.least) / 2.0;
         const bool is_near = feature.least - half <= *number && *number <= feature.greatest + half;
         if (!is_near && is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
-          first_far_ = row.error(columns_[i], fmt::format("a number as those learned from, which are from {} to {}",
-                                                          shortest(feature.least), shortest(feature.greatest)))
-                           .what();
+          first_far_ =
+              row.error(columns_[i], feature.least <= feature.greatest
+                                         ? fmt::format("a number as those learned from, which are from {} to {}",
+                                                       shortest(feature.least), shortest(feature.greatest))
+                                         : "a number nearer to those learned from")
+                  .what();
         return feature.bins->bin(*number);
       }
       return unseen(row, columns_[i], "a finite number with a decimal point");

@@ -38,12 +38,13 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
                                      gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))}));
 }
 
-/// Whether a class is a number of nines, as 99 or -9, more than its neighbour by more than there are classes.
+/// Whether a class is a number of nines, as 99 or -9, beyond all others by more than there are classes.
 bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
+  const double side = name.starts_with('-') ? -1.0 : 1.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& other : classes) {
     if (!parse_number(other)) return false;
-    if (other != name) nearest = std::min(nearest, std::abs(*parse_number(other) - *parse_number(name)));
+    if (other != name) nearest = std::min(nearest, side * (*parse_number(name) - *parse_number(other)));
   }
   return name.find_first_not_of("-9") == name.npos && nearest > static_cast<double>(classes.size());
 }

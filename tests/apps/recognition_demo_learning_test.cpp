@@ -333,6 +333,7 @@ TEST_F(RecognitionDemoLearning, NumbersOnOneSideOfAllThatWereLearnedArePointedOu
   old.at("features").at(0).erase("range");
   directory.write("model.json", old.dump());
   EXPECT_EQ(classify(rooms(30, 7, 26, 1)).find(outside), std::string::npos);
+  EXPECT_TRUE(says(classify(rooms(30, 7, 900, 1)), {"expected a number nearer to those learned from"}));
   train(rooms(30, 0, 0, 0));  // too few to know the range by
   EXPECT_EQ(classify(rooms(30, 7, 26, 1)).find(outside), std::string::npos);
 }
@@ -578,11 +579,11 @@ TEST_F(RecognitionDemoLearning, MissingLabelsAndUnitsInCellsArePointedOut) {
   for (const char* missing : {"NA", "n/a", "nan", "NULL", "-", "Unknown"})
     EXPECT_TRUE(says(said(missing, {""}), {fmt::format("10 of 40 rows hold '{}', which counts as a class", missing)}));
   EXPECT_EQ(said("none", {""}).find("warning"), std::string::npos);
-  const auto survey = [&](const std::string& sex, const std::string& kind) {
+  const auto survey = [&](const std::string& sex, const std::string& kind, int first = 0) {
     std::string text = "sex,weight,kind\n";
     for (int k = 0; k < 40; ++k)
       text += fmt::format("{},{}.5,{}\n", k % 4 ? k % 3 ? "f" : "m" : sex, k * 7 % 40,
-                          k % 5 ? fmt::format("{}", k % 2) : kind);
+                          k % 5 ? fmt::format("{}", first + k % 2) : kind);
     const auto data = directory.write("t.csv", text);
     return recognition_demo_succeeds({"train", data, "--label", "kind", "--model", model, "--wide"}).output;
   };
@@ -594,6 +595,7 @@ TEST_F(RecognitionDemoLearning, MissingLabelsAndUnitsInCellsArePointedOut) {
   for (const char* nines : {"-9", "99"})
     EXPECT_TRUE(says(survey("u", nines), {fmt::format("8 of 40 rows hold '{}', which counts as a class", nines)}));
   for (const char* kind : {"2", "-1", "12"}) EXPECT_EQ(survey("u", kind).find("warning"), std::string::npos) << kind;
+  EXPECT_EQ(survey("u", "9", 30).find("warning"), std::string::npos);
   const std::string units = said("c", {" kg", "g"});
   EXPECT_TRUE(says(units, {"column 'weight' holds numbers with a unit (g, kg)"}));
   EXPECT_EQ(units.find("--ignore"), std::string::npos) << units;
