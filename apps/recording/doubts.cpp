@@ -11,7 +11,7 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t few = 10, many = 10000, many_ways = 100;
+constexpr std::size_t few = 10, many = 10000, many_ways = 100, most_leaps = 5;
 
 // Over so many rows the two kinds of rates are compared.
 constexpr std::array<std::size_t, 3> lengths = {1, 10, 100};
@@ -125,6 +125,31 @@ void Doubts::see_return(Sensor& before, const Spoke& now, double jump) {
   before.recent.push_back({now.at[0], now.at[1], now.at[2]});
 }
 
+void Doubts::see_leap(Sensor& before, const Spoke& now, double jump) {
+  constexpr std::size_t reach = 8;
+  constexpr double farther = 20.0, most_mps2 = 30.0;
+  if (jump == 0.0) return;  // it is held
+  const double dt = now.time - before.last.time, speed = jump / dt;
+  if (auto& leap = before.leap) {
+    const bool is_back = distance(leap->from, now.at) < 0.5 * leap->way;
+    if (is_back || farther * jump > leap->way || farther * speed * leap->dt > leap->way) {
+      leap.reset();
+    } else if (++leap->rows == reach) {
+      ++leaps_;
+      if (!leap_) leap_ = leap;
+      leap.reset();
+    }
+  } else if (before.moves.size() == reach && speed > most_mps2 * dt &&
+             std::ranges::all_of(before.moves, [&](const auto& move) {
+               return jump > farther * move.first && speed > farther * move.second;
+             })) {
+    before.leap = {{before.last.at[0], before.last.at[1], before.last.at[2]}, jump, dt, now.line};
+    return;  // that is no move of its own
+  }
+  if (before.moves.size() == reach) before.moves.erase(before.moves.begin());
+  before.moves.emplace_back(jump, speed);
+}
+
 void Doubts::see_rates(Sensor& before, Spoke now) {
   const Spoke& last = before.last;
   const double dt = now.time - last.time;
@@ -149,6 +174,7 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   stays_[2].see(std::sqrt(dot(change, change)), before.runs[2]);
   if (!std::isnan(now.height + last.height)) zero_heights_.see((now.height == 0.0) != (last.height == 0.0), rise);
   see_return(before, now, jump);
+  see_leap(before, now, jump);
   if (now.twice != last.twice) to_twice_ += jump;
   see_error(last, now);
   for (std::size_t i = 0; i < now.rate.size(); ++i)
@@ -298,7 +324,8 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
             {nan, nan, nan},
             {},
             row.twice && row.twice == twice_,
-            axes == 3 ? component_of(plot, 2).value_or(nan) : nan};
+            axes == 3 ? component_of(plot, 2).value_or(nan) : nan,
+            row.line};
   if (now.height == 0.0) ++zero_heights_.rows;
   if (is_radar) now.from_radar = {at[0] - plot.origin[0], at[1] - plot.origin[1], at[2] - plot.origin[2]};
   for (std::size_t i = 0; i < static_cast<std::size_t>(axes) && axes > 1; ++i)
@@ -513,6 +540,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "or, where a clock begins anew (at midnight, with the week, after summer time or a restart), add from there on "
       "what it went back",
       left, left_by);
+  say(leap_ && leaps_ <= most_leaps,
+      "positions leap by {:.3g} m in {:.3g} s on line {}, 20 times as far as in the rows about it, and stay there{}: "
+      "see "
+      "whether a place, a unit, a zone or an axis changed, or the target (--track-id)",
+      leap_ ? leap_->way : 0.0, leap_ ? leap_->dt : 0.0, leap_ ? leap_->line : 0,
+      leaps_ > 1 ? fmt::format("; {} such in all", leaps_) : "");
   const auto& [positions, heights, velocities] = stays_;
   const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {velocities, "velocities"}};
   for (const auto& [stays, what] : slower)

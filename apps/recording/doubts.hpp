@@ -54,6 +54,7 @@ class Doubts {
     std::optional<Position> from_radar;
     bool twice;     ///< whether it is the number that comes twice
     double height;  ///< as the row tells it
+    std::size_t line;
 
     /// What grows by the rates.
     std::array<double, 4> grown() const { return {at[0], at[1], std::isnan(height) ? at[2] : height, at[3]}; }
@@ -90,6 +91,13 @@ class Doubts {
     std::array<double, 4> at, told{};
     std::size_t rows = 0;
   };
+  /// From one row to the next much farther than before and after, and not back again: nothing turns so sharply.
+  struct Leap {
+    Position from;
+    double way, dt;
+    std::size_t line;      ///< of the row that it ends on
+    std::size_t rows = 0;  ///< since
+  };
   struct Sensor {
     Spoke last;
     std::array<Since, 3> since;
@@ -97,6 +105,8 @@ class Doubts {
     double way = 0.0;                                     // between these, along the ground if there is a height
     std::array<std::size_t, 3> runs{};                    // of stays_, that last
     std::vector<Position> recent{};                       // the last few
+    std::vector<std::pair<double, double>> moves{};       // the last few ways, and speeds along them
+    std::optional<Leap> leap{};                           // that the next few rows confirm
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
@@ -121,6 +131,7 @@ class Doubts {
   void see_bearing(const Bearing& now, std::optional<Bearing>& before);
   void see_rates(Sensor& before, Spoke now);
   void see_return(Sensor& before, const Spoke& now, double jump);
+  void see_leap(Sensor& before, const Spoke& now, double jump);
   void see_error(const Spoke& last, const Spoke& now);
   std::string shifted() const;
   std::string other_times() const;
@@ -137,6 +148,8 @@ class Doubts {
   std::size_t held_again_ = 0;  // positions that change, where the next one does not
   std::set<long> ways_;         // how far those went, some, as logarithms to three digits
   std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
+  std::optional<Leap> leap_{};  // the first, and how many there are
+  std::size_t leaps_ = 0;
   Stranger zero_heights_, zero_truths_;
   std::optional<double> twice_;  // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;

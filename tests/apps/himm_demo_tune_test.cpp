@@ -183,6 +183,18 @@ TEST_F(Tune, FitsNoSigmaBelowTheRoundingOfItsColumn) {
   EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 0.001 * 60.0 * 1852.0 * 0.5 / std::sqrt(12.0), 0.01);
 }
 
+TEST_F(Tune, FindsTheNoisesWhereFixesAreHoursApartAndSaysWhereItMayNot) {
+  const auto text = changed(recording(150, false), [](std::vector<double>& row, std::size_t) { row[0] *= 7200.0; });
+  const auto file = directory.write("collar.csv", text);
+  const auto best = (directory.path() / "best.toml").string();
+  const std::string_view strays = "100 % of the rows are predicted no better than stray ones";
+  const auto found = program::succeeded(tune(quickly(file, {"--out", best}))).on_one_line();
+  EXPECT_NEAR(value_in(contents(best), "sigma_position_m"), 20.0, 4.0) << contents(best);
+  EXPECT_NEAR(7200.0 * 7200.0 * value_in(contents(best), "sigma_w"), 1.0, 0.4) << contents(best);
+  EXPECT_EQ(found.find(strays), std::string::npos) << found;
+  EXPECT_TRUE(says(program::succeeded(tune(quickly(file, {"--keep", "models"}))).on_one_line(), {strays}));
+}
+
 TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
   const auto said = [&](double most) {  // by a sensor of speed that tells no more than that
     std::string text = "time_s,x_m,y_m,vx_mps,vy_mps\n";

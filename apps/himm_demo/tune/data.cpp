@@ -297,6 +297,18 @@ double TuneData::log_stray(const AnyPlot& plot) const {
   return sum;
 }
 
+double TuneData::share_of_strays(const RowLosses& losses) const {
+  double strays = 0.0, all = 0.0;
+  for (std::size_t t = 0; t < tracks.size(); ++t)
+    for (std::size_t k = 0; k < losses[t].size(); ++k) {
+      if (std::isnan(losses[t][k])) continue;
+      ++all;
+      const double of_a_stray = -std::log(stray_share) - log_stray(tracks[t].rows[k].plot);
+      if (losses[t][k] > of_a_stray - std::log(2.0)) ++strays;
+    }
+  return strays / all;
+}
+
 RowFolds TuneData::folds(std::size_t count) const {
   std::vector<std::size_t> rows;
   for (const TuneTrack& track : tracks) rows.push_back(track.rows.size());

@@ -321,6 +321,7 @@ class Fitter {
   /// From far away: great steps.
   Found far(const FilterSettings& settings, Scanned scanned) const {
     Found best = from(settings);
+    if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
     scan(best, scanned);
     return best;
   }
@@ -416,6 +417,21 @@ class Fitter {
   void learn(Found& best) const {
     if (has_transition(best.settings, options_)) learn_transition(best);
     if (options_.fits("lift")) try_lifts(best);
+  }
+
+  /// Where most rows count as stray ones, as where a filter that is made for seconds begins on fixes hours apart, no
+  /// number alone makes much of a difference: all noises of the motions, and all of the sensors, by greater steps.
+  void leave_plateau(Found& best, bool with_sensors) const {
+    if (!(data_.share_of_strays(judged(data_, best.settings, options_.objective)) > 0.5)) return;
+    const FilterSettings begun = best.settings;
+    for (const double of_motions : {1.0, 30.0, 1000.0, 3e-2, 1e-3, 3e-5, 1e-6})
+      for (const double of_sensors : {1.0, 30.0, 3e-2}) {
+        FilterSettings tried = begun;
+        for (const FreeNumber& number : free_numbers(begun, data_, options_))
+          if (number.noise && (with_sensors || !number.sensor))
+            number.set(tried, (number.sensor ? of_sensors : of_motions) * number.parameter.start);
+        take_if_better(best, tried);
+      }
   }
 
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that

@@ -551,6 +551,14 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
     const std::string truth = text_of_truth(before, *after);
     if (!truth.empty()) fmt::print("{}", wrapped(truth, options.page.width()));
   }
+  const double strays =
+      options.objective == Objective::prequential ? data.share_of_strays(tuned.held_out[tuned.selected.best]) : 0.0;
+  if (strays > 0.5)
+    fmt::print("{}", wrapped(fmt::format("\n{:.0f} % of the rows are predicted no better than stray ones, so that "
+                                         "these settings say next to nothing: look at the rows, or begin nearer to "
+                                         "what they are, with --set sigma_w=… and --set sigma_position_m=…\n",
+                                         100.0 * strays),
+                             options.page.width()));
   written.push_back(tuned.best().settings);
   if (tuned.selected.simple != tuned.selected.best) {
     written.push_back(tuned.simple().settings);

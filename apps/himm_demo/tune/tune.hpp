@@ -90,6 +90,9 @@ struct TuneData {
   /// The density, as a logarithm, of a stray measurement of this kind: the same for all settings.
   double log_stray(const AnyPlot& plot) const;
 
+  /// The share of all rows with a loss that were predicted no better than stray ones are, see `losses`.
+  double share_of_strays(const RowLosses& losses) const;
+
   RowFolds folds(std::size_t count) const;
 
   /// What the rows of a track are to a filter.
