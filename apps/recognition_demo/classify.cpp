@@ -3,6 +3,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
 
+#include "recognition_demo/column_reader.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/input.hpp"
@@ -79,6 +80,13 @@ class RowReader {
 
   /// How many numbers were far from those that the model was learned from, and the first of them.
   std::size_t far_cells() const { return far_cells_; }
+  /// Whether they are more than long tails have.
+  bool has_many_far_cells() const {
+    constexpr std::size_t one_in = 200;
+    std::size_t numbers = 0;
+    for (const auto& [all, below, above] : numbers_) numbers += all;
+    return far_cells_ > 0 && one_in * far_cells_ >= numbers;
+  }
   const std::string& first_far() const { return first_far_; }
 
   /// Says of which columns more than a fifth of the numbers is on one side of all that the model was learned from; of
@@ -115,16 +123,22 @@ class RowReader {
   static constexpr const char* remedy =
       "leave the cell empty, or have all such cells counted as missing by --unseen missing";
 
-  /// Whether a number is three times as far from the cuts between bins as they are from each other.
-  static bool is_far(double number, std::span<const double> cuts) {
-    if (cuts.size() < 2) return false;
+  /// Whether a number is three times as far from the cuts between bins as they are from each other, and beyond half of
+  /// the range learned from; or, of a quantity that is never zero, a tenth and as far beyond by its logarithm.
+  static bool is_far(double number, const FeatureCode& feature) {
+    const auto cuts = feature.bins->cuts();
+    if (number > 0.0 && 10.0 * number < feature.least && number * feature.greatest < feature.least * feature.least)
+      return true;
+    const double half = (feature.greatest - feature.least) / 2.0;
+    if (cuts.size() < 2 || (feature.least - half <= number && number <= feature.greatest + half)) return false;
     const double far = 3.0 * (cuts.back() - cuts.front());
     return number < cuts.front() - far || number > cuts.back() + far;
   }
 
   /// Counts what is to be taken as missing, or throws.
-  std::size_t unseen(const CsvRow& row, std::size_t column, const std::string& expected) {
-    if (!unseen_is_missing_) throw row.error(column, expected, remedy);
+  std::size_t unseen(const CsvRow& row, std::size_t column, const std::string& expected,
+                     const std::string& advice = remedy) {
+    if (!unseen_is_missing_) throw row.error(column, expected, advice);
     if (unseen_cells_++ == 0) first_unseen_ = row.error(column, expected).what();
     return missing;
   }
@@ -137,9 +151,7 @@ class RowReader {
       if (const auto number = parse_number(cell)) {
         auto& [all, below, above] = numbers_[i];
         ++all, below += *number < feature.least ? 1U : 0U, above += *number > feature.greatest ? 1U : 0U;
-        const double half = (feature.greatest - feature.least) / 2.0;
-        const bool is_near = feature.least - half <= *number && *number <= feature.greatest + half;
-        if (!is_near && is_far(*number, feature.bins->cuts()) && far_cells_++ == 0)
+        if (is_far(*number, feature) && far_cells_++ == 0)
           first_far_ =
               row.error(columns_[i], feature.least <= feature.greatest
                                          ? fmt::format("a number as those learned from, which are from {} to {}",
@@ -148,7 +160,8 @@ class RowReader {
                   .what();
         return feature.bins->bin(*number);
       }
-      return unseen(row, columns_[i], "a finite number with a decimal point");
+      return unseen(row, columns_[i], "a finite number with a decimal point",
+                    has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
     }
     return missing_(cell) ? missing : place(row, columns_[i], feature.values, "a value that the model knows: ");
   }
@@ -156,7 +169,13 @@ class RowReader {
   /// Where a cell is among names.
   std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
     const auto found = std::ranges::find(names, trimmed(row[column]));
-    if (found == names.end()) return unseen(row, column, what + listed(names, 12));
+    if (found == names.end()) {
+      const auto other = std::ranges::find_if(names, [&](const std::string& name) {
+        return !alike({name, trimmed(row[column])}).empty();
+      });
+      return unseen(row, column, what + listed(names, 12),
+                    other == names.end() ? remedy : fmt::format("if it is {}, write it as there", in_quotes(*other)));
+    }
     return static_cast<std::size_t>(found - names.begin());
   }
 
@@ -410,7 +429,7 @@ void run_classify(const ClassifyOptions& options) {
     result.say("\n{} as missing, since the model does not know {}: {}",
                rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
                rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen());
-  if (rows.far_cells() > 0)
+  if (rows.has_many_far_cells())
     result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
                rows.far_cells() == 1 ? "1 number is" : fmt::format("{} numbers are", rows.far_cells()),
                rows.first_far());

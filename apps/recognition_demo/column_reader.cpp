@@ -12,7 +12,6 @@
 #include "support/text.hpp"
 
 namespace sigmax::apps {
-namespace {
 
 bool has_decimal_comma(std::string_view word) {
   std::string number(word);
@@ -20,6 +19,8 @@ bool has_decimal_comma(std::string_view word) {
   if (comma != std::string::npos) number[comma] = '.';
   return comma != std::string::npos && parse_number(number);
 }
+
+namespace {
 
 /// The word behind a number, as in "23.93 kg", or before it, as in "$12.50" or "<0.1"; or nothing.
 std::string_view unit_of(std::string_view cell) {
@@ -129,6 +130,14 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
                  .found = in_quotes(slip_->word),
                  .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
                  .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
+  const bool is_parted = is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
+                         slip_->word.find_first_of(",' ") != std::string::npos;
+  if (is_parted)
+    throw InputError(message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                              .what = fmt::format("column {}", in_quotes(name)),
+                              .found = in_quotes(slip_->word),
+                              .expected = fmt::format("a plain number, as {} of {} cells have", numeric_cells_, cells_),
+                              .remedy = "leave out what parts thousands, and write a decimal comma as a point"}));
   if (is_limit(unit_of(slip_->word)))
     throw InputError(
         message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
@@ -165,6 +174,24 @@ bool ColumnReader::names_rows() const {
 
 std::string ColumnReader::notation() const {
   return !categorical_ && words_.size() > few_words && 2 * notations_ > cells_ && !holds_units() ? notation_ : "";
+}
+
+std::pair<std::size_t, std::string> ColumnReader::numbers_among_words() const {
+  const bool some = !categorical_ && slip_ && words_.numbers() > few_words && 10 * numeric_cells_ > cells_;
+  return {some && !holds_units() && limit_cells_ == 0 ? numeric_cells_ : 0, slip_ ? slip_->word : ""};
+}
+
+std::string ColumnReader::one_number() const {
+  constexpr std::size_t most = 100;
+  if (!is_numeric() || too_many_words_ || words_.size() > most) return "";
+  for (const auto& [word, code] : words_.codes()) {
+    const auto point = word.find('.');
+    const auto without = word.find_last_not_of('0');
+    if (point == word.npos || without == word.npos || without <= point || without + 1 == word.size()) continue;
+    if (const std::string other = word.substr(0, without + 1); words_.contains(other))
+      return fmt::format("{} and {}", other, word);
+  }
+  return "";
 }
 
 bool ColumnReader::holds_units() const {

@@ -79,6 +79,12 @@ class ColumnReader {
   /// A cell of those without letters that are no plain number, if most are so and more than a few differ; or nothing.
   std::string notation() const;
 
+  /// Among words: how many cells are numbers, if a tenth are and more than a few differ, and the first word.
+  std::pair<std::size_t, std::string> numbers_among_words() const;
+
+  /// "3.1 and 3.10", which are one number and may be two versions, if there are such and not many others; or nothing.
+  std::string one_number() const;
+
   /// How many cells are a number beyond a limit, as <0.1.
   std::size_t limits() const { return limit_cells_; }
 
@@ -145,6 +151,9 @@ class ColumnReader {
   bool too_many_words_ = false;
   Vocabulary words_, units_;
 };
+
+/// Whether it would be a number if its comma were a point.
+bool has_decimal_comma(std::string_view word);
 
 /// Whether a word says that a value is not known, as NA does.
 bool says_unknown(std::string_view word);

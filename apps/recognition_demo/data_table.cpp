@@ -92,8 +92,9 @@ std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<
     if (const std::string notation = column.notation(); !notation.empty())
       warnings.push_back(fmt::format(
           "{}: column {} holds no plain numbers, as {}, which count as words: where they are numbers, times "
-          "or dates, write them as 1234.5, in seconds or days",
-          reader.file(), in_quotes(reader.names()[column.index()]), in_quotes(notation)));
+          "or dates, write them as {}, in seconds or days",
+          reader.file(), in_quotes(reader.names()[column.index()]), in_quotes(notation),
+          notation.starts_with("−") ? "-1234.5, with the minus of a keyboard" : "1234.5"));
   for (const ColumnReader& column : columns)
     if (column.limits() > 0 && !column.is_numeric() && column.words().numbers() > 1)
       warnings.push_back(fmt::format(
@@ -212,8 +213,9 @@ bool warn_of_repeats(DataTable& table) {
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
     table.warnings.push_back(
-        fmt::format("{}: {:.0f} % of {} repeat another, label included: what is learned from one is asked of its "
-                    "copy, so the shares of right answers are too good; drop the copies",
+        fmt::format("{}: {:.0f} % of {} repeat another, label included: if they are copies, what is learned from one "
+                    "is asked of the other, and the shares of right answers are too good: drop them; what coincides "
+                    "by chance, as values below a limit do, is to stay",
                     table.file, 100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which));
   };
   const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
@@ -279,6 +281,17 @@ void warn_of_values(const std::vector<ColumnReader>& columns, bool copies, DataT
           fmt::format("{}: column {} holds codes, as {}, that are read as numbers: if their order tells "
                       "nothing, give --categorical {}",
                       table.file, in_quotes(name), code, typed(name)));
+    if (const std::string two = columns[i].one_number(); !two.empty())
+      table.warnings.push_back(
+          fmt::format("{}: column {}: {} are read as one number: if they are names, as those of versions are, give "
+                      "--categorical {}",
+                      table.file, in_quotes(name), two, typed(name)));
+    if (const auto [cells, word] = columns[i].numbers_among_words(); cells > 0)
+      table.warnings.push_back(
+          fmt::format("{}: column {}: {} of {} cells are numbers, and count as words, since others are none, as {}: "
+                      "where such stand for no number, give --missing={}; where they say that it is below a limit, "
+                      "write the limit",
+                      table.file, in_quotes(name), cells, columns[i].filled(), in_quotes(word), typed(word)));
     if (const auto [cells, word] = columns[i].unknowns(); cells > 0)
       table.warnings.push_back(fmt::format(
           "{}: column {}: {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give "

@@ -328,7 +328,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
             row.line};
   if (now.height == 0.0) ++zero_heights_.rows;
   if (is_radar) now.from_radar = {at[0] - plot.origin[0], at[1] - plot.origin[1], at[2] - plot.origin[2]};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(axes) && axes > 1; ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i)
     now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
   for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
   if (row.truth) {
@@ -399,7 +399,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "it {}",
       recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
   const std::array<std::array<std::string_view, 3>, 4> kinds = {
-      {{"velocities along x", "x", "vx is along x, or east, and longitudes west are negative"},
+      {{"velocities along x", "x",
+        recording.axes() == 1 ? "vx is along x, and so below 0 where x falls"
+                              : "vx is along x, or east, and longitudes west are negative"},
        {"velocities along y", "y", "vy is along y, or north, and latitudes south are negative"},
        {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
        {"range rates", "the ranges", range_remedy}}};

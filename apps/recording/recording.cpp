@@ -196,8 +196,11 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
 
 /// The first column that may be a coordinate, but for its unit.
 std::optional<std::string> RecordingReader::without_unit() const {
+  const auto is_mapped = [&](const std::string& name) {
+    return std::ranges::any_of(mapping_, [&](const auto& mapped) { return mapped.second == name; });
+  };
   for (const std::string& name : csv_.names())
-    if (const Quantity* const like = without_known_unit(name))
+    if (const Quantity* const like = is_mapped(name) ? nullptr : without_known_unit(name))
       if (like->role == Role::position || like->role == Role::place || like->role == Role::polar)
         return fmt::format("column {}: {}", in_quotes(name), advice(*like));
   return std::nullopt;
@@ -212,6 +215,7 @@ bool RecordingReader::next(Row& row) {
   row.sensor = sensor_ ? trimmed(row_[*sensor_]) : std::string_view{};
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
   take_numbers();
+  if (said(Role::course).value_or(0.0) < 0.0 && said(Role::course, 1).value_or(0.0) < 0.0) ++negative_speeds_;
   row.truth.reset();
   if (says(Role::truth)) {
     require_whole(Role::truth, 3);
@@ -629,6 +633,10 @@ std::vector<std::string> RecordingReader::notes() const {
       {!missing.empty(), fmt::format("Cells that say that there is no number: {}", fmt::join(missing, ", "))},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
+      {negative_speeds_ > 0,
+       fmt::format("Speeds and courses below 0, which are taken as they are: {} rows; where they stand for none, name "
+                   "them by --missing",
+                   negative_speeds_)},
       {bearings_ > 0 && unused_azimuths_ > 0,
        fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
       {midnights_.rows > 0,

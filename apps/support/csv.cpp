@@ -19,19 +19,46 @@ constexpr std::size_t longest_record = std::size_t{1} << 20;
 
 bool is_blank(std::string_view text) { return trimmed(text).empty(); }
 
-/// A comma if the header has one, else a tab, else a semicolon, all outside quotes, which open at the beginning of a
-/// field only. Lines of words before it that begin with # have none.
+/// Of the fields of a header that parts with a comma, or of the line below it: so many there are outside quotes.
+std::size_t count_in(std::string_view line, char separator) {
+  bool quoted = false;
+  std::size_t count = 0;
+  for (const char byte : line) {
+    quoted ^= byte == '"';
+    count += !quoted && byte == separator ? 1U : 0U;
+  }
+  return count;
+}
+
+/// A tab or semicolon beside commas, as where a name is "Length, mm": if it parts the header and the line below into as
+/// many fields, and the comma does not.
+std::optional<char> instead_of_comma(std::string_view from_header) {
+  const auto end = from_header.find('\n');
+  if (end == std::string_view::npos) return std::nullopt;
+  const std::string_view header = from_header.substr(0, end), rest = from_header.substr(end + 1);
+  const std::string_view row = rest.substr(0, rest.find('\n'));
+  if (count_in(header, ',') == count_in(row, ',')) return std::nullopt;
+  for (const char other : {'\t', ';'})
+    if (const auto count = count_in(header, other); count > 0 && count == count_in(row, other)) return other;
+  return std::nullopt;
+}
+
+/// A comma if the header has one, but for `instead_of_comma`, else a tab, else a semicolon, all outside quotes, which
+/// open at the beginning of a field only. Lines of words before it that begin with # have none.
 char separator_of(std::string_view text) {
   char found = ',';
+  std::size_t line = 0, at = 0;
   bool quoted = false, in_field = false, blank = true, comment = false;
-  for (const char byte : text) {
+  for (; at < text.size(); ++at) {
+    const char byte = text[at];
     if (quoted) {
       quoted = byte != '"';
     } else if (byte == ',') {
-      return byte;
+      return instead_of_comma(text.substr(line)).value_or(byte);
     } else if (byte == '\n' || byte == '\r') {
       if (!blank && !(comment && found == ',')) return found;
       found = ',';
+      line = at + 1;
       in_field = comment = false;
       blank = true;
     } else if (byte == '\t' || byte == ';') {
@@ -92,7 +119,9 @@ std::string listed(std::span<const std::string> names, std::size_t most) {
 std::string typed(std::string_view word) {
   const std::string field = csv_field(word);
   const bool plain = field.find_first_of(" \"'#?*!$&|;<>()[]{}~`\\") == std::string::npos;
-  return plain ? field : "'" + field + "'";
+  if (field.find('\'') == std::string::npos || field.find_first_of("$`\\!\"") != std::string::npos)
+    return plain ? field : "'" + field + "'";
+  return '"' + field + '"';
 }
 
 std::string csv_field(std::string_view text) {

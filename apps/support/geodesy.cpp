@@ -70,6 +70,8 @@ std::array<Position, 3> LocalFrame::local_axes(const Position& p) const {
     double there = 0.0, shrinking = 1.0;
     AzimuthalEquidistant().Reverse(origin_.latitude_deg, origin_.longitude_deg, p[0], p[1], latitude, longitude, there,
                                    shrinking);
+    constexpr double near_m = 100.0;  // lengths are right to nanometres, so what is divided by less is not
+    if (std::hypot(p[0], p[1]) < near_m) shrinking = 1.0;
     const double s = std::sin(there * degree), c = std::cos(there * degree);
     const double sh = std::sin(here * degree), ch = std::cos(here * degree);
     // Along the azimuth, and to its right, where the map stretches.

@@ -4,7 +4,7 @@
 #include "result/report.hpp"
 #include "support/program.hpp"
 
-namespace {
+namespace braille_test {
 
 LineChart chart(std::vector<double> values) {
   LineChart made{.title = "error", .x_label = "s", .y_label = "m", .x = {}, .curves = {}};
@@ -80,4 +80,4 @@ TEST(Braille, NamesDoNotCommandTheTerminal) {
   EXPECT_TRUE(says(text, {"imm\\x1B[2J"}));
 }
 
-}  // namespace
+}  // namespace braille_test

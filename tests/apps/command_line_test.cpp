@@ -3,7 +3,7 @@
 #include "result/result.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace command_line_test {
 
 /// What the last run of the program below was given.
 struct Given {
@@ -125,4 +125,4 @@ TEST(CommandLine, AFailureOfTheWorkEndsTheProgram) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "example: no data\n");
 }
 
-}  // namespace
+}  // namespace command_line_test

@@ -4,7 +4,7 @@
 
 #include "apps/temporary_directory.hpp"
 
-namespace {
+namespace csv_test {
 
 using Records = std::vector<std::vector<std::string>>;
 
@@ -277,4 +277,4 @@ TEST(Csv, StreamsAMillionRows) {
   EXPECT_EQ(sum_x, 249'999'750'000.0);
 }
 
-}  // namespace
+}  // namespace csv_test

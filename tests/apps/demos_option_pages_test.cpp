@@ -4,7 +4,7 @@
 #include "support/program.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace demos_option_pages_test {
 
 TEST(OptionPages, AreWhatTheProgramsPrint) {
   const std::filesystem::path source = SIGMAX_SOURCE;
@@ -49,4 +49,4 @@ TEST(Completion, OffersWhatTheProgramsOwnHelpLists) {
   EXPECT_EQ(offered(SIGMAX_HIMM_DEMO, "himm_demo track fl"), Words{});  // a file: bash itself knows
 }
 
-}  // namespace
+}  // namespace demos_option_pages_test

@@ -2,7 +2,7 @@
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace {
+namespace demos_overwriting_test {
 
 const std::filesystem::path data = std::filesystem::path(SIGMAX_SOURCE) / "apps" / "examples" / "data";
 
@@ -77,4 +77,4 @@ TEST(Overwriting, TheStandardInputIsKnownByItsFile) {
   EXPECT_EQ(contents(file), contents(data / "fruit.csv"));
 }
 
-}  // namespace
+}  // namespace demos_overwriting_test

@@ -1,7 +1,7 @@
 #include "support/error.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace error_test {
 
 TEST(Message, NamesPlaceFindingExpectationAndRemedy) {
   EXPECT_EQ(message({.where = "flight.csv:12",
@@ -36,4 +36,4 @@ TEST(Errors, AreOfTwoUnrelatedKinds) {
   EXPECT_EQ(reason(ENOENT), "No such file or directory");
 }
 
-}  // namespace
+}  // namespace error_test

@@ -1,7 +1,7 @@
 #include "support/geodesy.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace geodesy_test {
 
 double dms(double degrees, double minutes, double seconds) { return degrees + minutes / 60.0 + seconds / 3600.0; }
 
@@ -46,6 +46,15 @@ TEST(LocalFrame, AxesAreTheDirectionsInWhichTheCoordinatesGrow) {
     EXPECT_NEAR(slope(step_deg, 0.0)[0], 0.0, 5e-3);
     EXPECT_NEAR(slope(0.0, step_deg)[0], (N + altitude) * std::cos(epsg_origin.latitude_deg / radian), 5e-3);
     EXPECT_NEAR(slope(0.0, step_deg)[1], 0.0, 5e-3);
+  }
+}
+
+TEST(LocalFrame, AxesTurnByLittleHoweverNearTheOrigin) {
+  const LocalFrame frame({52.0, 4.0, 0.0}, 2);
+  for (double x = 1e-14; x < 1000.0; x *= 10.0) {
+    const auto axes = frame.local_axes({x, -3.0 * x, 0.0});
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(axes[i][j], i == j ? 1.0 : 0.0, 1e-6 + 1e-6 * x) << x;
   }
 }
 
@@ -117,4 +126,4 @@ TEST(Geodetic, RefusesWhatIsNoPlace) {
   EXPECT_THROW(Geodetic::checked(0, 0, not_a_number), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace geodesy_test

@@ -5,7 +5,7 @@
 #include "apps/refusals.hpp"
 #include "result/report.hpp"
 
-namespace {
+namespace himm_demo_bad_input_test {
 
 const std::string good = "time_s,x_m,y_m\n0,0,0\n1,1,2\n2,2,4\n3,3,6\n4,4,8\n";
 
@@ -53,4 +53,4 @@ TEST_P(Interrupted, LeavesNoHalfWrittenFile) {
 INSTANTIATE_TEST_SUITE_P(HimmDemo, Interrupted, testing::Values(SIGINT, SIGTERM, SIGHUP),
                          [](const auto& test) { return std::string("BySIG") + ::sigabbrev_np(test.param); });
 
-}  // namespace
+}  // namespace himm_demo_bad_input_test

@@ -8,7 +8,7 @@
 #include "apps/manoeuvring_targets.hpp"
 #include "support/enveloped.hpp"
 
-namespace {
+namespace himm_demo_filters_test {
 
 /// What a name stands for, in the restatement's terms.
 struct Named {
@@ -189,4 +189,4 @@ TEST(HimmDemoFilters, WhatIsPrintedOfTheirSettingsReadsBackAsTheSame) {
                                   "member = \"ckf\"\n", "start_sigma_turn_deg_s = 4.1\n"}));
 }
 
-}  // namespace
+}  // namespace himm_demo_filters_test

@@ -5,7 +5,7 @@
 #include "apps/manoeuvring_targets.hpp"
 #include "support/history_restatement.hpp"
 
-namespace {
+namespace himm_demo_histories_test {
 
 /// Random numbers of the kind that nobody would choose twice, so that no two histories tie.
 const Arguments no_ties = {"sigma_w=[3,0.4]",
@@ -64,4 +64,4 @@ TEST(HimmDemoHistories, ThePresetsRunOnTheScenariosAndAreBelowTheHimmWhileTheTar
     EXPECT_LT(sum_of_squares(name), sum_of_squares("himm")) << name;
 }
 
-}  // namespace
+}  // namespace himm_demo_histories_test

@@ -3,7 +3,7 @@
 #include "support/program.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace himm_demo_pictures_test {
 
 class HimmDemoPictures : public InDirectory {};
 
@@ -92,4 +92,4 @@ TEST(HimmDemoTables, TakeTheColumnsOfTheTerminal) {
   EXPECT_LE(widest(program::run("/bin/sh", {"-c", command}).output), 80U);
 }
 
-}  // namespace
+}  // namespace himm_demo_pictures_test

@@ -2,7 +2,7 @@
 
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_places_test {
 
 constexpr double equator = 6378137.0;
 
@@ -61,4 +61,4 @@ TEST(HimmDemoPlaces, LevelFlightClimbsNowhere) {
     }
 }
 
-}  // namespace
+}  // namespace himm_demo_places_test

@@ -12,7 +12,7 @@
 
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_radar_test {
 
 /// A row of a recording: measured by the radar, or else by its position.
 struct Row {
@@ -202,4 +202,4 @@ TEST(HimmDemoRadar, InItsOwnSpaceAMissedRowIsAPredictionAndAfterAGapItStartsAgai
   EXPECT_NE(all[61 - 48].at("nis"), "");
 }
 
-}  // namespace
+}  // namespace himm_demo_radar_test

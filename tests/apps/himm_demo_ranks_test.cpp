@@ -3,7 +3,7 @@
 #include "apps/campaigns.hpp"
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_ranks_test {
 
 /// Rows of seven tracks in turn, all seen to 10 m, some missed; "early" ends before it can start, "late" begins in the
 /// middle, and "lost" has a gap and an outlier.
@@ -124,4 +124,4 @@ TEST_F(HimmDemoRanks, WhatTheyCannotShareIsSaid) {
   EXPECT_TRUE(says(piped.output, {"give the name of a file"}));
 }
 
-}  // namespace
+}  // namespace himm_demo_ranks_test

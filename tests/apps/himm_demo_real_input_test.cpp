@@ -4,7 +4,7 @@
 
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_real_input_test {
 
 /// A case of himm_demo_recordings.json, which says what its fields are.
 struct Case {
@@ -209,4 +209,4 @@ TEST(HimmDemoRealInput, NoNameCommandsTheTerminal) {
   EXPECT_EQ(run({"--config", directory.write("same.toml", settings.output), "--print-config"}).output, settings.output);
 }
 
-}  // namespace
+}  // namespace himm_demo_real_input_test

@@ -5,7 +5,7 @@
 #include "apps/recordings.hpp"
 #include "support/geodesy.hpp"
 
-namespace {
+namespace himm_demo_recording_test {
 
 using restatement::Index;
 using restatement::Position;
@@ -415,4 +415,4 @@ TEST(HimmDemoRecording, ARecordedLidarAndRadarAreFusedAgainstTheTruth) {
     }
 }
 
-}  // namespace
+}  // namespace himm_demo_recording_test

@@ -2,7 +2,7 @@
 
 #include "apps/report_pages.hpp"
 
-namespace {
+namespace himm_demo_report_test {
 
 constexpr const char* nasty = "</script><b>&amp;\u2028\"";
 
@@ -349,4 +349,4 @@ TEST_F(ReportPage, OfAllFiltersStaysBelowAMegabyte) {
   EXPECT_LT(std::filesystem::file_size(page()), 1000000U);
 }
 
-}  // namespace
+}  // namespace himm_demo_report_test

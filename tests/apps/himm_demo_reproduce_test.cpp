@@ -2,7 +2,7 @@
 
 #include "apps/campaigns.hpp"
 
-namespace {
+namespace himm_demo_reproduce_test {
 
 class HimmDemoReproduce : public InDirectory {};
 
@@ -133,4 +133,4 @@ TEST_F(HimmDemoReproduce, RanksGiveTheSameBytes) {
   EXPECT_EQ(results(directory.path() / "ranks"), results(directory.path() / "whole"));
 }
 
-}  // namespace
+}  // namespace himm_demo_reproduce_test

@@ -3,7 +3,7 @@
 
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_sensors_test {
 
 using State = Eigen::Matrix<double, 4, 1>;
 using Square = Eigen::Matrix<double, 4, 4>;
@@ -229,4 +229,4 @@ TEST(HimmDemoSensors, AStationThatMovesCrossesItsOwnBearings) {
   EXPECT_NEAR(number(found.back().at("y_m")), 1500.0, 5.0);
 }
 
-}  // namespace
+}  // namespace himm_demo_sensors_test

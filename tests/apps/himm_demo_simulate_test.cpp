@@ -2,7 +2,7 @@
 
 #include "apps/campaigns.hpp"
 
-namespace {
+namespace himm_demo_simulate_test {
 
 program::Ending simulate(const std::filesystem::path& out, std::vector<std::string> more) {
   return program::run(SIGMAX_HIMM_DEMO, Arguments{"simulate", "--quiet", "--out", out} + more);
@@ -129,4 +129,4 @@ TEST_F(HimmDemoSimulate, OtherModelsThanThePapersRun) {
   EXPECT_EQ(still.output.find("nan"), std::string::npos) << still.output;
 }
 
-}  // namespace
+}  // namespace himm_demo_simulate_test

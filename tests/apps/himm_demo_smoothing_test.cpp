@@ -3,7 +3,7 @@
 #include "apps/manoeuvring_targets.hpp"
 #include "support/smoother_restatement.hpp"
 
-namespace {
+namespace himm_demo_smoothing_test {
 
 std::string estimates_of(const std::string& text, const Arguments& sets) { return tracked(text, sets).estimates; }
 
@@ -156,4 +156,4 @@ TEST(HimmDemoSojourn, FollowsEachStep) {
   }
 }
 
-}  // namespace
+}  // namespace himm_demo_smoothing_test

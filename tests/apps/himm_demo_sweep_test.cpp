@@ -2,7 +2,7 @@
 
 #include "apps/campaigns.hpp"
 
-namespace {
+namespace himm_demo_sweep_test {
 
 /// Nine conditions, two filters, four settings each.
 const Arguments small = words(
@@ -189,4 +189,4 @@ TEST_F(HimmDemoSweep, WhatCannotBeIsSaid) {
   EXPECT_EQ(run({"merge", directory.path(), "--out", out}).status, 3);
 }
 
-}  // namespace
+}  // namespace himm_demo_sweep_test

@@ -1,6 +1,6 @@
 #include "apps/manoeuvring_targets.hpp"
 
-namespace {
+namespace himm_demo_track_test {
 
 struct Case {
   std::string name;
@@ -145,4 +145,4 @@ TEST_F(HimmDemoTrack, ARecordedMultirotorIsTrackedThroughMappedColumns) {
   EXPECT_TRUE(says(ending.on_one_line(), {"965 measurements"}));
 }
 
-}  // namespace
+}  // namespace himm_demo_track_test

@@ -3,7 +3,7 @@
 #include "apps/recordings.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace himm_demo_tune_test {
 
 /// A target with noise on its acceleration of 1 m/s² that is seen to 20 m, every second or so many; the truth beside
 /// it.
@@ -193,6 +193,21 @@ TEST_F(Tune, FindsTheNoisesWhereFixesAreHoursApartAndSaysWhereItMayNot) {
   EXPECT_NEAR(7200.0 * 7200.0 * value_in(contents(best), "sigma_w"), 1.0, 0.4) << contents(best);
   EXPECT_EQ(found.find(strays), std::string::npos) << found;
   EXPECT_TRUE(says(program::succeeded(tune(quickly(file, {"--keep", "models"}))).on_one_line(), {strays}));
+}
+
+TEST_F(Tune, TurnsVelocitiesOfRowsWithoutAPlaceIntoTheFrame) {
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  std::string text = "time_s,latitude_deg,longitude_deg,speed_mps,course_deg\n";
+  const double degree_m = 111300.0, shrunk_m = degree_m * 0.5;  // at 60°, along a parallel
+  for (int k = 0; k < 300; ++k)
+    text += k % 2 == 0 ? fmt::format("{},{:.8f},{:.8f},,\n", 2 * k, 60.0 + 5.0 * normal(generator) / degree_m,
+                                     4.0 + (460.0 * k + 5.0 * normal(generator)) / shrunk_m)
+                       : fmt::format("{},,,{:.3f},90\n", 2 * k, 230.0 + 0.3 * normal(generator));
+  const auto file = directory.write("flight.csv", text);
+  const auto best = (directory.path() / "best.toml").string();
+  program::succeeded(tune(quickly(file, {"--set", "sigma_velocity_mps=0.3", "--out", best})));
+  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.4, 0.2) << contents(best);
 }
 
 TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
@@ -394,4 +409,4 @@ TEST(HimmDemoTune, BearingsAreJudgedFromAGivenStartAndRefusedWithoutOne) {
   EXPECT_NEAR(value_in(contents(directory.path() / "best.toml"), "sigma_azimuth_deg"), 0.1, 0.03);
 }
 
-}  // namespace
+}  // namespace himm_demo_tune_test

@@ -3,7 +3,7 @@
 
 #include "apps/recordings.hpp"
 
-namespace {
+namespace himm_demo_velocity_test {
 
 constexpr double knot = 1852.0 / 3600.0;
 
@@ -197,4 +197,4 @@ TEST(HimmDemoVelocity, OfAPlaceIsTakenBeforeTheStartToo) {
   EXPECT_NEAR(number(found.back().at("y_m")), 19 * 11.1229, 0.5);
 }
 
-}  // namespace
+}  // namespace himm_demo_velocity_test

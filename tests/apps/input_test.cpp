@@ -3,7 +3,7 @@
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 
-namespace {
+namespace input_test {
 
 TEST(ParseNumber, TakesDecimalNumbersWithSignAndBlanks) {
   EXPECT_EQ(parse_number("12.5"), 12.5);
@@ -66,4 +66,4 @@ TEST_F(OpenInput, SaysThatPermissionIsMissing) {
             secret.string() + ": cannot be read: Permission denied; see whether its name and permissions are right");
 }
 
-}  // namespace
+}  // namespace input_test

@@ -4,7 +4,7 @@
 #include "result/result.hpp"
 #include "study/study.hpp"
 
-namespace {
+namespace journal_test {
 
 class AJournal : public InDirectory {
  protected:
@@ -92,4 +92,4 @@ TEST_F(AJournal, OfAnotherStudyIsRefusedWithTheOptionThatDiffersAndLeftAsItWas) 
   EXPECT_REFUSED(InputError, ("found '--cross', expected no further option"), run_study());
 }
 
-}  // namespace
+}  // namespace journal_test

@@ -6,7 +6,7 @@
 #include "support/error.hpp"
 #include "support/random.hpp"
 
-namespace {
+namespace output_test {
 
 namespace fs = std::filesystem;
 
@@ -176,4 +176,4 @@ TEST(TomlNumber, HasAPointWhereAnIntegerWouldNotFit) {
   EXPECT_EQ(toml_number(1e300), "1e+300");
 }
 
-}  // namespace
+}  // namespace output_test

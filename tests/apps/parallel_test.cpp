@@ -1,7 +1,7 @@
 #include "support/parallel.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace parallel_test {
 
 /// A result without a default.
 struct Square {
@@ -49,4 +49,4 @@ TEST(ThreadsOrAll, TakesWhatIsAskedFor) {
   EXPECT_GE(threads_or_all(0), 1);
 }
 
-}  // namespace
+}  // namespace parallel_test

@@ -5,7 +5,7 @@
 #include "result/report.hpp"
 #include "support/program.hpp"
 
-namespace {
+namespace pictures_test {
 
 LineChart chart_of(std::string title, std::vector<Curve> curves) {
   return {.title = std::move(title),
@@ -181,4 +181,4 @@ TEST_F(InstalledGnuplot, TakesAnyText) {
   }
 }
 
-}  // namespace
+}  // namespace pictures_test

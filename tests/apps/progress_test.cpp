@@ -3,7 +3,7 @@
 #include "apps/terminal.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace progress_test {
 
 using namespace std::chrono_literals;
 
@@ -92,4 +92,4 @@ TEST(Progress, CountsTheWorkOfAllThreads) {
   EXPECT_EQ(progress.done(), 40'000U);
 }
 
-}  // namespace
+}  // namespace progress_test

@@ -3,7 +3,7 @@
 
 #include <Random123/philox.h>
 
-namespace {
+namespace random_test {
 
 constexpr std::size_t draws = 1'000'000;
 
@@ -143,4 +143,4 @@ TEST(RandomStream, PassesKolmogorovAndSmirnov) {
   EXPECT_LT(kolmogorov_smirnov(uniforms(1, 1), [](double x) { return x; }), ks_bound);
 }
 
-}  // namespace
+}  // namespace random_test

@@ -4,7 +4,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "support/random.hpp"
 
-namespace {
+namespace recognition_demo_aircraft_test {
 
 /// What a subcommand says of a file, by its name and as the standard input.
 std::pair<std::string, std::string> said_of(const std::string& subcommand, const std::filesystem::path& file) {
@@ -173,4 +173,4 @@ TEST_F(RecognitionDemoPerformance, TheSameQuantityBothWaysEqualsPlainLoopsOnTheS
   EXPECT_CLOSE(found.at("max, π of the triangle"), max, 1e-9);
 }
 
-}  // namespace
+}  // namespace recognition_demo_aircraft_test

@@ -1,6 +1,6 @@
 #include "apps/recognition_demo_support.hpp"
 
-namespace {
+namespace recognition_demo_docs_test {
 
 struct Shown {
   std::string command;
@@ -54,4 +54,4 @@ TEST(RecognitionDemoPage, OfLabelledDataShowsWhatTheProgramPrints) { expect_show
 TEST(RecognitionDemoPage, OfSixTablesShowsWhatTheProgramPrints) { expect_shown("recognition_demo_evaluate.md", 6); }
 TEST(RecognitionDemoPage, OfAircraftShowsWhatTheProgramPrints) { expect_shown("recognition_demo_aircraft.md", 5); }
 
-}  // namespace
+}  // namespace recognition_demo_docs_test

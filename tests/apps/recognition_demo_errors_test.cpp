@@ -1,7 +1,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "apps/refusals.hpp"
 
-namespace {
+namespace recognition_demo_errors_test {
 
 constexpr const char* good_csv = "colour,size,kind\nred,1,a\nblue,2,b\nred,3,a\nblue,4,b\n";
 constexpr const char* good_model = R"({"format": "sigmax recognition model", "version": 1, "label": "kind",
@@ -26,4 +26,4 @@ TEST(RecognitionDemoErrors, TheGoodFilesOfTheseCasesAreGood) {
   recognition_demo_succeeds({"train", data, "--label", "kind", "--model", directory.path() / "m.json"});
 }
 
-}  // namespace
+}  // namespace recognition_demo_errors_test

@@ -3,7 +3,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace recognition_demo_esm_test {
 
 /// The world of docs/recognition_demo.md once more: T1{e1,e2}, T2{e2,e3}, T3{e1,e3,e4}, T4{e2,e4,e5}.
 const Matrix carried = {{1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}, {1, 0, 1, 1, 0}, {0, 1, 0, 1, 1}};
@@ -153,4 +153,4 @@ TEST(RecognitionDemoRegimes, BeginWithTheWorldThatTheClassifiersAssume) {
   EXPECT_EQ(summary.at("regimes").at("conflict").size(), 4U);
 }
 
-}  // namespace
+}  // namespace recognition_demo_esm_test

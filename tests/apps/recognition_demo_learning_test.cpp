@@ -4,7 +4,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "support/text.hpp"
 
-namespace {
+namespace recognition_demo_learning_test {
 
 const std::vector<std::string> classes = {"ash", "elm", "oak"};
 const std::vector<std::string> colours = {"amber", "blue", "green, dark", "red"};
@@ -763,4 +763,4 @@ TEST_F(RecognitionDemo, LearnsFromALongTableWhatASortOfAllRowsGives) {
   }
 }
 
-}  // namespace
+}  // namespace recognition_demo_learning_test

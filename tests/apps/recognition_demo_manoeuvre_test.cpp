@@ -1,7 +1,7 @@
 #include "apps/recognition_demo_support.hpp"
 #include "support/restatement.hpp"
 
-namespace {
+namespace recognition_demo_manoeuvre_test {
 
 constexpr std::size_t modes = 5;
 constexpr double T = 2.0, g = 9.80665;
@@ -109,4 +109,4 @@ TEST_F(RecognitionDemoManoeuvre, SaysWhichTargetsMaxInferenceCanNeverPrefer) {
   EXPECT_EQ(output.find("sigma, of the IMM can never prefer"), std::string::npos) << output;
 }
 
-}  // namespace
+}  // namespace recognition_demo_manoeuvre_test

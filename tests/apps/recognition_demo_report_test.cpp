@@ -2,7 +2,7 @@
 #include "apps/report_pages.hpp"
 #include "result/report.hpp"
 
-namespace {
+namespace recognition_demo_report_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -224,4 +224,4 @@ TEST_F(RecognitionReport, OfPerformanceShowsEachTypesPossibilities) {
   expect_numbers_of_the_summary();
 }
 
-}  // namespace
+}  // namespace recognition_demo_report_test

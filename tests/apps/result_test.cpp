@@ -4,7 +4,7 @@
 
 #include "apps/temporary_directory.hpp"
 
-namespace {
+namespace result_test {
 
 class FilesOfResults : public InDirectory {};
 
@@ -88,4 +88,4 @@ TEST(Result, IsPrintedAndWrittenFromOneTable) {
   EXPECT_EQ(summary.at("found")[0].at("words"), (std::vector<std::string>{"a", "b"}));
 }
 
-}  // namespace
+}  // namespace result_test

@@ -5,7 +5,7 @@
 #include "result/result.hpp"
 #include "study/study.hpp"
 
-namespace {
+namespace run_test {
 
 struct Ending {
   int code = -1;
@@ -119,4 +119,4 @@ TEST_F(RunProgram, AnIgnoredSignalStaysIgnored) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-}  // namespace
+}  // namespace run_test

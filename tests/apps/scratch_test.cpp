@@ -2,7 +2,7 @@
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
 
-namespace {
+namespace scratch_test {
 
 constexpr std::size_t more_than_is_held = 700'000;  // of five bytes each
 
@@ -74,4 +74,4 @@ TEST(Scratch, LeavesNoFileBehindAndSaysWhereNoneCanBe) {
                 "name another directory by the variable TMPDIR");
 }
 
-}  // namespace
+}  // namespace scratch_test

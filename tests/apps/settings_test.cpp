@@ -2,7 +2,7 @@
 
 #include "apps/temporary_directory.hpp"
 
-namespace {
+namespace settings_test {
 
 using Strings = std::vector<std::string>;
 using Matrix = std::vector<Numbers>;
@@ -247,4 +247,4 @@ TEST(Settings, LetsTheCallerRefuseAValue) {
             "key 'start_mean': found nothing, expected nine numbers");
 }
 
-}  // namespace
+}  // namespace settings_test

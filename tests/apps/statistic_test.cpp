@@ -1,7 +1,7 @@
 #include "study/statistic.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace statistic_test {
 
 using Columns = std::vector<std::vector<double>>;
 
@@ -77,4 +77,4 @@ TEST(Statistic, OneBatchHasNoBoundsAndNoCountNoValue) {
   EXPECT_TRUE(std::isnan(Statistic::mean(none, none).value()));
 }
 
-}  // namespace
+}  // namespace statistic_test

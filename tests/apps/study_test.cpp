@@ -3,7 +3,7 @@
 #include "apps/temporary_directory.hpp"
 #include "result/result.hpp"
 
-namespace {
+namespace study_test {
 
 using Rows = std::vector<std::pair<std::size_t, Study::Row>>;
 
@@ -62,4 +62,4 @@ TEST(Study, WhatAJournalHasIsNotDoneAgain) {
   EXPECT_EQ(rows[4].second, (Study::Row{4.0, 0.1}));
 }
 
-}  // namespace
+}  // namespace study_test

@@ -5,7 +5,7 @@
 #include "study/study.hpp"
 #include "support/random.hpp"
 
-namespace {
+namespace study_walk_test {
 
 TEST(StudyWalk, WritesWhatItFound) {
   const TemporaryDirectory directory;
@@ -37,4 +37,4 @@ TEST(StudyWalk, WritesWhatItFound) {
   EXPECT_TRUE(says(contents(directory.path() / "summary.json"), {"\"coins\": {\n    \"bent\": {\n      \"heads\": {"}));
 }
 
-}  // namespace
+}  // namespace study_walk_test

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace table_test {
 
 ResultTable example() {
   ResultTable table{{{.header = "filter", .align = Align::left}, {.header = "RMSE x, m"}, {.header = "β ∈ [1, 2]"}}};
@@ -219,4 +219,4 @@ TEST(NumberText, SuitsTheSizeOfTheNumber) {
   EXPECT_EQ(sized_text(64155865.62, 2), "6.4e+07");
 }
 
-}  // namespace
+}  // namespace table_test

@@ -1,7 +1,7 @@
 #include "support/text.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace text_test {
 
 TEST(Wrapped, BreaksAtBlanksAndKeepsIndents) {
   EXPECT_EQ(wrapped("one two three\n\n  four five", 9), "one two\nthree\n\n  four\n  five\n");
@@ -32,4 +32,4 @@ TEST(DisplayWidth, CountsColumnsNotBytes) {
   EXPECT_EQ(display_width("a\xFF\xC3"), 3U);   // bytes that are no UTF-8
 }
 
-}  // namespace
+}  // namespace text_test

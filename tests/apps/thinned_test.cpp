@@ -1,7 +1,7 @@
 #include "support/thinned.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace thinned_test {
 
 TEST(Thinned, KeepsAllWhileItCan) {
   Thinned rows(2, 100);
@@ -77,4 +77,4 @@ TEST(Thinned, RefusesWhatCannotBe) {
   EXPECT_THROW(rows.add(0.0, {1.0}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace thinned_test

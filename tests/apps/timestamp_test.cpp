@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace {
+namespace timestamp_test {
 
 TEST(Timestamp, APlainNumberIsSeconds) {
   EXPECT_EQ(parse_timestamp("12.5"), 12.5);
@@ -111,4 +111,4 @@ RC_GTEST_PROP(Timestamp, AgreesWithTheCalendarOfTheCLibrary, ()) {
   RC_ASSERT(parse_timestamp(text) == static_cast<double>(seconds) + milliseconds / 1000.0);
 }
 
-}  // namespace
+}  // namespace timestamp_test

@@ -5,7 +5,7 @@
 #include "recognition_demo/world.hpp"
 #include "support/csv.hpp"
 
-namespace {
+namespace world_walk_test {
 
 struct Written {
   std::string printed, curves;
@@ -68,4 +68,4 @@ TEST(WorldWalk, TellsWhichCoinItIs) {
   EXPECT_EQ(by_three.curves, by_one.curves);
 }
 
-}  // namespace
+}  // namespace world_walk_test

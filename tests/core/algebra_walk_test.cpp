@@ -1,7 +1,7 @@
 #include "support/core.hpp"
 
 /// Every line of code in docs/algebra.md, in its order, and the values that it claims.
-namespace {
+namespace algebra_walk_test {
 
 const FuzzyVariable age{"age", {"young", "middle", "old"}};
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
@@ -184,4 +184,4 @@ TEST(AlgebraWalk, Transforms) {
   EXPECT_CLOSE(pignistic.values(), forecast.values(), 1e-15);
 }
 
-}  // namespace
+}  // namespace algebra_walk_test

@@ -1,7 +1,7 @@
 #include "support/allocations.hpp"
 #include "support/core.hpp"
 
-namespace {
+namespace allocation_test {
 
 /// The verbs that write into an existing result, for tables stored inline and on the heap.
 class InPlace : public testing::TestWithParam<std::size_t> {};
@@ -40,4 +40,4 @@ TEST(Allocations, AChainThatIsUnderWayAllocatesNothing) {
   EXPECT_EQ(allocations_of(advance), 0U);
 }
 
-}  // namespace
+}  // namespace allocation_test

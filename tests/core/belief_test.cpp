@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace belief_test {
 
 const RandomVariable mode{"mode", {"straight", "turn", "climb"}};
 const FuzzyVariable intent{"intent", {"friendly", "hostile"}};
@@ -61,4 +61,4 @@ TEST(Belief, IsMostLikelyWhereItsLogarithmIsGreatest) {
   EXPECT_EQ(most_likely(belief), "climb");
 }
 
-}  // namespace
+}  // namespace belief_test

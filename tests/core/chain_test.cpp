@@ -2,7 +2,7 @@
 
 #include "laws/generate.hpp"
 
-namespace {
+namespace chain_test {
 
 using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
@@ -248,4 +248,4 @@ TEST(Chain, BringsBackAnOutcomeThatIsFarBelowAnyDouble) {
   EXPECT_CLOSE(chain.normalized().values(), (std::vector{0.0, 1.0}), 0.0);
 }
 
-}  // namespace
+}  // namespace chain_test

@@ -1,7 +1,7 @@
 #include "support/core.hpp"
 
 /// The worked examples of docs/chains.md.
-namespace {
+namespace chain_walk_test {
 
 TEST(ChainWalk, OfSparseAndBandedRelationsIsWhatTheDocumentSays) {
   const RandomVariable cell{"cell", 100000};
@@ -104,4 +104,4 @@ TEST(ChainWalk, OfOrdinalVariablesIsWhatTheDocumentSays) {
   EXPECT_CLOSE(update(prior, risk_given_age.likelihood("high")).values(), (std::vector{0.5, 1.0, 0.2}), 0.0);
 }
 
-}  // namespace
+}  // namespace chain_walk_test

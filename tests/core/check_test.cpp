@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace check_test {
 
 const RandomVariable weather{"weather", {"dry", "wet", "snow"}};
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
@@ -30,4 +30,4 @@ TEST(Check, RefusesWhatIsNoNumberBetweenZeroAndOne) {
                  prove_normalized<Fuzzy>(mood, {}, std::vector{1.0, infinity}));
 }
 
-}  // namespace
+}  // namespace check_test

@@ -1,6 +1,6 @@
 #include "core/age_mood_speed.hpp"
 
-namespace {
+namespace compose_test {
 
 template <class To, class From>
 using R = Relation<To, From>;
@@ -144,4 +144,4 @@ TEST(Compose, CarriesAnExcludingLikelihoodBackAsExcluding) {
   EXPECT_CLOSE(carried["middle"], 0.25, 1e-15);
 }
 
-}  // namespace
+}  // namespace compose_test

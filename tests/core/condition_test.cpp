@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace condition_test {
 
 template <Algebra A>
 std::vector<double> conditioned(std::vector<double> joint) {
@@ -32,4 +32,4 @@ TEST(EqualShare, IsWhatEqualNumbersAreConditionedTo) {
   EXPECT_EQ(equal_share<MaxMin>(4), 1.0);
 }
 
-}  // namespace
+}  // namespace condition_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace distribution_test {
 
 constexpr double greatest_double = std::numeric_limits<double>::max();
 
@@ -116,4 +116,4 @@ TEST(MostLikely, IsTheFirstDeclaredOnATie) {
   EXPECT_EQ(most_likely(uninformative(mood)), "calm");
 }
 
-}  // namespace
+}  // namespace distribution_test

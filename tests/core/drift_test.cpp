@@ -1,7 +1,7 @@
 #include "support/core.hpp"
 
 /// What is normalised by law stays so along any chain of compositions, though rows are one only to within 1e-9.
-namespace {
+namespace drift_test {
 
 constexpr double third = 0.3333333333;  // three of them are accepted as one
 
@@ -59,4 +59,4 @@ TEST(Drift, LeavesWhatIsNormalisedToRoundingUnchanged) {
   EXPECT_EQ(p[1], 0.1 * 0.6 + 0.7 * 0.4);
 }
 
-}  // namespace
+}  // namespace drift_test

@@ -1,6 +1,6 @@
 #include "support/plain.hpp"
 
-namespace {
+namespace forward_backward_test {
 
 using Rows = std::vector<Numbers>;
 
@@ -189,4 +189,4 @@ TEST(ForwardBackward, RefusesWhatDoesNotFit) {
   EXPECT_INVALID(("time 1", "1 times"), forward_backward(start, stays, {}).at(1));
 }
 
-}  // namespace
+}  // namespace forward_backward_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace hybrid_distribution_test {
 
 // What a law guarantees is a distribution; the rest is only induced.
 template <class Outer, class Inner>
@@ -83,4 +83,4 @@ TEST(HybridDistribution, ConditionsSubnormalMassExactly) {
   EXPECT_CLOSE(joint.inner_given_outer().relation.row(1), (std::vector{0.0, 0.25, 0.75}), 0.0);
   EXPECT_TRUE(joint.outer_given_inner().unreachable.empty());
 }
-}  // namespace
+}  // namespace hybrid_distribution_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace induced_test {
 
 using InducedRelation = Induced<Relation<Random, Fuzzy>>;
 using InducedDistribution = Induced<Distribution<Random>>;
@@ -71,4 +71,4 @@ TEST(InducedDistribution, HasABetaThatNormalizingDividesBy) {
   EXPECT_INVALID(("'speed'", "'medium'"), induced["medium"]);
 }
 
-}  // namespace
+}  // namespace induced_test

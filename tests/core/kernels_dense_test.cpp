@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace kernels_dense_test {
 
 TEST(DenseCompose, GivesTheResultItsShape) {
   const Table left(3, 7, 0.5), right(5, 3, 0.5);
@@ -31,4 +31,4 @@ TEST(DenseCompose, IsThePlainTripleLoopForAnyShape) {
   }
 }
 
-}  // namespace
+}  // namespace kernels_dense_test

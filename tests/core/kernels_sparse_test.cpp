@@ -1,7 +1,7 @@
 #include "kernels/sparse.hpp"
 #include "support/drawn_tables.hpp"
 
-namespace {
+namespace kernels_sparse_test {
 
 using namespace drawn_tables;
 
@@ -143,4 +143,4 @@ TEST(Sparse, ColumnsBeyond32BitsAreRefusedByTheirNumber) {
   EXPECT_INVALID(("2^32", "4294967296"), rows.append({{std::size_t{1} << 32, 1.0}}));
 }
 
-}  // namespace
+}  // namespace kernels_sparse_test

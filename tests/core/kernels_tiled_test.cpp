@@ -9,7 +9,7 @@
 #include "kernels/tiled.hpp"
 #include "support/drawn_tables.hpp"
 
-namespace {
+namespace kernels_tiled_test {
 
 using namespace drawn_tables;
 
@@ -171,4 +171,4 @@ TEST_P(Tiled, TheArithmeticOfTheCallerStaysAsItWas) {
   EXPECT_EQ(least / 2.0, 0x1p-1023);
 }
 
-}  // namespace
+}  // namespace kernels_tiled_test

@@ -2,7 +2,7 @@
 #include "support/core.hpp"
 
 namespace sigmax::kernels {
-namespace {
+namespace kernels_unbounded_row_test {
 
 using sigmax::detail::any_algebra;
 
@@ -96,5 +96,5 @@ TEST(UnboundedRow, OfGradesIsPlainMaxMin) {
   EXPECT_EQ(back[1], ScaledNumber{0.5});
 }
 
-}  // namespace
+}  // namespace kernels_unbounded_row_test
 }  // namespace sigmax::kernels

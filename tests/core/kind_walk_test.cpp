@@ -2,7 +2,7 @@
 
 #include "support/core.hpp"
 
-namespace {
+namespace kind_walk_test {
 
 /// Between Sigma (p = 1) and Max (p = ∞): alternatives add up as the sides of a right angle.
 struct Euclid {
@@ -37,4 +37,4 @@ TEST(KindWalk, ANewKindIsTwoStructs) {
   EXPECT_NEAR(uninformative(x)[0], std::sqrt(0.5), 1e-15);
 }
 
-}  // namespace
+}  // namespace kind_walk_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace likelihood_test {
 
 const RandomVariable emitter{"emitter", {"e1", "e2", "e3"}};
 
@@ -82,4 +82,4 @@ TEST(Likelihood, RefusesALogarithmOfNoNumberAndStaysAsItWas) {
   EXPECT_EQ(likelihood.log(2), 0.0);
 }
 
-}  // namespace
+}  // namespace likelihood_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace logarithm_test {
 
 template <ScalingAlgebra A>
 double combined(const std::vector<double>& log_weights, const std::vector<double>& factors) {
@@ -47,4 +47,4 @@ TEST(LogCombine, KeepsALoneSubnormalFactor) {
   EXPECT_CLOSE(combined<Max>({-5.0, 0.0}, {least_subnormal, 0.0}), std::log(least_subnormal) - 5.0, 1e-14);
 }
 
-}  // namespace
+}  // namespace logarithm_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace mean_interval_test {
 
 // 97.5 % quantiles of Student's t from a printed table, by degrees of freedom.
 TEST(MeanInterval, IsStudentsInterval) {
@@ -66,4 +66,4 @@ TEST(RunningMean, KeepsItsDigitsFarFromZero) {
   EXPECT_NEAR(mean.interval().half_width, 1.9602 * std::sqrt(variance / n), 1e-3);
 }
 
-}  // namespace
+}  // namespace mean_interval_test

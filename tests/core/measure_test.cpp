@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace measure_test {
 
 const FuzzyVariable age{"age", {"child", "young", "middle", "old"}};
 
@@ -141,4 +141,4 @@ TEST(Compatibility, RefusesWhatIsNoDegreeOrNoMeasure) {
   EXPECT_TRUE(refused(two, one, two, "2, 1 and 2"));
 }
 
-}  // namespace
+}  // namespace measure_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace network_bif_test {
 
 RelationNetwork read(const std::string& text) {
   std::istringstream in(text);
@@ -146,4 +146,4 @@ TEST(Bif, RefusesAStreamThatCannotBeRead) {
   EXPECT_INVALID(("no such file.bif:1:", "read"), read_bif(none, "no such file.bif"));
 }
 
-}  // namespace
+}  // namespace network_bif_test

@@ -2,7 +2,7 @@
 #include "support/plain_network.hpp"
 
 /// Published networks against a plain computation that eliminates strictly in the reverse order of declaration.
-namespace {
+namespace network_data_test {
 
 using plain::By;
 
@@ -209,4 +209,4 @@ TEST(PublishedNetworks, OfAlarmHaveTheNumbersOfTheFile) {
   EXPECT_CLOSE(cvp.table().values(), (std::vector{0.95, 0.04, 0.01, 0.04, 0.95, 0.01, 0.01, 0.29, 0.70}), 1e-15);
 }
 
-}  // namespace
+}  // namespace network_data_test

@@ -1,6 +1,6 @@
 #include "core/network_grid.hpp"
 
-namespace {
+namespace network_large_test {
 
 TEST(NetworkLimit, RefusesATableThatIsTooLargeBeforeItIsMade) {
   const RelationNetwork network = grid(40);
@@ -215,4 +215,4 @@ TEST(Bif, SkipsAByteOrderMarkAndRefusesANetworkOfNothing) {
   EXPECT_INVALID(("cut.bif:2", "'variable'", "end of the file"), read_bif(cut_off, "cut.bif"));
 }
 
-}  // namespace
+}  // namespace network_large_test

@@ -1,6 +1,6 @@
 #include "core/network_grid.hpp"
 
-namespace {
+namespace network_marginals_test {
 
 TEST(NetworkMarginals, AreTheSingleQueries) {
   const RelationNetwork random = grid(4);
@@ -140,4 +140,4 @@ TEST(NetworkMarginals, AreAnsweredWhereOnlyTheTreeIsTooLarge) {
   EXPECT_EQ(all.back().values()[0].value(), 0.5625);
 }
 
-}  // namespace
+}  // namespace network_marginals_test

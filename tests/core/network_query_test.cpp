@@ -1,7 +1,7 @@
 #include "core/age_mood_speed.hpp"
 #include "core/network_grid.hpp"
 
-namespace {
+namespace network_query_test {
 
 RelationNetwork chain() { return network_of(Distribution{age, {1.0, 1.0, 0.5}}, mood_given_age, speed_given_mood); }
 
@@ -275,4 +275,4 @@ TEST(Explanation, EliminatesEveryKindByTheMaximum) {
   EXPECT_INVALID(("'sped'"), fast["sped"]);
 }
 
-}  // namespace
+}  // namespace network_query_test

@@ -1,6 +1,6 @@
 #include "core/network_grid.hpp"
 
-namespace {
+namespace network_test {
 
 const FuzzyVariable age{"age", {"young", "old"}};
 const FuzzyVariable mood{"mood", {"calm", "wild"}};
@@ -131,4 +131,4 @@ TEST(RelationNetwork, IsDrawnByGraphviz) {
             "}\n");
 }
 
-}  // namespace
+}  // namespace network_test

@@ -1,7 +1,7 @@
 #include "support/core.hpp"
 
 /// The worked example of docs/networks.md.
-namespace {
+namespace network_walk_test {
 
 TEST(NetworkWalk, IsWhatTheDocumentSays) {
   const FuzzyVariable age{"age", {"young", "middle", "old"}};
@@ -48,4 +48,4 @@ TEST(NetworkWalk, IsWhatTheDocumentSays) {
   EXPECT_EQ(printed.str(), "age: young 0.714286, middle 1, old 0.571429\n0.7\nage young, mood wild, speed fast: 0.7");
 }
 
-}  // namespace
+}  // namespace network_walk_test

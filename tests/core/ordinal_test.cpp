@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace ordinal_test {
 
 // Kind chooses the algebra, and an ordinal variable meets only its like: the compiler states these facts.
 static_assert(std::same_as<AlgebraOf<Ordinal>, MaxMin> && Uncertainty<Ordinal>);
@@ -117,4 +117,4 @@ TEST(Ordinal, InvertsByResiduumPerColumn) {
   EXPECT_EQ(inverse.unreachable, (std::vector<std::size_t>{2}));
 }
 
-}  // namespace
+}  // namespace ordinal_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace outcomes_test {
 
 using Labels = std::vector<std::string>;
 
@@ -68,4 +68,4 @@ TEST(Outcomes, ACopyOutlivesItsOriginal) {
   EXPECT_EQ(copy.label(1), "wild");
 }
 
-}  // namespace
+}  // namespace outcomes_test

@@ -1,6 +1,6 @@
 #include "core/age_mood_speed.hpp"
 
-namespace {
+namespace relation_test {
 
 static_assert(!std::convertible_to<Relation<Random, Fuzzy>, Relation<Fuzzy, Fuzzy>>);
 static_assert(!std::constructible_from<Relation<Random, Fuzzy>, FuzzyVariable, FuzzyVariable, Rows>);
@@ -105,4 +105,4 @@ TEST(Relation, NormalizedIsItself) {
   EXPECT_EQ(outlives(2, 1), 0.2);
 }
 
-}  // namespace
+}  // namespace relation_test

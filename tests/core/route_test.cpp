@@ -2,7 +2,7 @@
 
 #include "laws/generate.hpp"
 
-namespace {
+namespace route_test {
 
 using boost::multiprecision::cpp_rational;
 using Way = std::vector<std::size_t>;
@@ -264,4 +264,4 @@ TEST(BestRoute, ThroughAHundredThousandRelationsDoesNotUnderflow) {
   for (std::size_t step = 0; step <= length; ++step) ASSERT_EQ(route.outcomes[step], step % 2);
 }
 
-}  // namespace
+}  // namespace route_test

@@ -1,7 +1,7 @@
 #include "core/age_mood_speed.hpp"
 
 /// What a user may hold without thinking of its lifetime, and what may be compared or written to.
-namespace {
+namespace safe_to_hold_test {
 
 template <class T>
 concept IsOwned = !std::is_reference_v<T> && !requires(T t) {
@@ -130,4 +130,4 @@ TEST(SafeToHold, ADistributionIsComparedWrittenAndIterated) {
   EXPECT_EQ(std::vector<double>(d.begin(), d.end()), (std::vector{0.25, 0.75}));
 }
 
-}  // namespace
+}  // namespace safe_to_hold_test

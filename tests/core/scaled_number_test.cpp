@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace scaled_number_test {
 
 constexpr double least = std::numeric_limits<double>::min();
 constexpr double greatest = std::numeric_limits<double>::max();
@@ -104,4 +104,4 @@ TEST(ScaledNumber, PrintsAlsoWhereNoDoubleCanSayIt) {
   EXPECT_EQ(printed(ScaledNumber{1.0, 20000}), "3.98028e6020");
 }
 
-}  // namespace
+}  // namespace scaled_number_test

@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace sparse_relation_test {
 
 using plain::By;
 
@@ -336,4 +336,4 @@ TEST(SparseRelation, SaysThatItHasNoTable) {
   EXPECT_INVALID(("'cell' given 'cell'", "sparsely", "dense()"), sparse_step().table());
 }
 
-}  // namespace
+}  // namespace sparse_relation_test

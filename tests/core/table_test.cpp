@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace table_test {
 
 /// Shapes on both sides of what is stored inline, 16 numbers.
 class TableOfAnyShape : public testing::TestWithParam<std::pair<std::size_t, std::size_t>> {
@@ -100,4 +100,4 @@ TEST(Table, MayBeEmpty) {
   EXPECT_TRUE(table.values().empty());
 }
 
-}  // namespace
+}  // namespace table_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace tie_test {
 
 TEST(Tie, IsWithinTheToleranceOfTheGreatest) {
   EXPECT_TRUE(ties(-2.0, -2.0));
@@ -23,4 +23,4 @@ TEST(Tie, OfNumbersIsEqualityButForRounding) {
   EXPECT_FALSE(detail::numbers_tie(0.3, 0.3 + 1e-8));
 }
 
-}  // namespace
+}  // namespace tie_test

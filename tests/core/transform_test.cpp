@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace transform_test {
 
 static_assert(PossibilityTransform<RatioScale> && ProbabilityTransform<RatioScale>);
 static_assert(PossibilityTransform<DuboisPrade> && !ProbabilityTransform<DuboisPrade>);
@@ -117,4 +117,4 @@ TEST(Transform, MayBeOnesOwn) {
   EXPECT_CLOSE(to_possibility(forecast, Winners{}).values(), (std::vector{1.0, 0.0, 0.0}), 0.0);
 }
 
-}  // namespace
+}  // namespace transform_test

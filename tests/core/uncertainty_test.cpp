@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace uncertainty_test {
 
 // Kind chooses the algebra: the compiler states these facts.
 static_assert(std::same_as<AlgebraOf<Random>, Sigma>);
@@ -23,4 +23,4 @@ TEST(Uncertainty, KindsAreCalledByTheirNames) {
   EXPECT_EQ(Ordinal::total, "maximum");
 }
 
-}  // namespace
+}  // namespace uncertainty_test

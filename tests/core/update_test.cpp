@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace update_test {
 
 template <class Prior, class Evidence>
 concept Updates = requires(const Prior& prior, const Evidence& evidence) {
@@ -133,4 +133,4 @@ TEST(Invert, RefusesOtherVariablesByTheirNames) {
   EXPECT_INVALID(("invert", "'from'", "'other'"), invert(relation, Belief{uninformative(from)}, result));
 }
 
-}  // namespace
+}  // namespace update_test

@@ -1,6 +1,6 @@
 #include "support/core.hpp"
 
-namespace {
+namespace variable_test {
 
 static_assert(std::same_as<RandomVariable::kind, Random> && std::same_as<FuzzyVariable::kind, Fuzzy>);
 static_assert(!std::convertible_to<RandomVariable, FuzzyVariable> &&
@@ -18,4 +18,4 @@ TEST(Variable, IsWrittenWithItsLabelsOrTheirNumber) {
   EXPECT_EQ(cell.label(99999), "99999");
 }
 
-}  // namespace
+}  // namespace variable_test

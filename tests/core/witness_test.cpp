@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace witness_test {
 
 template <class Left, class Right>
 concept Witnesses = requires(const Left& left, const Right& right) {
@@ -100,4 +100,4 @@ TEST(Witness, OfAnImpossiblePairInsideABandIsTheFirst) {
   }
 }
 
-}  // namespace
+}  // namespace witness_test

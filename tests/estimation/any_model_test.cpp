@@ -1,6 +1,6 @@
 #include "estimation/restated.hpp"
 
-namespace {
+namespace any_model_test {
 
 static_assert(FilterModel<AnyModel> && StateModel<AnyModel> && axes_of<AnyModel> == 0);
 static_assert(!LinearMotion<AnyModel>, "nobody asks for its matrices");
@@ -70,4 +70,4 @@ TEST(AnyModel, HasAtMost32States) {
   EXPECT_INVALID(("'own'", "33 states", "32"), AnyModel{Extended{of_size(33)}});
 }
 
-}  // namespace
+}  // namespace any_model_test

@@ -1,6 +1,6 @@
 #include "estimation/restated.hpp"
 
-namespace {
+namespace any_sensor_test {
 
 static_assert(Sensing<AnySensor> && SensorOf<AnySensor, AnyModel> && SensorOf<AnySensor, CoordinatedTurn<2>>);
 static_assert(AnySensor::measurement_size == Eigen::Dynamic && AnySensor::max_measurement_size == 6);
@@ -115,4 +115,4 @@ TEST(AnySensor, TellsThePositionIfTheSensorThatItIsDoes) {
   EXPECT_INVALID(("of 2 quantities", "of 1"), told(PositionSensor<1>{}));
 }
 
-}  // namespace
+}  // namespace any_sensor_test

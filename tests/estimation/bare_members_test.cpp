@@ -3,7 +3,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace bare_members_test {
 
 /// Flies straight from east to west, past the cut of the azimuth, then in circles of 300 m.
 template <class Bare, class Member>
@@ -38,4 +38,4 @@ TEST(BareMembers, AreTheLibrarysMembers) {
   expect_the_same<bench::BareCubature>(Cubature{turn}, T, q, q_omega);
 }
 
-}  // namespace
+}  // namespace bare_members_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace chi_square_test {
 
 const std::initializer_list<int> all_degrees{1, 2, 3, 6, 9, 30, 101, 600, 1201, 57600};
 
@@ -54,4 +54,4 @@ TEST(ChiSquare, RefusesWhatHasNoAnswer) {
     EXPECT_INVALID(("chi_square_quantile"), chi_square_quantile(probability, 3));
 }
 
-}  // namespace
+}  // namespace chi_square_test

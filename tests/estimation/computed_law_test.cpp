@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace computed_law_test {
 
 /// Shows numbers that tell where they came from.
 struct Counted : detail::ComputedLaw<Counted, 2> {
@@ -49,4 +49,4 @@ TEST(ComputedLaw, ADerivedOneIsAskedByItsOwnFunctions) {
   EXPECT_EQ(predict(Extended{Halved{1.0, 1.0}}, turning, 2.0).mean, 0.5 * turning.mean);
 }
 
-}  // namespace
+}  // namespace computed_law_test

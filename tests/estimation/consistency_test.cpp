@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace consistency_test {
 
 /// Innovations of m numbers, each with this standard deviation and correlation with the one before.
 InnovationTally tally_of(std::size_t m, std::size_t rows, double sigma, double correlation) {
@@ -71,4 +71,4 @@ TEST(InnovationTally, KnowsTheMedianOfManyNis) {
   EXPECT_EQ(InnovationTally().median_nis(), 0.0);
 }
 
-}  // namespace
+}  // namespace consistency_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace converted_measurement_test {
 
 PROPERTY(ConvertedMeasurement, DebiasedInThePlaneIsThePrintedOne) {  // Lerro and Bar-Shalom 1993, (20)–(23)
   const Polar m{number_between(1.0, 1e3), number_between(-3.2, 3.2), 0.0};
@@ -150,4 +150,4 @@ TEST(ConvertedMeasurement, TheUnbiasedOneIsConsistentAtAnyAngleAndTheDebiasedOne
   }
 }
 
-}  // namespace
+}  // namespace converted_measurement_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace coordinated_turn_test {
 
 static_assert(NonlinearMotion<CoordinatedTurn<2>> && axes_of<CoordinatedTurn<2>> == 2);
 static_assert(NonlinearMotion<CoordinatedTurn<3>> && axes_of<CoordinatedTurn<3>> == 3);
@@ -68,4 +68,4 @@ TEST(CoordinatedTurn, TheNoiseIsWhiteAccelerationAndAWienerRate) {
   EXPECT_EQ((CoordinatedTurn<3>{3.0, 0.5}.process_covariance(2.0)), Q);
 }
 
-}  // namespace
+}  // namespace coordinated_turn_test

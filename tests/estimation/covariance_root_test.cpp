@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace covariance_root_test {
 
 using Matrix = Eigen::MatrixXd;
 
@@ -70,4 +70,4 @@ TEST(CovarianceRoot, IsRefusedByName) {
                  detail::refuse_covariance("dwna", 2));
 }
 
-}  // namespace
+}  // namespace covariance_root_test

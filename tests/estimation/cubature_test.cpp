@@ -1,6 +1,6 @@
 #include "estimation/quadratic.hpp"
 
-namespace {
+namespace cubature_test {
 
 TEST(Cubature, OfAQuadraticHasTheExactMeanAndItsOwnVariance) {
   expect_quadratics([](const OwnMotion& model) { return Cubature{model}; },
@@ -31,4 +31,4 @@ TEST(Cubature, ItsPointsLieAlongTheColumnsOfTheRoot) {
   EXPECT_EQ(points, expected);
 }
 
-}  // namespace
+}  // namespace cubature_test

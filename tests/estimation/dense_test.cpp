@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace dense_test {
 
 using Matrix = Eigen::MatrixXd;
 
@@ -69,4 +69,4 @@ TEST(Dense, ScratchHasRoomForFewAndForMany) {
   }
 }
 
-}  // namespace
+}  // namespace dense_test

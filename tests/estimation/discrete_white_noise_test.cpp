@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace discrete_white_noise_test {
 
 TEST(DiscreteWhiteNoise, IsThatOfThePaperAtFiveHertz) {
   EXPECT_CLOSE(dwna<1>(3.0).transition(0.2), (SquareMatrix<2>{{1, 0.2}, {0, 1}}), 1e-15);
@@ -29,4 +29,4 @@ TEST(DiscreteWhiteNoise, AKnownAccelerationEntersAsTheNoiseDoes) {
   EXPECT_EQ(predict(model, start, 2.0).mean, (Vector<4>{27.0, 32.0, 16.0, 10.0}));
 }
 
-}  // namespace
+}  // namespace discrete_white_noise_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace doppler_sensor_test {
 
 static_assert(SensorOf<DopplerSensor<2>, IndependentAxes<2, DiscreteWhiteNoise<2>>>);
 static_assert(SensorOf<DopplerSensor<3>, IndependentAxes<3, DiscreteWhiteNoise<3>>>);
@@ -41,4 +41,4 @@ TEST(DopplerSensor, TellsThePositionAsARadarDoes) {
   EXPECT_EQ(DopplerSensor<2>{origin}.origin(), origin);
 }
 
-}  // namespace
+}  // namespace doppler_sensor_test

@@ -1,10 +1,10 @@
 #include "estimation/quadratic.hpp"
 
-namespace {
+namespace extended_test {
 
 TEST(Extended, OfAQuadraticKnowsNothingOfItsCurvature) {
   expect_quadratics([](const OwnMotion& model) { return Extended{model}; },
                     [](const Vector<3>& g, const SquareMatrix<3>&) { return g.squaredNorm(); }, 0.0);
 }
 
-}  // namespace
+}  // namespace extended_test

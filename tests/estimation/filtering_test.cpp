@@ -3,7 +3,7 @@
 
 #include "estimation/restated.hpp"
 
-namespace {
+namespace filtering_test {
 
 using restatement::State;
 
@@ -271,4 +271,4 @@ TEST(Filtering, AnEstimateIsAsItWasIfSomethingIsThrown) {
   }
 }
 
-}  // namespace
+}  // namespace filtering_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace fixed_step_motion_test {
 
 using Glider = FixedStepMotion<2>;
 
@@ -35,4 +35,4 @@ TEST(FixedStepMotion, NeedsAComponentForEachStateAndAPositiveStep) {
   EXPECT_INVALID(("glider", "positive"), Glider("glider", {"x", "vx"}, 0.0, F, Q));
 }
 
-}  // namespace
+}  // namespace fixed_step_motion_test

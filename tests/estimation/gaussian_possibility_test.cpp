@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace gaussian_possibility_test {
 
 using restatement::transposed;
 
@@ -146,4 +146,4 @@ PROPERTY(GaussianPossibility, LikelihoodsDifferByTheFactorOfTheDensity) {
                0.5 * std::log(std::pow(2.0 * std::numbers::pi, 2.0) * determinant), 1e-9);
 }
 
-}  // namespace
+}  // namespace gaussian_possibility_test

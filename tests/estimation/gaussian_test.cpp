@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace gaussian_test {
 
 TEST(Gaussian, IsAsLargeAsItsMean) {
   EXPECT_EQ((Gaussian<3>{Vector<3>::Zero(), SquareMatrix<3>::Identity()}.size()), 3);
@@ -10,4 +10,4 @@ TEST(Gaussian, IsAsLargeAsItsMean) {
       6);
 }
 
-}  // namespace
+}  // namespace gaussian_test

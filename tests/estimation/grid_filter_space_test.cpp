@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace grid_filter_space_test {
 
 // Functions are of one type for each dimension, so that a filter is compiled once.
 template <int N>
@@ -72,4 +72,4 @@ TYPED_TEST(GridFilterInSpace, HasTheBeliefsOfItsPlanes) {
   }
 }
 
-}  // namespace
+}  // namespace grid_filter_space_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace grid_filter_test {
 
 using Function = std::function<double(double)>;
 
@@ -226,4 +226,4 @@ TEST(GridFilter, RefusesWhatItCannotDo) {
   EXPECT_REFUSED(invalid_argument, ("negligible"), OnLine<Random>(0.0, 4.0, 1.0, flat, {0.0}));
 }
 
-}  // namespace
+}  // namespace grid_filter_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace grid_test {
 
 using Place = Grid<2>::Lattice;
 
@@ -71,4 +71,4 @@ TEST(Grid, RefusesWhatIsNoBox) {
   EXPECT_INVALID(("cells"), make(0.0, 1.0, 1e-10));
 }
 
-}  // namespace
+}  // namespace grid_test

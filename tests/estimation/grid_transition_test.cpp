@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace grid_transition_test {
 
 const SquareMatrix<2> Q{{2.0, -0.6}, {-0.6, 0.5}};
 const Grid<2> grid{{-4.0, -3.0}, {5.0, 3.0}, {0.5, 0.25}};
@@ -57,4 +57,4 @@ TEST(GridNoise, NeedsAPositiveDefiniteCovariance) {
                  GridNoise<2>(SquareMatrix<2>::Ones(), 1e-12));
 }
 
-}  // namespace
+}  // namespace grid_transition_test

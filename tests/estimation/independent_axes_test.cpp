@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace independent_axes_test {
 
 using restatement::kronecker;
 
@@ -42,4 +42,4 @@ TEST(IndependentAxes, OrdersItsStatesByDerivative) {
   EXPECT_EQ(model.input(), (Vector<3>::Zero()));
 }
 
-}  // namespace
+}  // namespace independent_axes_test

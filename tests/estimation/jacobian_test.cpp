@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace jacobian_test {
 
 PROPERTY(Jacobian, IsThatOfTheFormula) {
   const Vector<3> x = generated_matrix<3, 1>();
@@ -27,4 +27,4 @@ TEST(Jacobian, OfAConstantIsZero) {
   EXPECT_EQ(found, (RectangularMatrix<1, 3>::Zero()));
 }
 
-}  // namespace
+}  // namespace jacobian_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace kalman_test {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -138,4 +138,4 @@ TEST(Kalman, RefusesAnInnovationCovarianceThatIsNotPositiveDefiniteAndNamesTheMo
                  update(still, certain, impossible, first, x));
 }
 
-}  // namespace
+}  // namespace kalman_test

@@ -4,7 +4,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace kernels_test {
 
 using Matrix = Eigen::MatrixXd;
 using sigmax::detail::Outcome;
@@ -181,4 +181,4 @@ TEST(Kernels, LikelihoodsOfTheSmallestAndTheGreatestSpreads) {
   });
 }
 
-}  // namespace
+}  // namespace kernels_test

@@ -1,6 +1,6 @@
 #include "estimation/motion_laws.hpp"
 
-namespace {
+namespace known_turn_test {
 
 static_assert(LinearMotion<KnownTurn<2>> && axes_of<KnownTurn<2>> == 2);
 static_assert(LinearMotion<KnownTurn<3>> && axes_of<KnownTurn<3>> == 3);
@@ -36,4 +36,4 @@ TEST(KnownTurn, AQuarterTurnMovesAlongTheQuarterOfACircle) {
                1e-12);
 }
 
-}  // namespace
+}  // namespace known_turn_test

@@ -1,6 +1,6 @@
 #include "estimation/quadratic.hpp"
 
-namespace {
+namespace linearised_test {
 
 const CoordinatedTurn<2> turn{2.0, 1e-3};
 const PolarSensor<2> radar{Vector<2>{-3e3, 500.0}};
@@ -61,4 +61,4 @@ TEST(Linearised, NothingIsRegressedOnWhatDoesNotVary) {
                predict(Cubature{turn}, certain, 2.5).covariance, 1e-9);
 }
 
-}  // namespace
+}  // namespace linearised_test

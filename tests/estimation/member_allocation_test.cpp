@@ -3,7 +3,7 @@
 #include "support/allocations.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace member_allocation_test {
 
 template <class Filter, class Sensor>
 void expect_none(const Filter& filter, const EstimateOf<Filter>& start, const MeasurementOf<Sensor>& z,
@@ -66,4 +66,4 @@ TEST(MemberAllocation, OfTheKalmanFilterIsNone) {
               LinearSensor<2, 6>{RectangularMatrix<2, 6>::Ones()});
 }
 
-}  // namespace
+}  // namespace member_allocation_test

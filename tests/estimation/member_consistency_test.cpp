@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace member_consistency_test {
 
 constexpr int runs = 1000;
 constexpr int steps = 20;
@@ -80,4 +80,4 @@ TEST(MemberConsistency, OfATurnSeenByARadar) {
                     PolarSensor<2>::measurement({}, {10.0, 0.1 * degree, 0.0}).covariance);
 }
 
-}  // namespace
+}  // namespace member_consistency_test

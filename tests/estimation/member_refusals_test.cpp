@@ -2,7 +2,7 @@
 
 #include "estimation/restated.hpp"
 
-namespace {
+namespace member_refusals_test {
 
 using Prior = EstimateOf<AnyModel>;
 
@@ -78,4 +78,4 @@ TEST(MemberRefusals, OfAFunctionThatIsNotFiniteAndNamesTheState) {
   refuses(Cubature{poles}, 1.0, 2.0, "f(x)", "h(x)", "x = (0.0", "x = (1.0");  // its points are one from the mean
 }
 
-}  // namespace
+}  // namespace member_refusals_test

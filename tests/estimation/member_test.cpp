@@ -2,7 +2,7 @@
 
 #include "estimation/restated.hpp"
 
-namespace {
+namespace member_test {
 
 /// A member is of a motion: an AnyModel has its member already.
 template <class Model>
@@ -70,4 +70,4 @@ TEST(Member, ShowsItsMotion) {
   EXPECT_EQ(axes_of<Cubature<CoordinatedTurn<3>>>, 3);
 }
 
-}  // namespace
+}  // namespace member_test

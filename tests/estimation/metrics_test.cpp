@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace metrics_test {
 
 TEST(Metrics, TheRootMeanSquareIsThat) {
   RootMeanSquare rms;
@@ -25,4 +25,4 @@ TEST(Metrics, RefusesACovarianceThatIsNotPositiveDefinite) {
   EXPECT_REFUSED(std::domain_error, ("positive definite"), nees(estimate, Vector<2>(0.0, 0.0)));
 }
 
-}  // namespace
+}  // namespace metrics_test

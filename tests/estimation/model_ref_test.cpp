@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace model_ref_test {
 
 /// A turn by functions that nobody can differentiate.
 struct Opaque : CoordinatedTurn<2> {
@@ -38,4 +38,4 @@ TEST(ModelRef, PointsNeedNoJacobian) {
             predict(Cubature{CoordinatedTurn<2>{1.0, 0.1}}, x, 1.0).mean);
 }
 
-}  // namespace
+}  // namespace model_ref_test

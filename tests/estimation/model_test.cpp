@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace model_test {
 
 /// A motion of one's own needs these expressions and no base class.
 struct RandomWalk {
@@ -48,4 +48,4 @@ TEST(Model, SaysAlongHowManyAxesItKnowsItsPositionOrNothing) {
   EXPECT_EQ(axes_of<FixedStepMotion<4>>, 0);
 }
 
-}  // namespace
+}  // namespace model_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace motion_numbers_test {
 
 TEST(MotionNumbers, ComponentsAreOrderedByDerivative) {
   EXPECT_EQ(detail::motion_components(1, 1), (std::vector<std::string>{"x"}));
@@ -48,4 +48,4 @@ TEST(Motions, RefuseParametersThatAreNone) {
   EXPECT_INVALID(("q_omega", "coordinated_turn", "-2"), CoordinatedTurn<2>(1.0, -2.0));
 }
 
-}  // namespace
+}  // namespace motion_numbers_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace nonlinear_motion_test {
 
 /// A motion of one's own needs these expressions and no base class.
 struct Pendulum {
@@ -56,4 +56,4 @@ TEST(NonlinearMotion, AGivenJacobianIsTaken) {
   EXPECT_EQ(linearised_step(Extended{WithJacobian{}}, start, 0.5).F, 0.5 * SquareMatrix<2>::Identity());
 }
 
-}  // namespace
+}  // namespace nonlinear_motion_test

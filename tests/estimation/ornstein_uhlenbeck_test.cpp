@@ -1,6 +1,6 @@
 #include "estimation/motion_laws.hpp"
 
-namespace {
+namespace ornstein_uhlenbeck_test {
 
 /// A θ that makes u = θT anything between 10⁻⁹ and 100, for steps up to 10 s.
 double generated_rate() { return std::pow(10.0, number_between(-6.0, 1.0)); }
@@ -61,4 +61,4 @@ TEST(OrnsteinUhlenbeck, AStepOfNoTimeIsNone) {
   EXPECT_EQ(singer<3>(0.5, 2.0).process_covariance(0.0), SquareMatrix<9>::Zero());
 }
 
-}  // namespace
+}  // namespace ornstein_uhlenbeck_test

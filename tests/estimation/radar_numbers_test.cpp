@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace radar_numbers_test {
 
 TEST(RadarNumbers, AnAngleIsWrapped) {
   constexpr double pi = std::numbers::pi;
@@ -25,4 +25,4 @@ TEST(RadarNumbers, OnlyWhatIsAskedForIsWritten) {
   EXPECT_EQ(z[3], 1.4);
 }
 
-}  // namespace
+}  // namespace radar_numbers_test

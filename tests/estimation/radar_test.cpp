@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace radar_test {
 
 TEST(Radar, AzimuthTurnsFromXToYAndElevationRisesFromTheGround) {
   EXPECT_CLOSE(to_cartesian(Polar{100.0, 0.0, 0.0}), (Vector<3>{100, 0, 0}), 1e-12);
@@ -49,4 +49,4 @@ TEST(Radar, RefusesARangeThatIsNotPositiveAndANegativeDeviation) {
   }
 }
 
-}  // namespace
+}  // namespace radar_test

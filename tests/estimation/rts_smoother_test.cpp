@@ -1,7 +1,7 @@
 #include "support/nonlinear_restatement.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace rts_smoother_test {
 
 /// The whole trajectory at once: its Gaussian, and all measurements as one.
 PROPERTY(RtsSmoother, IsTheUpdateOfTheWholeTrajectoryByAllMeasurements) {
@@ -76,4 +76,4 @@ TEST(RtsSmoother, NamesTheModelWhoseCovarianceLostDefiniteness) {
                  smooth_step(dwna<1>(1.0), lost, 0.0, lost, result));
 }
 
-}  // namespace
+}  // namespace rts_smoother_test

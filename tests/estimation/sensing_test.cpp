@@ -1,6 +1,6 @@
 #include "estimation/restated.hpp"
 
-namespace {
+namespace sensing_test {
 
 using Dwna = IndependentAxes<3, DiscreteWhiteNoise<2>>;
 using Dwpa = IndependentAxes<3, DiscreteWhiteNoise<3>>;
@@ -158,4 +158,4 @@ TEST(Sensing, DifferencesAndMeansAreItsOwn) {
   EXPECT_CLOSE(residual(OneAlways{}), turn - 4.1, 1e-14);
 }
 
-}  // namespace
+}  // namespace sensing_test

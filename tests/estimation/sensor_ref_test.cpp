@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace sensor_ref_test {
 
 const Extended filter{dwna<2>(1.0)};
 
@@ -28,4 +28,4 @@ TEST(SensorRef, OfAnySensorIsThatOfTheSensorThatItIs) {
   EXPECT_EQ(ref.model, &model);
 }
 
-}  // namespace
+}  // namespace sensor_ref_test

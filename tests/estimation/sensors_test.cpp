@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace sensors_test {
 
 constexpr double pi = std::numbers::pi;
 const auto motion = dwna<3>(2.0);
@@ -145,4 +145,4 @@ TEST(Sensors, ADerivedOneIsAskedByItsOwnFunctions) {
   EXPECT_NEAR(update(Cubature{dwna<2>(1.0)}, prior, z, Biased{}, x).residual(0), 0.0, 0.1);
 }
 
-}  // namespace
+}  // namespace sensors_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace start_test {
 
 restatement::Position position(const Gaussian<2>& z) { return {entries(z.mean), dense(z.covariance)}; }
 
@@ -138,4 +138,4 @@ TEST(Start, BearingsWaitUntilTheyTellWhereTheTargetIs) {
   EXPECT_FALSE(crossed_bearings_start<2>(behind).has_value()) << "all at one time";
 }
 
-}  // namespace
+}  // namespace start_test

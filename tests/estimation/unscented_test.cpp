@@ -1,6 +1,6 @@
 #include "estimation/quadratic.hpp"
 
-namespace {
+namespace unscented_test {
 
 TEST(Unscented, OfAQuadraticHasTheExactMeanAndItsOwnVariance) {
   for (const auto& s : {UnscentedScaling{}, UnscentedScaling{0.4, 2.5, -0.8}, UnscentedScaling{1.8, 0.2, 2.5}}) {
@@ -61,4 +61,4 @@ TEST(Unscented, RefusesAScalingWithoutSpread) {
     EXPECT_INVALID(("unscented", "own", "alpha", "beta", "kappa", "3 states"), Unscented(OwnMotion{{}, 3}, s));
 }
 
-}  // namespace
+}  // namespace unscented_test

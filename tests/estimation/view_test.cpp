@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace view_test {
 
 TEST(View, IsOfTheNumbersWhereTheyLie) {
   Gaussian<Eigen::Dynamic, 5> x;
@@ -14,4 +14,4 @@ TEST(View, IsOfTheNumbersWhereTheyLie) {
   EXPECT_EQ(read.covariance[1], 5.0) << "by columns";
 }
 
-}  // namespace
+}  // namespace view_test

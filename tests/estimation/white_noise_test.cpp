@@ -1,6 +1,6 @@
 #include "estimation/motion_laws.hpp"
 
-namespace {
+namespace white_noise_test {
 
 PROPERTY(WhiteNoise, IsTheIntegral) {
   const double q = number_between(0.1, 5.0), dt = number_between(0.1, 3.0);
@@ -24,4 +24,4 @@ TEST(WhiteNoise, AKnownAccelerationMovesAsInTheDiscreteModel) {
   EXPECT_EQ(cwna<3>(1.0, a).known_input(2.0), dwna<3>(1.0, a).known_input(2.0));
 }
 
-}  // namespace
+}  // namespace white_noise_test

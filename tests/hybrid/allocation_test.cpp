@@ -3,7 +3,7 @@
 #include "hybrid/targets.hpp"
 #include "support/allocations.hpp"
 
-namespace {
+namespace allocation_test {
 
 TEST(Allocation, TheCounterCounts) {
   struct alignas(64) Aligned {
@@ -130,4 +130,4 @@ TEST(Allocation, ATransitionOverAnyTimeAllocatesNothing) {
   for (const double dt : {0.2, 0.0, 50.0}) ASSERT_EQ(allocations_of([&] { transition(dt, relation); }), 0U);
 }
 
-}  // namespace
+}  // namespace allocation_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace any_plot_test {
 
 TEST(AnyPlot, HoldsWhatWasMeasuredWithItsCovarianceOrItsVariancesAlone) {
   const AnyPlot two = AnyPlot::position(0.5, Numbers{1.0, 2.0}, Numbers{4.0, 1.0, 1.0, 9.0});
@@ -59,4 +59,4 @@ TEST(AnyPlot, RefusesWhatNoSensorMeasures) {
   EXPECT_INVALID(("5 numbers", "3 variances or 9"), AnyPlot::position(0.0, three, five));
 }
 
-}  // namespace
+}  // namespace any_plot_test

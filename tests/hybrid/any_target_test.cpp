@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace any_target_test {
 
 TargetChoice choice(bool fuzzy, Scheme scheme, int axes = 3) {
   TargetChoice result;
@@ -221,4 +221,4 @@ TEST(AnyTarget, AlongOneAxisThereIsNoTurnAndNoRadar) {
   EXPECT_INVALID(("ct", "one axis"), AnyTarget{turning});
 }
 
-}  // namespace
+}  // namespace any_target_test

@@ -3,7 +3,7 @@
 
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace bank_filter_test {
 
 using Dwna = IndependentAxes<2, DiscreteWhiteNoise<2>>;
 using Dwpa = IndependentAxes<2, DiscreteWhiteNoise<3>>;
@@ -111,4 +111,4 @@ TEST(BankFilter, OfAVectorMayNotHaveMoreComponentsThanItsTypeAllows) {
                                           Relation{mode, mode, {{1.0, 0.5}, {0.5, 1.0}}}, std::vector{start, start}));
 }
 
-}  // namespace
+}  // namespace bank_filter_test

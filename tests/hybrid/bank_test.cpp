@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace bank_test {
 
 using Dwna = IndependentAxes<2, DiscreteWhiteNoise<2>>;
 using Dwpa = IndependentAxes<2, DiscreteWhiteNoise<3>>;
@@ -31,4 +31,4 @@ TEST(Bank, IsOneVectorWhateverItWasFilledBy) {
   EXPECT_EQ(detail::bank_of(of_vector)[0].ref().motion, of_vector[0].ref().motion) << "a handle";
 }
 
-}  // namespace
+}  // namespace bank_test

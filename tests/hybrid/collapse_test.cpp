@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace collapse_test {
 
 static_assert(std::is_same_v<Collapse<Random>, MomentMatching>);
 static_assert(std::is_same_v<Collapse<Fuzzy>, Selection>);
@@ -36,4 +36,4 @@ TEST(Select, WeightsWithinTheToleranceOfTheGreatestAreEqual) {
   EXPECT_EQ(selected({-1.6e-9, -0.8e-9, 0.0}, 0, Tie::stay), 1U);
 }
 
-}  // namespace
+}  // namespace collapse_test

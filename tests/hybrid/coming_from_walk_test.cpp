@@ -3,7 +3,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace coming_from_walk_test {
 
 TEST(ComingFrom, FilterPy) {
   const RandomVariable mode{"mode", {"quiet", "lively"}};
@@ -58,4 +58,4 @@ TEST(ComingFrom, Matlab) {
   EXPECT_CLOSE(imm.belief()[1], 0.49937164364545467, 1e-9);
 }
 
-}  // namespace
+}  // namespace coming_from_walk_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace components_test {
 
 using Names = std::vector<std::string>;
 
@@ -52,4 +52,4 @@ TEST(Components, OfAPriorHaveItsVariancesByTheirNames) {
   EXPECT_EQ(entries[1].covariance, (SquareMatrix<3>(Vector<3>(9.0, 9.0, 0.1 * 0.1).asDiagonal())));
 }
 
-}  // namespace
+}  // namespace components_test

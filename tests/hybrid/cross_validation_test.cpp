@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace cross_validation_test {
 
 constexpr double unknown = not_a_number;
 
@@ -99,4 +99,4 @@ TEST(LossSurface, KnowsTheBestNumbersOfAGaussianAndTheirErrors) {
   }
 }
 
-}  // namespace
+}  // namespace cross_validation_test

@@ -1,6 +1,6 @@
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace envelope_test {
 
 struct Moments {
   double beta;
@@ -185,4 +185,4 @@ TEST(Envelope, OfTheModesIsTheOutputOfAFilterAndGivesItsBeta) {
   EXPECT_GT(expected.beta, 1.0);
 }
 
-}  // namespace
+}  // namespace envelope_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace estimates_test {
 
 const Gaussian<2> narrow{Vector<2>(1.0, 2.0), SquareMatrix<2>{{3.0, 0.5}, {0.5, 4.0}}};
 const Gaussian<3> wide{Vector<3>(5.0, 6.0, 7.0), SquareMatrix<3>{{8.0, 1.0, 2.0}, {1.0, 9.0, 3.0}, {2.0, 3.0, 10.0}}};
@@ -42,4 +42,4 @@ TEST(Estimates, BecomeTypedOnesOfTheirSizeOnly) {
   EXPECT_INVALID(("3 components", "2"), return Gaussian<Eigen::Dynamic, 2>(estimates[0]));
 }
 
-}  // namespace
+}  // namespace estimates_test

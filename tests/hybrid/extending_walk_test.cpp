@@ -3,7 +3,7 @@
 #include "known_motions.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace extending_walk_test {
 
 struct Drift {
   static constexpr int order = 1;
@@ -109,4 +109,4 @@ TEST(ExtendingWalk, ABankChosenAtRunTime) {
   EXPECT_NEAR(place({"dwna", "cwna"}, {{"mast", std::hypot(30.0, 30.0)}}), 30.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace extending_walk_test

@@ -1,6 +1,6 @@
 #include "hybrid/instruction_sets.hpp"
 
-namespace {
+namespace filter_bank_test {
 
 template <Uncertainty Kind>
 Relation<Kind, Kind> transition() {
@@ -204,4 +204,4 @@ TEST(FilterBank, WrongTracksAndScansAreNamed) {
   EXPECT_REFUSED(std::domain_error, ("track 5"), bank.run(1.0, std::span(&scan, 1), 2));
 }
 
-}  // namespace
+}  // namespace filter_bank_test

@@ -1,6 +1,6 @@
 #include "hybrid/two_speeds.hpp"
 
-namespace {
+namespace fit_target_test {
 
 TEST(LogScores, AreThoseOfTheTargetStepByStep) {
   const TargetChoice choice = two_speeds(true);
@@ -104,4 +104,4 @@ TEST(TransitionCounts, OfAFuzzyModeCountTheBestPath) {
   EXPECT_INVALID(("0 weights", "4"), counts.add({.log_weights = {}}));
 }
 
-}  // namespace
+}  // namespace fit_target_test

@@ -1,7 +1,7 @@
 #include "hybrid/banks.hpp"
 #include "hybrid/two_speeds.hpp"
 
-namespace {
+namespace fit_test {
 
 TEST(Fit, FindsTheLeastLossInEveryScale) {
   const std::vector<FitParameter> parameters = {{.name = "any", .start = -2.0, .scale = Scale::linear},
@@ -102,4 +102,4 @@ TEST(LogEvidence, OfAFuzzyModeNeverBlamesAPossibleChange) {
   }
 }
 
-}  // namespace
+}  // namespace fit_test

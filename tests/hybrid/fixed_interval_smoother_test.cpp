@@ -1,6 +1,6 @@
 #include "hybrid/flights.hpp"
 
-namespace {
+namespace fixed_interval_smoother_test {
 
 /// One model alone, filtered and smoothed.
 std::vector<State> smoothed_alone(const MotionChoice& motion, const State& start, const std::vector<Scan>& scans) {
@@ -128,4 +128,4 @@ TEST(FixedIntervalSmoother, NamesTheModelWhoseEstimateLostDefiniteness) {
   EXPECT_TRUE(smooth(filter, {}).empty());
 }
 
-}  // namespace
+}  // namespace fixed_interval_smoother_test

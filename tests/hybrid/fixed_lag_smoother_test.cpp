@@ -1,6 +1,6 @@
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace fixed_lag_smoother_test {
 
 /// Every state that a lag gives is that of smoothing the interval from the start to `lag` steps later.
 template <class Filter>
@@ -42,4 +42,4 @@ TEST(FixedLagSmoother, OfNothingIsNothing) {
   with_every_filter([](const auto& filter) { EXPECT_TRUE(FixedLagSmoother(filter, 3).rest().empty()); });
 }
 
-}  // namespace
+}  // namespace fixed_lag_smoother_test

@@ -5,7 +5,7 @@
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"
 
-namespace {
+namespace fixed_step_models_test {
 
 template <int N>
 using Fixed = FixedStepMotion<N>;
@@ -176,4 +176,4 @@ TEST(FixedStepModels, AStepForWhichAModelIsNotGivenIsRefused) {
   EXPECT_INVALID(("accelerating", "1.0", "0.5"), filter.step(0.5));
 }
 
-}  // namespace
+}  // namespace fixed_step_models_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace future_evidence_test {
 
 using Matrix = Eigen::MatrixXd;
 using Column = Eigen::VectorXd;
@@ -137,4 +137,4 @@ TEST(FutureEvidence, SaysNothingAlongADirectionInWhichTheMixtureIsWider) {
   EXPECT_EQ(Y_of(one), Matrix::Zero(2, 2)) << "nothing was told";
 }
 
-}  // namespace
+}  // namespace future_evidence_test

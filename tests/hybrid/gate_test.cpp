@@ -2,7 +2,7 @@
 
 #include "hybrid/targets.hpp"
 
-namespace {
+namespace gate_test {
 
 /// A target that flies straight for 40 s, turns by so many m/s² for 15 s and flies straight again, seen every second
 /// without an error.
@@ -92,4 +92,4 @@ TEST(Gate, RejectsWhatIsBeyondAllNumbers) {
   });
 }
 
-}  // namespace
+}  // namespace gate_test

@@ -1,7 +1,7 @@
 #include "hybrid/banks.hpp"
 #include "support/history_restatement.hpp"
 
-namespace {
+namespace history_filter_test {
 
 /// No two ways have one weight, so that nothing ties where histories are dropped.
 TargetChoice untied(bool fuzzy) {
@@ -186,4 +186,4 @@ TEST(HistoryFilter, RefusesRulesThatMakeNoSense) {
   EXPECT_INVALID(("6 histories", "5"), filter.restore(other.state()));
 }
 
-}  // namespace
+}  // namespace history_filter_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace history_set_test {
 
 Estimates one_and_two() {
   Estimates starts;
@@ -35,4 +35,4 @@ TEST(HistorySet, KnowsTheFirstOfItsBestAndWhereEachCameFrom) {
   EXPECT_EQ(set.all()[0].parent, 1U);
 }
 
-}  // namespace
+}  // namespace history_set_test

@@ -1,6 +1,6 @@
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace hybrid_estimate_test {
 
 TEST(RecordedStep, HasWhatTheMeasurementToldOfEachModeIfThereWasOneAndItWasTaken) {
   with_every_filter([](auto& filter) {
@@ -21,4 +21,4 @@ TEST(RecordedStep, HasWhatTheMeasurementToldOfEachModeIfThereWasOneAndItWasTaken
   });
 }
 
-}  // namespace
+}  // namespace hybrid_estimate_test

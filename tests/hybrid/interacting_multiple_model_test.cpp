@@ -1,6 +1,6 @@
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace interacting_multiple_model_test {
 
 /// The paper's own pair: equal σ_w and ε = ½, where a reset DWPA predicts what DWNA predicts, and so ties with it.
 TEST(InteractingMultipleModel, TheExactTiesOfThePapersPairAreBrokenAsTheRestatementBreaksThem) {
@@ -93,4 +93,4 @@ TEST(InteractingMultipleModel, OneStartServesAllModels) {
   EXPECT_FALSE(filter.measured);
 }
 
-}  // namespace
+}  // namespace interacting_multiple_model_test

@@ -3,7 +3,7 @@
 #include "hybrid/banks.hpp"
 #include "support/nonlinear_restatement.hpp"
 
-namespace {
+namespace interacting_sensors_test {
 
 const Vector<2> radar_at(14000.0, 6000.0), camera_at(30000.0, 7000.0);
 constexpr double no_bearing = 1e9;
@@ -111,4 +111,4 @@ TEST(InteractingSensors, AComponentThatAModelLacksIsRefusedAndTheFilterIsAsItWas
   EXPECT_PRED_FORMAT3(same_state, filter, before, 0.0);
 }
 
-}  // namespace
+}  // namespace interacting_sensors_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace interaction_test {
 
 /// The readings that docs/readings.md argues for.
 TEST(Interaction, ByDefaultIsThatOfTheReadings) {
@@ -33,4 +33,4 @@ TEST(Interaction, ACommonStartIsCollapsedBeforeTheFirstStepToo) {
   EXPECT_NEAR(variance_after_no_time(Lift::zero, MixedStart::of_each_mode), 90.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace interaction_test

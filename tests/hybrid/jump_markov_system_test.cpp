@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace jump_markov_system_test {
 
 const FuzzyVariable mode_now{"mode", {"straight", "turn"}};
 const Relation persistent{mode_now, mode_now, {{1.0, 0.5}, {0.5, 1.0}}};
@@ -75,4 +75,4 @@ TEST(Identity, IsTheTransitionOfAModeThatNeverChanges) {
   EXPECT_EQ(never(0, 1), 0.0);
 }
 
-}  // namespace
+}  // namespace jump_markov_system_test

@@ -4,7 +4,7 @@
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
 
-namespace {
+namespace kinematic_step_test {
 
 using restatement::Matrix;
 
@@ -161,4 +161,4 @@ TEST(KinematicStep, AddsAKnownInput) {
   });
 }
 
-}  // namespace
+}  // namespace kinematic_step_test

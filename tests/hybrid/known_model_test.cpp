@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace known_model_test {
 
 MotionChoice choice(const char* name) { return {name, {3.0, 8.0, 5.0, 0.25}}; }
 
@@ -72,4 +72,4 @@ TEST(KnownModel, OfAnotherNameOfBadParametersOrATurnAlongOneAxisIsRefused) {
     }
 }
 
-}  // namespace
+}  // namespace known_model_test

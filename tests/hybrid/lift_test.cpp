@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace lift_test {
 
 using detail::Correspondence, detail::Mixture;
 using Names = std::vector<std::string>;
@@ -102,4 +102,4 @@ TEST(Lift, CovariancesAreAddedByTheirWeight) {
   EXPECT_EQ(sum, (SquareMatrix<4>{{15, 2, 1, 1}, {2, 17, 1, 1}, {1, 1, 61, 13}, {1, 1, 13, 81}}));
 }
 
-}  // namespace
+}  // namespace lift_test

@@ -1,7 +1,7 @@
 #include "support/sigmax.hpp"
 
 /// The code of docs/max_inference.md.
-namespace {
+namespace max_inference_walk_test {
 
 TEST(MaxInference, GaussianPossibilityFunctions) {
   const auto model = dwna<1>(0.5);
@@ -59,4 +59,4 @@ TEST(MaxInference, ModesOverAnyTimeStep) {
   EXPECT_CLOSE(fuzzy_transition(0.2)(0, 1), p / (1.0 - p), 1e-15);
 }
 
-}  // namespace
+}  // namespace max_inference_walk_test

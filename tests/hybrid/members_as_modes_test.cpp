@@ -2,7 +2,7 @@
 
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace members_as_modes_test {
 
 Gaussian<2> measurement(int k) {
   const double t = 0.5 * (k + 1);
@@ -73,4 +73,4 @@ TEST(MembersAsModes, ATurnIsRecognisedAndItsRateIsFound) {
   EXPECT_NEAR(filter.estimate().mean(1), state(1), 2.0);
 }
 
-}  // namespace
+}  // namespace members_as_modes_test

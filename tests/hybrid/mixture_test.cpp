@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace mixture_test {
 
 using detail::Mixture;
 
@@ -116,4 +116,4 @@ TEST(Mixture, OfDifferentModelsIsReadInTheComponentsOfTheReceiver) {
   EXPECT_CLOSE(result.mean, (Vector<3>(2.5, 3.5, 3.75)), 1e-15);
 }
 
-}  // namespace
+}  // namespace mixture_test

@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace mode_transition_test {
 
 Rates generated_rates(std::size_t n) {
   Rates rates(n, std::vector<double>(n, 0.0));
@@ -160,4 +160,4 @@ TEST(Closure, NeedsThatStayingIsPossibleAndOfTwoModesIsThenTheTransitionItself) 
   EXPECT_INVALID(("mode", "steady", "0.5"), closure(restless));
 }
 
-}  // namespace
+}  // namespace mode_transition_test

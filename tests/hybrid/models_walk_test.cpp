@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace models_walk_test {
 
 TEST(ModelsWalk, AStep) {
   const Unscented filter{CoordinatedTurn<3>{1.0, 1e-4}};
@@ -81,4 +81,4 @@ TEST(ModelsWalk, Conversion) {
   EXPECT_GT(z.mean.norm(), 145e3);
 }
 
-}  // namespace
+}  // namespace models_walk_test

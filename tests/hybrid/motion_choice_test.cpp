@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace motion_choice_test {
 
 TEST(MotionChoice, EveryMotionHasANameOfItsOwn) {
   std::set<std::string_view> names;
@@ -51,4 +51,4 @@ TEST(MotionChoice, IsWhatItsNameSays) {
   EXPECT_EQ(turn.parameters[2], -5.0);
 }
 
-}  // namespace
+}  // namespace motion_choice_test

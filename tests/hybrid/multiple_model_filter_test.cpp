@@ -3,7 +3,7 @@
 #include "hybrid/banks.hpp"
 #include "hybrid/instruction_sets.hpp"
 
-namespace {
+namespace multiple_model_filter_test {
 
 /// H = [I 0] by another sensor than that of the position: such a step has no short form.
 const LinearSensor<2, 2> both{SquareMatrix<2>::Identity()};
@@ -447,4 +447,4 @@ TEST(MultipleModelFilter, ThereIsNoNisWithoutAMeasurement) {
   });
 }
 
-}  // namespace
+}  // namespace multiple_model_filter_test

@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace multiple_models_walk_test {
 
 template <Uncertainty Kind>
 auto both(const Relation<Kind, Kind>& transition, const Gaussian<9>& start) {
@@ -66,4 +66,4 @@ TEST(MultipleModelsWalk, StepsManyTracksAtOnce) {
   EXPECT_NEAR(single.estimate(0).mean(0), position.mean(0), 1e-5);
 }
 
-}  // namespace
+}  // namespace multiple_models_walk_test

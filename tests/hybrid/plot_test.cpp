@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace plot_test {
 
 const Gaussian<2> z{Vector<2>(1000.0, 0.5), SquareMatrix<2>{{25.0, 0.0}, {0.0, 1e-4}}};
 
@@ -40,4 +40,4 @@ TEST(Plot, TellsAPositionAlongAsManyAxesAsItWasMeasured) {
   EXPECT_FALSE(Plot(0.0).position<Eigen::Dynamic>());
 }
 
-}  // namespace
+}  // namespace plot_test

@@ -1,6 +1,6 @@
 #include "hybrid/banks.hpp"
 
-namespace {
+namespace second_order_multiple_model_test {
 
 /// What HIMM does before the measurement, the Viterbi filter does after it.
 TEST(SecondOrderMultipleModel, WithoutMeasurementsTheViterbiFilterIsHimmWithTheSelectedCovariance) {
@@ -26,4 +26,4 @@ TEST(SecondOrderMultipleModel, RefusesAnUnsoundEstimateOfAnyMode) {
   }
 }
 
-}  // namespace
+}  // namespace second_order_multiple_model_test

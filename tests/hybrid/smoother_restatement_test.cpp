@@ -7,7 +7,7 @@
 #include "hybrid/named_sensor.hpp"
 #include "support/history_restatement.hpp"
 
-namespace {
+namespace smoother_restatement_test {
 
 using HundredDigits = boost::multiprecision::cpp_bin_float_100;
 
@@ -266,4 +266,4 @@ TEST(SmoothingGaps, OfMoreQuantitiesThanComponentsAreThoseOfTheirMeans) {
   }
 }
 
-}  // namespace
+}  // namespace smoother_restatement_test

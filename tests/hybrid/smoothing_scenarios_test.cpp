@@ -2,7 +2,7 @@
 
 #include "hybrid/flights.hpp"
 
-namespace {
+namespace smoothing_scenarios_test {
 
 /// A scenario of section VI.A, group 1: samples are counted from one, the target accelerates from `first` to `last`.
 struct Scenario {
@@ -78,4 +78,4 @@ TEST(SmoothingScenarios, IsBetterThanFilteringInEveryPhaseWhateverTheFilter) {
   });
 }
 
-}  // namespace
+}  // namespace smoothing_scenarios_test

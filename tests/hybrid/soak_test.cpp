@@ -2,7 +2,7 @@
 #include "support/soak.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace soak_test {
 
 TEST(Soak, ACovarianceIsJudgedWhateverItsUnits) {
   const Eigen::Matrix3d singular{{1.0, 1.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
@@ -32,4 +32,4 @@ void soaks() {
 TEST(Soak, AnImmStaysSound) { soaks<Random>(); }
 TEST(Soak, AHimmStaysSound) { soaks<Fuzzy>(); }
 
-}  // namespace
+}  // namespace soak_test

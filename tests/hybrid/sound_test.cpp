@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace sound_test {
 
 const AnyModel model = dwna<1>(1.0);
 
@@ -35,4 +35,4 @@ TEST(Sound, TheNumbersOfAnEntryPriorArePositive) {
   EXPECT_INVALID(("turn rate", "inf"), check::prior({.turn_rate = infinity}));
 }
 
-}  // namespace
+}  // namespace sound_test

@@ -2,7 +2,7 @@
 
 #include "hybrid/targets.hpp"
 
-namespace {
+namespace target_life_test {
 
 template <class Filter>
 Target<Filter> recording(const Filter& filter, std::size_t buffer = 0) {
@@ -165,4 +165,4 @@ TEST(TargetLife, OfWhatWaitsOrIsBufferedStaysWhereItIs) {
   EXPECT_FALSE(buffered.transform(turned, moved));
 }
 
-}  // namespace
+}  // namespace target_life_test

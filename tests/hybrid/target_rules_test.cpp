@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace target_rules_test {
 
 TEST(TargetRules, ByDefaultATargetHasAGateAndIsFoundAgain) {
   const TargetRules rules;
@@ -12,4 +12,4 @@ TEST(TargetRules, ByDefaultATargetHasAGateAndIsFoundAgain) {
   EXPECT_FALSE(rules.record);
 }
 
-}  // namespace
+}  // namespace target_rules_test

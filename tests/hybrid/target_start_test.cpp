@@ -2,7 +2,7 @@
 
 #include "hybrid/targets.hpp"
 
-namespace {
+namespace target_start_test {
 
 using Plots = std::span<const Plot>;
 using Starts = std::vector<State>;
@@ -190,4 +190,4 @@ TEST(TargetStart, AGateIsAsWideAsItsSensorAsks) {
   EXPECT_GT(between, 0U) << "the two gates should differ";
 }
 
-}  // namespace
+}  // namespace target_start_test

@@ -1,6 +1,6 @@
 #include "hybrid/targets.hpp"
 
-namespace {
+namespace target_test {
 
 auto target_with(const TargetRules& rules) { return Target{imm(), 0.0, one_point_start, rules}; }
 
@@ -164,4 +164,4 @@ TEST(Target, OfATupleStartsFromAPositionAlongItsAxes) {
   EXPECT_EQ(target.filter().estimate<0>().mean, (Vector<4>(5.0, 6.0, 0.0, 0.0)));
 }
 
-}  // namespace
+}  // namespace target_test

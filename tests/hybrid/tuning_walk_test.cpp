@@ -2,7 +2,7 @@
 
 #include "hybrid/two_speeds.hpp"
 
-namespace {
+namespace tuning_walk_test {
 
 /// 20 targets of known settings, each fitted alone: search, EM, search. The estimates lie about the truth.
 TEST(Fit, FindsTheSettingsThatMadeTheData) {
@@ -54,4 +54,4 @@ TEST(Fit, FindsTheSettingsThatMadeTheData) {
   }
 }
 
-}  // namespace
+}  // namespace tuning_walk_test

@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace algebra_test {
 
 /// The laws that the concepts of algebra.hpp promise; a new algebra is added to the list.
 TYPED_SUITE(AlgebraLaws, Sigma, Max, MaxMin);
@@ -95,4 +95,4 @@ TYPED_PROPERTY(AlgebraLaws, CompositionIsMonotone) {
   for (std::size_t i = 0; i < less.size(); ++i) RC_ASSERT(less.data()[i] <= greater.data()[i]);
 }
 
-}  // namespace
+}  // namespace algebra_test

@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace discrete_test {
 
 /// The laws of the discrete calculus within one kind: probability and possibility alike.
 TYPED_SUITE(DiscreteLaws, Random, Fuzzy);
@@ -306,4 +306,4 @@ PROPERTY(FuzzyLaws, PowersOfAUnitDiagonalTransitionGrowAndSettle) {
   require_near(rows_of(compose(power, transition).table()), rows_of(power.table()));  // Π^M = Π^(M−1)
 }
 
-}  // namespace
+}  // namespace discrete_test

@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace hybrid_distribution_test {
 
 /// The laws of joint distributions, (4), (5), (9)–(16), (19), (20), for every pair of kinds.
 template <class OuterAndInner>
@@ -205,4 +205,4 @@ PROPERTY(HybridLaws, TheConditionalsDoNotDependOnBeta) {  // (19), (20): the sam
     }
 }
 
-}  // namespace
+}  // namespace hybrid_distribution_test

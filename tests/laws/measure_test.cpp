@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace measure_test {
 
 /// The laws of measures of events, Definition 2.4: of a probability and a possibility alike.
 TYPED_SUITE(MeasureLaws, Random, Fuzzy);
@@ -134,4 +134,4 @@ PROPERTY(CompatibilityLaws, IsTheShareOfTheObjectsMeasure) {  // (1)
   RC_ASSERT(compatibility(object, Numbers(n, 0.0), weights) == 0.0);
 }
 
-}  // namespace
+}  // namespace measure_test

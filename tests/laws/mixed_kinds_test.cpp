@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace mixed_kinds_test {
 
 /// The laws of compositions and updates over one random and one fuzzy variable, (12)–(20). `Kind` is that of the
 /// result, `Other` that of what is eliminated: Random for (15)–(17), (19), Fuzzy for (18), (20).
@@ -153,4 +153,4 @@ TEST(MixedKinds, MixedKindsDoNotAssociate) {
   EXPECT_EQ(compose(a, compose(b, c))(0, 0), 0.25);
 }
 
-}  // namespace
+}  // namespace mixed_kinds_test

@@ -3,7 +3,7 @@
 
 /// Generated networks against full enumeration of the joint, the variables eliminated in the reverse order of
 /// declaration.
-namespace {
+namespace network_test {
 
 enum class Kinds { random, fuzzy, mixed };
 
@@ -248,4 +248,4 @@ PROPERTY(NetworkLaws, ACompositionOfRandomVariablesIsTheConditional) { compositi
 PROPERTY(NetworkLaws, ACompositionOfFuzzyVariablesIsTheConditional) { composition_is_the_conditional(Kinds::fuzzy); }
 PROPERTY(NetworkLaws, ACompositionOfMixedVariablesIsTheConditional) { composition_is_the_conditional(Kinds::mixed); }
 
-}  // namespace
+}  // namespace network_test

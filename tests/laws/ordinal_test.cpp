@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace ordinal_test {
 
 /// The laws of the discrete calculus that do not need scaling. No ordinal operation rounds, so all of them are exact.
 /// Restated with plain loops: (6) with the minimum in place of the product.
@@ -163,4 +163,4 @@ PROPERTY(OrdinalLaws, RelabellingByAnIncreasingFunctionRelabelsAnswers) {  // on
   for (std::size_t k = 0; k < x.size(); ++k) RC_ASSERT(graded_marginal[k] == grade(marginal[k]));
 }
 
-}  // namespace
+}  // namespace ordinal_test

@@ -1,6 +1,6 @@
 #include "laws/generate.hpp"
 
-namespace {
+namespace transform_test {
 
 /// An exponent from ¼ to 4, one among them.
 double any_exponent() { return std::exp2(0.5 * static_cast<double>(*rc::gen::inRange(-4, 5))); }
@@ -180,4 +180,4 @@ TYPED_PROPERTY(TransformLaws, ARelationIsTransformedRowByRow) {
   }
 }
 
-}  // namespace
+}  // namespace transform_test

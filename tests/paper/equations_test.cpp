@@ -2,7 +2,7 @@
 
 #include "apps/temporary_directory.hpp"
 
-namespace {
+namespace equations_test {
 
 namespace fs = std::filesystem;
 const fs::path source = SIGMAX_SOURCE;
@@ -48,4 +48,4 @@ TEST(Equations, EveryPageOfTheIndexIsThere) {
   EXPECT_GT(pages, 15U);
 }
 
-}  // namespace
+}  // namespace equations_test

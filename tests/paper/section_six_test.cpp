@@ -5,7 +5,7 @@
 #include "apps/temporary_directory.hpp"
 #include "support/program.hpp"
 
-namespace {
+namespace section_six_test {
 
 using Json = nlohmann::json;
 
@@ -79,4 +79,4 @@ TEST(SectionSix, AsPrintedHimmIsWorseThanTheCorrectImmBeforeAndAfterTheManoeuvre
     }
 }
 
-}  // namespace
+}  // namespace section_six_test

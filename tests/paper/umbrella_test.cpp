@@ -2,7 +2,7 @@
 
 #include "support/test.hpp"
 
-namespace {
+namespace umbrella_test {
 
 namespace fs = std::filesystem;
 
@@ -29,4 +29,4 @@ TEST(Umbrella, LeadsToEveryPublicHeader) {
   for (const auto& [name, path] : headers) EXPECT_TRUE(reached.count(name)) << name;
 }
 
-}  // namespace
+}  // namespace umbrella_test

@@ -4,7 +4,7 @@
 #include "support/sigmax.hpp"
 
 /// Sigma inference over learned relations, with Laplace smoothing, is categorical naive Bayes as scikit-learn has it.
-namespace {
+namespace categorical_nb_test {
 
 /// A column as numbers, in the order in which its values appear first.
 struct Column {
@@ -95,4 +95,4 @@ INSTANTIATE_TEST_SUITE_P(Data, CategoricalNB,
                                          DataSet{"letter", "letter"}),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace categorical_nb_test

@@ -2,7 +2,7 @@
 #include "support/sigmax.hpp"
 
 /// Several features a report, any of them missing; batches, forgetting, and relations that change with every step.
-namespace {
+namespace classifier_features_test {
 
 using plain::By;
 
@@ -376,4 +376,4 @@ TEST(Classifier, RefusesWhatDoesNotFit) {
   EXPECT_CLOSE(classifier.belief().values(), (Numbers{0.5, 0.5}), 0.0);
 }
 
-}  // namespace
+}  // namespace classifier_features_test

@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace classifier_test {
 
 /// Sigma inference (41)–(43) for Random and max inference (44)–(46) for Fuzzy: one classifier.
 TYPED_SUITE(ClassifierOf, Random, Fuzzy);
@@ -79,4 +79,4 @@ static_assert(Classifies<Distribution<Fuzzy>, Relation<Fuzzy, Fuzzy>>);
 static_assert(!Classifies<Distribution<Fuzzy>, Relation<Fuzzy, Random>>);
 static_assert(!Classifies<Distribution<Random>, Induced<Relation<Random, Random>>>);
 
-}  // namespace
+}  // namespace classifier_test

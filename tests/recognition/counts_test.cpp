@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace counts_test {
 
 using Row = std::vector<std::size_t>;
 
@@ -117,4 +117,4 @@ TEST(LearnedRelation, RefusesAPatternThatWasNeverSeen) {
   EXPECT_CLOSE(learned_relation(counts, 0, 1.0).row(1), (Numbers{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}), 1e-15);
 }
 
-}  // namespace
+}  // namespace counts_test

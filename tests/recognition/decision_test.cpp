@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace decision_test {
 
 const RandomVariable animal{"animal", {"cat", "hen", "cow"}};
 const FuzzyVariable target{"target", {"T1", "T2", "T3"}};
@@ -76,4 +76,4 @@ TEST(BestPatterns, GiveTiesToTheFirst) {
   EXPECT_EQ(best_patterns(belief, 1).front(), decide(belief).pattern);
 }
 
-}  // namespace
+}  // namespace decision_test

@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace discretization_test {
 
 TEST(Discretization, ARangeForOverATemporarysCutsSeesThem) {
   Numbers seen;
@@ -143,4 +143,4 @@ TEST(Fitting, RefusesWhatCannotBeCut) {
   }
 }
 
-}  // namespace
+}  // namespace discretization_test

@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace dominance_test {
 TEST(DominatedPatterns, AreNoneOfTheSameTablesAsProbabilities) {
   const RandomVariable type{"type", 3}, manoeuvre{"manoeuvre", 3};
   const Relation type_given_manoeuvre{
@@ -102,4 +102,4 @@ PROPERTY(DominatedPatterns, AreAllThatDominatesByBruteForce) {
   RC_ASSERT(found == expected);
 }
 
-}  // namespace
+}  // namespace dominance_test

@@ -1,6 +1,6 @@
 #include "support/sigmax.hpp"
 
-namespace {
+namespace equal_frequency_fit_test {
 
 using Values = std::vector<double>;
 
@@ -113,4 +113,4 @@ TEST(EqualFrequencyFit, RefusesWhatCannotBeFitted) {
   EXPECT_REFUSED(std::logic_error, ("other values"), fit.wants_another_pass());
 }
 
-}  // namespace
+}  // namespace equal_frequency_fit_test

@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace evaluation_test {
 
 TEST(ConfusionMatrix, ScoresByHand) {
   ConfusionMatrix confusion{4};  // pattern 3 never occurs
@@ -111,4 +111,4 @@ TEST(RunningMean, OfPairedScoresHoldsTheTruthInNinetyFiveOfAHundred) {
   EXPECT_NEAR(held, 1900.0, 5.0 * std::sqrt(2000.0 * 0.95 * 0.05));
 }
 
-}  // namespace
+}  // namespace evaluation_test

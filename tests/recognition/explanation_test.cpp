@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace explanation_test {
 
 using Readings = std::vector<std::size_t>;
 
@@ -140,4 +140,4 @@ TEST(Explain, RefusesWhatTheClassifierRefuses) {
   EXPECT_INVALID(("'platform'", "2"), explain(classifier, Readings{0}, 0, 2));
 }
 
-}  // namespace
+}  // namespace explanation_test

@@ -3,7 +3,7 @@
 
 /// Every kind of sensor over every kind of feature and pattern, by plain loops, and the small worlds with known
 /// answers.
-namespace {
+namespace feature_model_test {
 
 template <class PatternKind, class FeatureKind, class ReadingKind>
 struct Kinds {
@@ -135,4 +135,4 @@ PROPERTY(SigmaMaxClassifier, CoincidesWithMaxOnTheRatioScaledSensorWheneverItsMa
   }
 }
 
-}  // namespace
+}  // namespace feature_model_test

@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace folds_test {
 
 using Labels = std::vector<std::size_t>;
 
@@ -130,4 +130,4 @@ TEST(StratifiedFolds, RefuseAnImpossibleNumber) {
     EXPECT_INVALID(("folds", "3", std::to_string(folds)), stratified_folds(labels, folds, generator));
 }
 
-}  // namespace
+}  // namespace folds_test

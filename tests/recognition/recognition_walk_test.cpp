@@ -1,7 +1,7 @@
 #include "support/sigmax.hpp"
 
 /// Every line of code in docs/recognition.md and docs/learning.md, in its order, and the values that it claims.
-namespace {
+namespace recognition_walk_test {
 
 const RandomVariable type{"type", {"airliner", "bomber", "fighter"}};
 const RandomVariable manoeuvre{"manoeuvre", {"weak", "medium", "strong"}};
@@ -204,4 +204,4 @@ TEST(RecognitionWalk, Evaluation) {
   EXPECT_EQ(difference.upper(), 0.0);
 }
 
-}  // namespace
+}  // namespace recognition_walk_test

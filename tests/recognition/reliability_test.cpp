@@ -2,7 +2,7 @@
 
 #include "support/sigmax.hpp"
 
-namespace {
+namespace reliability_test {
 
 TEST(Reliability, CountsByHand) {
   Reliability reliability{4};
@@ -106,4 +106,4 @@ TEST(Reliability, RefusesWhatIsNoDegree) {
   EXPECT_THROW(reliability.add(2, Belief{Distribution{coin, {0.5, 0.5}}}), std::exception);
 }
 
-}  // namespace
+}  // namespace reliability_test

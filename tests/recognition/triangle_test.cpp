@@ -1,7 +1,7 @@
 #include "laws/generate.hpp"
 #include "support/sigmax.hpp"
 
-namespace {
+namespace triangle_test {
 
 TEST(Triangle, RisesToItsOptimumAndFalls) {
   const Triangle speed{10.0, 20.0, 60.0};
@@ -68,4 +68,4 @@ TEST(Triangle, RefusesCornersOutOfOrder) {
   EXPECT_INVALID(("[0, 1]", "1.5"), triangular(bins.variable<Fuzzy>("speed"), bins, Triangle{0, 1, 2}, 1.5));
 }
 
-}  // namespace
+}  // namespace triangle_test

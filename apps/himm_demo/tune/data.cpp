@@ -79,6 +79,7 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     RandomStream random;
     std::optional<LocalFrame> frame{};
     std::optional<double> altitude_m{};  // the last one
+    std::optional<Position> at{};        // likewise, in the frame
   };
   RecordingOptions of_file = options.recording;
   of_file.file = file;
@@ -104,7 +105,10 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     }
     if (!first && places.frame()) first = places.frame()->origin();
     const Row told = row;
-    if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components && axes_seen(row.plot, data.axes) > 0) {
+    if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components &&
+        axes_seen(row.plot, data.axes) == 0) {
+      row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
+    } else if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
       if (!its.frame)
@@ -114,7 +118,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
         row.plot = AnyPlot::missed(row.plot.time);
       } else {
         its.altitude_m = here.altitude_m;
-        row.plot = in_frame(row.plot, *its.frame, its.frame->to_local(here), data.axes);
+        its.at = its.frame->to_local(here);
+        row.plot = in_frame(row.plot, *its.frame, *its.at, data.axes);
       }
     }
     if (options.radar.sigma) {
@@ -303,8 +308,9 @@ double TuneData::share_of_strays(const RowLosses& losses) const {
     for (std::size_t k = 0; k < losses[t].size(); ++k) {
       if (std::isnan(losses[t][k])) continue;
       ++all;
-      const double of_a_stray = -std::log(stray_share) - log_stray(tracks[t].rows[k].plot);
-      if (losses[t][k] > of_a_stray - std::log(2.0)) ++strays;
+      const double width = log_stray(tracks[t].rows[k].plot);  // 0 where nothing changes
+      const double of_a_stray = -std::log(stray_share) - width;
+      if (width != 0.0 && losses[t][k] > of_a_stray - std::log(2.0)) ++strays;
     }
   return strays / all;
 }

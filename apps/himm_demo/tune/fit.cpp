@@ -318,6 +318,8 @@ class Fitter {
   /// What of a filter's numbers is looked for from far away.
   enum class Scanned { all, models, transition };
 
+  bool is_better(const FilterSettings& one, const FilterSettings& other) const { return value(one) < value(other); }
+
   /// From far away: great steps.
   Found far(const FilterSettings& settings, Scanned scanned) const {
     Found best = from(settings);
@@ -670,10 +672,9 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
   if (!similar) begun[first] = far(first, Fitter::Scanned::all);
   for (std::size_t c = 0; c < sets; ++c) {
-    if (similar)
-      borrow(bases[c].settings, similar->candidates[c + 1].settings, false, data, options);
-    else
-      borrow(bases[c].settings, begun[first].settings, true, data, options);
+    FilterSettings borrowed = bases[c].settings;
+    borrow(borrowed, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
+    if (fitter.is_better(borrowed, bases[c].settings)) bases[c].settings = std::move(borrowed);
   }
   for_each_run(
       sets, options.threads,

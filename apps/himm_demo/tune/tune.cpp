@@ -72,6 +72,12 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
     if (diagnosis.modes.size() > 1 && 100 * mode.innovations.count() < rows)
       sentences.push_back(
           fmt::format("model {}: it is almost never the most likely: drop it, or let it differ more.", mode.name));
+  constexpr std::size_t one_in = 20;
+  if (const std::size_t aside = diagnosis.set_aside.size(); one_in * aside > rows + aside)
+    sentences.push_back(
+        fmt::format("{} of {} rows are set aside, since no model expects them, and all this is said of the others "
+                    "alone: see what is their own; where they are flights or turns, a greater sigma_w expects them.",
+                    aside, rows + aside));
   if (sentences.empty())
     sentences.push_back("nothing: the innovations are as large and as independent as they should be.");
   return sentences;
