@@ -19,7 +19,7 @@ constexpr std::size_t longest_record = std::size_t{1} << 20;
 
 bool is_blank(std::string_view text) { return trimmed(text).empty(); }
 
-/// Of the fields of a header that parts with a comma, or of the line below it: so many there are outside quotes.
+/// How many there are outside quotes.
 std::size_t count_in(std::string_view line, char separator) {
   bool quoted = false;
   std::size_t count = 0;
@@ -30,14 +30,15 @@ std::size_t count_in(std::string_view line, char separator) {
   return count;
 }
 
-/// A tab or semicolon beside commas, as where a name is "Length, mm": if it parts the header and the line below into as
-/// many fields, and the comma does not.
+/// A tab or semicolon beside the commas of a header, as where a name is "Length, mm": if it parts the header and the
+/// line below into as many fields, and the comma does not.
 std::optional<char> instead_of_comma(std::string_view from_header) {
   const auto end = from_header.find('\n');
   if (end == std::string_view::npos) return std::nullopt;
   const std::string_view header = from_header.substr(0, end), rest = from_header.substr(end + 1);
   const std::string_view row = rest.substr(0, rest.find('\n'));
-  if (count_in(header, ',') == count_in(row, ',')) return std::nullopt;
+  const auto is_whole = [](std::string_view line) { return std::ranges::count(line, '"') % 2 == 0; };
+  if (!is_whole(header) || !is_whole(row) || count_in(header, ',') == count_in(row, ',')) return std::nullopt;
   for (const char other : {'\t', ';'})
     if (const auto count = count_in(header, other); count > 0 && count == count_in(row, other)) return other;
   return std::nullopt;
