@@ -210,10 +210,10 @@ class RecordingReader {
   OtherZone other_zone_;
   Counted midnights_;  // that tracks passed
   std::size_t unused_velocities_ = 0;
-  std::size_t negative_speeds_ = 0;  // beside a negative course
-  std::size_t bearings_ = 0;                 // that count
-  std::size_t unused_azimuths_ = 0;          // beside a position
-  std::optional<double> latest_of_day_;      // the time of the last row with a time of day, since the first midnight
+  std::size_t negative_speeds_ = 0;      // beside a negative course
+  std::size_t bearings_ = 0;             // that count
+  std::size_t unused_azimuths_ = 0;      // beside a position
+  std::optional<double> latest_of_day_;  // the time of the last row with a time of day, since the first midnight
 };
 
 }  // namespace sigmax::apps
