@@ -123,37 +123,25 @@ DataCell ColumnReader::take(const CsvRow& row, const MissingWords& missing, Code
 void ColumnReader::refuse_slip(const CsvReader& reader) const {
   if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
   const std::string& name = reader.names()[index_];
-  if (comma_cells_ > numeric_cells_)
-    throw InputError(
-        message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                 .what = fmt::format("column {}", in_quotes(name)),
-                 .found = in_quotes(slip_->word),
-                 .expected = fmt::format("no comma in a number, as {} of {} cells have", comma_cells_, cells_),
-                 .remedy = "write a decimal comma as a point, and leave out one between thousands"}));
-  const bool is_parted = is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
-                         slip_->word.find_first_of(",' ") != std::string::npos;
-  if (is_parted)
+  const auto refuse = [&](std::string_view expected, std::size_t cells, std::string_view remedy) {
     throw InputError(message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
                               .what = fmt::format("column {}", in_quotes(name)),
                               .found = in_quotes(slip_->word),
-                              .expected = fmt::format("a plain number, as {} of {} cells have", numeric_cells_, cells_),
-                              .remedy = "leave out what parts thousands, and write a decimal comma as a point"}));
+                              .expected = fmt::format("{}, as {} of {} cells have", expected, cells, cells_),
+                              .remedy = std::string(remedy)}));
+  };
+  if (comma_cells_ > numeric_cells_)
+    refuse("no comma in a number", comma_cells_,
+           "write a decimal comma as a point, and leave out one between thousands");
+  if (is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
+      slip_->word.find_first_of(",' ") != std::string::npos)
+    refuse("a plain number", numeric_cells_, "leave out what parts thousands, and write a decimal comma as a point");
   if (is_limit(unit_of(slip_->word)))
-    throw InputError(
-        message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                 .what = fmt::format("column {}", in_quotes(name)),
-                 .found = in_quotes(slip_->word),
-                 .expected = fmt::format("a number, as {} of {} cells have", numeric_cells_, cells_),
-                 .remedy = "write one for what is beyond a limit, as the limit itself; as a missing value it would "
-                           "tell nothing"}));
-  throw InputError(
-      message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-               .what = fmt::format("column {}", in_quotes(name)),
-               .found = in_quotes(slip_->word),
-               .expected = fmt::format("a number with a decimal point, as {} of {} cells have", numeric_cells_, cells_),
-               .remedy = fmt::format("correct it, name it by --missing={}, or take the column as words "
-                                     "by --categorical {}",
-                                     typed(slip_->word), typed(name))}));
+    refuse("a number", numeric_cells_,
+           "write one for what is beyond a limit, as the limit itself; as a missing value it would tell nothing");
+  refuse("a number with a decimal point", numeric_cells_,
+         fmt::format("correct it, name it by --missing={}, or take the column as words by --categorical {}",
+                     typed(slip_->word), typed(name)));
 }
 
 bool ColumnReader::contains(std::string_view name) const {
