@@ -49,81 +49,57 @@ bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
   return name.find_first_not_of("-9") == name.npos && nearest > static_cast<double>(classes.size());
 }
 
-/// What a reader of the results should know of the file.
-std::vector<std::string> warnings_of(const CsvReader& reader, const std::vector<ColumnReader>& columns,
-                                     const DataTable& table, const Vocabulary& classes) {
-  std::vector<std::string> warnings;
-  const auto warn_of_alike = [&](const std::string& column, const Vocabulary& words) {
-    if (const std::string alike = words.alike(); !alike.empty())
-      warnings.push_back(fmt::format(
-          "{}: column {}: {} differ in case, blanks or the writing of a number only, and count as two; write "
-          "them alike, if they are the same",
-          reader.file(), in_quotes(column), alike));
+/// Adds what a reader of the results should know of the file, if it holds.
+void warn(DataTable& table, bool holds, std::string_view format, const auto&... words) {
+  if (holds) table.warnings.push_back(table.file + ": " + fmt::format(fmt::runtime(format), words...));
+}
+
+/// The same of a column.
+void warn_of(const std::string& column, DataTable& table, bool holds, const std::string& format, const auto&... words) {
+  warn(table, holds, "column {}" + format, in_quotes(column), words...);
+}
+
+constexpr const char* alike_words =
+    ": {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are the "
+    "same";
+
+void warn_of_classes(const Vocabulary& classes, DataTable& table) {
+  const std::size_t rows = table.size(), number = table.classes.size();
+  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
+    warn_of(table.label, table, holds, format, words...);
   };
-  warn_of_alike(table.label, classes);
-  for (const ColumnReader& column : columns)
-    if (!column.is_numeric()) warn_of_alike(reader.names()[column.index()], column.words());
-  if (2 * table.classes.size() > table.size() && table.size() >= few_rows)
-    warnings.push_back(
-        fmt::format("{}: column {} has {} classes in {} rows: of most there is a single row, from which nothing can be "
-                    "learned; is it the right --label?",
-                    reader.file(), in_quotes(table.label), table.classes.size(), table.size()));
+  const std::string alike = classes.alike();
+  say(!alike.empty(), alike_words, alike);
+  const bool most_are_lone = 2 * number > rows;
+  say(most_are_lone && rows >= few_rows,
+      " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it the right "
+      "--label?",
+      number, rows);
   std::vector<std::string> lone;
-  for (std::size_t k = 0; k < table.classes.size(); ++k)
+  for (std::size_t k = 0; k < number; ++k)
     if (table.rows_of_class[k] == 1) lone.push_back(table.classes[k]);
-  if (!lone.empty() && table.size() >= few_rows && 2 * table.classes.size() <= table.size())
-    warnings.push_back(
-        fmt::format("{}: column {}: a single row is of {}: is it a slip of writing? From one row nothing "
-                    "can be learned",
-                    reader.file(), in_quotes(table.label), listed(lone, 12)));
-  for (std::size_t k = 0; k < table.classes.size(); ++k)
-    if (const std::string name = lower_case(table.classes[k]);
-        says_unknown(name) || name == "-" || name == "--" || name == "unknown" || is_nines(name, table.classes))
-      warnings.push_back(fmt::format(
-          "{}: column {}: {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
-          reader.file(), in_quotes(table.label), table.rows_of_class[k], table.size(), in_quotes(table.classes[k])));
-  for (const ColumnReader& column : columns)
-    if (column.holds_units())
-      warnings.push_back(
-          fmt::format("{}: column {} holds numbers with a unit ({}), which count as words: write the numbers alone, "
-                      "all in one unit, and the unit into the name of the column",
-                      reader.file(), in_quotes(reader.names()[column.index()]), column.units()));
-  for (const ColumnReader& column : columns)
-    if (const std::string notation = column.notation(); !notation.empty())
-      warnings.push_back(fmt::format(
-          "{}: column {} holds no plain numbers, as {}, which count as words: where they are numbers, times "
-          "or dates, write them as {}, in seconds or days",
-          reader.file(), in_quotes(reader.names()[column.index()]), in_quotes(notation),
-          notation.starts_with("−") ? "-1234.5, with the minus of a keyboard" : "1234.5"));
-  for (const ColumnReader& column : columns)
-    if (column.limits() > 0 && !column.is_numeric() && column.words().numbers() > 1)
-      warnings.push_back(fmt::format(
-          "{}: column {} holds numbers and {} limits, as <0.1, and all count as words: write a number for what is "
-          "beyond a limit, as the limit itself",
-          reader.file(), in_quotes(reader.names()[column.index()]), column.limits()));
-  for (const ColumnReader& column : columns)
-    if (const std::string nines = column.nines().doubt(reader.names()[column.index()]);
-        !nines.empty() && column.is_numeric())
-      warnings.push_back(reader.file() + ": " + nines);
-  for (const ColumnReader& column : columns)
-    if (column.names_rows())
-      warnings.push_back(fmt::format(
-          "{0}: column {1} seems to name the rows, or to count them, and tells nothing of others, unless they "
-          "are in its order; leave it out by --ignore {2}",
-          reader.file(), in_quotes(reader.names()[column.index()]), typed(reader.names()[column.index()])));
+  say(!lone.empty() && rows >= few_rows && !most_are_lone,
+      ": a single row is of {}: is it a slip of writing? From one row nothing can be learned", listed(lone, 12));
+  for (std::size_t k = 0; k < number; ++k) {
+    const std::string name = lower_case(table.classes[k]);
+    say(says_unknown(name) || name == "-" || name == "--" || name == "unknown" || is_nines(name, table.classes),
+        ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
+        table.rows_of_class[k], rows, in_quotes(table.classes[k]));
+  }
+}
+
+void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& columns, const Vocabulary& classes,
+                   DataTable& table) {
   std::vector<std::string> like_cells;
   for (const ColumnReader& column : columns)
-    if (column.contains(reader.names()[column.index()]))
-      like_cells.push_back(in_quotes(reader.names()[column.index()]));
-  if (2 * like_cells.size() > columns.size() && classes.contains(table.label))
-    warnings.push_back(
-        fmt::format("{}: the first row looks like data ({}): it was taken for the names of the columns, "
-                    "and is not counted; put a row of names above it",
-                    reader.file(), fmt::join(like_cells, ", ")));
+    if (const std::string& name = reader.names()[column.index()]; column.contains(name))
+      like_cells.push_back(in_quotes(name));
+  warn(table, 2 * like_cells.size() > columns.size() && classes.contains(table.label),
+       "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
+       "of names above it",
+       fmt::join(like_cells, ", "));
   for (std::size_t i = 0; i < reader.names().size(); ++i)
-    if (reader.names()[i].empty())
-      warnings.push_back(fmt::format("{}: column {} has no name and is left out", reader.file(), i + 1));
-  return warnings;
+    warn(table, reader.names()[i].empty(), "column {} has no name and is left out", i + 1);
 }
 
 /// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
@@ -212,11 +188,11 @@ bool warn_of_repeats(DataTable& table) {
     comparable.push_back(table.columns[i].numeric && different >= 4);
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
-    table.warnings.push_back(
-        fmt::format("{}: {:.0f} % of {} repeat another, label included: if they are copies, what is learned from one "
-                    "is asked of the other, and the shares of right answers are too good: drop them; what coincides "
-                    "by chance, as values below a limit do, is to stay",
-                    table.file, 100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which));
+    warn(table, true,
+         "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
+         "other, and the shares of right answers are too good: drop them; what coincides by chance, as values below a "
+         "limit do, is to stay",
+         100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
   const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
   if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
@@ -229,6 +205,7 @@ bool warn_of_repeats(DataTable& table) {
     if (repeated[i] || repeated[j]) return false;
     return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j]) : rows.one_to_one(i, j);
   };
+  std::vector<std::pair<std::string, std::vector<std::string>>> families;  // that say the same
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t j = i + 1; j < ranks.size(); ++j)
@@ -236,12 +213,24 @@ bool warn_of_repeats(DataTable& table) {
         repeated[j] = true;
         others.push_back(typed(table.columns[j].name));
       }
-    if (!others.empty())
-      table.warnings.push_back(
-          fmt::format("{0}: column {1} says the same as {2}, as if in another unit or in other words: it counts {3} "
-                      "times; leave the others out by --ignore {2}",
-                      table.file, in_quotes(table.columns[i].name), fmt::join(others, ","), others.size() + 1));
+    if (!others.empty()) families.emplace_back(table.columns[i].name, std::move(others));
   }
+  constexpr std::size_t most_families = 3;
+  std::vector<std::string> all_others;
+  for (const auto& [name, others] : families) {
+    const std::string names = fmt::format("{}", fmt::join(others, ","));
+    warn_of(
+        name, table, families.size() <= most_families,
+        " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
+        "--ignore {}",
+        names, others.size() + 1, names);
+    all_others.push_back(names);
+  }
+  warn(table, families.size() > most_families,
+       "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
+       "several times; leave the others out by --ignore {}",
+       families.size(), families.empty() ? "" : in_quotes(families[0].first), families.empty() ? "" : all_others[0],
+       fmt::join(all_others, ","));
   return all_of_them;
 }
 
@@ -253,56 +242,67 @@ bool is_header(const CsvRow& row, const CsvReader& reader) {
   return trimmed(row[0]).ends_with(reader.names()[0]);
 }
 
-/// What the values of a column tell, and how they are written.
-void warn_of_values(const std::vector<ColumnReader>& columns, bool copies, DataTable& table) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string& name = table.columns[i].name;
-    const auto by_value = columns[i].by_value(table.rows_of_class);
-    if (by_value.tells_all(table.classes.size()))
-      table.warnings.push_back(
-          fmt::format("{}: column {} alone tells the class of each row: if it is not known before the class is, leave "
-                      "it out by --ignore {}",
-                      table.file, in_quotes(name), typed(name)));
-    else if (!copies && by_value.may_be_groups(table.classes.size()))
-      table.warnings.push_back(fmt::format(
-          "{0}: each of {1} values of column {2}, of {3:.2g} rows on the average, is of one class only{5}: if it "
-          "names what rows are of, as a patient or a session, these are parted by the folds, and the shares of "
-          "right answers are too good for others; leave it out by --ignore {4}, and ask of others by classify",
-          table.file, by_value.values, in_quotes(name),
-          static_cast<double>(by_value.rows) / static_cast<double>(by_value.values), typed(name),
-          by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others)));
-    if (const std::string thousands = columns[i].thousands(); !thousands.empty())
-      table.warnings.push_back(
-          fmt::format("{}: column {}: every number with a point has three digits behind it, as {}, and all others are "
-                      "below a thousand: if the point parts thousands, leave it out",
-                      table.file, in_quotes(name), thousands));
-    if (const std::string code = columns[i].code_with_zeros(); !code.empty())
-      table.warnings.push_back(
-          fmt::format("{}: column {} holds codes, as {}, that are read as numbers: if their order tells "
-                      "nothing, give --categorical {}",
-                      table.file, in_quotes(name), code, typed(name)));
-    if (const std::string two = columns[i].one_number(); !two.empty())
-      table.warnings.push_back(
-          fmt::format("{}: column {}: {} are read as one number: if they are names, as those of versions are, give "
-                      "--categorical {}",
-                      table.file, in_quotes(name), two, typed(name)));
-    if (const auto [cells, word] = columns[i].numbers_among_words(); cells > 0)
-      table.warnings.push_back(
-          fmt::format("{}: column {}: {} of {} cells are numbers, and count as words, since others are none, as {}: "
-                      "where such stand for no number, give --missing={}; where they say that it is below a limit, "
-                      "write the limit",
-                      table.file, in_quotes(name), cells, columns[i].filled(), in_quotes(word), typed(word)));
-    if (const auto [cells, word] = columns[i].unknowns(); cells > 0)
-      table.warnings.push_back(fmt::format(
-          "{}: column {}: {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give "
-          "--missing={}",
-          table.file, in_quotes(name), cells, table.size(), in_quotes(word), typed(word)));
-    if (const std::size_t cells = columns[i].nothings(); cells > 0)
-      table.warnings.push_back(
-          fmt::format("{}: column {}: {} cells are 'none', which counts as missing among numbers: if it "
-                      "says zero, write 0",
-                      table.file, in_quotes(name), cells));
+/// What the values of a column tell, and how they are written; whether rows are copies.
+void warn_of_values(const ColumnReader& column, const std::string& name, bool copies, DataTable& table) {
+  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
+    warn_of(name, table, holds, format, words...);
+  };
+  const std::string for_typing = typed(name);
+  const auto by_value = column.by_value(table.rows_of_class);
+  const bool tells_all = by_value.tells_all(table.classes.size());
+  say(tells_all,
+      " alone tells the class of each row: if it is not known before the class is, leave it out by --ignore {}",
+      for_typing);
+  say(!tells_all && !copies && by_value.may_be_groups(table.classes.size()),
+      ": each of {} values, of {:.2g} rows on the average, is of one class only{}: if it names what rows are of, as a "
+      "patient or a session, these are parted by the folds, and the shares of right answers are too good for others; "
+      "leave it out by --ignore {}, and ask of others by classify",
+      by_value.values, static_cast<double>(by_value.rows) / static_cast<double>(by_value.values),
+      by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others), for_typing);
+  say(column.names_rows(),
+      " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
+      "out by --ignore {}",
+      for_typing);
+  if (column.is_numeric()) {
+    const std::string nines = column.nines().doubt(name);
+    warn(table, !nines.empty(), "{}", nines);
+    const std::string thousands = column.thousands(), code = column.code_with_zeros(), two = column.one_number();
+    say(!thousands.empty(),
+        ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
+        "point parts thousands, leave it out",
+        thousands);
+    say(!code.empty(),
+        " holds codes, as {}, that are read as numbers: if their order tells nothing, give --categorical {}", code,
+        for_typing);
+    say(!two.empty(), ": {} are read as one number: if they are names, as those of versions are, give --categorical {}",
+        two, for_typing);
+    say(column.nothings() > 0, ": {} cells are 'none', which counts as missing among numbers: if it says zero, write 0",
+        column.nothings());
+    return;
   }
+  const std::string alike = column.words().alike(), notation = column.notation();
+  say(!alike.empty(), alike_words, alike);
+  say(column.holds_units(),
+      " holds numbers with a unit ({}), which count as words: write the numbers alone, all in one unit, and the unit "
+      "into the name of the column",
+      column.units());
+  say(!notation.empty(),
+      " holds no plain numbers, as {}, which count as words: where they are numbers, times or dates, write them as {}, "
+      "in seconds or days",
+      in_quotes(notation), notation.starts_with("−") ? "-1234.5, with the minus of a keyboard" : "1234.5");
+  say(column.limits() > 0 && column.words().numbers() > 1,
+      " holds numbers and {} limits, as <0.1, and all count as words: write a number for what is beyond a limit, as "
+      "the limit itself",
+      column.limits());
+  const auto [numbers, other] = column.numbers_among_words();
+  say(numbers > 0,
+      ": {} of {} cells are numbers, and count as words, since others are none, as {}: where such stand for no number, "
+      "give --missing={}; where they say that it is below a limit, write the limit",
+      numbers, column.filled(), in_quotes(other), typed(other));
+  const auto [unknowns, unknown] = column.unknowns();
+  say(unknowns > 0,
+      ": {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give --missing={}",
+      unknowns, table.size(), in_quotes(unknown), typed(unknown));
 }
 
 std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions& options, std::size_t label) {
@@ -391,14 +391,16 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   }
   for (const auto& column : columns) column.refuse_slip(reader);
   refuse_useless(reader, columns, table.size());
-  table.warnings = warnings_of(reader, columns, table, classes);
   table.value_order_.resize(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     table.columns[i].numeric = columns[i].is_numeric();
     if (!columns[i].is_numeric())
       std::tie(table.columns[i].values, table.value_order_[i]) = columns[i].words().sorted();
   }
-  warn_of_values(columns, warn_of_repeats(table), table);
+  warn_of_classes(classes, table);
+  warn_of_names(reader, columns, classes, table);
+  const bool copies = warn_of_repeats(table);
+  for (std::size_t i = 0; i < columns.size(); ++i) warn_of_values(columns[i], table.columns[i].name, copies, table);
   return table;
 }
 

@@ -336,8 +336,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
           "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
           outcome.name, of_shares,
           options.learning.equal_prior ? ", which --equal-prior leaves out"
-          : data.columns.size() > 1    ? ", and too sure, as where several columns tell the same"
-                                       : "");
+          : data.columns.size() > 1 ? ", and too sure, as where several columns tell the same, or few rows have a value"
+                                    : "");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
@@ -422,7 +422,7 @@ void run_evaluate(const EvaluateOptions& options) {
   refuse_to_overwrite(options.output, {options.file}, {"predictions.csv", "confusion.csv"});
   ResultFiles files(options.output);
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data);
+  print_warnings(data, options.learning);
   if (options.folds > data.size())
     throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
                      options.folds);

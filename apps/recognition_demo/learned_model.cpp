@@ -1,6 +1,7 @@
 #include "recognition_demo/learned_model.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <sigmax/recognition/discretization.hpp>
 
@@ -147,8 +148,23 @@ void add_learning(CLI::App& program, std::string& file, DataOptions& data, Learn
            "Every class is equally plausible before, whatever its share of the rows");
 }
 
-void print_warnings(const DataTable& data) {
-  for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
+void print_warnings(const DataTable& data, const LearningOptions& options) {
+  const auto warn = [](const std::string& warning) { complain("recognition_demo: warning: " + warning); };
+  for (const auto& warning : data.warnings) warn(warning);
+  if (!options.equal_width || options.bins < 3) return;
+  const LearnedModel model = learn(data, options);
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    if (!data.columns[i].numeric) continue;
+    std::vector<double> in_bin(model.features[i].labels().size());
+    for (std::size_t c = 0; c < data.classes.size(); ++c)
+      for (std::size_t bin = 0; bin < in_bin.size(); ++bin) in_bin[bin] += model.counts.of(i, c)[bin];
+    const double all = std::accumulate(in_bin.begin(), in_bin.end(), 0.0), most = std::ranges::max(in_bin);
+    if (most > 0.95 * all)
+      warn(
+          fmt::format("{}: column {}: {:.3g} % of the numbers are in one of {} bins of equal width, since few are far "
+                      "from all others: leave out --equal-width, or those if they are slips or stand for none",
+                      data.file, in_quotes(data.columns[i].name), 100.0 * most / all, in_bin.size()));
+  }
 }
 
 std::string described(const DataTable& data) {

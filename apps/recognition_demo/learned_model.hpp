@@ -52,7 +52,7 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings);
 void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning);
 
 /// Prints the warnings of a table to standard error.
-void print_warnings(const DataTable& data);
+void print_warnings(const DataTable& data, const LearningOptions& options);
 
 /// "101 rows, 7 classes, 16 features (15 categorical, 1 numeric)".
 std::string described(const DataTable& data);

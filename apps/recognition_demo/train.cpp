@@ -29,7 +29,7 @@ ResultTable features_table(const LearnedModel& model) {
 void run_train(const TrainOptions& options) {
   refuse_to_overwrite("--model", options.model, {options.file});
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data);
+  print_warnings(data, options.learning);
   LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
   write_model(model, options.kinds, options.model);

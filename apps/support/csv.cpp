@@ -168,9 +168,14 @@ std::optional<std::size_t> CsvReader::find(std::string_view name) const {
 
 std::size_t CsvReader::column(std::string_view name) const {
   if (const auto index = find(name)) return *index;
-  throw InputError(message({.where = file(),
-                            .what = fmt::format("there is no column {}", in_quotes(name)),
-                            .remedy = fmt::format("the columns are {}", fmt::join(header_->names, ", "))}));
+  const bool is_lone = std::ranges::count(names(), "") + 1 == std::ssize(names());
+  throw InputError(
+      message({.where = file(),
+               .what = fmt::format("there is no column {}", in_quotes(name)),
+               .remedy = fmt::format("the columns are {}{}", fmt::join(names(), ", "),
+                                     is_lone ? ": one name in the first line; it is to hold those of all columns, "
+                                               "parted by commas, tabs or semicolons"
+                                             : "")}));
 }
 
 void CsvReader::read_header() {
@@ -202,13 +207,16 @@ void CsvReader::read_header() {
 bool CsvReader::next(CsvRow& row) {
   if (!read_record(row)) return false;
   if (row.header_ != header_) row.header_ = header_;
-  if (row.size() != header_->names.size())
-    throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
-                             .expected = fmt::format("{} as in the header", header_->names.size()),
-                             .remedy = ended_ ? "the file ends within this line: see whether it is whole"
-                                              : fmt::format("add or drop {0}; text with {0} stands in quotes",
-                                                            plural_of(separator_))});
-  return true;
+  const bool first = std::exchange(is_first_, false);
+  if (row.size() == names().size()) return true;
+  const bool may_name_rows = first && names().size() > 1 && row.size() == names().size() + 1;
+  throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
+                           .expected = fmt::format("{} as in the header", names().size()),
+                           .remedy = may_name_rows ? "if the first ones name the rows, give them a name in the header, "
+                                                     "which R's write.table leaves out"
+                                     : ended_      ? "the file ends within this line: see whether it is whole"
+                                                   : fmt::format("add or drop {0}; text with {0} stands in quotes",
+                                                                 plural_of(separator_))});
 }
 
 bool CsvReader::read_record(CsvRow& row) {

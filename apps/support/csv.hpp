@@ -110,7 +110,8 @@ class CsvReader {
   std::optional<std::uint64_t> bytes_total_;
   std::size_t line_ = 1;
   char separator_ = ',';
-  bool ended_ = false;  // the last record ran into the end of the file
+  bool is_first_ = true;  // the next record below the header
+  bool ended_ = false;    // the last record ran into the end of the file
 };
 
 /// Opens a file, or the standard input for "-".
