@@ -36,10 +36,24 @@ std::string_view unit_of(std::string_view cell) {
   return alone && (parse_number(number) || has_decimal_comma(number)) ? (before.empty() ? after : before) : "";
 }
 
-/// Whether a word has digits and no letters, as 1,000.00 or 12.03.2024.
+/// Whether a word has digits and no letters, as 1,000.00 or 12.03.2024, or is a number as 1.5D+01 or 0x1F.
 bool is_notation(std::string_view word) {
+  std::string other(word);
+  if (const auto exponent = other.find_first_of("Dd"); exponent != other.npos) other[exponent] = 'E';
+  if (parse_number(other) ||
+      (word.starts_with("0x") && word.find_first_not_of("0123456789abcdefABCDEF", 2) == word.npos))
+    return true;
   const auto has = [&](auto kind) { return std::ranges::any_of(word, [&](unsigned char c) { return kind(c) != 0; }); };
   return has([](int c) { return std::isdigit(c); }) && !has([](int c) { return std::isalpha(c); });
+}
+
+/// Whether points part thousands, as in 1.543.180.
+bool has_thousands(std::string_view word) {
+  const auto groups = std::ranges::count(word, '.');
+  bool whole = groups > 1 && is_notation(word);
+  for (std::size_t at = word.rfind('.'), k = 0; whole && at != word.npos && at > 0; at = word.rfind('.', at - 1), ++k)
+    whole = word.size() - at == 4 * (k + 1);
+  return whole;
 }
 
 /// Whether it says that a value is beyond what could be measured.
@@ -81,10 +95,11 @@ std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() cons
   return {std::move(in_order), std::move(place)};
 }
 
-DataCell ColumnReader::take(const CsvRow& row, const MissingWords& missing, Code its_class) {
+DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_class) {
   const std::string_view cell = trimmed(row[index_]);
   const bool empty = missing(cell);
   const auto number = empty ? std::nullopt : parse_number(cell);
+  if (const auto none = empty ? parse_number(cell) : std::nullopt) ++left_out_[*none];
   const bool is_word = !empty && !number && !missing.among_numbers(cell);
   if (number || is_word) ++cells_;
   if (number) {
@@ -133,15 +148,17 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
   if (comma_cells_ > numeric_cells_)
     refuse("no comma in a number", comma_cells_,
            "write a decimal comma as a point, and leave out one between thousands");
-  if (is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
-      slip_->word.find_first_of(",' ") != std::string::npos)
+  if (has_thousands(slip_->word) || (is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
+                                     slip_->word.find_first_of(",' ") != std::string::npos))
     refuse("a plain number", numeric_cells_, "leave out what parts thousands, and write a decimal comma as a point");
   if (is_limit(unit_of(slip_->word)))
     refuse("a number", numeric_cells_,
            "write one for what is beyond a limit, as the limit itself; as a missing value it would tell nothing");
   refuse("a number with a decimal point", numeric_cells_,
-         fmt::format("correct it, name it by --missing={}, or take the column as words by --categorical {}",
-                     typed(slip_->word), typed(name)));
+         fmt::format(
+             "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
+             "--categorical {}",
+             typed(slip_->word), typed(name)));
 }
 
 bool ColumnReader::contains(std::string_view name) const {
@@ -221,7 +238,13 @@ ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& row
 }
 
 std::string ColumnReader::thousands() const {
-  return is_numeric() && below_a_thousand_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
+  return is_numeric() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
+}
+
+std::pair<std::size_t, std::string> ColumnReader::left_out() const {
+  for (const auto& [number, cells] : left_out_)
+    if (low_ < number && number < high_) return {cells, shortest(number)};
+  return {};
 }
 
 std::pair<std::size_t, std::string> ColumnReader::unknowns() const {
@@ -254,15 +277,17 @@ bool ColumnReader::is_run() const {
 }
 
 void ColumnReader::see_writing(std::string_view cell) {
-  const auto point = cell.find('.');
-  const std::size_t digits = point == cell.npos ? cell.size() : point;
-  const bool is_plain = cell.find_first_not_of(".0123456789") == cell.npos;
-  const bool parts = point != cell.npos && cell.size() - point == 4 && digits <= 3 && cell[0] != '0';
+  const bool is_signed = cell.starts_with('-');
+  const std::string_view bare = cell.substr(is_signed ? 1 : 0);
+  const auto point = bare.find('.');
+  const std::size_t digits = point == bare.npos ? bare.size() : point;
+  const bool is_plain = bare.find_first_not_of(".0123456789") == bare.npos;
+  const bool parts = point != bare.npos && bare.size() - point == 4 && digits <= 3 && bare[0] != '0';
   if (parts && three_digits_.empty()) three_digits_ = cell;
-  if (point == cell.npos && digits <= 3) ++below_a_thousand_;
-  other_writing_ = other_writing_ || !is_plain || !(parts || (point == cell.npos && digits <= 3));
-  if (lengths_.size() < 2) lengths_.insert(is_plain && point == cell.npos ? cell.size() : 0);
-  if (with_zeros_.empty() && digits >= 3 && cell[0] == '0') with_zeros_ = cell;
+  if (point == bare.npos && digits == 3) ++hundreds_;
+  other_writing_ = other_writing_ || !is_plain || !(parts || (point == bare.npos && digits <= 3));
+  if (lengths_.size() < 2) lengths_.insert(is_plain && !is_signed && point == bare.npos ? bare.size() : 0);
+  if (with_zeros_.empty() && digits >= 3 && bare[0] == '0') with_zeros_ = cell;
 }
 
 /// Nine of ten cells, be it with a decimal comma, or half of them where there are more numbers than words would have.

@@ -50,7 +50,7 @@ class ColumnReader {
  public:
   ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
 
-  DataCell take(const CsvRow& row, const MissingWords& missing, Code its_class);
+  DataCell take(const CsvRow& row, MissingWords& missing, Code its_class);
 
   /// Throws if the column is neither numbers nor words.
   void refuse_slip(const CsvReader& reader) const;
@@ -101,8 +101,8 @@ class ColumnReader {
   };
   ByValue by_value(const std::vector<std::size_t>& rows_of_class) const;
 
-  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and none
-  /// without is a thousand or more; or nothing.
+  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and
+  /// those without are below a thousand, some of three digits; or nothing.
   std::string thousands() const;
 
   /// A number as 0387 of a column in which all are as long; or nothing.
@@ -110,6 +110,9 @@ class ColumnReader {
 
   /// In how many cells of a column of numbers "none" counts as missing, if in one of twenty.
   std::size_t nothings() const { return is_numeric() && 20 * nothings_ >= cells_ ? nothings_ : 0; }
+
+  /// How many numbers count as missing, and the first of them that is between the least and the greatest of the others.
+  std::pair<std::size_t, std::string> left_out() const;
 
   /// Among words: how many cells hold what would be missing among numbers, as NA, and the first of these words.
   std::pair<std::size_t, std::string> unknowns() const;
@@ -140,9 +143,9 @@ class ColumnReader {
   bool whole_ = true;  // all numbers are
   double first_ = 0.0, low_ = 0.0, high_ = 0.0;
   double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
-  Nines nines_;
+  Nines nines_{true};
   std::string three_digits_, with_zeros_, notation_;  // the first of these
-  std::size_t below_a_thousand_ = 0, nothings_ = 0;
+  std::size_t hundreds_ = 0, nothings_ = 0;           // hundreds of three digits
   bool other_writing_ = false;
   std::set<std::size_t> lengths_;        // of whole numbers, 0 of others, up to two
   std::vector<ClassesOfValue> classes_;  // by code
@@ -150,6 +153,7 @@ class ColumnReader {
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_, units_;
+  std::map<double, std::size_t> left_out_;  // numbers that count as missing, and how often
 };
 
 /// Whether it would be a number if its comma were a point.

@@ -253,12 +253,13 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
   say(tells_all,
       " alone tells the class of each row: if it is not known before the class is, leave it out by --ignore {}",
       for_typing);
-  say(!tells_all && !copies && by_value.may_be_groups(table.classes.size()),
-      ": each of {} values, of {:.2g} rows on the average, is of one class only{}: if it names what rows are of, as a "
-      "patient or a session, these are parted by the folds, and the shares of right answers are too good for others; "
-      "leave it out by --ignore {}, and ask of others by classify",
-      by_value.values, static_cast<double>(by_value.rows) / static_cast<double>(by_value.values),
-      by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others), for_typing);
+  warn(table, !tells_all && !copies && by_value.may_be_groups(table.classes.size()),
+       "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "
+       "are "
+       "of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good for "
+       "others; leave it out by --ignore {}, and ask of others by classify",
+       by_value.values, in_quotes(name), static_cast<double>(by_value.rows) / static_cast<double>(by_value.values),
+       by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others), for_typing);
   say(column.names_rows(),
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
@@ -323,14 +324,26 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions&
 
 }  // namespace
 
-MissingWords::MissingWords(std::vector<std::string> more) : more_(std::move(more)) {}
-
-bool MissingWords::operator()(std::string_view cell) const {
-  const std::string_view text = trimmed(cell);
-  return text.empty() || text == "?" || std::ranges::find(more_, text) != more_.end();
+MissingWords::MissingWords(const std::vector<std::string>& more) {
+  for (const auto& text : more) more_.push_back({text, parse_number(text)});
 }
 
-bool MissingWords::among_numbers(std::string_view cell) const {
+bool MissingWords::operator()(std::string_view cell) {
+  const std::string_view text = trimmed(cell);
+  if (text.empty() || text == "?") return true;
+  for (Word& word : more_)
+    if (word.text == text || (word.number && word.number == parse_number(text))) return word.met = true;
+  return false;
+}
+
+std::vector<std::string> MissingWords::never_met() const {
+  std::vector<std::string> words;
+  for (const Word& word : more_)
+    if (!word.met) words.push_back(in_quotes(word.text));
+  return words;
+}
+
+bool MissingWords::among_numbers(std::string_view cell) {
   constexpr std::array<std::string_view, 15> words = {"-",    "--",   "na",       "n/a",       "#n/a",
                                                       "nan",  "null", "none",     "nil",       "inf",
                                                       "-inf", "+inf", "infinity", "-infinity", "."};
@@ -342,7 +355,7 @@ bool MissingWords::among_numbers(std::string_view cell) const {
 DataTable read_data(const std::string& file, const DataOptions& options, bool quiet) {
   CsvReader reader = open_csv(file);
   const std::size_t label = reader.column(options.label);
-  const MissingWords missing(options.missing);
+  MissingWords missing(options.missing);
   auto columns = columns_of(reader, options, label);
 
   DataTable table;
@@ -357,7 +370,11 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     progress.advance(reader.bytes_read() - progress.done());
     if (trimmed(row[label]) == options.label && is_header(row, reader))
       throw row.error(label, "the name of a class, and not the header again", "drop the line");
-    if (missing(row[label])) throw row.error(label, "the name of a class", "fill the cell or remove the row");
+    if (missing(row[label]))
+      throw row.error(label, "the name of a class",
+                      row.blank(label) ? "fill the cell or remove the row"
+                                       : "which --missing says to be none: fill the cell, remove the row, or leave out "
+                                         "--missing and empty the cells of other columns");
     const Code code = classes.code(trimmed(row[label]));
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
@@ -399,6 +416,9 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   }
   warn_of_classes(classes, table);
   warn_of_names(reader, columns, classes, table);
+  const auto never_met = missing.never_met();
+  warn(table, !never_met.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
+       fmt::join(never_met, ", "));
   const bool copies = warn_of_repeats(table);
   for (std::size_t i = 0; i < columns.size(); ++i) warn_of_values(columns[i], table.columns[i].name, copies, table);
   return table;

@@ -103,16 +103,24 @@ inline Code DataRow::code(std::size_t column) const {
 /// Which cells hold nothing.
 class MissingWords {
  public:
-  explicit MissingWords(std::vector<std::string> more = {});
+  explicit MissingWords(const std::vector<std::string>& more = {});
 
-  /// An empty cell, "?", and the words that were added.
-  bool operator()(std::string_view cell) const;
+  /// An empty cell, "?", and the words that were added, numbers also as others write them.
+  bool operator()(std::string_view cell);
 
   /// Besides, in a column of numbers: "-", "NA", "N/A", "nan", "null", "none", "inf" and the like, in any case.
-  bool among_numbers(std::string_view cell) const;
+  bool among_numbers(std::string_view cell);
+
+  /// The words that were added and that no cell was.
+  std::vector<std::string> never_met() const;
 
  private:
-  std::vector<std::string> more_;
+  struct Word {
+    std::string text;
+    std::optional<double> number;
+    bool met = false;
+  };
+  std::vector<Word> more_;
 };
 
 /// Reads a headed CSV file. A column is numeric if all its cells are numbers, else categorical. A cell without a value

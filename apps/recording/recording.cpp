@@ -284,13 +284,17 @@ bool RecordingReader::take_time(Row& row) {
         : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
         : time == before
             ? fmt::format(
-                  "where several sensors measure at one time, name them in a column sensor{}; else drop repeated rows, "
-                  "or "
-                  "give --on-bad-time skip",
+                  "where several sensors measure at one time, name them in a column sensor{}; where times were "
+                  "rounded, "
+                  "write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
-            : "sort the rows by time, or give --on-bad-time skip");
+            : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
+                          track_ ? "" : ", or where there are several targets tell them apart by --track-id COLUMN"));
   ++skipped_;
-  if (++last.left > left_behind_.rows) left_behind_ = {last.left, last.line};
+  if (time == before)
+    ++at_one_time_;
+  else if (++last.left > left_behind_.rows)
+    left_behind_ = {last.left, last.line};
   return false;
 }
 

@@ -128,7 +128,10 @@ class RecordingReader {
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
-  /// The most of them after one row, and its line.
+  /// Of these, those at the time of that row.
+  std::size_t at_one_time() const { return at_one_time_; }
+
+  /// The most of those before a row, and its line.
   const Counted& left_behind() const { return left_behind_; }
 
  private:
@@ -144,7 +147,7 @@ class RecordingReader {
     std::vector<std::string> sensors;
     std::size_t line;
     bool of_day = false;   ///< whether it was a time of day
-    std::size_t left = 0;  ///< rows dropped since
+    std::size_t left = 0;  ///< earlier rows dropped since
   };
 
   std::optional<Column>& column(Role role, std::size_t i = 0) { return columns_[place_of(role) + i]; }
@@ -201,7 +204,7 @@ class RecordingReader {
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
-  std::size_t skipped_ = 0;
+  std::size_t skipped_ = 0, at_one_time_ = 0;
   Counted senseless_, abroad_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;

@@ -248,7 +248,7 @@ bool CsvReader::read_record(CsvRow& row) {
       in_record = byte == separator_;
       if (!in_record) end_line(byte);
     }
-  } while (row.ends_.size() == 1 && !had_quotes && (is_blank(row.text_) || row.text_.starts_with('#')));
+  } while (!had_quotes && (is_blank(row.text_) || (row.ends_.size() == 1 && row.text_.starts_with('#'))));
   return true;
 }
 

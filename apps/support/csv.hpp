@@ -55,8 +55,9 @@ class CsvRow {
 ///     for (CsvRow row; reader.next(row);) use(row.number(x));
 ///
 /// Fields are separated by commas, or by tabs or else semicolons if the header has these and no comma outside quotes;
-/// a first line "sep=;" is skipped. Lines end with LF, CR LF or CR; those are skipped that are blank, or a single field
-/// that begins with #. Blanks around a quoted field are allowed. Malformed input throws InputError with file and line.
+/// a first line "sep=;" is skipped. Lines end with LF, CR LF or CR; those are skipped whose fields are all blank, or
+/// that are a single one that begins with #. Blanks around a quoted field are allowed. Malformed input throws
+/// InputError with file and line.
 class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& path);

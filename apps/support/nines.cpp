@@ -3,36 +3,47 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
+
+#include <fmt/ranges.h>
 
 #include "support/error.hpp"
 
 namespace sigmax::apps {
 
 namespace {
-constexpr std::size_t most_different = 8;
+
+constexpr std::size_t few = 20, again = 3, most_different = 8, most_codes = 3;
+
+std::string sentence(std::string_view column, std::size_t cells, const std::vector<std::string>& words) {
+  return fmt::format("column {}: {} {} {}, far from the others; if {} for no value, give --missing={}",
+                     in_quotes(column), cells, cells == 1 ? "cell is" : "cells are", fmt::join(words, " or "),
+                     words.size() == 1 ? "that stands" : "these stand", fmt::join(words, ","));
 }
 
-void Nines::End::see(std::string_view cell, double other) {
-  if (other > number) {
-    next = number;
-    number = other;
-    word = cell;
-    cells = 0;
-  } else if (other < number && other > next) {
-    next = other;
-  }
-  if (other == number) ++cells;
+/// Whether a number is written as 99, -999 or 8888.0.
+bool is_code(std::string_view cell, double number) {
+  std::string_view digits = cell.substr(cell.starts_with('-') ? 1 : 0);
+  digits = digits.substr(0, digits.find('.'));
+  return std::abs(number) >= 77.0 && number == std::trunc(number) && digits[0] >= '7' && digits[0] <= '9' &&
+         digits.find_first_not_of(digits[0]) == digits.npos;
 }
+
+}  // namespace
 
 void Nines::see(std::string_view cell, double number) {
-  low_.see(cell, -number);
-  high_.see(cell, number);
+  for (auto* const end : {&low_, &high_}) {
+    const double outwards = end == &low_ ? -number : number;
+    if (end->size() > most_codes && outwards < end->rbegin()->first) continue;
+    const auto [told, is_new] = end->try_emplace(outwards);
+    if (is_new) told->second.word = cell;
+    ++told->second.cells;
+    if (end->size() > most_codes + 1) end->erase(std::prev(end->end()));
+  }
   if (different_.size() <= most_different) different_.insert(number);
-  const bool is_nines = std::abs(number) >= 99.0 && cell.find_first_not_of("-.09") == cell.npos &&
-                        cell.substr(0, cell.find('.')).find('0') == cell.npos;
   constexpr std::array ends = {-2147483648.0, -32768.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
   const bool is_end = std::ranges::find(ends, number) != ends.end() || std::abs(number) >= 1e20;
-  if (word_.empty() && (is_nines || is_end)) {
+  if (word_.empty() && (is_code(cell, number) || is_end)) {
     word_ = cell;
     number_ = number;
   }
@@ -45,23 +56,29 @@ void Nines::see(std::string_view cell, double number) {
   }
 }
 
+std::string Nines::doubt_of(std::string_view column, const End& end, double other_end) const {
+  std::vector<std::string> words;
+  std::size_t cells = 0;
+  bool codes = different_.size() > most_different;
+  for (auto told = end.begin(); told != end.end() && std::next(told) != end.end(); ++told) {
+    const double next = std::next(told)->first;
+    if (told->second.cells < again || (told->first == 0.0 && !asks_for_zero_)) break;
+    words.push_back(told->second.word);
+    cells += told->second.cells;
+    codes = codes || told->second.word == word_;
+    if (codes && told->first - next > next + other_end && others_ + cells_ >= few + cells)
+      return sentence(column, cells, words);
+  }
+  return {};
+}
+
 std::string Nines::doubt(std::string_view column) const {
-  constexpr std::size_t few = 20, again = 3;
-  const auto sentence = [&](std::size_t cells, std::string_view word) {
-    return fmt::format("column {}: {} {} {}, far from the others; if that stands for no value, give --missing={}",
-                       in_quotes(column), cells, cells == 1 ? "cell is" : "cells are", word, word);
-  };
   const bool is_far = std::max(number_ - greatest_, least_ - number_) > greatest_ - least_;
   const bool is_great = number_ < 0.0 ? least_ > 0.1 * number_ : greatest_ < 0.1 * number_;
-  if (!word_.empty() && others_ >= few && (is_far || is_great)) return sentence(cells_, word_);
-  const double low = -low_.number, high = high_.number, next_low = -low_.next, next_high = high_.next;
-  if (different_.size() <= most_different) return {};
-  const auto comes_again = [&](const End& end) {  // but zero, of which others ask
-    return end.number != 0.0 && end.cells >= again && others_ + cells_ >= few + end.cells;
-  };
-  if (comes_again(high_) && high - next_high > next_high - low) return sentence(high_.cells, high_.word);
-  if (comes_again(low_) && next_low - low > high - next_low) return sentence(low_.cells, low_.word);
-  return {};
+  if (!word_.empty() && others_ >= few && (is_far || is_great)) return sentence(column, cells_, {word_});
+  if (low_.empty()) return {};
+  const std::string above = doubt_of(column, high_, low_.begin()->first);
+  return above.empty() ? doubt_of(column, low_, high_.begin()->first) : above;
 }
 
 }  // namespace sigmax::apps

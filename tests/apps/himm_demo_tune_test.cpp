@@ -195,6 +195,17 @@ TEST_F(Tune, FindsTheNoisesWhereFixesAreHoursApartAndSaysWhereItMayNot) {
   EXPECT_TRUE(says(program::succeeded(tune(quickly(file, {"--keep", "models"}))).on_one_line(), {strays}));
 }
 
+TEST_F(Tune, FitsASigmaForEachAxisWhereTheRowsScatterOtherwiseAlongTheOther) {
+  const auto text = changed(recording(400, false), [](std::vector<double>& row, std::size_t k) {
+    row[2] += 10.0 * static_cast<double>(k * k % 25 * 7919 % 25) - 120.0;  // uniform, 70 m
+  });
+  const auto best = (directory.path() / "best.toml").string();
+  program::succeeded(tune(quickly(directory.write("flight.csv", text), {"--out", best})));
+  const std::string toml = contents(best), y = toml.substr(toml.find(',', toml.find("sigma_position_m = [")) + 1);
+  EXPECT_NEAR(value_in(toml, "sigma_position_m"), 20.0, 3.0) << toml;
+  EXPECT_NEAR(std::stod(y), 73.0, 10.0) << toml;
+}
+
 TEST_F(Tune, TurnsVelocitiesOfRowsWithoutAPlaceIntoTheFrame) {
   std::mt19937_64 generator(3);
   std::normal_distribution<double> normal;

@@ -143,6 +143,29 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
   for (const std::string& doubt : doubts.sentences(recording)) data.notes.push_back(doubt);
 }
 
+/// The positions of one sensor of a track, and how far each is off the line between the two beside it, along x and y.
+struct Bends {
+  std::vector<AnyPlot> last{};
+  std::array<std::vector<double>, 2> off{};
+
+  void see(const AnyPlot& plot) {
+    last.push_back(plot);
+    if (last.size() < 3) return;
+    const double share = (last[1].time - last[0].time) / (plot.time - last[0].time);
+    for (std::size_t i = 0; i < 2; ++i)
+      off[i].push_back(std::abs(last[1].z[i] - last[0].z[i] - share * (plot.z[i] - last[0].z[i])));
+    last.erase(last.begin());
+  }
+
+  /// Whether one scatters twice as much.
+  bool apart() {
+    constexpr std::size_t enough = 30;
+    if (off[0].size() < enough) return false;
+    const double x = quantile(off[0], 0.5), y = quantile(off[1], 0.5);
+    return x > 0.0 && y > 0.0 && std::max(x, y) > 2.0 * std::min(x, y);
+  }
+};
+
 /// Drops what is too short, and takes down what the rest holds.
 void summarize(TuneData& data, const Columns& columns) {
   const std::size_t all = data.tracks.size();
@@ -153,7 +176,9 @@ void summarize(TuneData& data, const Columns& columns) {
   data.too_short = all - data.tracks.size();
   std::vector<double> steps;
   std::map<QuantityKey, std::vector<double>> changes;
+  std::map<std::string, Bends> bends;
   for (const TuneTrack& track : data.tracks) {
+    for (auto& [sensor, its] : bends) its.last.clear();
     std::optional<double> last;
     std::map<QuantityKey, double> numbers;
     for (const Row& row : track.rows) {
@@ -171,6 +196,7 @@ void summarize(TuneData& data, const Columns& columns) {
       sensor.velocity |= is_moving(row.plot, data.axes);
       sensor.range_rate |= row.plot.sensor == AnyPlot::Sensor::doppler;
       (is_bearing ? sensor.bearing : by_radar ? sensor.radar : sensor.position) |= unsaid;
+      if (!is_bearing && !by_radar && data.axes > 1 && seen == data.axes) bends[row.sensor].see(row.plot);
       for (std::size_t i = 0; i < static_cast<std::size_t>(row.plot.size); ++i) {
         const auto key = quantity_of(row.plot, i);
         const auto [before, is_first] = numbers.try_emplace(key, row.plot.z[i]);
@@ -180,6 +206,8 @@ void summarize(TuneData& data, const Columns& columns) {
       }
     }
   }
+  // East and north are no axes of a sensor: what scatters otherwise along them is the way of a target.
+  for (auto& [name, its] : bends) data.sensors[name].apart = !data.geodetic && its.apart();
   for (auto& [name, sensor] : data.sensors)
     if (const auto own = columns.find(name); own != columns.end())
       for (const auto& [key, numbers] : own->second) {

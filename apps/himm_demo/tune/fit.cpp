@@ -100,19 +100,22 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
                     sensor.rounding_of(AnyPlot::Sensor::doppler, i, i));
   };
   if (sensor.position) {
-    const auto& sigma = now.position_m;
-    const double ratio = sigma.size() == 1 ? 1.0 : sigma[1] / sigma[0];
-    const double height = sigma.back();
-    const bool one = axes < 3 && sigma.size() == 1;
-    add("sigma_position_m", sigma[0], least(0, std::min(axes, 2) - 1), [=](Accuracy& accuracy, double value) {
-      if (one)
-        accuracy.position_m = {value};
-      else
-        accuracy.position_m = {value, ratio * value, accuracy.position_m.back()};
-    });
-    if (axes == 3)
-      add("height's sigma_position_m", height, least(2, 2),
-          [](Accuracy& accuracy, double value) { accuracy.position_m.back() = value; });
+    // One number for axes from one to another, which keep their ratio.
+    const auto add_axes = [&](std::string_view whose, int from, int to) {
+      auto sigma = now.position_m;
+      if (axes == 3 || sensor.apart) sigma.resize(3, sigma.back());
+      const double start = sigma[sigma.size() == 1 ? 0 : static_cast<std::size_t>(from)];
+      add(fmt::format("{}sigma_position_m", whose), start, least(from, to), [=](Accuracy& accuracy, double value) {
+        if (accuracy.position_m.size() < sigma.size()) accuracy.position_m = sigma;
+        for (std::size_t i = 0; i < sigma.size(); ++i)
+          if (sigma.size() == 1 || (static_cast<int>(i) >= from && static_cast<int>(i) <= to))
+            accuracy.position_m[i] = value * (sigma[i] / start);
+      });
+    };
+    const int last = std::min(axes, 2) - 1;
+    add_axes(sensor.apart ? "x's " : "", 0, sensor.apart ? 0 : last);
+    if (sensor.apart) add_axes("y's ", 1, 1);
+    if (axes == 3) add_axes("height's ", 2, 2);
   }
   if (sensor.velocity && now.velocity_mps)
     add("sigma_velocity_mps", *now.velocity_mps, least(axes, 2 * axes),

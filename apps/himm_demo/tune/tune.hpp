@@ -58,6 +58,7 @@ struct TuneTrack {
 struct TuneSensor {
   std::size_t rows = 0;
   bool position = false;
+  bool apart = false;  ///< whether its positions scatter otherwise along x than along y
   bool radar = false;
   bool bearing = false;  ///< alone
   bool velocity = false;
