@@ -31,7 +31,7 @@ std::string numbers_of(const Vector<3>& a, int axes) {
   return fmt::format("{:.3g}", fmt::join(a.data(), a.data() + axes, ", "));
 }
 
-/// Keeps the last few of some.
+/// Whether so many are known as are kept of the last ones.
 template <class One>
 bool are_enough(const std::vector<One>& some) {
   return some.size() == 8;

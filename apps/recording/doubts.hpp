@@ -32,9 +32,9 @@ class Doubts {
     void add(double told_now, double growth);
     double correlation() const { return product / std::sqrt(told * grew); }
     double growth_per_told() const { return product / told; }
-    bool fits() const { return count >= few && correlation() > 0.9; }
     /// The square of the relative standard error of that.
     double error_square() const { return (told * grew / (product * product) - 1.0) / static_cast<double>(count); }
+    bool fits() const { return count >= few && correlation() > 0.9; }
     /// Whether what is told is too small, or too great, whichever of the two is noisy.
     bool other_size() const {
       const double margin = 0.08 + 5.0 * std::sqrt(std::max(error_square(), 0.0));
@@ -160,8 +160,8 @@ class Doubts {
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
   Agreement lag_;                      // of the truth's velocity with them
-  Eigen::Array3d error_ = Eigen::Array3d::Zero(), square_ = error_,
-                 next_ = error_;  // sums of errors, their squares, and their products with those before
+  // Sums of errors, their squares, and their products with those before.
+  Eigen::Array3d error_ = Eigen::Array3d::Zero(), square_ = error_, next_ = error_;
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places
