@@ -8,10 +8,9 @@ constexpr const char* usage =
 
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
-  return run_command_line(
-      {"himm_demo",
-       "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode (IMM) and with a fuzzy "
-       "mode (HIMM).",
-       subcommands, "simulate", usage},
-      argc, argv);
+  return run_command_line({"himm_demo",
+                           "Tracks manoeuvring targets by the interacting multiple-model filter with a random mode "
+                           "(IMM) and with a fuzzy mode (HIMM).",
+                           subcommands, "simulate", usage},
+                          argc, argv);
 }

@@ -46,9 +46,9 @@ std::vector<std::string> command_of(const std::string& campaign) {
 }
 
 void merge(const MergeOptions& options) {
-  std::vector<std::string> journals;
-  for (const std::filesystem::path part : options.parts) journals.push_back(part / journal_name);
-  refuse_to_overwrite(options.output, journals);
+  refuse_to_overwrite(options.output, each(options.parts, [](const std::filesystem::path& part) {
+                        return (part / journal_name).string();
+                      }));
   const Journaled all = joined(options.parts);
   std::vector<std::string> arguments = command_of(all.study);
   Journal(output_directory(options.output.out) / journal_name, all.study).append(all.rows);

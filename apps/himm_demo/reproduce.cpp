@@ -171,21 +171,11 @@ struct Cast {
   std::string_view reading;  ///< of (57), for HIMM
   bool released_imm;         ///< the authors' program's IMM rather than the correct one
 
+  /// Their name, or nothing of nobody.
   std::string filter(Actor subject) const {
-    switch (subject) {
-      case Actor::himm:
-        return "himm_" + std::string(reading);
-      case Actor::himm_wide:
-        return "himm_" + std::string(reading) + "_5";
-      case Actor::imm:
-        return released_imm ? "imm_released" : "imm";
-      case Actor::imm_most_likely:
-        return released_imm ? "imm_released_most_likely" : "imm_most_likely";
-      case Actor::measurement:
-        return measurement_name;
-      default:
-        return "";
-    }
+    const std::string himm = "himm_" + std::string(reading), imm = released_imm ? "imm_released" : "imm";
+    const std::array<std::string, 6> names = {himm, himm + "_5", imm, imm + "_most_likely", measurement_name, ""};
+    return names[static_cast<std::size_t>(subject)];
   }
 };
 
@@ -639,11 +629,10 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   for (const Preset preset : both_presets) page.verdict.push_back(counts_of(of(preset), preset));
   page.verdict.push_back(
       fmt::format("{} runs of each scenario, group and preset, seed {}.", options.choice.runs, options.choice.seed));
-  page.panels.emplace_back(ReportTable{
-      .title = "The sentences",
-      .table = claims,
-      .note = "\"Only released\": it holds only against the released IMM. HIMM has the reading of (57) that "
-              "is printed, or released."});
+  page.panels.emplace_back(ReportTable{.title = "The sentences",
+                                       .table = claims,
+                                       .note = "\"Only released\": it holds only against the released IMM. HIMM has "
+                                               "the reading of (57) that is printed, or released."});
   // Those first that the sentences are about: their colours differ.
   auto names = names_of(conditions, {"imm", "himm_own", "himm_released", "himm_selected", "himm_own_recentred"});
   for (const Preset preset : both_presets) page.last.emplace_back(overview_map(conditions, names, preset));
@@ -656,11 +645,11 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
 
   for (const Preset preset : both_presets) {
     const std::string heading = fmt::format("{}: the figures that decide", words_of(preset));
-    result.add(deciding_figures(of(preset)),
-               {.heading = heading,
-                .title = heading,
-                .note = "The least favourable one, against both IMMs; \"sure\": how many are where the sentence wants "
-                        "them."});
+    result.add(
+        deciding_figures(of(preset)),
+        {.heading = heading,
+         .title = heading,
+         .note = "The least favourable one, against both IMMs; \"sure\": how many are where the sentence wants them."});
   }
   result.say(
       "(Scenario/group, filter : its reference, phase and axis. The relative difference of RMSE unless something else "

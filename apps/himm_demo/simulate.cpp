@@ -363,11 +363,6 @@ std::vector<View> views_of(const Experiment& experiment, const std::vector<Perfo
   return all;
 }
 
-/// Of the first view what ends the output on a terminal: the RMSE in x, and the weights.
-std::vector<LineChart> charts_of(const View& view) {
-  return {std::get<LineChart>(view.panels[0]), std::get<LineChart>(view.panels[3])};
-}
-
 struct SimulateOptions {
   int scenario = 1;
   int group = 1;
@@ -375,9 +370,7 @@ struct SimulateOptions {
   std::optional<int> runs;
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
-  std::string config;
-  std::vector<std::string> sets;
-  bool print_config = false;
+  FilterOptions filters;
   OutputOptions output;
 };
 
@@ -532,20 +525,18 @@ Comparison compared(const Found& found, const Performance& of, const Performance
   return comparison;
 }
 
-/// Whether two filters take the same and make the same of it, but for the kind of the mode.
-bool alike(const FilterSettings& a, const FilterSettings& b) {
-  return a.scheme == b.scheme && a.smooth == b.smooth && a.radar_measurement == b.radar_measurement &&
-         a.sojourn_s == b.sojourn_s;
-}
-
-/// Every fuzzy filter against every random one like it; without such a pair, every filter against the first.
+/// Every fuzzy filter against every random one that takes the same and makes the same of it; without such a pair, every
+/// filter against the first.
 std::vector<Comparison> comparisons(const Found& found) {
   std::vector<Comparison> all;
   const auto& of = found.performances;
   for (std::size_t f = 1; f < of.size(); ++f)
-    for (std::size_t r = 1; r < of.size(); ++r)
-      if (of[f].filter()->fuzzy && !of[r].filter()->fuzzy && alike(*of[f].filter(), *of[r].filter()))
+    for (std::size_t r = 1; r < of.size(); ++r) {
+      const FilterSettings &a = *of[f].filter(), &b = *of[r].filter();
+      if (a.fuzzy && !b.fuzzy && a.scheme == b.scheme && a.smooth == b.smooth &&
+          a.radar_measurement == b.radar_measurement && a.sojourn_s == b.sojourn_s)
         all.push_back(compared(found, of[f], of[r]));
+    }
   const bool none = all.empty();
   for (std::size_t f = 2; f < of.size() && none; ++f) all.push_back(compared(found, of[f], of[1]));
   return all;
@@ -627,8 +618,8 @@ void report(const Found& found, ResultFiles& files) {
   result.say(
       {{brief,
         "(RMSE of the distance. NEES and NIS: means over all phases. Cross-time: mean of the runs' that crossed, and "
-        "of "
-        "the averaged curves, in samples. ns/step: CPU time on one thread, median; all else is the same for a seed.)"},
+        "of the averaged curves, in samples. ns/step: CPU time on one thread, median; all else is the same for a "
+        "seed.)"},
        {!brief && !compared.empty(),
         fmt::format("(RMSE differences ± 95 % by paired runs; negative is better. \"Competitive\": within {:.0f} %.)",
                     100.0 * competitive_fraction)}});
@@ -651,22 +642,23 @@ void report(const Found& found, ResultFiles& files) {
   page.chooser = "Show";
   if (files.report_wanted() || charts_on_terminal(options.output)) {
     page.views = views_of(experiment, found.performances);
-    result.on_terminal = charts_of(page.views.front());
+    const auto& panels = page.views.front().panels;  // of which the RMSE in x and the weights end the output
+    result.on_terminal = {std::get<LineChart>(panels[0]), std::get<LineChart>(panels[3])};
   }
   page.last.emplace_back(Words{"Settings in force", as_toml(experiment.filters), true});
   result.publish(files);
 }
 
 void simulate_and_report(const SimulateOptions& options) {
-  const Settings settings = Settings::read(options.config, options.sets);
+  const Settings settings = Settings::read(options.filters.config, options.filters.sets);
   const Group parameters = group(options.group, options.scenario);
   const auto filters = read_filters(settings, FilterDefaults::of(options.preset, parameters));
   settings.refuse_unknown();
-  if (options.print_config) {
+  if (options.filters.print_config) {
     fmt::print("{}", as_toml(filters));
     return;
   }
-  refuse_to_overwrite(options.output, {options.config}, {"filters.csv", "rmse.csv", "weights.csv"});
+  refuse_to_overwrite(options.output, {options.filters.config}, {"filters.csv", "rmse.csv", "weights.csv"});
   const bool released = options.preset == Preset::released;
   const Experiment experiment{scenario(options.scenario, options.preset), parameters,   filters,
                               options.runs.value_or(released ? 50 : 100), options.seed, released ? -1 : 0};
@@ -700,7 +692,7 @@ void add_simulate(CLI::App& program, const std::string& command) {
   app.option("--runs", options->runs, "Monte Carlo runs [100, or 50 for released]").in(1, 100000000);
   add_threads(app, options->threads);
   add_seed(app, options->seed);
-  add_filter_options(app, options->config, options->sets, options->print_config);
+  add_filter_options(app, options->filters);
   add_output(app, options->output);
   add_report(app, options->output);
   add_no_chart(app, options->output.no_chart);

@@ -159,16 +159,14 @@ std::vector<SweepCondition> conditions_of(const SweepChoice& choice) {
 }
 
 std::string list(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(shortest(number));
-  return fmt::format("{}", fmt::join(texts, ","));
+  return fmt::format("{}", fmt::join(each(numbers, shortest), ","));
 }
 
 /// The command that does the same again.
 std::string command_of(const SweepChoice& choice) {
   return fmt::format(
-      "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters {} "
-      "--probability {} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}{}",
+      "himm_demo {} sweep --scenario {} --mismatch {} --period {} --strength {} --length {} --filters {} --probability "
+      "{} --possibility {} --sigma-w {} --lift {} --beyond {} --tuning-runs {} --runs {} --seed {}{}",
       version, fmt::join(choice.scenarios, ","), list(choice.mismatch), list(choice.period), list(choice.strength),
       list(choice.length), fmt::join(choice.filters, ","), list(choice.probability), list(choice.possibility),
       list(choice.sigma_w), fmt::join(choice.lifts, ","), choice.beyond, choice.tuning_runs, choice.runs, choice.seed,
@@ -296,8 +294,7 @@ class SweepWorld {
   }
   std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const {
     const Scenario scenario = scenario_of(conditions_[condition]);
-    std::vector<FilterSettings> tried;
-    for (const Place& place : places) tried.push_back(settings(condition, f, place));
+    const auto tried = each(places, [&](const Place& place) { return settings(condition, f, place); });
     Squares measured{};
     std::vector<Squares> sums(places.size(), Squares{});
     for (int run = 0; run < choice_.tuning_runs; ++run) {
@@ -309,9 +306,7 @@ class SweepWorld {
           sums[i].fill(infinity);  // a filter that fails with bad settings has no good score
         }
     }
-    std::vector<double> scores;
-    for (const Squares& own : sums) scores.push_back(score(own, measured));
-    return scores;
+    return each(sums, [&](const Squares& own) { return score(own, measured); });
   }
   // The best place with its score and how many were tried; then of each batch of runs their number, and the squares of
   // the measurement and of the filter.
@@ -509,7 +504,7 @@ class Maps {
     std::vector<Panel> panels;
     for (const int scenario : world_.choice().scenarios) {
       HeatMap map = empty(fmt::format("Scenario {}", scenario), "condition", "filter");
-      for (const Choice& choice : choices_) map.columns.push_back(choice.name);
+      map.columns = each(choices_, &Choice::name);
       std::vector<std::size_t> own;
       for (std::size_t c = 0; c < world_.conditions().size(); ++c) {
         if (world_.conditions()[c].scenario != scenario) continue;

@@ -11,17 +11,35 @@
 namespace sigmax::apps {
 namespace {
 
-constexpr std::size_t few = 10, many = 10000, many_ways = 100, most_leaps = 5;
+constexpr std::size_t many = 10000, many_ways = 100, most_leaps = 5;
 
 // Over so many rows the two kinds of rates are compared.
 constexpr std::array<std::size_t, 3> lengths = {1, 10, 100};
 
-double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector<3>& a, const Vector<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-double distance(const auto& a, const auto& b) {
-  double square = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(square);
+double length(const Vector<3>& a) { return std::sqrt(dot(a, a)); }
+
+/// How far a place is off the way between two others, by the times of all three.
+Vector<3> off_the_way(double time, const Vector<3>& at, double from, const Vector<3>& a, double to,
+                      const Vector<3>& b) {
+  return at - a - (b - a) * (time - from) / (to - from);
+}
+
+/// "12.5, -3": as many numbers as there are axes.
+std::string numbers_of(const Vector<3>& a, int axes) {
+  return fmt::format("{:.3g}", fmt::join(a.data(), a.data() + axes, ", "));
+}
+
+/// Whether so many are known as are kept of the last ones.
+template <class One>
+bool are_enough(const std::vector<One>& some) {
+  return some.size() == 8;
+}
+template <class One>
+void keep(const One& one, std::vector<One>& some) {
+  if (are_enough(some)) some.erase(some.begin());
+  some.push_back(one);
 }
 
 /// The upper one of two.
@@ -71,25 +89,6 @@ bool Doubts::Stays::regular() const {
   return changed >= few && 10 * (changes.size() > few ? nearly : usual) >= 9 * changed;
 }
 
-/// Numbers as 101559 that are hours, minutes and seconds never end on 60 to 99.
-void Doubts::see_time(double time) {
-  const double hundreds = std::floor(time / 100.0);
-  ++times_;
-  if (std::fmod(time, 100.0) < 60.0 && std::fmod(hundreds, 100.0) < 60.0) ++clocks_;
-  if (std::fmod(time, 50.0) != 0.0) ++uneven_;
-  if (hundreds != hundreds_) ++minutes_;
-  hundreds_ = hundreds;
-  latest_ = time;
-}
-
-void Doubts::see_azimuth(double azimuth, const Position& from_radar) {
-  const double true_one = std::atan2(from_radar[1], from_radar[0]);
-  as_read_ += std::cos(azimuth - true_one);
-  other_way_ += std::cos(90.0 * degree - azimuth - true_one);
-  radians_ += std::cos(azimuth / degree - true_one);
-  ++azimuths_;
-}
-
 void Doubts::see_bearing(const Bearing& now, std::optional<Bearing>& before) {
   const double north = 90.0 * degree;
   if (before && now.from != before->from && std::abs(std::sin(now.azimuth - before->azimuth)) > 0.1) {
@@ -100,61 +99,35 @@ void Doubts::see_bearing(const Bearing& now, std::optional<Bearing>& before) {
   before = now;
 }
 
-void Doubts::see_error(const Spoke& last, const Spoke& now) {
-  const double off = distance(now.error, Position{});
-  if (std::isnan(off + last.error[0])) return;
-  ++errors_;
-  off_ += off;
-  if (off > 5.0 * distance(now.error, last.error)) ++same_;
-  for (std::size_t i = 0; i < 3; ++i) {
-    lag_.add((now.at[i] - now.error[i] - last.at[i] + last.error[i]) / (now.time - last.time), now.error[i]);
-    error_[i] += now.error[i];
-    square_[i] += now.error[i] * now.error[i];
-    next_[i] += now.error[i] * last.error[i];
-  }
-}
-
-void Doubts::see_return(Sensor& before, const Spoke& now, double jump) {
-  constexpr std::size_t reach = 8;
-  const auto is_nearer = [&](const Position& at) {
-    const double off = distance(at, now.at);
-    return off > 0.0 && off < 0.2 * jump;
-  };
-  if (std::ranges::any_of(before.recent, is_nearer)) ++returns_;
-  if (before.recent.size() == reach) before.recent.erase(before.recent.begin());
-  before.recent.push_back({now.at[0], now.at[1], now.at[2]});
-}
-
 void Doubts::see_leap(Sensor& before, const Spoke& now, double jump) {
-  constexpr std::size_t reach = 8;
+  constexpr std::size_t most_rows = 8;
   constexpr double farther = 20.0, most_mps2 = 30.0;
   if (jump == 0.0) return;  // it is held
   const double dt = now.time - before.last.time, speed = jump / dt;
   if (auto& leap = before.leap) {
-    const bool is_back = distance(leap->from, now.at) < 0.5 * leap->way;
+    const bool is_back = length(leap->from - now.at) < 0.5 * leap->way;
+    const bool stays = ++leap->rows == most_rows;
     if (is_back || farther * jump > leap->way || farther * speed * leap->dt > leap->way) {
       leap.reset();
-    } else if (++leap->rows == reach) {
-      ++leaps_;
-      if (!leap_) leap_ = leap;
+    } else if (stays) {
+      if (leaps_++ == 0) leap_ = *leap;
       leap.reset();
     }
-  } else if (before.moves.size() == reach && speed > most_mps2 * dt &&
+  } else if (are_enough(before.moves) && speed > most_mps2 * dt &&
              std::ranges::all_of(before.moves, [&](const auto& move) {
                return jump > farther * move.first && speed > farther * move.second;
              })) {
-    before.leap = {{before.last.at[0], before.last.at[1], before.last.at[2]}, jump, dt, now.line};
+    before.leap = {before.last.at, jump, dt, now.line};
     return;  // that is no move of its own
   }
-  if (before.moves.size() == reach) before.moves.erase(before.moves.begin());
-  before.moves.emplace_back(jump, speed);
+  keep({jump, speed}, before.moves);
 }
 
 void Doubts::see_rates(Sensor& before, Spoke now) {
   const Spoke& last = before.last;
   const double dt = now.time - last.time;
   if (!(dt > 0.0)) return;
-  const double jump = distance(last.at, now.at);
+  const double jump = length(last.at - now.at);
   path_ += jump;
   // A place that is held may have a height that is not; the Earth's curve moves it along by a little then.
   const double rise = std::abs(now.height - last.height);
@@ -167,35 +140,44 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     if (ways_.size() < many_ways) ways_.insert(std::lround(1000.0 * std::log(before.way)));
   }
   before.way = way;
-  stays_[0].see(way, before.runs[0]);
-  stays_[1].see(rise, before.runs[1]);
-  Position change{};
-  for (std::size_t i = 0; i < 3; ++i) change[i] = i == 2 && std::isnan(now.rate[i]) ? 0.0 : now.rate[i] - last.rate[i];
-  stays_[2].see(std::sqrt(dot(change, change)), before.runs[2]);
+  Vector<3> change = (now.rate - last.rate).head<3>();
+  if (std::isnan(now.rate[z])) change[z] = 0.0;
+  const std::array changes = {way, rise, length(change)};
+  for (std::size_t i = 0; i < changes.size(); ++i) stays_[i].see(changes[i], before.runs[i]);
   if (!std::isnan(now.height + last.height)) zero_heights_.see((now.height == 0.0) != (last.height == 0.0), rise);
-  see_return(before, now, jump);
+  const auto is_much_nearer = [&](const Vector<3>& at) {
+    const double off = length(at - now.at);
+    return off > 0.0 && off < 0.2 * jump;
+  };
+  if (std::ranges::any_of(before.recent, is_much_nearer)) ++returns_;
+  keep(now.at, before.recent);
   see_leap(before, now, jump);
   if (now.twice != last.twice) to_twice_ += jump;
-  see_error(last, now);
-  for (std::size_t i = 0; i < now.rate.size(); ++i)
-    if (std::isnan(now.rate[i])) now.rate[i] = last.rate[i];
+  if (const double off = length(now.error); !std::isnan(off + last.error[0])) {
+    ++errors_;
+    off_ += off;
+    if (off > 5.0 * length(now.error - last.error)) ++same_;
+    const Vector<3> velocity = (now.at - now.error - last.at + last.error) / dt;
+    for (Eigen::Index i = 0; i < 3; ++i) lag_.add(velocity[i], now.error[i]);
+    error_ += now.error.array();
+    square_ += now.error.array().square();
+    next_ += now.error.array() * last.error.array();
+  }
+  now.rate = now.rate.isNaN().select(last.rate, now.rate);
   for (std::size_t k = 0; k < lengths.size(); ++k) {
     Since& since = before.since[k];
-    for (std::size_t i = 0; i < now.rate.size(); ++i) since.told[i] += dt * (last.rate[i] + now.rate[i]) / 2.0;
+    since.told += dt * (last.rate + now.rate) / 2.0;
     if (++since.rows < lengths[k]) continue;
     const double T = now.time - since.time;
-    std::array<double, 4> grew = now.grown();
-    for (std::size_t i = 0; i < grew.size(); ++i) {
-      grew[i] = (grew[i] - since.at[i]) / T;
-      since.told[i] /= T;
-      rates_[k].each[i].add(since.told[i], grew[i]);
-    }
-    for (std::size_t i = 0; i < 2; ++i) {
-      rates_[k].velocities.add(since.told[i], grew[i]);
-      rates_[k].exchanged.add(since.told[1 - i], grew[i]);
-      rates_[k].to_the_left.add(i == 0 ? -since.told[1] : since.told[0], grew[i]);
-    }
-    since = {now.time, now.grown()};
+    const Grown grew = (now.grown - since.grown) / T, told = since.told / T;
+    const auto add = [&](std::size_t rate, double told_now, double growth) { rates_[k][rate].add(told_now, growth); };
+    for (const Rate rate : {x, y, z, range}) add(rate, told[rate], grew[rate]);
+    for (const Rate rate : {x, y}) add(velocities, told[rate], grew[rate]);
+    add(exchanged, told[y], grew[x]);
+    add(exchanged, told[x], grew[y]);
+    add(to_the_left, -told[y], grew[x]);
+    add(to_the_left, told[x], grew[y]);
+    since = {now.time, now.grown};
   }
   before.last = now;
 }
@@ -206,33 +188,23 @@ void Doubts::see_other(const std::string& sensor, const Spoke& now, Track& track
   if (own == track.spoke.end()) return;
   const Spoke& last = own->second.last;
   const double T = now.time - last.time;
-  const auto off_the_way = [](double t, const auto& at, double from, const auto& a, double to, const auto& b) {
-    Position off{};
-    for (std::size_t i = 0; i < 3; ++i) off[i] = at[i] - a[i] - (b[i] - a[i]) * (t - from) / (to - from);
-    return off;
-  };
   if (const auto& before = own->second.before; before && T > 0.0 && T <= 2.0 * (last.time - before->first)) {
-    const auto bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
-    if (distance(before->second, last.at) > 0.0 && bent_ < many) {
-      bends_[&own->second].emplace_back(std::sqrt(dot(bend, bend)), distance(before->second, now.at));
+    const Vector<3> bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
+    if (before->second != last.at && bent_ < many) {
+      bends_[&own->second].emplace_back(length(bend), length(before->second - now.at));
       ++bent_;
     }
     if (const auto other = track.spoke.find(track.latest); other != own && other->second.last.time >= last.time) {
-      Position velocity{};
-      for (std::size_t i = 0; i < 3; ++i) velocity[i] = (now.at[i] - last.at[i]) / T;
       const Spoke& told = other->second.last;
       constexpr std::size_t most_pairs = 100, enough = 1000;
       const std::pair pair(sensor, other->first);
       if (const auto known = apart_.find(pair);
           known == apart_.end() ? apart_.size() < most_pairs : known->second.size() < enough)
         apart_[pair].push_back({off_the_way(told.time, told.at, last.time, last.at, now.time, now.at),
-                                velocity,
-                                {told.at[0], told.at[1], told.at[2]},
-                                told.from_radar,
-                                dot(bend, bend)});
+                                (now.at - last.at) / T, told.at, told.from_radar, dot(bend, bend)});
     }
   }
-  own->second.before = {last.time, {last.at[0], last.at[1], last.at[2]}};
+  own->second.before = {last.time, last.at};
 }
 
 /// What accounts for most of it, in each quarter of the rows, since errors that last come and go: a shift, or so many
@@ -247,49 +219,35 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
   const auto of_all = [&](const auto& number) { return median_of(rows, number); };
   struct Cause {
     std::string words;
-    std::function<Position(const Off&)> off;
+    std::function<Vector<3>(const Off&)> off;
   };
   std::vector<Cause> causes;
   const auto left_of = [&](std::span<const Off> some, const Cause& cause) {
-    return median_of(some, [&](const Off& row) { return std::pow(distance(row.by, cause.off(row)), 2); });
+    return median_of(some, [&](const Off& row) { return std::pow(length(row.by - cause.off(row)), 2); });
   };
-  Position shift;
-  for (std::size_t i = 0; i < 3; ++i) shift[i] = of_all([&](const Off& row) { return row.by[i]; });
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) parts.push_back(fmt::format("{:.3g}", shift[i]));
-  causes.push_back({fmt::format("{:.3g} m away, by ({})", std::sqrt(dot(shift, shift)), fmt::join(parts, ", ")),
+  Vector<3> shift;
+  for (Eigen::Index i = 0; i < 3; ++i) shift[i] = of_all([&](const Off& row) { return row.by[i]; });
+  causes.push_back({fmt::format("{:.3g} m away, by ({})", length(shift), numbers_of(shift, axes)),
                     [shift](const Off&) { return shift; }});
-  const auto consider = [&](std::string_view format, double unit, const std::function<Position(const Off&)>& of) {
-    const double times = of_all([&](const Off& row) {
-      const Position direction = of(row);
-      return dot(row.by, direction) / dot(direction, direction);
-    });
+  const auto consider = [&](std::string_view format, double unit, const std::function<Vector<3>(const Off&)>& of) {
+    const double times = of_all([&](const Off& row) { return dot(row.by, of(row)) / dot(of(row), of(row)); });
     causes.push_back({fmt::format(fmt::runtime(format), std::abs(times) / unit, times > 0.0 ? "early" : "late"),
-                      [of, times](const Off& row) {
-                        Position expected = of(row);
-                        for (double& along : expected) along *= times;
-                        return expected;
-                      }});
+                      [of, times](const Off& row) -> Vector<3> { return times * of(row); }});
   };
-  const auto across = [](const Position& at) { return Position{-at[1], at[0], 0.0}; };
+  const auto across = [](const Vector<3>& at) { return Vector<3>(-at[1], at[0], 0.0); };
   consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.velocity; });
   if (rows.front().from_radar) {
-    const auto from = [](const Off& row) { return row.from_radar.value_or(Position{}); };
-    consider("turned by {:.2g}° about where it stands", degree, [&](const Off& row) { return across(from(row)); });
-    consider("{:.3g} m off in its ranges", 1.0, [&](const Off& row) {
-      Position at = from(row);
-      const double range = std::sqrt(dot(at, at));
-      for (double& along : at) along /= range;
-      return at;
-    });
+    const auto from = [](const Off& row) -> Vector<3> { return row.from_radar.value_or(Vector<3>::Zero()); };
+    consider("turned by {:.2g}° about where it stands", degree, [=](const Off& row) { return across(from(row)); });
+    consider("{:.3g} m off in its ranges", 1.0,
+             [=](const Off& row) -> Vector<3> { return from(row) / length(from(row)); });
   } else {
-    consider("turned by {:.2g}°", degree, [&](const Off& row) { return across(row.at); });
+    consider("turned by {:.2g}°", degree, [=](const Off& row) { return across(row.at); });
     consider("{:.2g} % off in scale", 0.01, [](const Off& row) { return row.at; });
   }
   const auto square = [](const Off& row) { return dot(row.by, row.by); };
   const double all = of_all(square), bend = of_all([](const Off&row) { return row.bend; });
-  std::vector<double> left;
-  for (const Cause& cause : causes) left.push_back(left_of(rows, cause));
+  const auto left = each(causes, [&](const Cause& cause) { return left_of(rows, cause); });
   const auto best = std::ranges::min_element(left);
   if (!(*best < 0.5 * all) || !(all - *best > bend)) return {};
   const Cause& nearest = causes[static_cast<std::size_t>(best - left.begin())];
@@ -308,49 +266,61 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
   const AnyPlot& plot = row.plot;
   const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing, has_rate = plot.sensor == AnyPlot::Sensor::doppler;
   const bool is_radar = has_rate || plot.sensor == AnyPlot::Sensor::polar;
-  see_time(plot.time);
+  const Vector<3> origin(plot.origin.data());
+  // Numbers as 101559 that are hours, minutes and seconds never end on 60 to 99.
+  const double hundreds = std::floor(plot.time / 100.0);
+  ++times_;
+  if (std::fmod(plot.time, 100.0) < 60.0 && std::fmod(hundreds, 100.0) < 60.0) ++clocks_;
+  if (std::fmod(plot.time, 50.0) != 0.0) ++uneven_;
+  if (hundreds != std::exchange(hundreds_, hundreds)) ++minutes_;
+  latest_ = plot.time;
   Track& track = tracks_[row.track];
-  const auto& reference = row.truth ? row.truth : track.located;
-  if ((is_bearing || is_radar) && reference)
-    see_azimuth(plot.z[is_bearing ? 0 : 1], {(*reference)[0] - plot.origin[0], (*reference)[1] - plot.origin[1], 0.0});
+  const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
+  if (const auto& reference = truth ? truth : track.located; reference && (is_bearing || is_radar)) {
+    const double azimuth = plot.z[is_bearing ? 0 : 1];
+    const double true_one = std::atan2((*reference)[1] - origin[1], (*reference)[0] - origin[0]);
+    as_read_ += std::cos(azimuth - true_one);
+    other_way_ += std::cos(90.0 * degree - azimuth - true_one);
+    radians_ += std::cos(azimuth / degree - true_one);
+    ++azimuths_;
+  }
   if (is_bearing) see_bearing({plot.origin, plot.z[0]}, track.bearing);
   if (!position || axes_seen(plot, axes) < axes) return;
-  const Position& at = *position;
+  const Vector<3> at(position->data());
   farthest_ = std::max(farthest_, std::hypot(at[0], at[1]));
   if (!twice_) twice_ = row.twice;
-  Spoke now{plot.time,
-            {at[0], at[1], at[2], is_radar ? plot.z[0] : 0.0},
-            {nan, nan, nan, has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
-            {nan, nan, nan},
-            {},
-            row.twice && row.twice == twice_,
-            axes == 3 ? component_of(plot, 2).value_or(nan) : nan,
-            row.line};
-  if (now.height == 0.0) ++zero_heights_.rows;
-  if (is_radar) now.from_radar = {at[0] - plot.origin[0], at[1] - plot.origin[1], at[2] - plot.origin[2]};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i)
-    now.rate[i] = component_of(plot, axes + static_cast<int>(i)).value_or(nan);
-  for (std::size_t i = 0; i < 3 && row.truth; ++i) now.error[i] = at[i] - (*row.truth)[i];
-  if (row.truth) {
-    const bool is_zero = axes > 1 && (*row.truth)[0] == 0.0 && (*row.truth)[1] == 0.0;
+  const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
+  const auto rate = [&](int i) { return i < axes ? component_of(plot, axes + i).value_or(nan) : nan; };
+  const Spoke now{plot.time,
+                  at,
+                  {at[0], at[1], std::isnan(height) ? at[2] : height, is_radar ? plot.z[0] : 0.0},
+                  {rate(0), rate(1), rate(2), has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
+                  truth ? Vector<3>(at - *truth) : Vector<3>::Constant(nan),
+                  is_radar ? std::optional(Vector<3>(at - origin)) : std::nullopt,
+                  row.twice && row.twice == twice_,
+                  height,
+                  row.line};
+  if (height == 0.0) ++zero_heights_.rows;
+  if (truth) {
+    const bool is_zero = axes > 1 && (*truth)[0] == 0.0 && (*truth)[1] == 0.0;
     if (is_zero) ++zero_truths_.rows;
-    zero_truths_.see(is_zero, distance(at, *row.truth));
+    zero_truths_.see(is_zero, length(now.error));
   }
   if (now.twice) ++twice_rows_;
   if (track.latest != row.sensor || sensors_.empty()) sensors_.insert(row.sensor);
   see_other(row.sensor, now, track);
   track.latest = row.sensor;
-  const Since since{now.time, now.grown()};
+  const Since since{now.time, now.grown};
   const auto [before, first] = track.spoke.try_emplace(row.sensor, Sensor{now, {since, since, since}});
   if (!first) see_rates(before->second, now);
-  if (!is_radar) track.located = position;
+  if (!is_radar) track.located = at;
   if (!track.first) {
-    track.first = position;
+    track.first = at;
     track.first_time = plot.time;
   } else if (steps_.size() < many) {
     steps_.push_back(plot.time - track.time);
   }
-  track.last = position;
+  track.last = at;
   track.time = plot.time;
 }
 
@@ -358,13 +328,12 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
 /// standard errors, of errors that last as these do; else nothing.
 std::string Doubts::shifted() const {
   const auto n = static_cast<double>(errors_);
-  Position mean{};
+  Eigen::Array3d mean = error_ / n, variances = square_ / n - mean * mean;
   std::vector<std::string> parts;
   double scatter = 0.0;
   bool is_shifted = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    mean[i] = error_[i] / n;
-    const double variance = square_[i] / n - mean[i] * mean[i];
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double variance = variances[i];
     if (!(variance > 0.0)) continue;
     const double lasting = std::clamp((next_[i] / n - mean[i] * mean[i]) / variance, 0.0, 0.99);
     const double independent = n * (1.0 - lasting) / (1.0 + lasting);
@@ -373,7 +342,7 @@ std::string Doubts::shifted() const {
     parts.push_back(fmt::format("{:.3g}", mean[i]));
   }
   if (!is_shifted) return {};
-  return fmt::format("{:.3g} m on the average, by ({}), where they scatter by {:.3g} m", std::sqrt(dot(mean, mean)),
+  return fmt::format("{:.3g} m on the average, by ({}), where they scatter by {:.3g} m", length(mean.matrix()),
                      fmt::join(parts, ", "), std::sqrt(scatter));
 }
 
@@ -395,8 +364,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     if (holds) sentences.push_back(recording.file() + ": " + fmt::format(fmt::runtime(format), words...));
   };
   const std::string range_remedy = fmt::format(
-      "where a radar counts closing as positive, its column is closing_rate_mps, else range_rate_mps: name "
-      "it {}",
+      "where a radar counts closing as positive, its column is closing_rate_mps, else range_rate_mps: name it {}",
       recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
   const std::array<std::array<std::string_view, 3>, 4> kinds = {
       {{"velocities along x", "x",
@@ -405,42 +373,39 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
        {"velocities along y", "y", "vy is along y, or north, and latitudes south are negative"},
        {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
        {"range rates", "the ranges", range_remedy}}};
-  const auto fit = [](const Agreement& rates) { return rates.count >= few && rates.correlation() > 0.9; };
-  const bool exchanged = std::ranges::any_of(
-      rates_, [&](const Rates& rates) { return fit(rates.exchanged) && rates.velocities.correlation() < 0.5; });
-  say(exchanged,
+  const bool swapped = std::ranges::any_of(
+      rates_, [](const Rates& rates) { return rates[exchanged].fits() && rates[velocities].correlation() < 0.5; });
+  say(swapped,
       "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
       "east, vy along y, or north, a latitude is along y, and a course is clockwise from north");
-  for (std::size_t i = exchanged ? 2 : 0; i < kinds.size(); ++i) {
-    const auto found = std::ranges::find_if(rates_, [&](const Rates& rates) { return rates.each[i].other_sign(); });
+  for (std::size_t i = swapped ? z : x; i < kinds.size(); ++i) {
+    const auto found = std::ranges::find_if(rates_, [&](const Rates& rates) { return rates[i].other_sign(); });
     say(found != rates_.end(), "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i][0],
-        kinds[i][1], found == rates_.end() ? 0.0 : found->each[i].correlation(), kinds[i][2]);
+        kinds[i][1], found == rates_.end() ? 0.0 : (*found)[i].correlation(), kinds[i][2]);
   }
-  const auto say_scale = [&](std::string_view name, std::string_view others, const auto& agreement) {
-    for (const Rates& rates : rates_) {
-      if (!fit(agreement(rates)) || !agreement(rates).other_size()) continue;
-      return say(true,
-                 "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that "
-                 "of their header",
-                 name, 1.0 / agreement(rates).growth_per_told(), others, others);
-    }
+  const auto say_scale = [&](Rate rate, std::string_view name, std::string_view others) {
+    const auto wrong = std::ranges::find_if(
+        rates_, [&](const Rates& rates) { return rates[rate].fits() && rates[rate].other_size(); });
+    say(wrong != rates_.end(),
+        "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that of their "
+        "header",
+        name, wrong == rates_.end() ? 0.0 : 1.0 / (*wrong)[rate].growth_per_told(), others, others);
   };
-  say_scale("velocities", "positions", [](const Rates& rates) { return rates.velocities; });
+  say_scale(velocities, "velocities", "positions");
   for (const Rates& rates : rates_) {
     constexpr double earth = 6.4e6;  // of whose north one is another's, far away
-    const double angle = std::atan2(rates.to_the_left.product, rates.velocities.product);
-    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(rates.velocities.error_square(), 0.0)) +
+    const double angle = std::atan2(rates[to_the_left].product, rates[velocities].product);
+    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(rates[velocities].error_square(), 0.0)) +
                           (recording.on_the_earth() ? 2.0 * farthest_ / earth : 0.0);
-    if (!fit(rates.velocities) || std::abs(angle) < margin) continue;
+    if (!rates[velocities].fits() || std::abs(angle) < margin) continue;
     say(true,
         "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
-        "and "
-        "whether it is one, and no heading",
+        "and whether it is one, and no heading",
         std::abs(angle) / degree, angle > 0.0 ? "right" : "left");
     break;
   }
-  say_scale("vertical velocities", "heights", [](const Rates& rates) { return rates.each[2]; });
-  say_scale("range rates", "ranges", [](const Rates& rates) { return rates.each[3]; });
+  say_scale(z, "vertical velocities", "heights");
+  say_scale(range, "range rates", "ranges");
   const auto n = static_cast<double>(azimuths_);
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
   const auto fits = [&](double sum) { return azimuths_ >= few && n - as_read_ > std::max(9.0 * (n - sum), 1e-3 * n); };
@@ -463,8 +428,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const bool no_truth = zero_truths_.stands_out();
   say(no_truth,
       "the truth is (0, 0) in {} rows, where it is much farther from what was measured than in all others: if that "
-      "stands "
-      "for no truth, empty those cells or name them by --missing",
+      "stands for no truth, empty those cells or name them by --missing",
       zero_truths_.rows);
   say(lags && !no_truth,
       "the measurements are off the truth as if it told where the target {} {:.2g} s {} (that leaves {:.0f} % of the "
@@ -509,14 +473,13 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "it, as if they were interpolated: they count as new measurements, and the filters take their estimates for "
       "better than they are; leave the measured rows alone",
       straight, bent_);
-  std::vector<std::string_view> names;
-  for (const auto& [name, track] : tracks_) names.push_back(name);
+  const auto names = each(tracks_, [](const auto& named) -> std::string_view { return named.first; });
   const std::pair<std::string_view, std::string> twins[] = {{"tracks", alike(names)},
                                                             {"sensors", alike({sensors_.begin(), sensors_.end()})}};
   for (const auto& [what, two] : twins)
     say(!two.empty(),
-        "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they "
-        "are the same",
+        "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are "
+        "the same",
         what, two);
   const auto nines = recording.nines();
   for (const std::string& sentence : nines) say(true, "{}", sentence);
@@ -527,8 +490,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const auto& [abroad, first_abroad] = recording.abroad();
   say(abroad > 0,
       "{} positive latitudes or longitudes stand beside an S or a W, first on line {}, and were taken as north and "
-      "east: "
-      "give those of the south and the west a minus sign",
+      "east: give those of the south and the west a minus sign",
       abroad, first_abroad);
   const auto& zone = recording.other_zone();
   say(zone.line > 0 && (zone.is_none || std::abs(zone.step) > 10.0 * step),
@@ -543,18 +505,16 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const auto& [left, left_by] = recording.left_behind();
   say(left >= few,
       "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "
-      "it; "
-      "or, where a clock begins anew (at midnight, with the week, after summer time or a restart), add from there on "
-      "what it went back",
+      "it; or, where a clock begins anew (at midnight, with the week, after summer time or a restart), add from there "
+      "on what it went back",
       left, left_by);
+  const Leap leap = leap_.value_or(Leap{});
   say(leap_ && leaps_ <= most_leaps,
       "positions leap by {:.3g} m in {:.3g} s on line {}, 20 times as far as in the rows about it, and stay there{}: "
-      "see "
-      "whether a place, a unit, a zone or an axis changed, or the target (--track-id)",
-      leap_ ? leap_->way : 0.0, leap_ ? leap_->dt : 0.0, leap_ ? leap_->line : 0,
-      leaps_ > 1 ? fmt::format("; {} such in all", leaps_) : "");
-  const auto& [positions, heights, velocities] = stays_;
-  const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {velocities, "velocities"}};
+      "see whether a place, a unit, a zone or an axis changed, or the target (--track-id)",
+      leap.way, leap.dt, leap.line, leaps_ > 1 ? fmt::format("; {} such in all", leaps_) : "");
+  const auto& [positions, heights, speeds] = stays_;
+  const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {speeds, "velocities"}};
   for (const auto& [stays, what] : slower)
     say(stays.regular() && stays.changes.size() > few && !positions.regular(),
         "the {} change {} times in {} rows, after as many rows each time, and stay the same to the last digit between: "
@@ -564,8 +524,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   constexpr double low_m = 20.0;  // a lift, or an animal that dives
   say(zero_heights_.stands_out() && zero_heights_.least > low_m,
       "the height is 0 in {} rows, and goes much farther to or from there than between any others: if that stands for "
-      "no "
-      "height, empty those cells or name them by --missing",
+      "no height, empty those cells or name them by --missing",
       zero_heights_.rows);
   const std::size_t jumps = positions.same + positions.changed;
   say(3 * returns_ > 2 * jumps && jumps >= 2 * few,
@@ -577,7 +536,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;
     duration += track.time - track.first_time;
-    moved += distance(*track.first, *track.last);
+    moved += length(*track.first - *track.last);
   }
   // What stays where it is repeats itself, too; but its way is much longer than the distance that it comes.
   // So does what is rounded, by steps that are few; a held position goes any way, and is held again, or as long.
@@ -611,8 +570,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
         step, speed, unit.words, unit.name);
   say(speed > 1.2e4,  // nothing on the Earth or about it is as fast
-      "a speed of {:.2g} m/s, where times are {:.2g} s apart: if times are not seconds, name the column "
-      "time_min, time_h or time_days",
+      "a speed of {:.2g} m/s, where times are {:.2g} s apart: if times are not seconds, name the column time_min, "
+      "time_h or time_days",
       speed, step);
   return sentences;
 }

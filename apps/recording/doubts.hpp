@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include <sigmax/estimation/gaussian.hpp>
+
 #include "recording/recording.hpp"
 
 namespace sigmax::apps {
@@ -20,6 +22,8 @@ class Doubts {
   std::vector<std::string> sentences(const RecordingReader& recording) const;
 
  private:
+  static constexpr std::size_t few = 10;
+
   /// What rows told of a rate against how its quantity grew between them, as sums of products.
   struct Agreement {
     std::size_t count = 0;
@@ -30,6 +34,7 @@ class Doubts {
     double growth_per_told() const { return product / told; }
     /// The square of the relative standard error of that.
     double error_square() const { return (told * grew / (product * product) - 1.0) / static_cast<double>(count); }
+    bool fits() const { return count >= few && correlation() > 0.9; }
     /// Whether what is told is too small, or too great, whichever of the two is noisy.
     bool other_size() const {
       const double margin = 0.08 + 5.0 * std::sqrt(std::max(error_square(), 0.0));
@@ -42,22 +47,20 @@ class Doubts {
   };
   /// The rates along x, y and z, and of the range; those of the first two together, taken for each other, and a right
   /// angle to the left.
-  struct Rates {
-    std::array<Agreement, 4> each;
-    Agreement velocities, exchanged, to_the_left;
-  };
-  /// What a sensor told: a position and its range, and how fast they grow.
+  enum Rate : std::size_t { x, y, z, range, velocities, exchanged, to_the_left };
+  using Rates = std::array<Agreement, to_the_left + 1>;
+  /// What grows by the first four: a position, with the height that the row tells, and the range.
+  using Grown = Eigen::Array4d;
+  /// What a sensor told: a position and what grows, and how fast it does.
   struct Spoke {
     double time;
-    std::array<double, 4> at, rate;
-    Position error;  ///< about the truth
-    std::optional<Position> from_radar;
+    Vector<3> at;
+    Grown grown, rate;
+    Vector<3> error;  ///< about the truth
+    std::optional<Vector<3>> from_radar;
     bool twice;     ///< whether it is the number that comes twice
     double height;  ///< as the row tells it
     std::size_t line;
-
-    /// What grows by the rates.
-    std::array<double, 4> grown() const { return {at[0], at[1], std::isnan(height) ? at[2] : height, at[3]}; }
   };
   /// How often something stays as it was, to the last digit, and after how many rows it changes.
   struct Stays {
@@ -88,12 +91,12 @@ class Doubts {
   /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
   struct Since {
     double time;
-    std::array<double, 4> at, told{};
+    Grown grown, told = Grown::Zero();
     std::size_t rows = 0;
   };
   /// From one row to the next much farther than before and after, and not back again: nothing turns so sharply.
   struct Leap {
-    Position from;
+    Vector<3> from;
     double way, dt;
     std::size_t line;      ///< of the row that it ends on
     std::size_t rows = 0;  ///< since
@@ -101,18 +104,18 @@ class Doubts {
   struct Sensor {
     Spoke last;
     std::array<Since, 3> since;
-    std::optional<std::pair<double, Position>> before{};  // the last one
-    double way = 0.0;                                     // between these, along the ground if there is a height
-    std::array<std::size_t, 3> runs{};                    // of stays_, that last
-    std::vector<Position> recent{};                       // the last few
-    std::vector<std::pair<double, double>> moves{};       // the last few ways, and speeds along them
-    std::optional<Leap> leap{};                           // that the next few rows confirm
+    std::optional<std::pair<double, Vector<3>>> before{};  // the last one
+    double way = 0.0;                                      // between these, along the ground if there is a height
+    std::array<std::size_t, 3> runs{};                     // of stays_, that last
+    std::vector<Vector<3>> recent{};                       // the last few
+    std::vector<std::pair<double, double>> moves{};        // the last few ways, and speeds along them
+    std::optional<Leap> leap{};                            // that the next few rows confirm
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
-    Position by, velocity, at;
-    std::optional<Position> from_radar;  ///< where it is from the sensor, of a radar
-    double bend;                         ///< squared, of the other one's own last position off its own way
+    Vector<3> by, velocity, at;
+    std::optional<Vector<3>> from_radar;  ///< where it is from the sensor, of a radar
+    double bend;                          ///< squared, of the other one's own last position off its own way
   };
   struct Bearing {
     Position from;
@@ -120,19 +123,15 @@ class Doubts {
   };
   struct Track {
     double first_time = 0.0, time = 0.0;  // of those with a position
-    std::optional<Position> first{}, last{};
-    std::optional<Position> located{};      // by a sensor of positions
+    std::optional<Vector<3>> first{}, last{};
+    std::optional<Vector<3>> located{};     // by a sensor of positions
     std::optional<Bearing> bearing{};       // the last one
     std::map<std::string, Sensor> spoke{};  // by sensor
     std::string latest{};                   // of them
   };
-  void see_time(double time);
-  void see_azimuth(double azimuth, const Position& from_radar);
   void see_bearing(const Bearing& now, std::optional<Bearing>& before);
   void see_rates(Sensor& before, Spoke now);
-  void see_return(Sensor& before, const Spoke& now, double jump);
   void see_leap(Sensor& before, const Spoke& now, double jump);
-  void see_error(const Spoke& last, const Spoke& now);
   std::string shifted() const;
   std::string other_times() const;
   static std::string why_apart(const std::vector<Off>& rows, int axes);
@@ -157,11 +156,12 @@ class Doubts {
   std::map<std::pair<std::string, std::string>, std::vector<Off>> apart_;  // sensors of one track, the first thousand
   // How far positions are off the line between the two beside them, and these from each other.
   std::map<const Sensor*, std::vector<std::pair<double, double>>> bends_;
-  std::size_t bent_ = 0;                  // of those, the first thousands
-  std::size_t errors_ = 0, same_ = 0;     // about the truth, and those that are much as the one before
-  double off_ = 0.0;                      // sum of those
-  Agreement lag_;                         // of the truth's velocity with them
-  Position error_{}, square_{}, next_{};  // sums of errors, their squares, and their products with those before
+  std::size_t bent_ = 0;               // of those, the first thousands
+  std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
+  double off_ = 0.0;                   // sum of those
+  Agreement lag_;                      // of the truth's velocity with them
+  // Sums of errors, their squares, and their products with those before.
+  Eigen::Array3d error_ = Eigen::Array3d::Zero(), square_ = error_, next_ = error_;
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places

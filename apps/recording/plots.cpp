@@ -63,9 +63,15 @@ RandomStream stream_of(std::uint64_t seed, std::string_view track) {
   return {seed, hash};
 }
 
-void see_by_radar(Row& row, const Position& position, const std::array<double, 3>& sigma, const Position& radar_at,
+void see_by_radar(Row& row, const std::optional<Position>& position, int axes, const RadarOptions& radar,
                   RandomStream& random, const std::string& file) {
-  const double x = position[0] - radar_at[0], y = position[1] - radar_at[1], z = position[2] - radar_at[2];
+  if (axes_seen(row.plot, axes) < axes) {
+    row.plot = AnyPlot::missed(row.plot.time);
+    return;
+  }
+  const auto& sigma = *radar.sigma;
+  const Position at = radar.place();
+  const double x = (*position)[0] - at[0], y = (*position)[1] - at[1], z = (*position)[2] - at[2];
   const double ground = std::hypot(x, y);
   const Sighting seen = measured({std::hypot(ground, z), std::atan2(y, x), std::atan2(z, ground)},
                                  {sigma[0], sigma[1] * degree, sigma[2] * degree}, random);
@@ -75,7 +81,7 @@ void see_by_radar(Row& row, const Position& position, const std::array<double, 3
         "track with --radar-at=E,N,U",
         file, row.line, shortest(seen[0]));
   row.truth = position;
-  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan}, radar_at);
+  row.plot = AnyPlot::polar(row.plot.time, seen, std::array{nan, nan, nan}, at);
 }
 
 void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions& radar) {

@@ -36,11 +36,6 @@ Sighting measured(Sighting exact, const Sighting& sigma, RandomStream& random);
 /// A stream of random numbers for each track, whichever others a file holds.
 RandomStream stream_of(std::uint64_t seed, std::string_view track);
 
-/// Takes a position for the truth and sees it by a simulated radar with these standard deviations, in m and degrees.
-/// Throws InputError with file and line where it comes out behind the radar.
-void see_by_radar(Row& row, const Position& position, const std::array<double, 3>& sigma, const Position& radar_at,
-                  RandomStream& random, const std::string& file);
-
 /// A radar that is simulated, if it is, and where a radar stands.
 struct RadarOptions {
   std::optional<std::array<double, 3>> sigma;  ///< standard deviations in m, degrees and degrees
@@ -48,6 +43,11 @@ struct RadarOptions {
 
   Position place() const { return at.value_or(Position{}); }
 };
+
+/// Takes a position for the truth and sees it by a simulated radar, or misses what lacks an axis. Throws InputError
+/// with file and line where it comes out behind the radar.
+void see_by_radar(Row& row, const std::optional<Position>& position, int axes, const RadarOptions& radar,
+                  RandomStream& random, const std::string& file);
 
 /// The options that say what a recording's columns mean, and which of its rows count; and --radar and --radar-at. All
 /// outlive the app.

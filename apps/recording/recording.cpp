@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/ranges.h>
-
 #include "support/input.hpp"
 #include "support/output.hpp"
+#include "support/text.hpp"
 #include "support/timestamp.hpp"
 
 namespace sigmax::apps {
@@ -44,18 +43,13 @@ bool is_accuracy(Role role) {
 }  // namespace
 
 RecordingReader::RecordingReader(const RecordingOptions& options)
-    : csv_(open_csv(options.file)),
+    : options_(options),
+      csv_(open_csv(options.file)),
       mapping_(mapping_of(options.columns)),
-      time_format_(options.time_format),
-      missing_(options.missing),
-      from_north_(options.azimuth_from_north.value_or(false)),
-      skip_bad_times_(options.skip_bad_times),
-      takes_velocity_(options.velocity && !options.simulated),
-      simulated_(options.simulated),
-      takes_range_rate_(options.range_rate),
-      sensor_places_(options.sensor_places) {
+      from_north_(options.azimuth_from_north.value_or(false)) {
+  options_.velocity &= !options.simulated;
   for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
-  find_columns(options);
+  find_columns();
   if (options.azimuth_from_north && !has(Role::polar, 1))
     throw UsageError("--azimuth-from is for radar input and bearings, but " + file() + " has no azimuth that counts");
   if (!options.track_id.empty()) track_ = csv_.column(options.track_id);
@@ -103,7 +97,7 @@ void RecordingReader::drop(Role role, std::size_t from) {
   for (std::size_t i = from; i < size_of(role); ++i) column(role, i).reset();
 }
 
-void RecordingReader::find_columns(const RecordingOptions& options) {
+void RecordingReader::find_columns() {
   std::ranges::transform(quantities, columns_.begin(), [&](const Quantity& quantity) { return find(quantity); });
   std::optional<std::size_t> time;
   for (const bool mapped : {true, false})
@@ -115,7 +109,7 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   drop(Role::polar, 3);
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
-    if (options.azimuth_from_north == false)
+    if (options_.azimuth_from_north == false)
       throw UsageError("--azimuth-from east contradicts the column {}", csv_.names()[azimuth->index]);
     from_north_ = true;
   }
@@ -128,8 +122,8 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
   const bool along_one =
       has(Role::position) && !has(Role::position, 1) && !has(Role::position, 2) && !geodetic() && !polar();
   const bool cartesian = are_there(Role::position) || along_one;
-  const bool places = sensor_places_ || are_there(Role::sensor_place);
-  if (along_one || (((geodetic() && !places) || simulated_) && !polar())) drop(Role::polar);
+  const bool places = options_.sensor_places || are_there(Role::sensor_place);
+  if (along_one || (((geodetic() && !places) || options_.simulated) && !polar())) drop(Role::polar);
   const bool has_course = are_there(Role::course) && !has(Role::velocity) && !has(Role::velocity, 1);
   const bool has_velocity = has_course || has(Role::velocity);
   refuse_other_kinds(cartesian, time.has_value(), has_velocity);
@@ -144,12 +138,12 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
         "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
         file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
-  if (!takes_velocity_ || axes_ == 1 || !has_course) drop(Role::course);
-  drop(Role::velocity, takes_velocity_ ? axes : 0);
+  if (!options_.velocity || axes_ == 1 || !has_course) drop(Role::course);
+  drop(Role::velocity, options_.velocity ? axes : 0);
   if (!has(Role::range_rate)) std::swap(column(Role::range_rate), column(Role::range_rate, 1));
-  drop(Role::range_rate, polar() && takes_range_rate_ ? 1 : 0);
+  drop(Role::range_rate, polar() && options_.range_rate ? 1 : 0);
   drop(Role::truth, axes_of(Role::truth) < axes_ ? 0 : axes);
-  const std::size_t told = located() && !simulated_ ? axes : 0;
+  const std::size_t told = located() && !options_.simulated ? axes : 0;
   drop(Role::covariance, covariances(told));
   const bool has_variance = has(Role::covariance) || has(Role::covariance, 2) || has(Role::covariance, 5);
   drop(Role::sigma_position, has_variance ? 0 : told);
@@ -159,13 +153,13 @@ void RecordingReader::find_columns(const RecordingOptions& options) {
     column(Role::sigma_polar).reset();
   }
   for (const Role role : {Role::sensor_position, Role::sensor_place})
-    drop(role, (polar() || bearings()) && !simulated_ && are_there(role) ? axes : 0);
+    drop(role, (polar() || bearings()) && !options_.simulated && are_there(role) ? axes : 0);
 }
 
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const {
   const bool nowhere = !cartesian && !geodetic() && !polar() && !(bearings() && !without_unit());
   const bool moves = nowhere && has_velocity && !without_unit();
-  const bool none = nowhere && !(moves && takes_velocity_);
+  const bool none = nowhere && !(moves && options_.velocity);
   if (!time_known && csv_.names().size() == 1) csv_.column("time_s");  // says what may be wrong with the separators
   const std::string map = "map other headers with --columns, as in --columns time_s=t,x_m=east";
   const struct {
@@ -174,7 +168,8 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
     std::string remedy;
   } refusals[] = {
       {!time_known, "there is no column time_s", map},
-      {none && moves && !simulated_, "there are velocities alone", "give --set sigma_velocity_mps=…, and they count"},
+      {none && moves && !options_.simulated, "there are velocities alone",
+       "give --set sigma_velocity_mps=…, and they count"},
       {none, "its columns are of no kind", without_unit().value_or(map)},
       {geodetic() && (cartesian || (polar() && !seen_from_places())), "there are columns of several kinds",
        polar() ? "say on which latitude and longitude the sensors stand, or rename the columns that do not count"
@@ -185,13 +180,13 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
        "add one that names each row's sensor, or map its header with --columns"}};
   for (const auto& [holds, what, remedy] : refusals)
     if (holds)
-      throw InputError(message({.where = file() + ":1",
-                                .what = what,
-                                .found = fmt::format("{}", fmt::join(csv_.names(), ", ")),
-                                .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] "
-                                            "(or altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg"
-                                            "[,elevation_deg]",
-                                .remedy = remedy}));
+      throw InputError(
+          message({.where = file() + ":1",
+                   .what = what,
+                   .found = list_of(csv_.names()),
+                   .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] (or "
+                               "altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg[,elevation_deg]",
+                   .remedy = remedy}));
 }
 
 /// The first column that may be a coordinate, but for its unit.
@@ -216,38 +211,30 @@ bool RecordingReader::next(Row& row) {
   if (sensor_ && row.sensor.empty()) throw row_.error(*sensor_, "the name of the row's sensor", "fill the cell");
   take_numbers();
   if (said(Role::course).value_or(0.0) < 0.0 && said(Role::course, 1).value_or(0.0) < 0.0) ++negative_speeds_;
-  row.truth.reset();
-  if (says(Role::truth)) {
-    require_whole(Role::truth, 3);
-    row.truth = {*said(Role::truth), said(Role::truth, 1).value_or(0.0), said(Role::truth, 2).value_or(0.0)};
-  }
+  row.truth = position(Role::truth);
   const double time = row.plot.time;
   const auto plot = measured();
-  take_place_of_sensor(row);
-  if (!plot && senseless_.rows++ == 0) senseless_.first_line = row.line;
+  const auto counts = [&](Role role) { return says(role) && !is_senseless(role); };
+  row.sensor_at = counts(Role::sensor_position) ? position(Role::sensor_position) : std::nullopt;
+  row.sensor_place = counts(Role::sensor_place) ? std::optional(place(Role::sensor_place)) : std::nullopt;
+  if (!plot) senseless_.add(row.line);
   const Role where = geodetic() ? Role::place : Role::position;
   row.twice = axes_ > 1 && said(where) == said(where, 1) ? said(where) : std::nullopt;
-  if (geodetic()) see_hemispheres();
+  for (std::size_t i = 0; i < 2 && geodetic(); ++i) {  // whose hemisphere may be in one of the next two columns
+    const auto first = columns_[place_of(Role::place) + i]->index + 1;
+    for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
+      if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W")) abroad_.add(row_.line());
+  }
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
   return true;
 }
 
 std::optional<double> RecordingReader::time_of(std::string_view text, bool& of_day) const {
-  of_day = time_format_.empty() && is_time_of_day(text);
-  if (!time_format_.empty()) return parse_timestamp(text, time_format_, of_day);
+  of_day = options_.time_format.empty() && is_time_of_day(text);
+  if (!options_.time_format.empty()) return parse_timestamp(text, options_.time_format, of_day);
   if (const auto number = parse_number(text)) return in_seconds(*number, time_unit_->unit_s);
   return parse_timestamp(text);
-}
-
-void RecordingReader::see_zone(std::string_view text, double time) {
-  constexpr std::size_t behind_date = 11;
-  const auto begin = text.find_first_of("+-Zz", std::min(behind_date, text.size()));
-  const std::string_view zone = text.substr(std::min(begin, text.size()));
-  if (zone_ && *zone_ != zone && other_zone_.line == 0)
-    other_zone_ = {row_.line(), time - zoned_, zone_->empty() || zone.empty()};
-  zone_ = zone;
-  zoned_ = time;
 }
 
 /// Takes the row's line, track and time; false if the row is to be skipped for its time.
@@ -257,26 +244,34 @@ bool RecordingReader::take_time(Row& row) {
   if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
   bool of_day = false;
   const auto found = time_of(row_[time_], of_day);
-  if (!found && !time_format_.empty())
-    throw row_.error(time_, "a time as --time-format says, " + in_quotes(time_format_),
+  if (!found && !options_.time_format.empty())
+    throw row_.error(time_, "a time as --time-format says, " + in_quotes(options_.time_format),
                      "correct the cell or drop the row");
   if (!found)
-    throw row_.error(
-        time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
-        "correct the cell or drop the row; if all are written otherwise, say how, as --time-format '%d/%m/%Y "
-        "%H:%M:%S'");
-  times_are_numbers_ = time_format_.empty() && parse_number(row_[time_]);
-  if (time_format_.empty() && !times_are_numbers_ && !of_day) see_zone(trimmed(row_[time_]), *found);
+    throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
+                     "correct the cell or drop the row; if all are written otherwise, say how, as --time-format "
+                     "'%d/%m/%Y %H:%M:%S'");
+  times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
+  if (options_.time_format.empty() && !times_are_numbers_ && !of_day) {
+    constexpr std::size_t behind_date = 11;
+    const std::string_view text = trimmed(row_[time_]);
+    const std::string_view zone = text.substr(std::min(text.find_first_of("+-Zz", behind_date), text.size()));
+    if (zone_ && *zone_ != zone && other_zone_.line == 0)
+      other_zone_ = {row_.line(), *found - zoned_, zone_->empty() || zone.empty()};
+    zone_ = zone;
+    zoned_ = *found;
+  }
   const double time = of_day ? on_its_day(row, *found) : *found;
   row.plot.time = time;
-  if (!refused_time(row, time)) {
-    last_.find(row.track)->second.of_day = of_day;
+  const bool refused = refused_time(row, time);
+  Last& last = last_.find(row.track)->second;
+  if (!refused) {
+    last.of_day = of_day;
     if (of_day) latest_of_day_ = time;
     return true;
   }
-  Last& last = last_.find(row.track)->second;
   const double week_s = 7.0 * day_s, before = last.time;
-  if (!skip_bad_times_)
+  if (!options_.skip_bad_times)
     throw row_.error(
         time_, fmt::format("a time after that of the row before, {}", shortest(before)),
         time >= 0.0 && time < day_s && before > week_s - day_s && before < week_s
@@ -284,8 +279,7 @@ bool RecordingReader::take_time(Row& row) {
         : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
         : time == before
             ? fmt::format(
-                  "where several sensors measure at one time, name them in a column sensor{}; where times were "
-                  "rounded, "
+                  "where several sensors measure at one time, name them in a column sensor{}; where times were rounded, "
                   "write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
             : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
@@ -309,17 +303,16 @@ double RecordingReader::on_its_day(const Row& row, double time_of_day) {
   const double midnight = midnight_before(before);
   const double time = first ? midnight + time_of_day : time_of_day_after(before, time_of_day);
   if (time >= day_s && time - before > day_s / 2.0) return time - day_s;
-  if (time - midnight >= day_s && midnights_.rows++ == 0) midnights_.first_line = row.line;
+  if (time - midnight >= day_s) midnights_.add(row.line);
   return time;
 }
 
 /// Whether the time is not after that of the track's row before; several sensors may measure at one time.
 bool RecordingReader::refused_time(const Row& row, double time) {
   const std::string sensor{sensor_ ? trimmed(row_[*sensor_]) : std::string_view{}};
-  const auto [found, first] = last_.try_emplace(row.track, Last{time, {sensor}, row.line});
-  if (first) return false;
+  const auto [found, first] = last_.try_emplace(row.track);
   Last& last = found->second;
-  if (time > last.time) {
+  if (first || time > last.time) {
     last = {time, {sensor}, row.line};
     return false;
   }
@@ -336,7 +329,7 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
     const auto number = parse_number(word);
     return cell == word || (number && number == parse_number(cell));
   };
-  if (cell.empty() || std::ranges::none_of(missing_, is_cell)) {
+  if (cell.empty() || std::ranges::none_of(options_.missing, is_cell)) {
     // A digit may follow a sign; 1 234, 1.234,5 and 33.88°S are no words for nothing.
     const bool is_word = !cell.empty() && !parse_number(cell) && cell.find_first_of("0123456789") > 1;
     if (is_word)
@@ -348,25 +341,18 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
   return std::nullopt;
 }
 
-/// A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
-void RecordingReader::leave_out_what_is_not_available() {
-  const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
-  const bool no_place = says_none(place_of(Role::place)) && says_none(place_of(Role::place) + 1);
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
-    if (!said_[q] || !(quantities[q].role == Role::place ? no_place : says_none(q))) continue;
-    if (says_none(q)) ++missing_cells_[columns_[q]->index];
-    said_[q].reset();
-  }
-}
-
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
   for (std::size_t q = 0; q < quantities.size(); ++q)
     if (said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt; said_[q])
       nines_[q].see(trimmed(row_[columns_[q]->index]), *said_[q]);
-  leave_out_what_is_not_available();
+  // A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
+  const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
+  const bool no_place = says_none(place_of(Role::place)) && says_none(place_of(Role::place) + 1);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     const Role role = quantities[q].role;
+    if (says_none(q) && (role != Role::place || no_place)) ++missing_cells_[columns_[q]->index];
+    if (role == Role::place ? no_place : says_none(q)) said_[q].reset();
     const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
     if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
     if (said_[q]) *said_[q] *= columns_[q]->unit->value;
@@ -397,6 +383,13 @@ void RecordingReader::require_whole(Role role, std::size_t size) const {
       throw error(role, i, "a number, since the row's other coordinates are there", "fill the cell or empty them all");
 }
 
+/// The position that it says, if it does.
+std::optional<Position> RecordingReader::position(Role role) const {
+  if (!says(role)) return std::nullopt;
+  require_whole(role, 3);
+  return Position{*said(role), said(role, 1).value_or(0.0), said(role, 2).value_or(0.0)};
+}
+
 /// The place on the Earth that it says, perhaps without an altitude.
 Geodetic RecordingReader::place(Role role) const {
   require_whole(role, 2);
@@ -407,27 +400,6 @@ Geodetic RecordingReader::place(Role role) const {
     throw error(role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
                 "correct the cell or drop the row");
   }
-}
-
-/// A positive number whose hemisphere is in one of the next two columns, as in NMEA's sentences.
-void RecordingReader::see_hemispheres() {
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto first = columns_[place_of(Role::place) + i]->index + 1;
-    for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
-      if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W") && abroad_.rows++ == 0)
-        abroad_.first_line = row_.line();
-  }
-}
-
-void RecordingReader::take_place_of_sensor(Row& row) const {
-  row.sensor_at.reset();
-  row.sensor_place.reset();
-  if (says(Role::sensor_position) && !is_senseless(Role::sensor_position)) {
-    require_whole(Role::sensor_position, 3);
-    row.sensor_at = {*said(Role::sensor_position), *said(Role::sensor_position, 1),
-                     said(Role::sensor_position, 2).value_or(0.0)};
-  }
-  if (says(Role::sensor_place) && !is_senseless(Role::sensor_place)) row.sensor_place = place(Role::sensor_place);
 }
 
 /// What the row measured; nothing if it has a number that stands for none.
@@ -559,7 +531,7 @@ std::string RecordingReader::taken() const {
     if (is_accuracy(quantity.role)) part += " for the row's accuracy";
     parts.push_back(std::move(part));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return list_of(parts);
 }
 
 /// Names of the first quantity that those of a role cannot do without, and that has no column; or empty.
@@ -575,15 +547,15 @@ std::string RecordingReader::other_half(Role role) const {
 std::string RecordingReader::why_unused(std::size_t q) const {
   if (columns_[q]) return csv_.names()[columns_[q]->index] + " says it";
   const Role role = quantities[q].role;
-  const bool velocity = !takes_velocity_ && (role == Role::velocity || role == Role::course);
+  const bool velocity = !options_.velocity && (role == Role::velocity || role == Role::course);
   const std::string other = other_half(role), needs = "needs " + other;
   const std::pair<bool, std::string_view> reasons[] = {
-      {velocity && simulated_, "--radar measures no velocity"},
-      {simulated_ && role == Role::polar, "--radar measures positions"},
-      {simulated_ && is_accuracy(role), "--radar has its own"},
+      {velocity && options_.simulated, "--radar measures no velocity"},
+      {options_.simulated && role == Role::polar, "--radar measures positions"},
+      {options_.simulated && is_accuracy(role), "--radar has its own"},
       {!other.empty(), needs},
       {velocity, "give --set sigma_velocity_mps=…"},
-      {!takes_range_rate_ && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
+      {!options_.range_rate && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
       {true, "does not go with the others"}};
   return std::string(std::ranges::find_if(reasons, [](const auto& reason) { return reason.first; })->second);
 }
@@ -620,33 +592,29 @@ std::string RecordingReader::unused() const {
   for (std::size_t index = 0; index < names.size(); ++index)
     if (const auto reason = instead_of(names[index]); !reason.empty()) add(index, reason);
   for (std::size_t index = 0; index < names.size(); ++index) add(index, {});
-  std::vector<std::string> parts;
-  for (const auto& [reason, columns] : reasons)
-    parts.push_back(fmt::format("{}{}", fmt::join(columns, ", "), reason.empty() ? "" : " (" + reason + ")"));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return list_of(reasons, [](const auto& one) {
+    return fmt::format("{}{}", fmt::join(one.second, ", "), one.first.empty() ? "" : " (" + one.first + ")");
+  });
 }
 
 std::vector<std::string> RecordingReader::notes() const {
   const std::string columns = unused();
   const std::string times = midnights_.rows == 1 ? "once" : fmt::format("{} times", midnights_.rows);
-  std::vector<std::string> missing;
-  for (const auto& [column, cells] : missing_cells_)
-    missing.push_back(fmt::format("{} {}", csv_.names()[column], cells));
+  const std::string missing =
+      list_of(missing_cells_, [&](const auto& of) { return fmt::format("{} {}", csv_.names()[of.first], of.second); });
   const std::pair<bool, std::string> notes[] = {
       {!columns.empty(), "Not used: " + columns},
-      {!missing.empty(), fmt::format("Cells that say that there is no number: {}", fmt::join(missing, ", "))},
+      {!missing.empty(), "Cells that say that there is no number: " + missing},
       {unused_velocities_ > 0,
        fmt::format("Velocities do not count in rows of a radar or with a bearing: {} rows", unused_velocities_)},
-      {negative_speeds_ > 0,
-       fmt::format("Speeds and courses below 0, which are taken as they are: {} rows; where they stand for none, name "
-                   "them by --missing",
-                   negative_speeds_)},
+      {negative_speeds_ > 0, fmt::format("Speeds and courses below 0, which are taken as they are: {} rows; where they "
+                                         "stand for none, name them by --missing",
+                                         negative_speeds_)},
       {bearings_ > 0 && unused_azimuths_ > 0,
        fmt::format("Azimuths do not count in rows with a position: {} rows", unused_azimuths_)},
-      {midnights_.rows > 0,
-       fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more than 12 h, and days "
-                   "are counted from the first",
-                   times, midnights_.first_line)}};
+      {midnights_.rows > 0, fmt::format("Times of day pass midnight {}, first on line {}; there the time falls by more "
+                                        "than 12 h, and days are counted from the first",
+                                        times, midnights_.first_line)}};
   std::vector<std::string> sentences;
   for (const auto& [holds, sentence] : notes)
     if (holds) sentences.push_back(sentence);

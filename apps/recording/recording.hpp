@@ -45,6 +45,16 @@ struct Row {
   bool measured() const { return plot.sensor != AnyPlot::Sensor::none; }
 };
 
+/// So many rows, and the line of the first.
+struct Counted {
+  std::size_t rows = 0;
+  std::size_t first_line = 0;
+
+  void add(std::size_t line) {
+    if (rows++ == 0) first_line = line;
+  }
+};
+
 /// Reads a headed CSV recording row by row: Cartesian, geodetic, a radar's or of bearings, or Cartesian rows mixed with
 /// a radar's or with bearings, as its columns say.
 class RecordingReader {
@@ -59,7 +69,7 @@ class RecordingReader {
   bool geodetic() const { return has(Role::place); }
   /// Whether radars or stations of bearings see from places on the Earth: then all is about one point.
   bool seen_from_places() const {
-    return (polar() || bearings()) && !simulated_ && (sensor_places_ || has(Role::sensor_place));
+    return (polar() || bearings()) && !options_.simulated && (options_.sensor_places || has(Role::sensor_place));
   }
   /// Whether estimates have a latitude and a longitude.
   bool on_the_earth() const { return geodetic() || seen_from_places(); }
@@ -100,11 +110,6 @@ class RecordingReader {
   /// where times of day passed midnight.
   std::vector<std::string> notes() const;
 
-  /// So many rows, and the line of the first.
-  struct Counted {
-    std::size_t rows = 0;
-    std::size_t first_line = 0;
-  };
   /// Rows whose measurement is beyond all numbers of this world, and so counts as missed.
   const Counted& senseless() const { return senseless_; }
 
@@ -156,51 +161,42 @@ class RecordingReader {
   void drop(Role role, std::size_t from = 0);
   std::optional<std::size_t> find(std::string_view name) const;
   std::optional<Column> find(const Quantity& quantity) const;
-  void find_columns(const RecordingOptions& options);
+  void find_columns();
   void refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const;
   std::optional<std::string> without_unit() const;
   std::string other_half(Role role) const;
   std::string why_unused(std::size_t quantity) const;
   std::string unused() const;
 
-  void see_zone(std::string_view text, double time);
   bool take_time(Row& row);
   double on_its_day(const Row& row, double time_of_day);
   bool refused_time(const Row& row, double time);
   std::optional<double> number_in(std::size_t column);
-  void leave_out_what_is_not_available();
   void take_numbers();
   const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
   bool says(Role role) const;
   bool is_senseless(Role role) const;
   void require_whole(Role role, std::size_t size) const;
   Geodetic place(Role role) const;
-  void see_hemispheres();
-  void take_place_of_sensor(Row& row) const;
+  std::optional<Position> position(Role role) const;
   InputError error(Role role, std::size_t i, std::string_view expected, std::string_view remedy) const;
   std::optional<AnyPlot> measured();
   AnyPlot radar_plot() const;
   AnyPlot components() const;
   std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
 
+  RecordingOptions options_;
   CsvReader csv_;
   CsvRow row_;
   std::map<std::string, std::string, std::less<>> mapping_;  // of headers, as the options say
   std::array<std::optional<Column>, quantities.size()> columns_;
   std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
-  std::string time_format_;
   const TimeColumn* time_unit_ = time_columns;
   bool times_are_numbers_ = false;
   std::optional<std::size_t> sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
-  std::vector<std::string> missing_;
   bool from_north_ = false;
-  bool skip_bad_times_ = false;
-  bool takes_velocity_ = false;
-  bool simulated_ = false;
-  bool takes_range_rate_ = false;
-  bool sensor_places_ = false;
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <iterator>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -36,6 +39,20 @@ std::string lower_case(std::string_view text);
 /// "'red' and 'Red'", the first two of the words that differ in nothing but case, blanks, or the writing of a number;
 /// or nothing.
 std::string alike(const std::vector<std::string_view>& words);
+
+/// What a function or a member tells of each of several things.
+template <class Range, class Of>
+auto each(const Range& range, const Of& of) {
+  std::vector<std::remove_cvref_t<std::invoke_result_t<const Of&, decltype(*std::begin(range))>>> results;
+  for (const auto& one : range) results.push_back(std::invoke(of, one));
+  return results;
+}
+
+/// The same as words with commas between.
+template <class Range, class Of = std::identity>
+std::string list_of(const Range& range, const Of& of = {}) {
+  return fmt::format("{}", fmt::join(each(range, of), ", "));
+}
 
 /// Letters to change, to add or to leave out until one word is the other (Levenshtein).
 inline std::size_t spelling_distance(std::string_view a, std::string_view b) {

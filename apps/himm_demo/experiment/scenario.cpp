@@ -42,16 +42,9 @@ Group group(int number, int scenario_number) {
   const auto times = [&](double factor) {
     return Polar{factor * accurate.range, factor * accurate.azimuth, factor * accurate.elevation};
   };
-  switch (number) {
-    case 2:
-      return {accurate, times(1.5), 3.0};
-    case 3:
-      return {accurate, times(2.0), 3.0};
-    case 4:
-      return {times(2.0), accurate, 1.0};
-    default:
-      return {accurate, accurate, 3.0};
-  }
+  const Group groups[] = {
+      {accurate, accurate, 3.0}, {accurate, times(1.5), 3.0}, {accurate, times(2.0), 3.0}, {times(2.0), accurate, 1.0}};
+  return groups[number - 1];
 }
 
 Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random) {

@@ -11,12 +11,10 @@ using FilterKey = Key<FilterSettings>;
 
 /// The numbers in TOML.
 std::string toml_list(const std::vector<double>& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) {
-    texts.push_back(shortest(number));
-    if (texts.back().find_first_of(".eni") == std::string::npos) texts.back() += ".0";  // TOML tells integers apart
-  }
-  return fmt::format("[{}]", fmt::join(texts, ", "));
+  return fmt::format("[{}]", list_of(numbers, [](double number) {
+                       const std::string text = shortest(number);  // TOML tells integers apart
+                       return text.find_first_of(".eni") == std::string::npos ? text + ".0" : text;
+                     }));
 }
 
 /// What a number must be.
@@ -108,9 +106,7 @@ FilterKey per_model(MotionParameter parameter) {
   const std::string name{known.key};
   const Range range{known.expected, known.valid};
   const auto values = [=](const FilterSettings& filter) {
-    std::vector<double> result;
-    for (const auto& motion : filter.motions) result.push_back(motion[parameter]);
-    return result;
+    return each(filter.motions, [=](const MotionChoice& motion) { return motion[parameter]; });
   };
   return {name,
           std::string(known.meaning),
@@ -132,18 +128,13 @@ FilterKey per_model(MotionParameter parameter) {
 }
 
 /// The names of all motions.
-std::string motion_names() {
-  std::vector<std::string_view> names;
-  for (const auto& motion : known_motions()) names.push_back(motion.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
+std::string motion_names() { return list_of(known_motions(), &KnownMotion::name); }
 
 /// The models themselves; each new one is as that of its name, or else as the first of those that were there.
 FilterKey models() {
   return {"models", "The motions that the target may follow.", motion_names(),
           [](const Settings& settings, FilterSettings& filter) {
-            std::vector<std::string> names;
-            for (const auto& motion : filter.motions) names.push_back(motion.name);
+            const auto names = each(filter.motions, &MotionChoice::name);
             const std::vector<MotionChoice> before = std::exchange(filter.motions, {});
             for (const auto& name : settings.get("models", names)) {
               if (!known_motion(name)) throw settings.error("models", "names out of " + motion_names());
@@ -155,9 +146,9 @@ FilterKey models() {
             filter.models = names_of(filter.motions);
           },
           [](const FilterSettings& filter) {
-            std::vector<std::string> names;
-            for (const auto& motion : filter.motions) names.push_back(fmt::format("\"{}\"", motion.name));
-            return fmt::format("[{}]", fmt::join(names, ", "));
+            return fmt::format("[{}]", list_of(filter.motions, [](const MotionChoice& motion) {
+                                 return fmt::format("\"{}\"", motion.name);
+                               }));
           }};
 }
 
@@ -180,11 +171,7 @@ FilterKey transition(const std::string& name, std::string meaning, std::string v
             rows = settings.get(name, rows);
             if (filter.fuzzy == fuzzy) filter.transition = rows;
           },
-          [](const FilterSettings& filter) {
-            std::vector<std::string> rows;
-            for (const auto& row : filter.transition) rows.push_back(toml_list(row));
-            return fmt::format("[{}]", fmt::join(rows, ", "));
-          },
+          [](const FilterSettings& filter) { return fmt::format("[{}]", list_of(filter.transition, toml_list)); },
           [=](const FilterSettings& filter) {
             return filter.fuzzy == fuzzy && filter.scheme != Scheme::independent && filter.sojourn_s.empty();
           },
@@ -243,11 +230,10 @@ std::vector<FilterKey> mode_keys() {
                   "stay, first, last")),
       only([](const F& f) { return !f.fuzzy && mixes(f); },
            choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, "correct, released")),
-      only([](const F& f) { return !f.fuzzy; },
-           choice("output_spread",
-                  "Whether the output's covariance (68) has the spread of the means, or omits it as printed. For a "
-                  "random mode.",
-                  &F::output_spread, "included, omitted"))};
+      only([](const F& f) { return !f.fuzzy; }, choice("output_spread",
+                                                       "Whether the output's covariance (68) has the spread of the "
+                                                       "means, or omits it as printed. For a random mode.",
+                                                       &F::output_spread, "included, omitted"))};
 }
 
 /// Likelihoods, what a model lacks, histories, and the output.
@@ -258,12 +244,11 @@ std::vector<FilterKey> estimate_keys() {
              &F::likelihood, "density, possibility"),
       choice("lift", "What stands for a component that a model lacks.", &F::lift,
              "zero, borrowed_variance, unbiased, prior"),
-      only(has_prior,
-           value<F>("entry_scales",
-                    "Standard deviations of a component that begins, if lift is prior: of accelerations in m/s². "
-                    "Histories try each of them.",
-                    [](F& f) -> std::vector<double>& { return f.entry.scales; },
-                    {"positive standard deviations", positive})),
+      only(has_prior, value<F>("entry_scales",
+                               "Standard deviations of a component that begins, if lift is prior: of accelerations in "
+                               "m/s². Histories try each of them.",
+                               [](F& f) -> std::vector<double>& { return f.entry.scales; },
+                               {"positive standard deviations", positive})),
       only(has_prior, value<F>("entry_vertical", "So much of them along z.",
                                [](F& f) -> double& { return f.entry.vertical; }, {"a positive share", positive})),
       only([](const F& f) { return has_prior(f) && turns(f); },
@@ -277,8 +262,7 @@ std::vector<FilterKey> estimate_keys() {
                      [](double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }})),
       only(keeps_histories,
            value<F>("cut",
-                    "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 "
-                    "all.",
+                    "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 all.",
                     &F::cut, {"a number from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; }})),
       only(keeps_histories,
            value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
@@ -317,20 +301,19 @@ std::vector<FilterKey> life_keys() {
                "After so long without a measurement that passes, the filter starts again from the next three.",
                &F::restart_after_s, {"a positive time, in s", positive}),
       only([](const F& f) { return f.gate_probability < 1.0; },
-           value<F>(
-               "restart_after_rejections",
-               "After so many measurements in a row that the gate turned away, the filter starts again from them. 0 "
-               "is never.",
-               &F::restart_after_rejections,
-               {"a whole number from 0 to 1000",
-                [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
+           value<F>("restart_after_rejections",
+                    "After so many measurements in a row that the gate turned away, the filter starts again from them. "
+                    "0 is never.",
+                    &F::restart_after_rejections,
+                    {"a whole number from 0 to 1000",
+                     [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
       value<F>("smooth", "Whether the output is of the whole recording rather than of what came before.", &F::smooth,
                flag),
       only(keeps_histories,
-           value<F>("explain",
-                    "Whether track tells when the mode changed: the most possible history of each track, with its "
-                    "dates.",
-                    &F::explain, flag)),
+           value<F>(
+               "explain",
+               "Whether track tells when the mode changed: the most possible history of each track, with its dates.",
+               &F::explain, flag)),
       choice("radar_measurement",
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
              "own space.",
@@ -380,11 +363,11 @@ std::vector<Key<Accuracy>> made_accuracy_keys() {
   };
   at.by_default = "that of --radar-at";
   keys.push_back(std::move(at));
-  keys.push_back(value<A>("latitude_deg",
-                          "The same on the Earth, with longitude_deg. Columns sensor_latitude_deg and "
-                          "sensor_longitude_deg go before.",
-                          [](A & accuracy) -> auto& { return accuracy.place.latitude_deg; },
-                          {"degrees from −90 to 90", [](double degrees) { return std::abs(degrees) <= 90.0; }}));
+  keys.push_back(value<A>(
+      "latitude_deg",
+      "The same on the Earth, with longitude_deg. Columns sensor_latitude_deg and sensor_longitude_deg go before.",
+      [](A & accuracy) -> auto& { return accuracy.place.latitude_deg; },
+      {"degrees from −90 to 90", [](double degrees) { return std::abs(degrees) <= 90.0; }}));
   keys.push_back(value<A>("longitude_deg", "See latitude_deg.",
                           [](A & accuracy) -> auto& { return accuracy.place.longitude_deg; },
                           {"degrees from −360 to 360", [](double degrees) { return std::abs(degrees) <= 360.0; }}));
@@ -473,9 +456,8 @@ const std::vector<Key<Accuracy>>& accuracy_keys() {
 }
 
 std::string as_toml(const std::vector<FilterSettings>& filters) {
-  std::vector<std::string> names;
-  for (const auto& filter : filters) names.push_back(toml_string(filter.name));
-  std::string text = fmt::format("filters = [{}]\n", fmt::join(names, ", "));
+  const auto quoted = [](const FilterSettings& filter) { return toml_string(filter.name); };
+  std::string text = fmt::format("filters = [{}]\n", list_of(filters, quoted));
   for (const auto& filter : filters) {
     text += fmt::format("\n[filter.{}]\nkind = \"{}\"\n", toml_key(filter.name), filter.fuzzy ? "fuzzy" : "random");
     text += as_toml(filter_keys(), filter) + as_toml(accuracy_keys(), filter.accuracy);
@@ -486,13 +468,12 @@ std::string as_toml(const std::vector<FilterSettings>& filters) {
   return text;
 }
 
-std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::string& config,
-                                        const std::vector<std::string>& sets,
+std::vector<FilterSettings> filters_for(RecordingOptions& recording, const FilterOptions& options,
                                         const std::optional<std::array<double, 3>>& radar) {
   FilterDefaults defaults;
   const auto [range, azimuth, elevation] = radar.value_or(std::array{10.0, 0.1, 0.1});
   defaults.filter.accuracy.radar = {range, azimuth * degree, elevation * degree};
-  const Settings settings = Settings::read(config, sets);
+  const Settings settings = Settings::read(options.config, options.sets);
   auto filters = read_filters(settings, defaults);
   settings.refuse_unknown();
   for (const auto& filter : filters) {
@@ -503,8 +484,8 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
       recording.sensor_places |= own.place.latitude_deg.has_value();
       if (own.place != filters.front().accuracy_of(sensor).place)
         throw InputError(
-            "filter '{}': sensor '{}' stands elsewhere than by filter '{}'; a sensor has one place, so give "
-            "it in [sensor.{}]",
+            "filter '{}': sensor '{}' stands elsewhere than by filter '{}'; a sensor has one place, so give it in "
+            "[sensor.{}]",
             filter.name, sensor, filters.front().name, toml_key(sensor));
     }
     if (filter.accuracy.place != filters.front().accuracy.place)
@@ -514,11 +495,11 @@ std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::
   return filters;
 }
 
-void add_filter_options(CLI::App& program, std::string& config, std::vector<std::string>& sets, bool& print_config) {
+void add_filter_options(CLI::App& program, FilterOptions& options) {
   Subcommand app(program);
-  app.option("--config", config, "Settings in TOML").type("FILE.toml");
-  app.option("--set", sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
-  app.flag("--print-config", print_config, "Print the settings in force and stop");
+  app.option("--config", options.config, "Settings in TOML").type("FILE.toml");
+  app.option("--set", options.sets, "One setting, as lift=unbiased; may be repeated").type("KEY=VALUE").repeated();
+  app.flag("--print-config", options.print_config, "Print the settings in force and stop");
 }
 
 void add_keys(CLI::App& program, const std::string&) {

@@ -66,23 +66,23 @@ const KnownFilter* known_filter(std::string_view name) {
 
 bool default_kind(const Settings& settings, const Settings& table, const std::string& name) {
   if (const KnownFilter* known = known_filter(name)) return known->fuzzy;
-  std::vector<std::string_view> names;
-  for (const auto& known : known_filters) names.push_back(known.name);
+  const auto names = each(known_filters, &KnownFilter::name);
   if (name.starts_with("himm") || name.starts_with("imm")) {
     // A name by itself means nothing but the plain filter: one like another's is that, misspelt.
     for (const std::string_view known : names)
       if (table.names().empty() && known.size() > 4 && spelling_distance(name, known) <= 2)
-        throw settings.error("filters", "the name of a filter, or one that no other is like",
-                             fmt::format("did you mean \"{0}\"? For a filter of your own of that name give a key of "
-                                         "[filter.{1}]",
-                                         known, name));
+        throw settings.error(
+            "filters", "the name of a filter, or one that no other is like",
+            fmt::format("did you mean \"{0}\"? For a filter of your own of that name give a key of [filter.{1}]", known,
+                        name));
     return name.starts_with("himm");
   }
-  throw settings.error("filters",
-                       fmt::format("\"all\", names out of {}, other names that begin with imm or himm, or a table "
-                                   "[filter.{}] with a kind",
-                                   fmt::join(names, ", "), name),
-                       "add filter." + name + ".kind = \"random\" or \"fuzzy\"");
+  throw settings.error(
+      "filters",
+      fmt::format(
+          "\"all\", names out of {}, other names that begin with imm or himm, or a table [filter.{}] with a kind",
+          fmt::join(names, ", "), name),
+      "add filter." + name + ".kind = \"random\" or \"fuzzy\"");
 }
 
 void refuse_bad_transition(const Settings& settings, const char* key, const FilterSettings& filter) {
@@ -322,13 +322,12 @@ std::vector<std::string> SensorPlaces::notes() const {
   if (frame_ && !recording_.origin())
     sentences.push_back(fmt::format("Positions are counted from the first place, latitude {}°, longitude {}°",
                                     shortest(frame_->origin().latitude_deg), shortest(frame_->origin().longitude_deg)));
-  std::vector<std::string> unplaced;
-  for (const auto& [name, rows] : unplaced_)
-    unplaced.push_back(fmt::format("{} {}", name.empty() ? "rows" : name, rows));
+  const std::string unplaced = list_of(
+      unplaced_, [](const auto& of) { return fmt::format("{} {}", of.first.empty() ? "rows" : of.first, of.second); });
   if (several_ && !unplaced.empty())
     sentences.push_back(fmt::format("No place is told, so taken to stand at ({}, {}, {}) m: {}",
                                     shortest(otherwise_[0]), shortest(otherwise_[1]), shortest(otherwise_[2]),
-                                    fmt::join(unplaced, ", ")));
+                                    unplaced));
   return sentences;
 }
 

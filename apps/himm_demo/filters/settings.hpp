@@ -152,18 +152,22 @@ const std::vector<Key<FilterSettings>>& filter_keys();
 /// Those of a sensor, which a filter has too.
 const std::vector<Key<Accuracy>>& accuracy_keys();
 
-/// The filters that --config and --set name for a recording: a radar is as accurate as the simulated one, if there is
-/// one. What they know the accuracy of, velocities and range rates, is asked of the recording. Throws InputError for
-/// what cannot be, and for keys that nobody knows.
-std::vector<FilterSettings> filters_for(RecordingOptions& recording, const std::string& config,
-                                        const std::vector<std::string>& sets,
+/// --config, --set and --print-config.
+struct FilterOptions {
+  std::string config;
+  std::vector<std::string> sets;
+  bool print_config = false;
+};
+void add_filter_options(CLI::App& app, FilterOptions& options);
+
+/// The filters that they name for a recording: a radar is as accurate as the simulated one, if there is one. What they
+/// know the accuracy of, velocities and range rates, is asked of the recording. Throws InputError for what cannot be,
+/// and for keys that nobody knows.
+std::vector<FilterSettings> filters_for(RecordingOptions& recording, const FilterOptions& options,
                                         const std::optional<std::array<double, 3>>& radar);
 
 /// Filters without a given start start at 0 with no knowledge of how the target moves, once: for recordings that tell
 /// no position.
 void start_at_zero(std::vector<FilterSettings>& filters);
-
-/// --config, --set and --print-config.
-void add_filter_options(CLI::App& app, std::string& config, std::vector<std::string>& sets, bool& print_config);
 
 }  // namespace sigmax::apps

@@ -382,8 +382,7 @@ Plan TrackPage::plan(const std::string& name, const Track& track) const {
     }
   };
   for (const auto& [at, names] : stations_)
-    plan.traces.push_back(
-        {fmt::format("{}", fmt::join(names, ", ")), measurement_name, PlanTrace::Shape::crosses, {at[0]}, {at[1]}});
+    plan.traces.push_back({list_of(names), measurement_name, PlanTrace::Shape::crosses, {at[0]}, {at[1]}});
   crosses("rejected by", track.rejections);
   crosses("restart of", track.restarts);
   if (track.rejections.size() == most_marks || track.restarts.size() == most_marks)

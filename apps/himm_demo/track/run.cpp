@@ -24,10 +24,10 @@ struct Target {
   RandomStream random;
   std::vector<AnyTarget> filters;  // none if that is another rank
   std::vector<Tally> tallies;
-  std::optional<LocalFrame> anchor{};                        // where positions are counted from in the output
-  std::vector<std::vector<Segment>> segments{};              // of each filter, of a geodetic target
-  double before = std::numeric_limits<double>::quiet_NaN();  // the time of the row before
-  std::deque<Row> rows{};                                    // whose tags are their numbers
+  std::optional<LocalFrame> anchor{};            // where positions are counted from in the output
+  std::vector<std::vector<Segment>> segments{};  // of each filter, of a geodetic target
+  double before = nan;                           // the time of the row before
+  std::deque<Row> rows{};                        // whose tags are their numbers
   std::size_t taken = 0;
   std::size_t told = 0;  // estimates
   TrackTally tally{};
@@ -183,7 +183,11 @@ class TrackRun {
   }
 
   void take(Row& row) {
-    if (options_.iso_times && recording_.times_of_day()) refuse_dates(row);
+    if (options_.iso_times && recording_.times_of_day())
+      throw InputError(
+          "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date "
+          "before the times of the recording",
+          file(), row.line);
     count(row);
     auto found = targets_.find(row.track);
     if (found == targets_.end()) {
@@ -201,12 +205,7 @@ class TrackRun {
     if (!target.anchor && (places_.frame() || located))
       begin_frames(target, places_.frame() ? places_.frame()->origin() : place_of(row.plot, axes_, 0.0));
     if (!shares_.concerns(target.rank)) return;
-    if (options_.radar.sigma) {
-      if (axes_seen(row.plot, axes_) == axes_)
-        see_by_radar(row, *where(row, target), *options_.radar.sigma, options_.radar.place(), target.random, file());
-      else
-        row.plot = AnyPlot::missed(row.plot.time);
-    }
+    if (options_.radar.sigma) see_by_radar(row, where(row, target), axes_, options_.radar, target.random, file());
     measured(row, target);
     step(target, std::move(row));
   }
@@ -311,8 +310,7 @@ class TrackRun {
       tell(target, said);
     }
     for (const std::size_t f : lost)
-      if (Lost& its = outcome_.filters[f].lost; *least <= Outliers::limit && its.count++ == 0)
-        its.first_line = target.rows.back().line;
+      if (*least <= Outliers::limit) outcome_.filters[f].lost.add(target.rows.back().line);
     stepped(target.rows.back(), target.tallies, news->tallies);
     if (least && *least > Outliers::limit) {
       Outliers& outliers = outcome_.outliers;
@@ -441,32 +439,26 @@ class TrackRun {
   /// Tells a point in `frame` from `anchor`: its position about that, and all else along east, north and up at the
   /// point. Of the covariance, the blocks of each derivative are told. Returns where it is.
   Geodetic tell_from(const LocalFrame& anchor, const LocalFrame& frame, TargetPoint& point) const {
-    const auto axes = static_cast<std::size_t>(axes_);
-    const std::size_t n = point.mean.size();
+    const auto n = static_cast<Eigen::Index>(point.mean.size());
     Position position{};
-    std::copy_n(point.mean.begin(), axes, position.begin());
+    std::copy_n(point.mean.begin(), axes_, position.begin());
     const Eigen::Matrix3d turn = matrix(frame.local_axes(position));
-    for (std::size_t at = 0; at + axes <= n; at += axes) {
+    Eigen::Map<Eigen::VectorXd> means(point.mean.data(), n);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> covariances(
+        point.covariance.data(), n, n);
+    for (Eigen::Index at = 0; at + axes_ <= n; at += axes_) {
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      for (std::size_t i = 0; i < axes; ++i) {
-        mean(static_cast<Eigen::Index>(i)) = point.mean[at + i];
-        for (std::size_t j = 0; j < axes; ++j)
-          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-              point.covariance[(at + i) * n + at + j];
-      }
+      mean.head(axes_) = means.segment(at, axes_);
+      covariance.topLeftCorner(axes_, axes_) = covariances.block(at, at, axes_, axes_);
       mean = turn * mean;
       covariance = turn * covariance * turn.transpose();
-      for (std::size_t i = 0; i < axes; ++i) {
-        point.mean[at + i] = mean(static_cast<Eigen::Index>(i));
-        for (std::size_t j = 0; j < axes; ++j)
-          point.covariance[(at + i) * n + at + j] =
-              covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
+      means.segment(at, axes_) = mean.head(axes_);
+      covariances.block(at, at, axes_, axes_) = covariance.topLeftCorner(axes_, axes_);
     }
     const Geodetic place = frame.to_geodetic(position);
     const Position told = anchor.to_local(place);
-    std::copy_n(told.begin(), axes, point.mean.begin());
+    std::copy_n(told.begin(), axes_, point.mean.begin());
     return place;
   }
 
@@ -479,7 +471,7 @@ class TrackRun {
       if (sinks_.page && rejected) sinks_.page->rejected(row, f);
       if (sinks_.page && before[f].starts > 0 && after[f].starts > before[f].starts) sinks_.page->restarted(row, f);
     }
-    if (refusing == filters_.size() && outcome_.refused_by_all++ == 0) outcome_.first_refused_line = row.line;
+    if (refusing == filters_.size()) outcome_.refused_by_all.add(row.line);
   }
 
   /// The end of a target whose rows have all been read: the steps as smoothing sees them, and when the modes changed.
@@ -531,13 +523,6 @@ class TrackRun {
         file(), row.line, filters_[f].name, shortest(row.plot.time), error.what());
   }
 
-  [[noreturn]] void refuse_dates(const Row& row) const {
-    throw InputError(
-        "{}:{}: --iso-times writes dates, and a time of day has none; leave out --iso-times, or write the date before "
-        "the times of the recording",
-        file(), row.line);
-  }
-
   [[noreturn]] void refuse_nothing() const {
     if (outcome_.rows == 0 && !options_.recording.select.empty())
       throw InputError("{}: no row has {}; see how the file writes the value", file(),
@@ -553,8 +538,8 @@ class TrackRun {
                    .remedy = fmt::format(
                        "{}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s",
                        places_.several() ? "give two rows or more of each station"
-                                         : "name each row's station in a column sensor and say where it "
-                                           "stands, as sensor.NAME.at = [E, N]")}));
+                                         : "name each row's station in a column sensor and say where it stands, as "
+                                           "sensor.NAME.at = [E, N]")}));
     throw InputError(message(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"

@@ -11,9 +11,7 @@ namespace {
 
 template <class Counts>
 std::string numbered(const Counts& counts) {
-  std::vector<std::string> parts;
-  for (const auto& [name, count] : counts) parts.push_back(fmt::format("{} {}", name, count));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return list_of(counts, [](const auto& one) { return fmt::format("{} {}", one.first, one.second); });
 }
 
 /// Makes the report part by part.
@@ -96,8 +94,8 @@ class Reporter {
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
     say(recording_.moves_alone(),
-        "There are no positions: without a given start a track starts at 0, a step before its first row, and "
-        "positions are counted from there");
+        "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
+        "are counted from there");
     for (const auto& notes : {recording_.notes(), outcome_.places})
       for (const std::string& note : notes) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
@@ -120,14 +118,15 @@ class Reporter {
     const auto rejected = counted("rejected", &FilterOutcome::rejected);
     const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
-    say(outcome_.refused_by_all > 0, fmt::format("Turned away by every filter: {}, the first on line {}",
-                                                 outcome_.refused_by_all, outcome_.first_refused_line));
+    say(outcome_.refused_by_all.rows > 0,
+        fmt::format("Turned away by every filter: {}, the first on line {}", outcome_.refused_by_all.rows,
+                    outcome_.refused_by_all.first_line));
     say(!restarts.empty(), "Starts after a gap, or after rejections in a row: " + numbered(restarts));
     const auto sigma = options_.radar.sigma.value_or(Position{});
     const auto at = options_.radar.place();
     say(options_.radar.sigma.has_value(),
-        fmt::format("The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, "
-                    "{}, {}) m, seed {}",
+        fmt::format("The recording is taken as the truth and measured by a simulated radar: {} m, {}°, {}° at ({}, {}, "
+                    "{}) m, seed {}",
                     shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]),
                     shortest(at[2]), options_.seed));
     result_.say(all);
@@ -135,100 +134,82 @@ class Reporter {
 
   std::vector<std::string> make_warnings() const {
     std::vector<std::string> warnings = outcome_.doubts.sentences(recording_);  // causes before what they bring about
-    const auto warn = [&](bool holds, const auto& words) {
-      if (holds) warnings.push_back(words());
+    const auto warn = [&]<class... Words>(bool holds, fmt::format_string<Words...> format, Words&&... words) {
+      if (holds) warnings.push_back(fmt::format(format, std::forward<Words>(words)...));
     };
     const Validity& validity = outcome_.validity;
-    warn(validity.outside > 0, [&] {
-      const double unit = std::pow(10.0, std::floor(std::log10(validity.sigma_range_needed)) - 1.0);
-      return fmt::format(
-          "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements "
-          "holds below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance "
-          "covers the error of the conversion, or radar_measurement=polar, which converts only for the start",
-          file_, validity.first_line, validity.first_value, validity.first_range, Validity::limit, validity.outside,
-          validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
-    });
+    const double unit = std::pow(10.0, std::floor(std::log10(validity.sigma_range_needed)) - 1.0);
+    warn(validity.outside > 0,
+         "{}:{}: r σ_α²/σ_r is {:.2g} at a range of {:.0f} m, where the standard conversion of radar measurements "
+         "holds below {}; so it is in {} of {} measurements; set sigma_range_m above {:.6g}, so that their covariance "
+         "covers the error of the conversion, or radar_measurement=polar, which converts only for the start",
+         file_, validity.first_line, validity.first_value, validity.first_range, Validity::limit, validity.outside,
+         validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
     const Outliers& outliers = outcome_.outliers;
-    warn(outliers.count > 0, [&] {
-      const bool many =
-          options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
-      return fmt::format(
-          "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
-          "or raise sigma_w or the sensor's sigmas{}",
-          file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
-          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
-    });
-    const auto lost =
-        std::ranges::max_element(outcome_.filters, {}, [](const FilterOutcome& one) { return one.lost.count; });
-    warn(
-        lost->lost.count >= 5 && 20 * lost->lost.count >= outcome_.measurements && lost->lost.count > outliers.count,
-        [&] {
-          return fmt::format(
-              "{}:{}: filter '{}' does not expect this measurement, though another filter does; so it is with {} of {} "
-              "(NIS above {}); raise its sigma_w, or see what the other one has that it lacks",
-              file_, lost->lost.first_line, filters_[static_cast<std::size_t>(lost - outcome_.filters.begin())].name,
-              lost->lost.count, outcome_.measurements, Outliers::limit);
-        });
+    const bool many =
+        options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
+    warn(outliers.count > 0,
+         "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
+         "or raise sigma_w or the sensor's sigmas{}",
+         file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
+         many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
+    const auto most =
+        std::ranges::max_element(outcome_.filters, {}, [](const FilterOutcome& one) { return one.lost.rows; });
+    const auto& [lost, first_lost] = most->lost;
+    warn(lost >= 5 && 20 * lost >= outcome_.measurements && lost > outliers.count,
+         "{}:{}: filter '{}' does not expect this measurement, though another filter does; so it is with {} of {} (NIS "
+         "above {}); raise its sigma_w, or see what the other one has that it lacks",
+         file_, first_lost, filters_[static_cast<std::size_t>(most - outcome_.filters.begin())].name, lost,
+         outcome_.measurements, Outliers::limit);
     const Refusals& worst = outcome_.refusals;
-    warn(worst.many > 0, [&] {
-      return fmt::format(
-          "{}: the gate of filter '{}' turned {} of {} measurements{} away{}, where {:.2g} are expected: the filter "
-          "does not follow, or there are several targets or many outliers; raise sigma_w, the sensor's sigmas or "
-          "gate_probability",
-          file_, worst.filter->name, worst.rejected, worst.measurements,
-          worst.track.empty() ? "" : fmt::format(" of track '{}'", worst.track),
-          worst.many > 1 ? fmt::format(" (and of {} other filters or tracks too many)", worst.many - 1) : "",
-          (1.0 - worst.filter->gate_probability) * static_cast<double>(worst.measurements));
-    });
+    const FilterSettings& refusing = worst.filter ? *worst.filter : filters_.front();
+    warn(worst.many > 0,
+         "{}: the gate of filter '{}' turned {} of {} measurements{} away{}, where {:.2g} are expected: the filter "
+         "does not follow, or there are several targets or many outliers; raise sigma_w, the sensor's sigmas or "
+         "gate_probability",
+         file_, refusing.name, worst.rejected, worst.measurements,
+         worst.track.empty() ? "" : fmt::format(" of track '{}'", worst.track),
+         worst.many > 1 ? fmt::format(" (and of {} other filters or tracks too many)", worst.many - 1) : "",
+         (1.0 - refusing.gate_probability) * static_cast<double>(worst.measurements));
     const auto& [senseless, first_senseless] = recording_.senseless();
-    warn(senseless > 0, [&, rows = senseless, line = first_senseless] {
-      return fmt::format(
-          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
-          file_, line, rows, rows == 1 ? "row counts" : "rows count");
-    });
-    const Sums* const best = nearest_to_consistent();
-    const double nis = best ? best->innovations.mean_nis() : 0.0, usual = best ? best->innovations.expected_nis() : 0.0;
-    warn(worst.many == 0 && best && nis < 0.1 * usual, [&] {  // what the gate lets pass has a low one
-      const double share = best->predicted_variance / best->innovation_variance;
-      return nis >= 0.1 * usual * (1.0 - share)
-                 ? fmt::format(
-                       "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the "
-                       "variance of an innovation is the prediction's: sigma_w is too great for this target",
-                       file_, nis, usual, 100.0 * share)
-                 : fmt::format(
-                       "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far "
-                       "better than the sensor's sigmas say, or in another unit than was taken; headers may "
-                       "name one, as range_nmi, range_km, altitude_ft",
-                       file_, nis, usual);
-    });
+    warn(senseless > 0,
+         "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
+         file_, first_senseless, senseless, senseless == 1 ? "row counts" : "rows count");
+    const Sums* const consistent = nearest_to_consistent();
+    const Sums best = consistent ? *consistent : Sums{};
+    const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
+    const bool low = consistent && worst.many == 0 && nis < 0.1 * usual;  // what the gate lets pass has a low one
+    const double share = best.predicted_variance / best.innovation_variance;
+    const bool by_prediction = nis >= 0.1 * usual * (1.0 - share);
+    warn(low && by_prediction,
+         "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
+         "is the prediction's: sigma_w is too great for this target",
+         file_, nis, usual, 100.0 * share);
+    warn(low && !by_prediction,
+         "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far better than the "
+         "sensor's sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, "
+         "altitude_ft",
+         file_, nis, usual);
     const Sums* const nearest = nearest_to_truth();
     const auto error = nearest ? length_of(nearest->error) : 0.0, stated = nearest ? length_of(nearest->sigma) : 1.0;
     const auto measured = length_of(outcome_.raw[0].error);
-    warn(nearest && error > 2.0 * stated, [&] {
-      return fmt::format(
-          "{}: the truth is {:.3g} m off the estimates (RMS), which are told to be {:.3g} m off at most{}: see whether "
-          "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
-          file_, error, stated,
-          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
-    });
-    warn(warnings.empty() && best && best->innovations.count() >= 50 && best->innovations.share_inside() < 0.8, [&] {
-      return fmt::format(
-          "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
-          "himm_demo tune fits them",
-          file_, 100.0 * best->innovations.share_inside());
-    });
+    warn(nearest && error > 2.0 * stated,
+         "{}: the truth is {:.3g} m off the estimates (RMS), which are told to be {:.3g} m off at most{}: see whether "
+         "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
+         file_, error, stated,
+         measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
+    warn(warnings.empty() && consistent && best.innovations.count() >= 50 && best.innovations.share_inside() < 0.8,
+         "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
+         "himm_demo tune fits them",
+         file_, 100.0 * best.innovations.share_inside());
     for (const auto& filter : filters_)
-      for (const auto& own : filter.sensors)
-        warn(!outcome_.sensors.contains(own.first), [&] {
-          return fmt::format("key 'sensor.{}' of filter '{}': no row of {} is of that sensor", own.first, filter.name,
-                             file_);
-        });
-    warn(options_.predict_to && outcome_.predicted == 0, [&] {
-      return fmt::format(
-          "{}: nothing was predicted: every track ends at the time of --predict-to or "
-          "later; write it as the recording writes its times",
-          file_);
-    });
+      for (const auto& [sensor, own] : filter.sensors)
+        warn(!outcome_.sensors.contains(sensor), "key 'sensor.{}' of filter '{}': no row of {} is of that sensor",
+             sensor, filter.name, file_);
+    warn(options_.predict_to && outcome_.predicted == 0,
+         "{}: nothing was predicted: every track ends at the time of --predict-to or later; write it as the recording "
+         "writes its times",
+         file_);
     return warnings;
   }
 
@@ -328,7 +309,7 @@ class Reporter {
       const double weight = by_model[filter->models[j]] = sums.weights[j] / static_cast<double>(count);
       weights.push_back(fmt::format("{} {:.3f}", filter->models[j], weight));
     }
-    fields.push_back({{.header = "mean weights", .align = Align::left}, fmt::format("{}", fmt::join(weights, ", "))});
+    fields.push_back({{.header = "mean weights", .align = Align::left}, list_of(weights)});
     for (const auto& model : models) {
       const auto weight = by_model.find(model);
       fields.push_back({{.key = "mean_weight_" + model}, weight == by_model.end() ? Cell() : Cell(weight->second)});
@@ -366,19 +347,6 @@ class Reporter {
   bool truth_known_ = options_.radar.sigma || recording_.has_truth();
 };
 
-std::vector<std::string> report(const TrackOptions& options, const RecordingReader& recording,
-                                const std::vector<FilterSettings>& filters, const TrackOutcome& outcome,
-                                Result& result) {
-  return Reporter(options, recording, filters, outcome, result).made();
-}
-
-void refuse_what_means_nothing(const TrackOptions& options, const RecordingReader& recording) {
-  if (options.radar.at && !options.radar.sigma && !recording.polar() && !recording.bearings())
-    throw UsageError("--radar-at is for --radar, for radar input and for bearings, but " + recording.file() +
-                     " has no range_m and no azimuth_deg");
-  refuse_radar(options.radar, recording);
-}
-
 /// Each rank reads the recording for itself.
 void refuse_what_ranks_cannot_share(const TrackOptions& options) {
   if (options.recording.track_id.empty())
@@ -392,15 +360,18 @@ void refuse_what_ranks_cannot_share(const TrackOptions& options) {
 
 void track_and_report(TrackOptions options, TrackShares& shares) {
   RecordingOptions what = options.recording;
-  auto filters = filters_for(what, options.config, options.sets, options.radar.sigma);
-  if (options.print_config) {
+  auto filters = filters_for(what, options.filters, options.radar.sigma);
+  if (options.filters.print_config) {
     if (shares.first()) fmt::print("{}", as_toml(filters));
     return;
   }
   if (!shares.alone()) refuse_what_ranks_cannot_share(options);
   what.simulated = options.radar.sigma.has_value();
   RecordingReader recording(what);
-  refuse_what_means_nothing(options, recording);
+  if (options.radar.at && !options.radar.sigma && !recording.polar() && !recording.bearings())
+    throw UsageError("--radar-at is for --radar, for radar input and for bearings, but " + recording.file() +
+                     " has no range_m and no azimuth_deg");
+  refuse_radar(options.radar, recording);
   if (const std::string& text = options.predict_to_text; !text.empty()) {
     options.predict_to = recording.time_of(text, options.predict_to_time_of_day);
     if (!options.predict_to)
@@ -408,7 +379,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
           message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
   }
   if (recording.moves_alone()) start_at_zero(filters);
-  refuse_to_overwrite(options.output, {options.recording.file, options.config}, {"estimates.csv"});
+  refuse_to_overwrite(options.output, {options.recording.file, options.filters.config}, {"estimates.csv"});
   if (!shares.first()) {
     run_track(options, recording, filters, {}, shares);
     return;
@@ -424,7 +395,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
     for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
   if (tracks) tracks->finish();
   Result result(options.output);
-  const auto warnings = report(options, recording, filters, outcome, result);
+  const auto warnings = Reporter(options, recording, filters, outcome, result).made();
   if (tracks) tracks->add_to(result.page, outcome);
   if (charts) result.on_terminal = tracks->charts_of_the_first();
   result.publish(files);
@@ -445,7 +416,7 @@ void add_track(CLI::App& program, const std::string& command) {
   app.flag("--iso-times", options->iso_times,
            "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
-  add_filter_options(app, options->config, options->sets, options->print_config);
+  add_filter_options(app, options->filters);
   add_output(app, options->output);
   add_report(app, options->output);
   add_no_chart(app, options->output.no_chart);

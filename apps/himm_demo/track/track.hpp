@@ -180,9 +180,7 @@ struct TrackOptions {
   RecordingOptions recording;
   RadarOptions radar;
   std::uint64_t seed = 1;
-  std::string config;
-  std::vector<std::string> sets;
-  bool print_config = false;
+  FilterOptions filters;
   std::string predict_to_text;          ///< as it was given
   std::optional<double> predict_to;     ///< a time, up to which targets that ended before are predicted
   bool predict_to_time_of_day = false;  ///< whether that is one, so of the last day
@@ -213,18 +211,12 @@ struct Sums {
 };
 using SumsByPart = std::array<Sums, parts.size()>;
 
-/// Measurements that one filter alone does not expect so: another one does.
-struct Lost {
-  std::size_t count = 0;
-  std::size_t first_line = 0;
-};
-
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
-  std::size_t rejected = 0;  ///< by the gate
-  std::size_t restarts = 0;  ///< after a gap
-  Lost lost;
+  std::size_t rejected = 0;                                ///< by the gate
+  std::size_t restarts = 0;                                ///< after a gap
+  Counted lost;                                            ///< measurements that it does not expect so, but another one
   std::map<std::string, std::vector<ModeStay>> histories;  ///< of each track, if the filter is to explain
 };
 
@@ -297,8 +289,7 @@ struct TrackOutcome {
   std::map<std::string, std::size_t> sensors;             ///< the rows of each
   std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
   std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
-  std::size_t refused_by_all = 0;                         ///< measurements that every filter's gate turned away
-  std::size_t first_refused_line = 0;                     ///< of the first of them
+  Counted refused_by_all;                                 ///< measurements that every filter's gate turned away
   std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Doubts doubts;

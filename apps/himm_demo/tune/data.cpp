@@ -105,10 +105,10 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     }
     if (!first && places.frame()) first = places.frame()->origin();
     const Row told = row;
-    if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components &&
-        axes_seen(row.plot, data.axes) == 0) {
+    const bool is_place = recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components;
+    if (is_place && axes_seen(row.plot, data.axes) == 0) {
       row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
-    } else if (recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components) {
+    } else if (is_place) {
       const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
       if (!first) first = place_of(row.plot, data.axes, 0.0);
       if (!its.frame)
@@ -122,13 +122,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
         row.plot = in_frame(row.plot, *its.frame, *its.at, data.axes);
       }
     }
-    if (options.radar.sigma) {
-      if (axes_seen(row.plot, data.axes) == data.axes)
-        see_by_radar(row, *position_of(row.plot, data.axes), *options.radar.sigma, options.radar.place(), its.random,
-                     recording.file());
-      else
-        row.plot = AnyPlot::missed(row.plot.time);
-    }
+    if (options.radar.sigma)
+      see_by_radar(row, position_of(row.plot, data.axes), data.axes, options.radar, its.random, recording.file());
     doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes), data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
@@ -216,10 +211,10 @@ void summarize(TuneData& data, const Columns& columns) {
             is_longitude ? own->second.at({AnyPlot::Sensor::components, 0}).front() / metres_a_degree : 0.0;
         sensor.rounding[key] = rounding_of(numbers) * std::cos(latitude * degree);
         if (std::isinf(sensor.rounding[key]))
-          data.notes.push_back(fmt::format(
-              "{}: a column never changes, which no noise does: what is fitted may be too small, and a sigma of such "
-              "columns alone is left as it is; leave out what nothing measured",
-              name.empty() ? "all rows" : "sensor " + name));
+          data.notes.push_back(
+              fmt::format("{}: a column never changes, which no noise does: what is fitted may be too small, and a "
+                          "sigma of such columns alone is left as it is; leave out what nothing measured",
+                          name.empty() ? "all rows" : "sensor " + name));
       }
   for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 0.9);
   if (steps.empty()) return;
@@ -291,8 +286,8 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
     data.notes.push_back(fmt::format(
-        "positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so "
-        "far away nothing is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
+        "positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so far away "
+        "nothing is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
         width->second / 6.0, sigma, width->second / 6.0));
   if (data.measurements < fewest_in_all)
     throw InputError(
@@ -344,15 +339,11 @@ double TuneData::share_of_strays(const RowLosses& losses) const {
 }
 
 RowFolds TuneData::folds(std::size_t count) const {
-  std::vector<std::size_t> rows;
-  for (const TuneTrack& track : tracks) rows.push_back(track.rows.size());
-  return folds_of(rows, count);
+  return folds_of(each(tracks, [](const TuneTrack& track) { return track.rows.size(); }), count);
 }
 
 std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSettings& settings) const {
-  std::vector<AnyPlot> plots;
-  for (const Row& row : track.rows) plots.push_back(believed(settings, row.sensor, row.plot, axes));
-  return plots;
+  return each(track.rows, [&](const Row& row) { return believed(settings, row.sensor, row.plot, axes); });
 }
 
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings) {

@@ -16,13 +16,39 @@
 
 namespace sigmax::apps {
 
-bool can_search() {
 #ifdef SIGMAX_NLOPT
-  return true;
-#else
-  return false;
-#endif
+bool can_search() { return true; }
+
+/// Looks for the least value of a function from the search's start, by NLopt's BOBYQA (Powell 2009), or Sbplx for one
+/// number alone; to 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
+static void search(std::function<double(const std::vector<double>&)> function, const FitSearch& from,
+                   std::size_t most) {
+  const auto n = static_cast<unsigned>(from.start.size());
+  nlopt::opt optimiser(n == 1 ? nlopt::LN_SBPLX : nlopt::LN_BOBYQA, n);
+  optimiser.set_lower_bounds(from.lower);
+  optimiser.set_upper_bounds(from.upper);
+  optimiser.set_initial_step(from.step);
+  optimiser.set_xtol_abs(0.02);
+  optimiser.set_ftol_abs(1e-5);
+  optimiser.set_maxeval(static_cast<int>(most));
+  const auto ask = [](const std::vector<double>& at, std::vector<double>&, void* asked) {
+    return (*static_cast<decltype(function)*>(asked))(at);
+  };
+  optimiser.set_min_objective(ask, &function);
+  std::vector<double> at = from.start;
+  double least = 0.0;
+  try {
+    optimiser.optimize(at, least);
+  } catch (const std::runtime_error&) {  // rounding, or its model broke down: what was found before counts
+  }
 }
+#else
+bool can_search() { return false; }
+
+static void search(const std::function<double(const std::vector<double>&)>&, const FitSearch&, std::size_t) {
+  throw std::logic_error("this build has no NLopt");
+}
+#endif
 
 namespace {
 
@@ -51,6 +77,8 @@ struct FreeNumber {
   bool relative = false;  ///< whether `set` changes what is there by it
   bool noise = false;     ///< whether it is a standard deviation
   double least = 0.0;     ///< of a sensor's: what its column resolves; `set` takes no less
+
+  bool is_least() const { return least > 0.0 && parameter.start <= least; }
 };
 
 double rounded(double value) {
@@ -218,8 +246,7 @@ void round_off(FilterSettings& settings) {
 FilterSettings with_models(const FilterSettings& settings, const std::string& joined) {
   FilterSettings result = settings;
   result.motions.clear();
-  std::vector<std::string_view> known;
-  for (const auto& motion : known_motions()) known.push_back(motion.name);
+  const auto known = each(known_motions(), &KnownMotion::name);
   std::vector<bool> used(settings.motions.size(), false);
   for (std::size_t from = 0; from <= joined.size();) {
     const std::size_t to = std::min(joined.find('+', from), joined.size());
@@ -258,39 +285,6 @@ FilterSettings judged_settings(FilterSettings settings, Objective objective) {
   return settings;
 }
 
-/// Looks for the least value of a function from the search's start, by NLopt's BOBYQA (Powell 2009), or Sbplx for one
-/// number alone; to 2 % of a logarithm, or until the function was asked `most` times. It draws no random numbers.
-#ifdef SIGMAX_NLOPT
-void search(const std::function<double(const std::vector<double>&)>& function, const FitSearch& from,
-            std::size_t most) {
-  const auto n = static_cast<unsigned>(from.start.size());
-  nlopt::opt optimiser(n == 1 ? nlopt::LN_SBPLX : nlopt::LN_BOBYQA, n);
-  optimiser.set_lower_bounds(from.lower);
-  optimiser.set_upper_bounds(from.upper);
-  optimiser.set_initial_step(from.step);
-  optimiser.set_xtol_abs(0.02);
-  optimiser.set_ftol_abs(1e-5);
-  optimiser.set_maxeval(static_cast<int>(most));
-  using Function = std::function<double(const std::vector<double>&)>;
-  const auto ask = [](const std::vector<double>& at, std::vector<double>&, void* asked) {
-    return (*static_cast<const Function*>(asked))(at);
-  };
-  Function asked = function;
-  optimiser.set_min_objective(ask, &asked);
-  std::vector<double> at = from.start;
-  double least = 0.0;
-  try {
-    optimiser.optimize(at, least);
-  } catch (const std::runtime_error&) {  // rounding, or its model broke down: what was found before counts
-  }
-}
-
-#else
-void search(const std::function<double(const std::vector<double>&)>&, const FitSearch&, std::size_t) {
-  throw std::logic_error("this build has no NLopt");
-}
-#endif
-
 /// The losses, or for each row that has a measurement a very great one where the filter fails.
 RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective objective) {
   try {
@@ -299,8 +293,7 @@ RowLosses judged(const TuneData& data, const FilterSettings& settings, Objective
     constexpr double of_failure = 1e6;
     RowLosses result;
     for (const TuneTrack& track : data.tracks)
-      for (auto& of_track = result.emplace_back(); const Row& row : track.rows)
-        of_track.push_back(row.measured() ? of_failure : std::numeric_limits<double>::quiet_NaN());
+      result.push_back(each(track.rows, [](const Row& row) { return row.measured() ? of_failure : nan; }));
     return result;
   }
 }
@@ -362,8 +355,8 @@ class Fitter {
     for (const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
       if (number.relative) continue;
       const double value = number.parameter.start;
-      best.numbers.push_back({number.parameter.name, value, std::numeric_limits<double>::infinity(),
-                              number.least > 0.0 && value <= number.least});
+      best.numbers.push_back(
+          {number.parameter.name, value, std::numeric_limits<double>::infinity(), number.is_least()});
       for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
@@ -403,8 +396,7 @@ class Fitter {
   /// The numbers that are not as small as they may be.
   std::vector<FreeNumber> told_numbers(const FilterSettings& settings) const {
     auto numbers = free_numbers(settings, data_, options_);
-    std::erase_if(
-        numbers, [](const FreeNumber& number) { return number.least > 0.0 && number.parameter.start <= number.least; });
+    std::erase_if(numbers, [](const FreeNumber& number) { return number.is_least(); });
     return numbers;
   }
 
@@ -599,10 +591,8 @@ double finish(FilterSettings& settings, double gate, const TuneData& data, const
     if (!(std::abs(factor - 1.0) > tolerance)) break;
     in_all *= factor;
     const auto numbers = free_numbers(settings, data, options);
-    const auto held = [](const FreeNumber& number) {
-      return number.least > 0.0 && number.parameter.start <= number.least;
-    };
-    if (factor < 1.0 && std::ranges::any_of(numbers, held)) break;  // its rounding is more than the filter needs
+    if (factor < 1.0 && std::ranges::any_of(numbers, &FreeNumber::is_least))
+      break;  // its rounding is more than the filter needs
     for (const FreeNumber& number : numbers)
       if (number.noise) number.set(settings, std::sqrt(factor) * number.parameter.start);
   }
@@ -617,12 +607,9 @@ std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptio
   std::vector<std::string> names = options.models;
   const bool continuous = names.empty() && data.uneven_steps;
   if (names.empty()) {
-    std::vector<std::string> motions;
-    for (const auto& motion : settings.motions)
-      motions.push_back(!continuous             ? motion.name
-                        : motion.name == "dwna" ? "cwna"
-                        : motion.name == "dwpa" ? "cwpa"
-                                                : motion.name);
+    auto motions = each(settings.motions, &MotionChoice::name);
+    for (const auto& [fixed, free] : {std::pair{"dwna", "cwna"}, std::pair{"dwpa", "cwpa"}})
+      if (continuous) std::ranges::replace(motions, std::string(fixed), std::string(free));
     names = {fmt::format("{}", fmt::join(motions, "+"))};
     for (const auto& motion : motions)
       if (std::ranges::find(names, motion) == names.end()) names.push_back(motion);
@@ -645,8 +632,8 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
   std::size_t work = 0;
   for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
-    const auto scanned = static_cast<std::size_t>(std::count_if(
-        numbers.begin(), numbers.end(), [](const auto& each) { return each.parameter.scale == Scale::logarithmic; }));
+    const auto scanned = static_cast<std::size_t>(std::ranges::count(
+        numbers, Scale::logarithmic, [](const FreeNumber& number) { return number.parameter.scale; }));
     work += most_sweeps * factors.size() * scanned + options.starts * budget(numbers.size()) +
             LossSurface::asked(numbers.size()) + options.folds;
   }

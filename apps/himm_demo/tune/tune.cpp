@@ -120,29 +120,22 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
 
 /// The fitted numbers of the best settings.
 ResultTable numbers_table(const TunedFilter& tuned) {
-  ResultTable table({{.key = "number", .header = "fitted number", .align = Align::left},
-                     {.key = "value", .header = "fitted"},
-                     {.key = "error"},
-                     {.key = "remark", .header = "standard error", .align = Align::left}});
+  ResultTable table;
   for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
     const bool told = !at_rounding && std::isfinite(error);
-    table.row({name, Cell(value, fmt::format("{:.4g}", value)), told ? Cell(error) : Cell(nan),
-               at_rounding ? "no less: its column is rounded"
-               : told      ? fmt::format("± {:.2g}", error)
-                           : "not determined by these rows"});
+    const std::string remark = at_rounding ? "no less: its column is rounded"
+                               : told      ? fmt::format("± {:.2g}", error)
+                                           : "not determined by these rows";
+    table.row_of({{{.key = "number", .header = "fitted number", .align = Align::left}, name},
+                  {{.key = "value", .header = "fitted"}, Cell(value, fmt::format("{:.4g}", value))},
+                  {{.key = "error"}, told ? error : nan},
+                  {{.key = "remark", .header = "standard error", .align = Align::left}, remark}});
   }
   return table;
 }
 
 ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
-  ResultTable table({{.key = "models", .header = "models", .align = Align::left},
-                     {.key = "remark"},
-                     {.key = "numbers", .header = "fitted numbers"},
-                     {.key = "fitted", .header = fmt::format("fitted, {}", unit_of(objective))},
-                     {.key = "held_out", .header = fmt::format("held out, {}", unit_of(objective))},
-                     {.key = "gain", .header = objective == Objective::rmse ? "gain, m²" : "gain held out"},
-                     {.key = "gain_error"},
-                     {.header = " ", .align = Align::left}});
+  ResultTable table;
   const auto figure = [&](double loss) {
     const double value = figure_of(loss, objective);
     return Cell(value, fmt::format("{:.4g}", value));
@@ -152,9 +145,16 @@ ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
     const auto& [gain, error] = candidate.gain;
     std::string remark = c == tuned.selected.best ? best_name : "";
     if (c == tuned.selected.simple) remark += remark.empty() ? simple_name : ", simple";
-    table.row({candidate.name, remark, tuned.numbers[c], figure(candidate.fitted), figure(candidate.held_out),
-               c == 0 ? Cell() : Cell(gain, fmt::format("{:+.3g} ± {:.2g}", gain, error)),
-               c == 0 ? Cell() : Cell(error), remark});
+    table.row_of(
+        {{{.key = "models", .header = "models", .align = Align::left}, candidate.name},
+         {{.key = "remark"}, remark},
+         {{.key = "numbers", .header = "fitted numbers"}, tuned.numbers[c]},
+         {{.key = "fitted", .header = fmt::format("fitted, {}", unit_of(objective))}, figure(candidate.fitted)},
+         {{.key = "held_out", .header = fmt::format("held out, {}", unit_of(objective))}, figure(candidate.held_out)},
+         {{.key = "gain", .header = objective == Objective::rmse ? "gain, m²" : "gain held out"},
+          c == 0 ? Cell() : Cell(gain, fmt::format("{:+.3g} ± {:.2g}", gain, error))},
+         {{.key = "gain_error"}, c == 0 ? Cell() : Cell(error)},
+         {{.header = " ", .align = Align::left}, remark}});
   }
   return table;
 }
@@ -273,12 +273,11 @@ IntervalChart fold_chart(const TunedFilter& tuned, const TuneOptions& options, c
 /// Where the truth is known, else nothing.
 std::string text_of_truth(const Diagnosis& before, const Diagnosis& after) {
   if (!before.rmse_m || !after.rmse_m) return {};
-  std::string text = fmt::format(
-      "RMSE against the truth: {:.4g} m before, {:.4g} m now{}.", *before.rmse_m, *after.rmse_m,
-      *after.rmse_m > 1.2 * *before.rmse_m
-          ? ", which is worse: see the rows set aside, and gaps, after which restart_after_s begins anew; --truth "
-            "fits to the truth"
-          : "");
+  std::string text =
+      fmt::format("RMSE against the truth: {:.4g} m before, {:.4g} m now{}.", *before.rmse_m, *after.rmse_m,
+                  *after.rmse_m > 1.2 * *before.rmse_m ? ", which is worse: see the rows set aside, and gaps, after "
+                                                         "which restart_after_s begins anew; --truth fits to the truth"
+                                                       : "");
   if (*after.rmse_m > 2.0 * after.told_m)
     text += fmt::format(
         " The filter takes it for {:.3g} m: errors that last from row to row, as of GNSS or of a clock, are no noise "
@@ -391,12 +390,12 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
                  .remedy = "begin with settings that track takes, see --config and --set"}));
   }
   if (std::isnan(mean_loss(lost)))
-    throw InputError(message(
-        {.where = data.tracks.front().file,
-         .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
-                             settings.name),
-         .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a start, "
-                   "--set start=given; see himm_demo keys"}));
+    throw InputError(
+        message({.where = data.tracks.front().file,
+                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
+                                     settings.name),
+                 .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a "
+                           "start, --set start=given; see himm_demo keys"}));
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
   if (judged > 0) {
@@ -492,30 +491,6 @@ Report page_of(const std::string& heading, const TuneOptions& options, const Tun
   return page;
 }
 
-/// What is read must not be written over.
-void refuse_inputs(const TuneOptions& options) {
-  auto inputs = options.files;
-  inputs.push_back(options.config);
-  refuse_to_overwrite("--out", options.out, inputs);
-  refuse_to_overwrite("--summary", options.summary, inputs);
-  refuse_to_overwrite(options.page, inputs);
-}
-
-void refuse_without_search() {
-  if (!can_search())
-    throw InputError(
-        "this himm_demo was built without an optimiser; install libnlopt-cxx-dev, run cmake again and build it");
-}
-
-/// The likelihood that has no determinant finds any measurement possible where the noise is great enough.
-void refuse_possibility(const FilterSettings& filter, Objective objective) {
-  if (objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
-    throw InputError(
-        "filter '{}': likelihood = \"possibility\": expected \"density\", since a possibility never blames noise that "
-        "is too great; tune with --truth, or with likelihood=density",
-        filter.name);
-}
-
 std::string heading(const TuneData& data, const TuneOptions& options) {
   const std::map<Objective, std::string_view> by = {
       {Objective::prequential, "how well each measurement was predicted (nats a row; less is better)"},
@@ -539,6 +514,7 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
   progress.finish();
   fmt::print("{}", text_of(tuned, options.objective, options.page.width()));
 
+  const auto say = [&](const std::string& text) { fmt::print("{}", wrapped(text, options.page.width())); };
   std::optional<Diagnosis> after;
   if (tuned.selected.best > 0) {
     after = diagnose(data, tuned.best().settings, options.objective);
@@ -547,24 +523,20 @@ TuneFindings tune_and_report(const FilterSettings& filter, const TuneData& data,
     fmt::print("{}{}", rows_text(after->set_aside, "set aside, as the gate will in track", data),
                rows_text(tuned.strays, "left out of the fit, since those after tell that they are stray", data));
     if (const double widened = tuned.best().widened; std::abs(std::log(widened)) > std::log(2.0))
-      fmt::print("{}",
-                 wrapped(fmt::format("\nWhat is written are {:.2g} times the sigmas that were fitted, so that the "
-                                     "regions stated hold 95 % of the rows. So great a factor says that the "
-                                     "recording is not what the filter takes it for, as where a clock or a "
-                                     "place jumps once, or values are held or limited: look at its rows.\n",
-                                     widened),
-                         options.page.width()));
-    const std::string truth = text_of_truth(before, *after);
-    if (!truth.empty()) fmt::print("{}", wrapped(truth, options.page.width()));
+      say(
+          fmt::format("\nWhat is written are {:.2g} times the sigmas that were fitted, so that the regions stated hold "
+                      "95 % of the rows. So great a factor says that the recording is not what the filter takes it "
+                      "for, as where a clock or a place jumps once, or values are held or limited: look at its rows.\n",
+                      widened));
+    if (const std::string truth = text_of_truth(before, *after); !truth.empty()) say(truth);
   }
   const double strays =
       options.objective == Objective::prequential ? data.share_of_strays(tuned.held_out[tuned.selected.best]) : 0.0;
   if (strays > 0.5)
-    fmt::print("{}", wrapped(fmt::format("\n{:.0f} % of the rows are predicted no better than stray ones, so that "
-                                         "these settings say next to nothing: look at the rows, or begin nearer to "
-                                         "what they are, with --set sigma_w=… and --set sigma_position_m=…\n",
-                                         100.0 * strays),
-                             options.page.width()));
+    say(fmt::format(
+        "\n{:.0f} % of the rows are predicted no better than stray ones, so that these settings say next to nothing: "
+        "look at the rows, or begin nearer to what they are, with --set sigma_w=… and --set sigma_position_m=…\n",
+        100.0 * strays));
   written.push_back(tuned.best().settings);
   if (tuned.selected.simple != tuned.selected.best) {
     written.push_back(tuned.simple().settings);
@@ -583,18 +555,29 @@ Objective objective_of(const std::string& truth) {
 
 void tune_and_write(TuneOptions options) {
   options.objective = objective_of(options.truth);
-  auto filters = filters_for(options.recording, options.config, options.sets, options.radar.sigma);
-  if (options.print_config) {
+  auto filters = filters_for(options.recording, options.filters, options.radar.sigma);
+  if (options.filters.print_config) {
     fmt::print("{}", as_toml(filters));
     return;
   }
-  refuse_without_search();
+  if (!can_search())
+    throw InputError(
+        "this himm_demo was built without an optimiser; install libnlopt-cxx-dev, run cmake again and build it");
   for (const auto& filter : filters) {
-    refuse_possibility(filter, options.objective);
+    // The likelihood that has no determinant finds any measurement possible where the noise is great enough.
+    if (options.objective == Objective::prequential && filter.likelihood == LikelihoodForm::possibility)
+      throw InputError(
+          "filter '{}': likelihood = \"possibility\": expected \"density\", since a possibility never blames noise "
+          "that is too great; tune with --truth, or with likelihood=density",
+          filter.name);
     model_sets(filter, options, {});  // refuses what is none
   }
   options.threads = threads_or_all(options.threads);
-  refuse_inputs(options);
+  auto inputs = options.files;
+  inputs.push_back(options.filters.config);
+  refuse_to_overwrite("--out", options.out, inputs);
+  refuse_to_overwrite("--summary", options.summary, inputs);
+  refuse_to_overwrite(options.page, inputs);
   std::optional<AtomicFile> file, summary;  // made first, so that a bad name is known before the work
   if (!options.out.empty()) file.emplace(options.out);
   if (!options.summary.empty()) summary.emplace(options.summary);
@@ -644,7 +627,7 @@ void add_tune(CLI::App& program, const std::string& command) {
   app.option("--starts", options->starts, "Searches from different places").in(1, 100).shows_default();
   add_threads(app, options->threads);
   add_seed(app, options->seed, "of the starts, and of a simulated radar");
-  add_filter_options(app, options->config, options->sets, options->print_config);
+  add_filter_options(app, options->filters);
   app.option("--out", options->out, "Write the settings found, for track --config").type("FILE.toml");
   app.option("--summary", options->summary, "Write what was found as data").type("FILE.json");
   app.option("--report", options->page.report, "Write it as a page of charts for a browser").type("FILE.html");

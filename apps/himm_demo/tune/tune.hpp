@@ -30,9 +30,7 @@ struct TuneOptions {
   std::size_t starts = 2;
   std::uint64_t seed = 1;
   int threads = 0;
-  std::string config;
-  std::vector<std::string> sets;
-  bool print_config = false;
+  FilterOptions filters;
   std::string out;      ///< a file for the settings, or empty
   std::string summary;  ///< a file for what was found, or empty
   OutputOptions page;   ///< its report and command
