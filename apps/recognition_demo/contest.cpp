@@ -29,7 +29,7 @@ Likelihood<Kind> likelihood_of(const Classifier<Kind, Kind>& classifier, const A
 template <class See>
 std::size_t observe_all(const Contestant& contestant, const std::vector<AnyReport>& reports, const See& see) {
   std::size_t refused = 0;
-  const auto observe = [&](const auto& classifier, const auto& say) {
+  const auto observe = [&](const auto& classifier) {
     Belief belief{classifier.prior()};
     for (const AnyReport& report : reports) {
       try {
@@ -37,19 +37,15 @@ std::size_t observe_all(const Contestant& contestant, const std::vector<AnyRepor
       } catch (const std::domain_error&) {
         ++refused;
       }
-      say(belief);
+      if constexpr (std::is_same_v<decltype(belief), Belief<Random>>)
+        if (const auto& patterns = contestant.pattern_given_state) {
+          see(Belief<Random>{compose(*patterns, belief.distribution())});
+          continue;
+        }
+      see(belief);
     }
   };
-  if (const auto* const max = std::get_if<MaxClassifier>(&contestant.classifier)) {
-    observe(*max, see);
-  } else {
-    observe(std::get<SigmaClassifier>(contestant.classifier), [&](const Belief<Random>& belief) {
-      if (const auto& patterns = contestant.pattern_given_state)
-        see(Belief<Random>{compose(*patterns, belief.distribution())});
-      else
-        see(belief);
-    });
-  }
+  std::visit(observe, contestant.classifier);
   return refused;
 }
 
@@ -61,17 +57,10 @@ std::vector<double> numbers_of(const Belief<Kind>& belief) {
 
 HeatMap relation_map(const Relation<Random, Random>& relation) {
   const auto possible = to_possibility(relation, RatioScale{});
-  HeatMap map{.title = "What was learned of " + relation.to().name(),
-              .row_label = relation.from().name(),
-              .column_label = relation.to().name(),
-              .rows = labels_of(relation.from()),
-              .columns = labels_of(relation.to()),
-              .value_label = "probability of the value, given the class"};
-  map.fill([&](std::size_t c, std::size_t value) {
-    return HeatMap::Cell{relation(c, value),
-                         fmt::format("possibility {} on the ratio scale", sized_text(possible(c, value), 2))};
-  });
-  return map;
+  return map_of(relation, "What was learned of " + relation.to().name(), "probability of the value, given the class",
+                [&](std::size_t c, std::size_t value) {
+                  return fmt::format("possibility {} on the ratio scale", sized_text(possible(c, value), 2));
+                });
 }
 
 }  // namespace
@@ -148,6 +137,14 @@ Result result_of_contest(std::string title, const OutputOptions& output, const s
   result.page.title = std::move(title);
   for (const Contestant& contestant : contestants) result.page.groups.push_back({.name = contestant.name});
   return result;
+}
+
+Relation<Random, Random> mostly_right(const RandomVariable& reading, const RandomVariable& feature, double right,
+                                      double wrong) {
+  const std::size_t n = feature.size();
+  std::vector<std::vector<double>> rows(n, std::vector<double>(n, wrong / static_cast<double>(n - 1)));
+  for (std::size_t f = 0; f < n; ++f) rows[f][f] = right;
+  return {reading, feature, rows};
 }
 
 std::vector<double> counted_from(std::size_t first, std::size_t count) {

@@ -80,6 +80,25 @@ std::vector<std::string> labels_of(const Variable& variable) {
   return labels;
 }
 
+/// p(reading|feature): `right` where both have the same place, `wrong` in equal parts for the other readings.
+Relation<Random, Random> mostly_right(const RandomVariable& reading, const RandomVariable& feature, double right,
+                                      double wrong);
+
+/// A relation as a page shows it, with what text_of(row, column) says beside each number.
+template <class Numbers, class TextOf>
+HeatMap map_of(const Numbers& relation, std::string title, std::string value_label, const TextOf& text_of) {
+  HeatMap map{.title = std::move(title),
+              .row_label = relation.from().name(),
+              .column_label = relation.to().name(),
+              .rows = labels_of(relation.from()),
+              .columns = labels_of(relation.to()),
+              .value_label = std::move(value_label)};
+  map.fill([&](std::size_t row, std::size_t column) {
+    return HeatMap::Cell{relation(row, column), text_of(row, column)};
+  });
+  return map;
+}
+
 /// first, first + 1, …: so many numbers.
 std::vector<double> counted_from(std::size_t first, std::size_t count);
 

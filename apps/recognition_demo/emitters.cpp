@@ -95,13 +95,6 @@ Relation<Fuzzy, Fuzzy> EsmWorld::carries(double elsewhere) const {
   return {as_fuzzy(emitter), as_fuzzy(platform), rows};
 }
 
-Relation<Random, Random> EsmWorld::sensor(double hit) const {
-  const std::size_t n = emitter.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n, (1.0 - hit) / static_cast<double>(n - 1)));
-  for (std::size_t f = 0; f < n; ++f) rows[f][f] = hit;
-  return {reading, emitter, rows};
-}
-
 std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, const Usage& usage, RandomStream& random) {
   const std::size_t size = world.carried[platform].size();
   std::vector<double> shares(size, 1.0 / static_cast<double>(size));
@@ -116,13 +109,10 @@ EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t report
   run.platform = draw_index(random, world.platform.size());
   std::vector<double> usage = draw_usage(world, run.platform, truth.usage, random);
   if (truth.unlisted > 0.0) {
-    const auto listed = static_cast<double>(world.carried[run.platform].size());
-    const double each = truth.unlisted / (static_cast<double>(usage.size()) - listed);
-    for (double& share : usage) share = (1.0 - truth.unlisted) * share;
-    for (std::size_t f = 0; f < usage.size(); ++f) {
-      const auto& carried = world.carried[run.platform];
-      if (std::ranges::find(carried, f) == carried.end()) usage[f] = each;
-    }
+    const auto& carried = world.carried[run.platform];
+    const double each = truth.unlisted / static_cast<double>(usage.size() - carried.size());
+    for (std::size_t f = 0; f < usage.size(); ++f)
+      usage[f] = std::ranges::find(carried, f) == carried.end() ? each : (1.0 - truth.unlisted) * usage[f];
   }
   // A sensor that goes astray listens to another platform for the whole run.
   std::vector<double> heard_astray;

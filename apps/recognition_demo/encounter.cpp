@@ -216,11 +216,8 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
         "{} seeded draws from the counts themselves, every feature and report independent, as sigma "
         "inference assumes; seed {}",
         draws.runs, draws.seed);
-    result.fact({"file"}, options.file);
-    result.fact({"drawn_from"}, "the counts");
-    result.fact({"runs"}, draws.runs);
-    result.fact({"reports"}, options.reports);
-    result.fact({"seed"}, draws.seed);
+    result.facts("file", options.file, "drawn_from", "the counts", "runs", draws.runs, "reports", options.reports,
+                 "seed", draws.seed);
     result.page.verdict = {fmt::format("{} seeded draws of {} reports from the counts of {}; seed {}.", draws.runs,
                                        options.reports, options.file, draws.seed)};
     result.page.panels.emplace_back(accuracy_chart(scores.front()));
@@ -351,10 +348,8 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
       "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
       "independent: the belief after all of them is more certain than it should be.)");
   result.add(reports_table(data, track), {.printed = false, .csv = "reports.csv"});
-  result.fact({"file"}, options.file);
-  result.fact({"track"}, options.track);
-  result.fact({"reports"}, track.reports.size());
-  result.fact({"ground_ft"}, track.ground_ft);
+  result.facts("file", options.file, "track", options.track, "reports", track.reports.size(), "ground_ft",
+               track.ground_ft);
   for (const TrackOutcome& outcome : outcomes)
     for (std::size_t c = 0; c < pattern.size(); ++c) {
       result.fact({"classifiers", outcome.name, "share_of_single_reports", pattern.label(c)}, outcome.single[c]);

@@ -54,20 +54,12 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
                     const Relation<Fuzzy, Fuzzy>& feature_given_pattern) {
   const auto witnessed = compose_with_witness(reading_given_feature, feature_given_pattern);
   const auto& relation = witnessed.relation();
-  HeatMap map{.title = fmt::format("What may be read of each {}", relation.from().name()),
-              .row_label = relation.from().name(),
-              .column_label = relation.to().name(),
-              .rows = labels_of(relation.from()),
-              .columns = labels_of(relation.to()),
-              .value_label = "possibility by max inference"};
-  map.fill([&](std::size_t c, std::size_t value) {
-    const double possible = relation(c, value);
-    return HeatMap::Cell{possible,
-                         possible > 0.0
-                             ? fmt::format("through {}", feature_given_pattern.to().label(witnessed.winner(c, value)))
-                             : "through nothing"};
-  });
-  return map;
+  return map_of(relation, "What may be read of each " + relation.from().name(), "possibility by max inference",
+                [&](std::size_t c, std::size_t value) {
+                  const bool possible = relation(c, value) > 0.0;
+                  return "through " +
+                         (possible ? feature_given_pattern.to().label(witnessed.winner(c, value)) : "nothing");
+                });
 }
 
 /// A run that the page shows: the support of each platform over its reports.
@@ -81,42 +73,26 @@ View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::siz
                          drawn.platform)};
 }
 
-std::string readings_of(const EsmWorld& world, const SeenRun& run) {
-  std::string readings;
-  for (const double reading : run.numbers)
-    readings += (readings.empty() ? "" : " ") + world.reading.label(static_cast<std::size_t>(reading));
-  return readings;
-}
-
-void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, std::vector<View> runs,
-          Result& result) {
+void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, Result& result) {
   const DrawOptions& draws = options.draws;
   result.say(
       "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports "
       "the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, "
       "seed {}",
       sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed);
-  result.fact({"synthetic"}, true);
-  result.fact({"usage"}, options.usage);
+  result.facts("synthetic", true, "usage", options.usage);
   if (options.usage == "dirichlet") result.fact({"alpha"}, options.alpha);
-  result.fact({"probability_of_a_right_reading"}, sensor_hit);
-  result.fact({"runs"}, draws.runs);
-  result.fact({"reports"}, options.reports);
-  result.fact({"seed"}, draws.seed);
-  Report& page = result.page;
-  page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports, draws.seed,
-                              described_usage(options))};
-  page.chooser = "Show";
-  View& of_all = page.views.emplace_back(View{fmt::format("all {} runs", draws.runs), {}});
-  of_all.panels.emplace_back(accuracy_chart(scores));
-  for (View& run : runs) page.views.push_back(std::move(run));
-  page.last.emplace_back(
+  result.facts("probability_of_a_right_reading", sensor_hit, "runs", draws.runs, "reports", options.reports, "seed",
+               draws.seed);
+  result.page.verdict = {fmt::format("{} runs of {} reports, seed {}; usage: {}.", draws.runs, options.reports,
+                                     draws.seed, described_usage(options))};
+  result.page.views.front().panels.emplace_back(accuracy_chart(scores));
+  result.page.last.emplace_back(
       witness_map(with_fuzzy_condition(to_possibility(world.sensor(sensor_hit), DuboisPrade{})), world.carries()));
   add_scores(result, scores);
 }
 
 void run_esm(const EsmOptions& options) {
-  constexpr std::size_t runs_in_page = 6;
   const EsmWorld esm;
   const auto drawn = [&](std::size_t run) {
     RandomStream random(options.draws.seed, run);
@@ -134,14 +110,15 @@ void run_esm(const EsmOptions& options) {
   ResultFiles files(options.draws.output);
   // A row for each run with the truth, the readings, and what each classifier believed at last.
   RowFile rows(files, "runs.csv", with_beliefs({"run", "platform", "readings"}, all, labels_of(esm.platform)));
-  std::vector<View> views;
+  world.view = [&](const SeenRun& run) { return view_of(esm, all, run.run, drawn(run.run)); };
+  world.runs_in_page = 6;
   world.see = [&](const SeenRun& run) {
-    if (files.report_wanted() && run.run < runs_in_page) views.push_back(view_of(esm, all, run.run, drawn(run.run)));
-    rows.write(with_beliefs({run.run + 1, esm.platform.label(run.truth), readings_of(esm, run)}, run));
+    std::string readings;
+    for (const double reading : run.numbers)
+      readings += (readings.empty() ? "" : " ") + esm.reading.label(static_cast<std::size_t>(reading));
+    rows.write(with_beliefs({run.run + 1, esm.platform.label(run.truth), readings}, run));
   };
-  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
-    tell(esm, options, scores.front(), std::move(views), result);
-  };
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) { tell(esm, options, scores.front(), result); };
   run_world(world, options.draws, files);
 }
 

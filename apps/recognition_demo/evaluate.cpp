@@ -42,14 +42,6 @@ struct Outcome {
   }
 };
 
-Outcome no_outcome(const Contestant& contestant) {
-  return {contestant.name, std::visit(
-                               [](const auto& classifier) -> decltype(Outcome::evaluation) {
-                                 return Evaluation{classifier.prior().variable()};
-                               },
-                               contestant.classifier)};
-}
-
 using Folds = ScratchArray<std::uint32_t>;
 
 /// The fold of every row, by `stratified_folds`; of longer tables part by part.
@@ -79,8 +71,7 @@ struct TaughtFold {
 
 TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options) {
   ScratchCursor<std::uint32_t> fold_of(folds);
-  LearnedModel model = learn(
-      data, [&](const DataRow& row) { return fold_of[row.index()] != fold; }, options);
+  LearnedModel model = learn(data, options, [&](const DataRow& row) { return fold_of[row.index()] != fold; });
   const std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
   auto contestants = classifiers(model, kinds);
   return {fold, std::move(model), std::move(contestants)};
@@ -108,7 +99,12 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
                                    const LearningOptions& options, Right& right) {
   const TaughtFold taught_fold = taught(data, folds, fold, options);
   std::vector<Outcome> outcomes;
-  for (const Contestant& contestant : taught_fold.contestants) outcomes.push_back(no_outcome(contestant));
+  for (const Contestant& contestant : taught_fold.contestants)
+    std::visit(
+        [&](const auto& by) {
+          outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
+        },
+        contestant.classifier);
   unsigned bits = 0;
   classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
     std::visit(
@@ -232,7 +228,7 @@ ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::
 }
 
 ResultTable rows_of_confusion(const DataTable& data, const Results& results, std::size_t foldings) {
-  ResultTable table({{.key = "classifier"}, {.key = "truth"}, {.key = "decision"}, {.key = "rows"}});
+  auto table = ResultTable::of_keys({"classifier", "truth", "decision", "rows"});
   for (const Outcome& outcome : results.outcomes())
     for (std::size_t truth = 0; truth < data.classes.size(); ++truth)
       for (std::size_t c = 0; c < data.classes.size(); ++c)
@@ -243,18 +239,11 @@ ResultTable rows_of_confusion(const DataTable& data, const Results& results, std
 
 /// The bins of each classifier, with as many statements as a folding has.
 void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
-  std::size_t place = 0;
-  for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings))) {
-    const std::pair<const char*, double> facts[] = {{"from", bin.from},
-                                                    {"to", bin.to},
-                                                    {"statements", bin.count},
-                                                    {"mean_degree", bin.mean_degree},
-                                                    {"share_that_is_true", bin.share},
-                                                    {"lower", bin.lower},
-                                                    {"upper", bin.upper}};
-    for (const auto& [key, value] : facts) result.fact({"reliability", outcome.name, place, key}, value);
-    ++place;
-  }
+  const auto bins = outcome.reliability.bins(static_cast<double>(foldings));
+  for (std::size_t i = 0; i < bins.size(); ++i)
+    result.facts_at({"reliability", outcome.name, i}, "from", bins[i].from, "to", bins[i].to, "statements",
+                    bins[i].count, "mean_degree", bins[i].mean_degree, "share_that_is_true", bins[i].share, "lower",
+                    bins[i].lower, "upper", bins[i].upper);
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
@@ -429,15 +418,9 @@ void run_evaluate(const EvaluateOptions& options) {
   refuse_rare_classes(data);
   const Results results = evaluated(data, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
-  result.fact({"file"}, data.file);
-  result.fact({"rows"}, data.size());
-  result.fact({"classes"}, data.classes);
-  result.fact({"folds"}, options.folds);
-  result.fact({"foldings"}, options.foldings);
-  result.fact({"seed"}, options.seed);
-  result.fact({"smoothing"}, options.learning.smoothing);
-  result.fact({"misread"}, options.learning.misread);
-  result.fact({"bins"}, options.learning.bins);
+  result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
+               options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
+               options.learning.misread, "bins", options.learning.bins);
   say_scores(data, results, options, result);
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});

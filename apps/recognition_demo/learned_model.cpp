@@ -37,51 +37,38 @@ std::vector<FeatureCode> fitted(const DataTable& data, const RowChoice& chosen, 
   return codes;
 }
 
-/// p(reading|feature): right with probability 1 − misread, else any other value.
-Relation<Random, Random> sensor(const RandomVariable& feature, double misread) {
-  const std::size_t n = feature.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n, misread / static_cast<double>(n - 1)));
-  for (std::size_t f = 0; f < n; ++f) rows[f][f] = 1.0 - misread;
-  return {feature, feature, rows};
-}
-
-bool is_read(const LearnedModel& model, const RandomVariable& feature) {
-  return model.options.misread > 0.0 && feature.size() > 1;
-}
-
-Contestant sigma(const LearnedModel& model) {
-  std::vector<FeatureModel<Random, Random>> features;
-  for (auto& relation : learned_relations(model.counts, model.options.smoothing)) {
-    if (is_read(model, relation.to()))
-      features.emplace_back(relation, sensor(relation.to(), model.options.misread));
+/// A classifier by relations that were learned. A feature that may be misread has p(reading|feature) as its sensor, in
+/// the form that `as_sensor` gives it.
+template <Uncertainty Kind, class AsSensor>
+Contestant classifier(const LearnedModel& model, std::string name, const Distribution<Kind>& prior,
+                      std::vector<Relation<Kind, Kind>> relations, const AsSensor& as_sensor) {
+  const double misread = model.options.misread;
+  std::vector<FeatureModel<Kind, Kind>> features;
+  for (auto& relation : relations) {
+    const RandomVariable feature = as_random(relation.to());
+    if (misread > 0.0 && feature.size() > 1)
+      features.emplace_back(relation, as_sensor(mostly_right(feature, feature, 1.0 - misread, misread)));
     else
       features.emplace_back(std::move(relation));
   }
-  const auto prior = model.options.equal_prior ? uninformative(model.counts.pattern()) : pattern_prior(model.counts);
-  return {"sigma", SigmaClassifier{prior, std::move(features)}};
+  return {std::move(name), Classifier<Kind, Kind>{prior, std::move(features)}};
 }
 
 template <PossibilityTransform Method>
 Contestant fuzzy(const LearnedModel& model, const std::string& name, const Method& method, bool random_sensor) {
-  std::vector<FeatureModel<Fuzzy, Fuzzy>> features;
-  for (auto& relation : learned_relations(model.counts, model.options.smoothing, method)) {
-    const RandomVariable feature = as_random(relation.to());
-    if (!is_read(model, feature))
-      features.emplace_back(std::move(relation));
-    else if (random_sensor)
-      features.emplace_back(relation, with_fuzzy_condition(sensor(feature, model.options.misread)));
-    else
-      features.emplace_back(relation,
-                            with_fuzzy_condition(to_possibility(sensor(feature, model.options.misread), method)));
-  }
   const auto prior = model.options.equal_prior ? uninformative(as_fuzzy(model.counts.pattern()))
                                                : to_possibility(pattern_prior(model.counts), method);
-  return {name, MaxClassifier{prior, std::move(features)}};
+  auto relations = learned_relations(model.counts, model.options.smoothing, method);
+  if (random_sensor)
+    return classifier(model, name, prior, std::move(relations),
+                      [](const auto& sensor) { return with_fuzzy_condition(sensor); });
+  return classifier(model, name, prior, std::move(relations),
+                    [&](const auto& sensor) { return with_fuzzy_condition(to_possibility(sensor, method)); });
 }
 
 }  // namespace
 
-LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
+LearnedModel learn(const DataTable& data, const LearningOptions& options, const RowChoice& chosen) {
   auto codes = fitted(data, chosen, options);
   std::vector<RandomVariable> variables;
   for (const FeatureCode& code : codes) {
@@ -104,11 +91,6 @@ LearnedModel learn(const DataTable& data, const RowChoice& chosen, const Learnin
   return model;
 }
 
-LearnedModel learn(const DataTable& data, const LearningOptions& options) {
-  return learn(
-      data, [](const DataRow&) { return true; }, options);
-}
-
 void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   readings.clear();
   for (std::size_t i = 0; i < model.features.size(); ++i) {
@@ -123,18 +105,16 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
 
 void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
   Subcommand app(program);
-  const auto add_list = [&](const char* name, std::vector<std::string>& words, const char* help, const char* type) {
-    app.list(name, words, help).type(type);
-  };
   app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
       .required()
       .type("DATA");
   app.option("--label", data.label, "The column with the class").required().type("COLUMN");
-  add_list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all",
-           "COLUMN,…|all");
-  add_list("--ignore", data.ignore, "Columns to leave out", "COLUMN,…");
-  add_list("--missing", data.missing,
-           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers", "WORD,…");
+  app.list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all")
+      .type("COLUMN,…|all");
+  app.list("--ignore", data.ignore, "Columns to leave out").type("COLUMN,…");
+  app.list("--missing", data.missing,
+           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
+      .type("WORD,…");
   app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000).shows_default();
   app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
   app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
@@ -185,7 +165,10 @@ std::string described(const LearningOptions& options) {
 std::vector<Contestant> classifiers(const LearnedModel& model, std::span<const std::string> kinds) {
   const auto wanted = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
   std::vector<Contestant> all;
-  if (wanted("sigma")) all.push_back(sigma(model));
+  if (wanted("sigma"))
+    all.push_back(classifier(
+        model, "sigma", model.options.equal_prior ? uninformative(model.counts.pattern()) : pattern_prior(model.counts),
+        learned_relations(model.counts, model.options.smoothing), std::identity{}));
   for (const bool random_sensor : {false, true}) {
     const std::string kind = random_sensor ? "sigma-max" : "max";
     if (!wanted(kind)) continue;

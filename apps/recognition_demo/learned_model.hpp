@@ -42,8 +42,9 @@ struct LearnedModel {
 using RowChoice = std::function<bool(const DataRow&)>;
 
 /// Fits bins and counts on some rows of the data, or on all.
-LearnedModel learn(const DataTable& data, const RowChoice& chosen, const LearningOptions& options);
-LearnedModel learn(const DataTable& data, const LearningOptions& options);
+LearnedModel learn(
+    const DataTable& data, const LearningOptions& options,
+    const RowChoice& chosen = [](const DataRow&) { return true; });
 
 /// One row of the data as readings, into room that is used again.
 void read(const LearnedModel& model, const DataRow& row, Readings& readings);

@@ -15,7 +15,7 @@ namespace {
 
 /// The authors' example of kinematic recognition on one axis. The target flies at −150 m/s from 10 km and accelerates
 /// during the steps that lead to samples 15 … 20, by its class's acceleration. SI units.
-struct ManoeuvreScenario {
+struct Scenario {
   static constexpr double step_s = 2.0;
   static constexpr std::size_t samples = 30;
   static constexpr std::size_t first_accelerated = 15, last_accelerated = 20;
@@ -51,31 +51,20 @@ struct ManoeuvreRun {
   std::vector<std::vector<double>> imm, himm;
 };
 
-using Scenario = ManoeuvreScenario;
-
 using Model = IndependentAxes<1, DiscreteWhiteNoise<2>>;
 using Point = TimedMeasurement<1>;
 
-Relation<Random, Random> transition(const ManoeuvreScenario& scenario) {
-  const std::size_t n = scenario.mode.size();
-  std::vector<std::vector<double>> rows(
-      n, std::vector<double>(n, (1.0 - ManoeuvreScenario::stay) / static_cast<double>(n - 1)));
-  for (std::size_t i = 0; i < n; ++i) rows[i][i] = ManoeuvreScenario::stay;
-  return {scenario.mode, scenario.mode, rows};
-}
-
 /// The logarithms of the mode's weights after every sample.
 template <Uncertainty Kind>
-std::vector<std::vector<double>> mode_weights(const ManoeuvreScenario& scenario, const Relation<Kind, Kind>& transition,
+std::vector<std::vector<double>> mode_weights(const Scenario& scenario, const Relation<Kind, Kind>& transition,
                                               const std::vector<Point>& points) {
   std::vector<Model> models;
-  for (const double input : scenario.inputs) models.push_back(dwna<1>(ManoeuvreScenario::sigma_w, Vector<1>(input)));
-  const Gaussian<2> start = two_point_start(points[0], points[1]);
-  const std::vector<Gaussian<2>> starts(models.size(), start);
+  for (const double input : scenario.inputs) models.push_back(dwna<1>(Scenario::sigma_w, Vector<1>(input)));
+  const std::vector<Gaussian<2>> starts(models.size(), two_point_start(points[0], points[1]));
   InteractingMultipleModel<std::vector<Model>, Kind> filter(std::move(models), transition, starts);
   std::vector<std::vector<double>> weights(2);
   for (std::size_t k = 2; k < points.size(); ++k) {
-    filter.step(ManoeuvreScenario::step_s, points[k].measurement);
+    filter.step(Scenario::step_s, points[k].measurement);
     weights.emplace_back(filter.belief().logs().begin(), filter.belief().logs().end());
   }
   return weights;
@@ -83,7 +72,7 @@ std::vector<std::vector<double>> mode_weights(const ManoeuvreScenario& scenario,
 
 /// Manoeuvres instead of modes, from sample `first_classified` on: their weights are the ⊕ of those of their modes.
 template <Uncertainty Kind>
-std::vector<AnyReport> reports_of(const ManoeuvreScenario& scenario, const std::vector<std::vector<double>>& weights) {
+std::vector<AnyReport> reports_of(const Scenario& scenario, const std::vector<std::vector<double>>& weights) {
   const auto mode = interpreted_as<Kind>(scenario.mode);
   const auto manoeuvre = interpreted_as<Kind>(scenario.manoeuvre);
   std::vector<std::vector<double>> rows(mode.size(), std::vector<double>(manoeuvre.size(), 0.0));
@@ -91,7 +80,7 @@ std::vector<AnyReport> reports_of(const ManoeuvreScenario& scenario, const std::
   const Relation<Kind, Kind> manoeuvre_given_mode{manoeuvre, mode, rows};
   Belief<Kind> of_mode{uninformative(mode)};
   std::vector<AnyReport> result;
-  for (std::size_t k = ManoeuvreScenario::first_classified - 1; k < weights.size(); ++k) {
+  for (std::size_t k = Scenario::first_classified - 1; k < weights.size(); ++k) {
     of_mode.assign([&](std::size_t j) { return weights[k][j]; });
     const auto belief = compose(manoeuvre_given_mode, of_mode);
     result.emplace_back(GradedReading(belief.logs().begin(), belief.logs().end()));
@@ -99,7 +88,7 @@ std::vector<AnyReport> reports_of(const ManoeuvreScenario& scenario, const std::
   return result;
 }
 
-ManoeuvreRun fly(const ManoeuvreScenario& scenario, double acceleration, RandomStream& random) {
+ManoeuvreRun fly(const Scenario& scenario, double acceleration, RandomStream& random) {
   constexpr double T = Scenario::step_s;
   ManoeuvreRun run;
   std::vector<Point> points;
@@ -115,9 +104,9 @@ ManoeuvreRun fly(const ManoeuvreScenario& scenario, double acceleration, RandomS
         {T * static_cast<double>(k - 1),
          {Vector<1>(run.positions.back()), SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
   }
-  const auto random_transition = transition(scenario);
-  run.imm = mode_weights(scenario, random_transition, points);
-  run.himm = mode_weights(scenario, with_fuzzy_condition(to_possibility(random_transition, RatioScale{})), points);
+  const auto transition = mostly_right(scenario.mode, scenario.mode, Scenario::stay, 1.0 - Scenario::stay);
+  run.imm = mode_weights(scenario, transition, points);
+  run.himm = mode_weights(scenario, with_fuzzy_condition(to_possibility(transition, RatioScale{})), points);
   return run;
 }
 
@@ -176,15 +165,8 @@ ResultTable differences_table(const Scenario& scenario, const std::vector<Scores
   return table;
 }
 
-/// What a run tells of each sample: the measured position, and the weights of the filters' modes.
-std::vector<std::string> sample_keys(const Scenario& scenario) {
-  std::vector<std::string> keys = {"target", "run", "sample", "position_m"};
-  for (const char* filter : {"imm", "himm"})
-    for (const auto& mode : labels_of(scenario.mode)) keys.push_back(fmt::format("{}_{}", filter, mode));
-  return keys;
-}
-
-/// The numbers among them, sample after sample; NaN where there is no weight.
+/// Of each sample, one after the other, the measured position and the weights of the filters' modes; NaN where there is
+/// no weight.
 std::vector<double> numbers_of(const Scenario& scenario, const ManoeuvreRun& run) {
   std::vector<double> numbers;
   for (std::size_t k = 0; k < Scenario::samples; ++k) {
@@ -205,25 +187,6 @@ void write_samples(const Scenario& scenario, const SeenRun& run, RowFile& file) 
       cells.push_back(std::isnan(*number) ? Cell() : Cell(*number));
     file.write(cells);
   }
-}
-
-ResultTable curves_of_targets(const Scenario& scenario, const std::vector<Scores>& all) {
-  ResultTable table({{.key = "target"}, {.key = "sample"}, {.key = "classifier"}, {.key = "accuracy"}});
-  for (std::size_t target = 0; target < all.size(); ++target)
-    for (const Score& score : all[target])
-      for (std::size_t k = 0; k < score.accuracy.size(); ++k)
-        table.row({scenario.target.label(target), Scenario::first_classified + k, score.name, score.accuracy[k]});
-  return table;
-}
-
-std::string described(const DrawOptions& options) {
-  return fmt::format(
-      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
-      "{} m/s, accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. "
-      "From sample {} on their mode weights are the reports: cv weak, ±3 g medium, ±5 g strong.",
-      options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position, Scenario::start_m,
-      Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated, Scenario::sigma_w, Scenario::stay,
-      Scenario::first_classified);
 }
 
 LineChart with_acceleration(LineChart chart) {
@@ -261,21 +224,15 @@ View view_of(const Scenario& scenario, const Condition& condition, const SeenRun
   return view;
 }
 
-/// Right decisions about each target over the samples, from all runs.
-View view_of_all(const Scenario& scenario, std::size_t runs, const std::vector<Scores>& all) {
-  View view{fmt::format("all {} runs", runs), {}};
-  for (std::size_t target = 0; target < all.size(); ++target) {
-    LineChart chart = with_acceleration(accuracy_chart(all[target], "sample", Scenario::first_classified));
-    chart.title = "Right decisions about the " + scenario.target.label(target);
-    chart.greatest_y = 1.05;
-    view.panels.emplace_back(std::move(chart));
-  }
-  return view;
-}
-
 void tell(const Scenario& scenario, const DrawOptions& options, const std::vector<Contestant>& contestants,
           const std::vector<Scores>& scores, Result& result) {
-  result.say(described(options));
+  result.say(
+      "Simulated targets on one axis: {} runs of each, seed {}. {} samples, {} s apart, measured to {} m; from {} m at "
+      "{} m/s, accelerated during samples {}-{}. IMM and HIMM: constant velocity, ±3 g, ±5 g, σ_w {} m/s², p(stay) {}. "
+      "From sample {} on their mode weights are the reports: cv weak, ±3 g medium, ±5 g strong.",
+      options.runs, options.seed, Scenario::samples, Scenario::step_s, Scenario::sigma_position, Scenario::start_m,
+      Scenario::speed, Scenario::first_accelerated, Scenario::last_accelerated, Scenario::sigma_w, Scenario::stay,
+      Scenario::first_classified);
   result.add(targets_table(scenario, scores), {.title = "After the last sample"});
   result.say("(Ties share the credit.)");
   result.add(differences_table(scenario, scores), {.title = "Differences, ± 95 % by paired runs"});
@@ -283,25 +240,34 @@ void tell(const Scenario& scenario, const DrawOptions& options, const std::vecto
   for (const auto& [contestant, target, dominator] : dominated(contestants))
     result.say("{} can never prefer the {}: whatever is seen, the {} is at least as possible", contestant, target,
                dominator);
-  result.fact({"simulated"}, true);
-  result.fact({"runs"}, options.runs);
-  result.fact({"seed"}, options.seed);
-  for (std::size_t target = 0; target < scores.size(); ++target)
-    result.add(scores_table(scores[target]), {.printed = false, .summary = {"targets", scenario.target.label(target)}});
-  result.add(curves_of_targets(scenario, scores), {.printed = false, .csv = "curves.csv"});
+  result.facts("simulated", true, "runs", options.runs, "seed", options.seed);
+  auto curves = ResultTable::of_keys({"target", "sample", "classifier", "accuracy"});
+  for (std::size_t target = 0; target < scores.size(); ++target) {
+    const std::string& name = scenario.target.label(target);
+    for (const Score& score : scores[target])
+      for (std::size_t k = 0; k < score.accuracy.size(); ++k)
+        curves.row({name, Scenario::first_classified + k, score.name, score.accuracy[k]});
+    result.add(scores_table(scores[target]), {.printed = false, .summary = {"targets", name}});
+    LineChart chart = with_acceleration(accuracy_chart(scores[target], "sample", Scenario::first_classified));
+    chart.title = "Right decisions about the " + name;
+    chart.greatest_y = 1.05;
+    result.page.views.front().panels.emplace_back(std::move(chart));
+  }
+  result.add(curves, {.printed = false, .csv = "curves.csv"});
   result.page.verdict = {
       fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the "
                   "reports.",
                   options.runs, options.seed)};
-  result.page.chooser = "Show";
-  result.page.views.push_back(view_of_all(scenario, options.runs, scores));
 }
 
 void run_manoeuvre(const DrawOptions& options) {
   ResultFiles files(options.output);
   const Scenario scenario;
   const auto all = contestants(scenario);
-  RowFile samples(files, "samples.csv", sample_keys(scenario));
+  std::vector<std::string> keys = {"target", "run", "sample", "position_m"};
+  for (const char* filter : {"imm", "himm"})
+    for (const auto& mode : labels_of(scenario.mode)) keys.push_back(fmt::format("{}_{}", filter, mode));
+  RowFile samples(files, "samples.csv", keys);
   RowFile runs(files, "runs.csv", with_beliefs({"target", "run"}, all, labels_of(scenario.target)));
   World world{"Airliner, bomber or fighter?", {}};
   const std::size_t targets = scenario.target.size();
@@ -311,16 +277,13 @@ void run_manoeuvre(const DrawOptions& options) {
                                   const auto flight = fly(scenario, scenario.acceleration[target], random);
                                   return Drawn{target, reports_of(scenario, flight), numbers_of(scenario, flight)};
                                 }});
-  std::vector<View> views;
+  world.view = [&](const SeenRun& run) { return view_of(scenario, world.conditions[run.condition], run); };
+  world.runs_in_page = 1;
   world.see = [&](const SeenRun& run) {
     write_samples(scenario, run, samples);
     runs.write(with_beliefs({scenario.target.label(run.truth), run.run + 1}, run));
-    if (run.run == 0 && files.report_wanted()) views.push_back(view_of(scenario, world.conditions[run.condition], run));
   };
-  world.tell = [&](const std::vector<Scores>& scores, Result& result) {
-    tell(scenario, options, all, scores, result);
-    for (View& view : views) result.page.views.push_back(std::move(view));
-  };
+  world.tell = [&](const std::vector<Scores>& scores, Result& result) { tell(scenario, options, all, scores, result); };
   run_world(world, options, files);
 }
 

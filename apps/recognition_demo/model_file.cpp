@@ -24,17 +24,14 @@ class Node {
     if (found == json_.end()) throw InputError("{}: there is no {}", file_, in_quotes(path));
     return {*found, file_, path};
   }
-  std::vector<Node> list(std::string_view of_what) const {
+  /// Of as many as are given, or expected.
+  std::vector<Node> list(std::string_view of_what, std::optional<std::size_t> size = std::nullopt) const {
     if (!json_.is_array()) throw error(fmt::format("a list of {}", of_what));
+    if (size && json_.size() != *size)
+      throw InputError("{}: {}: found {} {}, expected {}", file_, in_quotes(path_), json_.size(), of_what, *size);
     std::vector<Node> result;
     for (std::size_t i = 0; i < json_.size(); ++i)
       result.emplace_back(json_[i], file_, fmt::format("{}[{}]", path_, i));
-    return result;
-  }
-  std::vector<Node> list(std::string_view of_what, std::size_t size) const {
-    auto result = list(of_what);
-    if (result.size() != size)
-      throw InputError("{}: {}: found {} {}, expected {}", file_, in_quotes(path_), result.size(), of_what, size);
     return result;
   }
   std::string text() const {

@@ -303,12 +303,8 @@ void run_performance(const PerformanceOptions& options) {
               {{contestants(knowledge), [&](std::size_t run) { return drawn(data, knowledge, options, run); }}}};
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     say_performance(options, data, result);
-    result.fact({"file"}, options.file);
-    result.fact({"drawn_from"}, options.drawn_from);
-    result.fact({"bins"}, options.bins);
-    result.fact({"least_possibility"}, options.least);
-    result.fact({"runs"}, draws.runs);
-    result.fact({"seed"}, draws.seed);
+    result.facts("file", options.file, "drawn_from", options.drawn_from, "bins", options.bins, "least_possibility",
+                 options.least, "runs", draws.runs, "seed", draws.seed);
     result.fact({"remarks"}, data.remarks);
     if (files.report_wanted()) fill(result.page, options, data, knowledge, scores.front());
     add_scores(result, scores.front(), "quantities");

@@ -22,8 +22,9 @@ struct Setting {
   double hit = 0.7;        ///< what they believe of the sensor
   double elsewhere = 0.0;  ///< how possible they take emitters that a platform does not carry
   bool averaged = false;   ///< one more knows how usages are drawn
-  std::size_t seen =
-      0;  ///< they learn from so many reports of each platform, anew in every run; 0: they know the lists
+  /// They learn from so many reports of each platform, anew in every run; 0: they know the lists.
+  std::size_t seen = 0;
+  Scores scores{};  ///< when the runs are done
 };
 
 /// Settings of one kind, in which one number changes.
@@ -31,12 +32,6 @@ struct Regime {
   std::string name;  ///< one word, for files
   std::string description;
   std::vector<Setting> settings;
-};
-
-struct SettingScores {
-  std::string regime;
-  std::string setting;
-  Scores scores;
 };
 
 /// Sigma, sigma-max and max inference from the same knowledge.
@@ -129,10 +124,10 @@ std::vector<Regime> regimes() {
   return all;
 }
 
-ResultTable regime_table(std::span<const SettingScores> settings) {
+ResultTable regime_table(const Regime& regime) {
   ResultTable table;
-  for (const SettingScores& setting : settings) {
-    std::vector<Field> row = {{{.header = "setting", .align = Align::left}, setting.setting}};
+  for (const Setting& setting : regime.settings) {
+    std::vector<Field> row = {{{.header = "setting", .align = Align::left}, setting.name}};
     for (const Score& score : setting.scores) {
       const std::string group = score.name + ":";
       row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy.back()});
@@ -145,27 +140,23 @@ ResultTable regime_table(std::span<const SettingScores> settings) {
   return table;
 }
 
-/// Where possibilities did better, and where worse, by more than the interval. What is the same in every run counts
-/// once.
-struct Verdict {
-  std::string sentence;
-  ResultTable better;
-};
-
-Verdict verdict_of(const std::vector<SettingScores>& all) {
+/// How often possibilities did better and worse, by more than the interval, and where better. What is the same in every
+/// run counts once.
+std::pair<std::string, ResultTable> verdict_of(const std::vector<Regime>& all) {
   ResultTable better({{.header = "regime", .align = Align::left},
                       {.header = "setting", .align = Align::left},
                       {.header = "better than sigma", .align = Align::left},
                       {.header = "points", .scale = 100.0, .sign = true}});
   std::size_t better_count = 0, worse = 0, undecided = 0;
-  for (const SettingScores& setting : all)
-    for (std::size_t i = 0; i < setting.scores.size(); ++i) {
-      const Score& score = setting.scores[i];
-      if (!score.has_possibilities || score.same_as < i) continue;
-      const Interval difference = score.minus_first.interval();
-      ++(difference.above_zero() ? better_count : difference.below_zero() ? worse : undecided);
-      if (difference.above_zero()) better.row({setting.regime, setting.setting, score.name, difference});
-    }
+  for (const Regime& regime : all)
+    for (const Setting& setting : regime.settings)
+      for (std::size_t i = 0; i < setting.scores.size(); ++i) {
+        const Score& score = setting.scores[i];
+        if (!score.has_possibilities || score.same_as < i) continue;
+        const Interval difference = score.minus_first.interval();
+        ++(difference.above_zero() ? better_count : difference.below_zero() ? worse : undecided);
+        if (difference.above_zero()) better.row({regime.name, setting.name, score.name, difference});
+      }
   return {fmt::format("Of {} comparisons with sigma inference at 95 % each, {} are worse, {} undecided, {} better; one "
                       "in forty would be better by chance. Classifiers that decide alike in every run count once.",
                       better_count + worse + undecided, worse, undecided, better_count),
@@ -173,7 +164,7 @@ Verdict verdict_of(const std::vector<SettingScores>& all) {
 }
 
 /// Points more than sigma inference, by setting and classifier.
-HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings) {
+HeatMap regime_map(const Regime& regime) {
   HeatMap map{.title = fmt::format("Regime {}", regime.name),
               .row_label = "setting",
               .column_label = "classifier",
@@ -184,32 +175,16 @@ HeatMap regime_map(const Regime& regime, std::span<const SettingScores> settings
               .sign = true,
               .most = 0.2,
               .note = regime.description + "."};
-  for (const Score& score : std::span(settings.front().scores).subspan(1)) map.columns.push_back(score.name);
-  for (const SettingScores& setting : settings) map.rows.push_back(setting.setting);
+  for (const Score& score : std::span(regime.settings.front().scores).subspan(1)) map.columns.push_back(score.name);
+  for (const Setting& setting : regime.settings) map.rows.push_back(setting.name);
   map.fill([&](std::size_t r, std::size_t c) {
-    const auto& scores = settings[r].scores;
+    const auto& scores = regime.settings[r].scores;
     const Interval points = scores[c + 1].minus_first.interval();
     return HeatMap::Cell{std::abs(points.mean) < 1e-12 ? 0.0 : points.mean,  // what only rounding parts
                          fmt::format("± {:.1f}; {:.1f} % right, sigma {:.1f} %", 100.0 * points.half_width,
                                      100.0 * scores[c + 1].accuracy.back(), 100.0 * scores.front().accuracy.back())};
   });
   return map;
-}
-
-ResultTable regimes_table(const std::vector<SettingScores>& all) {
-  ResultTable table;
-  for (const SettingScores& setting : all)
-    for (const Score& score : setting.scores) {
-      const Interval difference = score.minus_first.interval();
-      table.row_of({{{.key = "regime"}, setting.regime},
-                    {{.key = "setting"}, setting.setting},
-                    {{.key = "classifier"}, score.name},
-                    {{.key = "accuracy"}, score.accuracy.back()},
-                    {{.key = "difference"}, difference.mean},
-                    {{.key = "lower"}, difference.lower()},
-                    {{.key = "upper"}, difference.upper()}});
-    }
-  return table;
 }
 
 Condition condition_of(const EsmWorld& world, const Setting& setting, const RegimesOptions& options) {
@@ -226,13 +201,12 @@ Condition condition_of(const EsmWorld& world, const Setting& setting, const Regi
           }};
 }
 
-void tell(const RegimesOptions& options, const std::vector<Regime>& all, const std::vector<SettingScores>& results,
-          Result& result) {
+void tell(const RegimesOptions& options, const std::vector<Regime>& all, Result& result) {
   const DrawOptions& draws = options.draws;
-  const Verdict verdict = verdict_of(results);
+  const auto [verdict, better] = verdict_of(all);
   result.page.groups.clear();  // no chart has curves
   result.page.verdict = {
-      verdict.sentence,
+      verdict,
       fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more often right "
                   "than sigma inference, orange: more seldom; the colours end at 20 points.",
                   draws.runs, options.reports, draws.seed)};
@@ -240,42 +214,43 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, const s
       "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
       "Differences are points ± 95 % by paired runs.",
       draws.runs, options.reports, draws.seed);
-  std::span<const SettingScores> rest = results;
   for (const Regime& regime : all) {
-    const auto own = rest.first(regime.settings.size());
-    rest = rest.subspan(own.size());
     result.text += "\n";
     result.say(regime.description);
-    result.add(regime_table(own), {});
-    result.page.panels.emplace_back(regime_map(regime, own));
+    result.add(regime_table(regime), {});
+    result.page.panels.emplace_back(regime_map(regime));
   }
   result.text += "\n";
-  result.say(verdict.sentence);
-  if (!verdict.better.empty()) result.add(verdict.better, {.title = "Better than sigma inference"});
-  result.fact({"synthetic"}, true);
-  result.fact({"runs"}, draws.runs);
-  result.fact({"reports"}, options.reports);
-  result.fact({"seed"}, draws.seed);
-  for (const SettingScores& setting : results)
-    result.add(scores_table(setting.scores),
-               {.printed = false, .summary = {"regimes", setting.regime, setting.setting}});
-  result.add(regimes_table(results), {.printed = false, .csv = "regimes.csv"});
+  result.say(verdict);
+  if (!better.empty()) result.add(better, {.title = "Better than sigma inference"});
+  result.facts("synthetic", true, "runs", draws.runs, "reports", options.reports, "seed", draws.seed);
+  auto rows = ResultTable::of_keys({"regime", "setting", "classifier", "accuracy", "difference", "lower", "upper"});
+  for (const Regime& regime : all)
+    for (const Setting& setting : regime.settings) {
+      result.add(scores_table(setting.scores), {.printed = false, .summary = {"regimes", regime.name, setting.name}});
+      for (const Score& score : setting.scores) {
+        const Interval difference = score.minus_first.interval();
+        rows.row({regime.name, setting.name, score.name, score.accuracy.back(), difference.mean, difference.lower(),
+                  difference.upper()});
+      }
+    }
+  result.add(rows, {.printed = false, .csv = "regimes.csv"});
 }
 
 void run_regimes(const RegimesOptions& options) {
   ResultFiles files(options.draws.output);
   const EsmWorld esm;
-  const auto all = regimes();
+  auto all = regimes();
   World world{"Where is max inference the better one?", {}};
-  std::vector<SettingScores> results;
-  for (const Regime& regime : all)
-    for (const Setting& setting : regime.settings) {
+  std::vector<Setting*> settings;
+  for (Regime& regime : all)
+    for (Setting& setting : regime.settings) {
       world.conditions.push_back(condition_of(esm, setting, options));
-      results.push_back({regime.name, setting.name, {}});
+      settings.push_back(&setting);
     }
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
-    for (std::size_t i = 0; i < scores.size(); ++i) results[i].scores = scores[i];
-    tell(options, all, results, result);
+    for (std::size_t i = 0; i < scores.size(); ++i) settings[i]->scores = scores[i];
+    tell(options, all, result);
   };
   run_world(world, options.draws, files);
 }

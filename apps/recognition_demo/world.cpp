@@ -139,17 +139,24 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
                       const Drawn drawn = condition.draw(cell % options.runs);
                       return row_of(drawn, drawn.contestants.empty() ? condition.contestants : drawn.contestants);
                     }};
+  std::vector<View> views;
   const auto add = [&](std::size_t cell, const Study::Row& row) {
     const std::size_t condition = cell / options.runs;
     const SeenRun seen = run_of(row, condition, cell % options.runs, world.conditions[condition].contestants.size());
     boards[condition].add(seen);
     if (world.see) world.see(seen);
+    if (seen.run < world.runs_in_page && files.report_wanted()) views.push_back(world.view(seen));
   };
   if (!run(study, {.threads = options.threads}, options.output, add)) return;
   std::vector<Scores> scores;
   for (const Scoreboard& board : boards) scores.push_back(board.scores());
   Result result = result_of_contest(world.title, options.output, world.conditions.front().contestants);
+  if (world.view) {
+    result.page.chooser = "Show";
+    result.page.views.push_back({fmt::format("all {} runs", options.runs), {}});
+  }
   world.tell(scores, result);
+  std::ranges::move(views, std::back_inserter(result.page.views));
   result.publish(files);
 }
 
@@ -162,7 +169,7 @@ ResultTable scores_table(const Scores& scores, const std::string& what_is_counte
          score.name}};
     for (const std::size_t k : shown_reports(score.accuracy.size()))
       row.push_back({{.header = fmt::format("{}", k), .digits = 1, .scale = 100.0}, score.accuracy[k - 1]});
-    const std::vector<Field> rest = {
+    const std::initializer_list<Field> rest = {
         {{.key = "accuracy"}, score.accuracy.back()},
         {{.key = "accuracy_minus_that_of_the_first",
           .header = "last, more than row 1",
@@ -193,7 +200,7 @@ void add_scores(Result& result, const Scores& scores, const std::string& what_is
   for (const Score& score : scores)
     if (score.refused > 0)
       result.say("{}: {} reports excluded every pattern that was left and were passed over", score.name, score.refused);
-  ResultTable curves({{.key = "report"}, {.key = "classifier"}, {.key = "accuracy"}});
+  auto curves = ResultTable::of_keys({"report", "classifier", "accuracy"});
   for (const Score& score : scores)
     for (std::size_t k = 0; k < score.accuracy.size(); ++k) curves.row({k + 1, score.name, score.accuracy[k]});
   result.add(curves, {.printed = false, .csv = "curves.csv"});

@@ -67,6 +67,10 @@ struct World {
   std::vector<Condition> conditions;
   std::function<void(const std::vector<Scores>& scores, Result& result)> tell{};  ///< the scores of each condition
   std::function<void(const SeenRun& run)> see{};                                  ///< every run, in order, if wanted
+  /// How the page shows a run, if it shows any, and how many of each condition. Before them comes a view of all runs,
+  /// to which `tell` adds its panels.
+  std::function<View(const SeenRun& run)> view{};
+  std::size_t runs_in_page = 0;
 };
 
 /// Draws all runs of all conditions, by threads or ranks, and publishes what the world tells of them.

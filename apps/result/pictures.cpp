@@ -327,11 +327,7 @@ std::string tics(const std::vector<std::string>& names) {
   return "(" + all + ")";
 }
 
-double longest_cm(const std::vector<std::string>& names) {
-  std::size_t width = 0;
-  for (const std::string& name : names) width = std::max(width, display_width(name));
-  return letter_cm * static_cast<double>(width);
-}
+double longest_cm(const std::vector<std::string>& names) { return letter_cm * static_cast<double>(widest(names)); }
 
 Picture drawn(const HeatMap& map, const Groups& groups) {
   constexpr std::size_t most_texts = 400;
@@ -383,15 +379,12 @@ Picture drawn(const HeatMap& map, const Groups& groups) {
 /// A title as the name of a file: its letters and digits.
 std::string file_name(std::string_view title) {
   std::string name;
-  for (const char letter : title) {
-    const bool capital = letter >= 'A' && letter <= 'Z';
-    const char small_letter = capital ? static_cast<char>(letter - 'A' + 'a') : letter;
-    if ((small_letter >= 'a' && small_letter <= 'z') || (letter >= '0' && letter <= '9'))
-      name += small_letter;
+  for (const char letter : lower_case(title))
+    if ((letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9'))
+      name += letter;
     else if (!name.empty() && name.back() != '_')
       name += '_';
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
+  if (name.ends_with('_')) name.pop_back();
   return name.empty() ? "figure" : name.substr(0, 80);
 }
 

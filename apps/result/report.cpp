@@ -17,158 +17,142 @@ extern const std::string_view style, dygraphs, synchronizer, d3, script;
 
 namespace {
 
-/// Seven digits are more than a screen shows, and half as long as all.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
-}
-
-template <class Items, class Made>
-Json list(const Items& items, const Made& made) {
-  Json all = Json::array();
-  for (const auto& item : items) all.push_back(made(item));
-  return all;
-}
-
-Json numbers(const std::vector<double>& values) { return list(values, number); }
-
-Json marked(const std::vector<Marked>& all) {
-  return list(all, [](const Marked& one) {
-    return Json{{"from", number(one.from)}, {"to", number(one.to)}, {"label", one.label}};
-  });
-}
-
-Json curve(const Curve& curve) {
-  Json json = {{"name", curve.name}, {"group", curve.group}, {"values", numbers(curve.values)}};
-  if (!curve.lower.empty()) json["lower"] = numbers(curve.lower);
-  if (!curve.upper.empty()) json["upper"] = numbers(curve.upper);
-  if (curve.dash >= 0) json["dash"] = curve.dash;
-  if (curve.dots) json["dots"] = true;
-  return json;
-}
-
-Json stay(const Stay& stay) {
-  return {{"from", number(stay.from)}, {"to", number(stay.to)}, {"label", stay.label}, {"shade", stay.shade}};
-}
-
-Json panel(const LineChart& chart) {
-  Json json = {{"kind", "lines"},
-               {"title", chart.title},
-               {"x_label", chart.x_label},
-               {"y_label", chart.y_label},
-               {"x", numbers(chart.x)},
-               {"curves", list(chart.curves, curve)},
-               {"shaded", marked(chart.shaded)},
-               {"expected", marked(chart.expected)},
-               {"note", chart.note}};
-  if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
-  if (chart.joined) json["joined"] = true;
-  if (chart.stacked) json["stacked"] = true;
-  if (chart.logarithmic) json["logarithmic"] = true;
-  for (const HistoryBand& band : chart.histories)
-    json["histories"].push_back({{"name", band.name}, {"group", band.group}, {"stays", list(band.stays, stay)}});
-  if (chart.period > 0.0) json["period"] = chart.period;
-  if (chart.greatest_y || chart.least_y != 0.0)
-    json["range"] = {chart.least_y, chart.greatest_y ? Json(*chart.greatest_y) : Json()};
-  return json;
-}
-
-Json trace(const PlanTrace& trace) {
-  constexpr const char* shapes[] = {"line", "dots", "crosses"};
-  Json json = {{"name", trace.name},
-               {"group", trace.group},
-               {"shape", shapes[static_cast<std::size_t>(trace.shape)]},
-               {"x", numbers(trace.x)},
-               {"y", numbers(trace.y)}};
-  if (!trace.z.empty()) json["z"] = numbers(trace.z);
-  return json;
-}
-
-Json panel(const Plan& plan) {
-  const auto ellipse = [](const ErrorEllipse& e) {
-    return Json{{"group", e.group},
-                {"x", number(e.x)},
-                {"y", number(e.y)},
-                {"semi_major", number(e.semi_major)},
-                {"semi_minor", number(e.semi_minor)},
-                {"angle_deg", number(e.angle_deg)}};
-  };
-  const auto line = [](const GraticuleLine& one) {
-    return Json{{"label", one.label}, {"x", numbers(one.x)}, {"y", numbers(one.y)}};
-  };
-  Json json = {{"kind", "plan"},
-               {"title", plan.title},
-               {"x_label", plan.x_label},
-               {"y_label", plan.y_label},
-               {"traces", list(plan.traces, trace)},
-               {"ellipses", list(plan.ellipses, ellipse)},
-               {"graticule", list(plan.graticule, line)},
-               {"note", plan.note}};
-  if (!plan.focus.empty()) json["focus"] = numbers(plan.focus);
-  return json;
-}
-
-Json panel(const IntervalChart& chart) {
-  const auto series = [&](const IntervalSeries& one) {
-    const auto shown = [&](const Interval& value) {
-      const std::string mean = sized_text(value.mean, chart.digits);
-      return value.half_width > 0.0 ? mean + " ± " + sized_text(value.half_width, chart.digits) : mean;
-    };
-    const auto bounds = [](const Interval& value) {
-      return Json{number(value.mean), number(value.lower()), number(value.upper())};
-    };
-    return Json{{"name", one.name},
-                {"group", one.group},
-                {"values", list(one.values, bounds)},
-                {"shown", list(one.values, shown)},
-                {"wanted", marked(one.wanted)}};
-  };
-  Json json = {{"kind", "intervals"},
-               {"title", chart.title},
-               {"x_label", chart.x_label},
-               {"rows", chart.rows},
-               {"series", list(chart.series, series)},
-               {"wanted_label", chart.wanted_label},
-               {"note", chart.note}};
-  if (chart.reference) json["reference"] = *chart.reference;
-  return json;
-}
-
-Json panel(const HeatMap& map) {
-  const auto exact = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
-  Json json = {{"kind", "heat"},
-               {"title", map.title},
-               {"row_label", map.row_label},
-               {"column_label", map.column_label},
-               {"rows", map.rows},
-               {"columns", map.columns},
-               {"values", list(map.values, [&](const auto& row) { return list(row, exact); })},
-               {"shown", Json::array()},
-               {"value_label", map.value_label},
-               {"diverging", map.diverging},
-               {"texts", map.texts},
-               {"note", map.note}};
-  if (map.most) json["most"] = *map.most;
-  for (std::size_t r = 0; r < map.values.size(); ++r) {
-    Json& shown = json["shown"].emplace_back(Json::array());
-    for (std::size_t c = 0; c < map.values[r].size(); ++c) shown.push_back(shown_in(map, r, c));
+/// What a report is made of as JSON. Numbers have seven digits: more than a screen shows, and half as long as all.
+struct Data {
+  static Json of(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
   }
-  return json;
-}
 
-Json panel(const ReportTable& table) {
-  Json json = {{"kind", "table"}, {"title", table.title}, {"note", table.note}};
-  json.update(table.table.page());
-  return json;
-}
+  /// Words, counts, and what is JSON already.
+  template <class Value>
+  static Json of(const Value& value) {
+    return value;
+  }
 
-Json panel(const Words& words) {
-  return {{"kind", "words"}, {"title", words.title}, {"text", words.text}, {"folded", words.folded}};
-}
+  template <class Item>
+  static Json of(const std::vector<Item>& items) {
+    Json all = Json::array();
+    for (const Item& item : items) all.push_back(of(item));
+    return all;
+  }
 
-Json panels(const std::vector<Panel>& all) {
-  return list(all, [](const Panel& one) { return std::visit([](const auto& any) { return panel(any); }, one); });
-}
+  /// An object of keys and values by turns.
+  template <class... KeysAndValues>
+  static Json object(const KeysAndValues&... all) {
+    std::array<Json, sizeof...(all)> items{of(all)...};
+    Json json;
+    for (std::size_t i = 0; i < items.size(); i += 2)
+      json[items[i].template get<std::string>()] = std::move(items[i + 1]);
+    return json;
+  }
+
+  static Json of(const Marked& one) { return object("from", one.from, "to", one.to, "label", one.label); }
+
+  static Json of(const Curve& curve) {
+    Json json = object("name", curve.name, "group", curve.group, "values", curve.values);
+    if (!curve.lower.empty()) json["lower"] = of(curve.lower);
+    if (!curve.upper.empty()) json["upper"] = of(curve.upper);
+    if (curve.dash >= 0) json["dash"] = curve.dash;
+    if (curve.dots) json["dots"] = true;
+    return json;
+  }
+
+  static Json of(const Stay& stay) {
+    return object("from", stay.from, "to", stay.to, "label", stay.label, "shade", stay.shade);
+  }
+
+  static Json of(const HistoryBand& band) {
+    return object("name", band.name, "group", band.group, "stays", band.stays);
+  }
+
+  static Json of(const LineChart& chart) {
+    Json json =
+        object("kind", "lines", "title", chart.title, "x_label", chart.x_label, "y_label", chart.y_label, "x", chart.x,
+               "curves", chart.curves, "shaded", chart.shaded, "expected", chart.expected, "note", chart.note);
+    if (!chart.remarks.empty()) json["remarks"] = chart.remarks;
+    if (chart.joined) json["joined"] = true;
+    if (chart.stacked) json["stacked"] = true;
+    if (chart.logarithmic) json["logarithmic"] = true;
+    if (!chart.histories.empty()) json["histories"] = of(chart.histories);
+    if (chart.period > 0.0) json["period"] = chart.period;
+    if (chart.greatest_y || chart.least_y != 0.0)
+      json["range"] = {chart.least_y, chart.greatest_y ? Json(*chart.greatest_y) : Json()};
+    return json;
+  }
+
+  static Json of(const PlanTrace& trace) {
+    constexpr const char* shapes[] = {"line", "dots", "crosses"};
+    Json json = object("name", trace.name, "group", trace.group, "shape", shapes[static_cast<std::size_t>(trace.shape)],
+                       "x", trace.x, "y", trace.y);
+    if (!trace.z.empty()) json["z"] = of(trace.z);
+    return json;
+  }
+
+  static Json of(const ErrorEllipse& e) {
+    return object("group", e.group, "x", e.x, "y", e.y, "semi_major", e.semi_major, "semi_minor", e.semi_minor,
+                  "angle_deg", e.angle_deg);
+  }
+
+  static Json of(const GraticuleLine& line) { return object("label", line.label, "x", line.x, "y", line.y); }
+
+  static Json of(const Plan& plan) {
+    Json json = object("kind", "plan", "title", plan.title, "x_label", plan.x_label, "y_label", plan.y_label, "traces",
+                       plan.traces, "ellipses", plan.ellipses, "graticule", plan.graticule, "note", plan.note);
+    if (!plan.focus.empty()) json["focus"] = of(plan.focus);
+    return json;
+  }
+
+  static Json of(const Interval& value) { return {of(value.mean), of(value.lower()), of(value.upper())}; }
+
+  static Json of(const IntervalChart& chart) {
+    Json series = Json::array();
+    for (const IntervalSeries& one : chart.series) {
+      std::vector<std::string> shown;
+      for (const auto& [mean, half_width] : one.values)
+        shown.push_back(sized_text(mean, chart.digits) +
+                        (half_width > 0.0 ? " ± " + sized_text(half_width, chart.digits) : ""));
+      series.push_back(
+          object("name", one.name, "group", one.group, "values", one.values, "shown", shown, "wanted", one.wanted));
+    }
+    Json json = object("kind", "intervals", "title", chart.title, "x_label", chart.x_label, "rows", chart.rows,
+                       "series", series, "wanted_label", chart.wanted_label, "note", chart.note);
+    if (chart.reference) json["reference"] = *chart.reference;
+    return json;
+  }
+
+  static Json of(const HeatMap& map) {
+    std::vector<std::vector<std::string>> shown(map.values.size());
+    for (std::size_t r = 0; r < shown.size(); ++r)
+      for (std::size_t c = 0; c < map.values[r].size(); ++c) shown[r].push_back(shown_in(map, r, c));
+    const Json exact = map.values;  // of which null stands for those that are not finite
+    Json json = object("kind", "heat", "title", map.title, "row_label", map.row_label, "column_label", map.column_label,
+                       "rows", map.rows, "columns", map.columns, "values", exact, "shown", shown, "value_label",
+                       map.value_label, "diverging", map.diverging, "texts", map.texts, "note", map.note);
+    if (map.most) json["most"] = *map.most;
+    return json;
+  }
+
+  static Json of(const ReportTable& table) {
+    Json json = object("kind", "table", "title", table.title, "note", table.note);
+    json.update(table.table.page());
+    return json;
+  }
+
+  static Json of(const Words& words) {
+    return object("kind", "words", "title", words.title, "text", words.text, "folded", words.folded);
+  }
+
+  static Json of(const Panel& panel) {
+    return std::visit([](const auto& any) { return of(any); }, panel);
+  }
+
+  static Json of(const ReportGroup& group) {
+    return object("name", group.name, "neutral", group.neutral, "shown", group.shown);
+  }
+
+  static Json of(const View& view) { return object("name", view.name, "panels", view.panels); }
+};
 
 /// Text in which what HTML could take for its own stands as these say.
 std::string escaped(std::string_view text, std::string_view less, std::string_view greater,
@@ -241,10 +225,8 @@ Json ResultTable::page() const {
   Json columns = Json::array(), rows = Json::array();
   for (const ResultColumn& column : columns_)
     if (!column.header.empty())
-      columns.push_back({{"header", column.full_header()},
-                         {"group", column.group},
-                         {"left", column.align == Align::left},
-                         {"key", column.key}});
+      columns.push_back(Data::object("header", column.full_header(), "group", column.group, "left",
+                                     column.align == Align::left, "key", column.key));
   for (const auto& row : rows_) {
     Json cells = Json::array();
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -273,19 +255,9 @@ Json as_json(const Cell& cell) {
 bool has_reports() { return !report_assets::script.empty(); }
 
 Json data_of(const Report& report) {
-  const auto group = [](const ReportGroup& one) {
-    return Json{{"name", one.name}, {"neutral", one.neutral}, {"shown", one.shown}};
-  };
-  const auto view = [](const View& one) { return Json{{"name", one.name}, {"panels", panels(one.panels)}}; };
-  return {{"title", report.title},
-          {"verdict", report.verdict},
-          {"command", report.command},
-          {"version", version},
-          {"groups", list(report.groups, group)},
-          {"panels", panels(report.panels)},
-          {"chooser", report.chooser},
-          {"views", list(report.views, view)},
-          {"last", panels(report.last)}};
+  return Data::object("title", report.title, "verdict", report.verdict, "command", report.command, "version", version,
+                      "groups", report.groups, "panels", report.panels, "chooser", report.chooser, "views",
+                      report.views, "last", report.last);
 }
 
 std::string html(const Report& report) {

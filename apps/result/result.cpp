@@ -23,6 +23,12 @@ void refuse_input(const std::string& option, const std::string& given, const std
   }
 }
 
+void refuse_standard_output(const std::string& option, const std::string& file) {
+  if (file == "-")
+    throw UsageError("{}: the standard output takes only what is printed: found '-'; give a name, or /dev/stdout",
+                     option);
+}
+
 }  // namespace
 
 std::size_t OutputOptions::width() const {
@@ -46,14 +52,10 @@ void add_report(CLI::App& app, OutputOptions& options) {
   Subcommand(app)
       .option("--report", options.report, "File for the charts, a page for a browser [report.html in DIR]")
       .type("FILE");
-  const auto needs_gnuplot = [](const std::string&) {
-    need_gnuplot();  // throws, before any work
-    return std::string();
-  };
   Subcommand(app)
       .option("--plots", options.plots, "Directory for the same charts as SVG and PDF, drawn by gnuplot")
       .type("DIR")
-      .check(needs_gnuplot);
+      .check([](const std::string&) { return need_gnuplot(), ""; });  // throws, before any work
 }
 
 void add_no_chart(CLI::App& app, bool& no_chart) {
@@ -61,18 +63,8 @@ void add_no_chart(CLI::App& app, bool& no_chart) {
                        "No charts at the end, where the output is a terminal of 80 columns or more");
 }
 
-namespace {
-
-void refuse_standard_output(const char* option, const std::string& file) {
-  if (file == "-")
-    throw UsageError("{}: the standard output takes only what is printed: found '-'; give a name, or /dev/stdout",
-                     option);
-}
-
-}  // namespace
-
 void refuse_to_overwrite(const std::string& option, const std::string& file, const std::vector<std::string>& inputs) {
-  refuse_standard_output(option.c_str(), file);
+  refuse_standard_output(option, file);
   refuse_input(option, file, file, inputs);
 }
 
@@ -161,12 +153,9 @@ RowFile::RowFile(ResultFiles& files, const std::string& name, const std::vector<
 Result::Result(const OutputOptions& options)
     : words_width(options.wide ? any_width : terminal_width),
       options_(options),
-      summary_(std::make_unique<Json>(Json{{"version", version}, {"command", options.command}})) {
+      summary_(std::make_shared<Json>(Json{{"version", version}, {"command", options.command}})) {
   page.command = options.command;
 }
-
-Result::Result(Result&&) noexcept = default;
-Result::~Result() = default;
 
 void Result::say(std::string_view words) { text += wrapped(words, words_width); }
 

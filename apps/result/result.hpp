@@ -116,8 +116,6 @@ struct Places {
 class Result {
  public:
   explicit Result(const OutputOptions& options);
-  Result(Result&&) noexcept;
-  ~Result();
 
   /// Prints words, broken to `words_width`.
   void say(std::string_view words);
@@ -135,6 +133,18 @@ class Result {
   /// Puts a value into the summary.
   void fact(const Path& path, const Cell& value);
   void fact(const Path& path, const std::vector<std::string>& words);
+  /// Keys and values by turns, in one place.
+  template <class Value, class... Rest>
+  void facts_at(Path place, const std::string& key, const Value& value, const Rest&... rest) {
+    place.emplace_back(key);
+    fact(place, value);
+    place.pop_back();
+    if constexpr (sizeof...(rest) > 0) facts_at(std::move(place), rest...);
+  }
+  template <class... KeysAndValues>
+  void facts(const KeysAndValues&... all) {
+    facts_at({}, all...);
+  }
 
   std::size_t words_width;             ///< that of the tables, unless another one is set
   std::string text;                    ///< what was said and added so far, for the terminal
@@ -149,7 +159,7 @@ class Result {
 
   const OutputOptions& options_;
   std::vector<std::pair<std::string, std::string>> tables_;  // names of files, and what they hold
-  std::unique_ptr<nlohmann::ordered_json> summary_;
+  std::shared_ptr<nlohmann::ordered_json> summary_;          // shared, as its type is not whole here
 };
 
 /// Throws UsageError if the file that an option names is an input, by whatever name; "-" is the standard input.

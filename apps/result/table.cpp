@@ -12,12 +12,6 @@ constexpr std::string_view gap = "  ";
 
 using Lines = std::vector<std::string>;
 
-std::size_t widest(const Lines& lines) {
-  std::size_t width = 0;
-  for (const std::string& line : lines) width = std::max(width, display_width(line));
-  return width;
-}
-
 /// A column as it is laid out in one block: header and cells are broken to widths of their own.
 struct Laid {
   std::string header;
@@ -219,16 +213,12 @@ ResultTable ResultTable::part(unsigned part, const std::string& header, std::siz
 }
 
 std::string ResultTable::text(std::size_t width) const {
-  struct Shown {
-    std::string header, group;
-    Align align;
-    Lines cells;
-  };
-  std::vector<Shown> columns;
+  Block columns;
+  Lines groups;  // of the columns
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].header.empty()) continue;
-    Shown& own = columns.emplace_back(
-        Shown{printable(columns_[i].full_header()), printable(columns_[i].group), columns_[i].align, {}});
+    groups.push_back(printable(columns_[i].group));
+    Laid& own = columns.emplace_back(Laid{printable(columns_[i].full_header()), {}, columns_[i].align});
     for (const auto& row : rows_) own.cells.push_back(row.empty() ? "" : printable(shown_in(columns_[i], row[i])));
   }
   check(columns, columns);
@@ -236,16 +226,17 @@ std::string ResultTable::text(std::size_t width) const {
   const auto laid = [&](std::size_t begin, std::size_t end) {
     Block block;
     for (std::size_t i = 0; i < end; i = i == 0 ? begin : i + 1) {
-      const auto& [header, group, align, cells] = columns[i];
-      const bool first_of_group = !group.empty() && (i == begin || columns[i - 1].group != group);
-      block.emplace_back(Laid{first_of_group ? group + " " + header : header, cells, align}).fit();
+      Laid& column = block.emplace_back(columns[i]);
+      const bool first_of_group = !groups[i].empty() && (i == begin || groups[i - 1] != groups[i]);
+      if (first_of_group) column.header = groups[i] + " " + column.header;
+      column.fit();
     }
     if (width != any_width) squeeze(block, width);
     return block;
   };
   const auto end_of_group = [&](std::size_t begin) {
     std::size_t end = begin + 1;
-    while (end < columns.size() && !columns[begin].group.empty() && columns[end].group == columns[begin].group) ++end;
+    while (end < columns.size() && !groups[begin].empty() && groups[end] == groups[begin]) ++end;
     return end;
   };
 

@@ -98,12 +98,6 @@ std::string section(std::string_view text, const std::string& name) {
 
 bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
 
-std::vector<std::string> names_of_subcommands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
-  return names;
-}
-
 /// The arguments with the default subcommand put in where there is none.
 Arguments with_subcommand(const CLI::App& app, const std::string& default_subcommand, Arguments arguments) {
   const bool asks_about_the_program =
@@ -113,7 +107,8 @@ Arguments with_subcommand(const CLI::App& app, const std::string& default_subcom
     if (!default_subcommand.empty()) arguments.insert(arguments.begin(), default_subcommand);
     return arguments;
   }
-  const auto names = names_of_subcommands(app);
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
   if (std::ranges::find(names, arguments.front()) == names.end())
     throw UsageError(message({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
                               .remedy = suggestion(arguments.front(), names)}));
@@ -289,9 +284,7 @@ void Subcommand::run(const std::function<void()>& work) { app_.callback(work); }
 void run_again(const std::vector<AddSubcommand>& subcommands, const std::string& program,
                std::vector<std::string> arguments) {
   CLI::App app{"", program};
-  std::string command = program;
-  for (const std::string& argument : arguments) command += " " + argument;
-  for (const auto add : subcommands) add(app, command);
+  for (const auto add : subcommands) add(app, fmt::format("{} {}", program, fmt::join(arguments, " ")));
   std::ranges::reverse(arguments);  // as CLI11 wants them
   app.parse(arguments);
 }

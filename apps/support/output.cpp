@@ -45,14 +45,8 @@ constexpr std::size_t written_at_once = std::size_t{1} << 16;
 
 /// What helps against a failure to write.
 std::string_view remedy(int error_number) {
-  switch (error_number) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "make room there, or choose another place";
-    default:
-      return "choose another place";
-  }
+  const bool full = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
+  return full ? "make room there, or choose another place" : "choose another place";
 }
 
 }  // namespace

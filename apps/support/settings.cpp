@@ -246,9 +246,7 @@ struct Settings::Layer {
 
 Settings Settings::read(const std::filesystem::path& file, std::span<const std::string> sets) {
   Settings settings;
-  if (!file.empty()) {
-    settings.layers_.push_back(Layer::of({file.string()}, read_text(file)));
-  }
+  if (!file.empty()) settings.layers_.push_back(Layer::of({file.string()}, read_text(file)));
   for (const std::string& set : sets) {
     const auto equals = set.find('=');
     const std::string_view key = trimmed(std::string_view{set}.substr(0, equals));

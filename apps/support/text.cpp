@@ -28,6 +28,12 @@ std::size_t display_width(std::string_view text) {
   return width;
 }
 
+std::size_t widest(const std::vector<std::string>& lines) {
+  std::size_t width = 0;
+  for (const std::string& line : lines) width = std::max(width, display_width(line));
+  return width;
+}
+
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
   bool joined = false;

@@ -22,6 +22,9 @@ inline constexpr std::size_t any_width = 0;
 /// Columns that UTF-8 text takes on a terminal: none for combining marks, two for East Asian characters.
 std::size_t display_width(std::string_view text);
 
+/// Those of the widest line.
+std::size_t widest(const std::vector<std::string>& lines);
+
 /// The words of a line; a sign as in "± 95" or "− sigma's" stays with what follows it.
 std::vector<std::string> words_of(std::string_view line);
 
