@@ -354,7 +354,7 @@ std::string Doubts::other_times() const {
   for (auto step = steps_.begin(); step != longest; ++step) time += *step;
   if (longest - steps_.begin() < std::ptrdiff_t{few} || steps_.end() - longest <= std::ptrdiff_t{few}) return {};
   const double before = median({steps_.begin(), longest}), then = median({longest + 1, steps_.end()});
-  if (std::abs(std::log10(then / before) - 3.0) > 0.05) return {};
+  if (!(std::abs(std::log10(then / before) - 3.0) < 0.05)) return {};  // also of steps of 0 s
   return fmt::format("{:.6g} s apart up to {:.6g} and {:.6g} s from {:.6g} on", before, time, then, time + *longest);
 }
 
@@ -499,9 +499,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       zone.line, zone.step);
   say(recording.at_one_time() > std::max(steps_.size(), few),
       "{} rows have the time of the row before, and were skipped: if times were rounded, as to whole seconds, write "
-      "them "
-      "in full",
-      recording.at_one_time());
+      "them in full{}",
+      recording.at_one_time(),
+      recording.has_tracks() ? ""
+                             : "; if rows are of several targets, name the column that tells them apart by --track-id");
   const auto& [left, left_by] = recording.left_behind();
   say(left >= few,
       "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "

@@ -9,7 +9,7 @@ namespace {
 std::vector<std::string> known_names(bool all) {
   std::vector<std::string> names;
   for (const TimeColumn& time : time_columns) names.emplace_back(time.name);
-  names.insert(names.end(), {"sensor", "roll_deg"});
+  names.insert(names.end(), {"date", "sensor", "roll_deg"});
   for (const Quantity& quantity : quantities)
     for_each_header(quantity, [&](std::string header, const Unit& unit) {
       if (all || &unit == quantity.units.data()) names.push_back(std::move(header));

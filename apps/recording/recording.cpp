@@ -58,6 +58,8 @@ RecordingReader::RecordingReader(const RecordingOptions& options)
     if (equals == std::string::npos || equals == 0) throw UsageError("--select: '{}' is not COLUMN=VALUE", select);
     select_.emplace_back(csv_.column(select.substr(0, equals)), trimmed(std::string_view{select}.substr(equals + 1)));
   }
+  if (const auto doubt = doubt_of_format(options.time_format); !doubt.empty())
+    throw UsageError("--time-format '{}': {}", options.time_format, doubt);
   if (!options.origin) return;
   if (!on_the_earth())
     throw UsageError("--origin is for geodetic input, or sensors with a latitude, but " + file() + " has none");
@@ -103,6 +105,7 @@ void RecordingReader::find_columns() {
   for (const bool mapped : {true, false})
     for (const TimeColumn& unit : time_columns)
       if (!time && mapping_.contains(unit.name) == mapped && (time = find(unit.name))) time_unit_ = &unit;
+  date_ = find("date");
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   if (!has(Role::polar, 1)) std::swap(column(Role::polar, 1), column(Role::polar, 3));
@@ -230,7 +233,7 @@ bool RecordingReader::next(Row& row) {
   return true;
 }
 
-std::optional<double> RecordingReader::time_of(std::string_view text, bool& of_day) const {
+std::optional<double> RecordingReader::time_of(const std::string& text, bool& of_day) const {
   of_day = options_.time_format.empty() && is_time_of_day(text);
   if (!options_.time_format.empty()) return parse_timestamp(text, options_.time_format, of_day);
   if (const auto number = parse_number(text)) return in_seconds(*number, time_unit_->unit_s);
@@ -243,7 +246,17 @@ bool RecordingReader::take_time(Row& row) {
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
   if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
   bool of_day = false;
-  const auto found = time_of(row_[time_], of_day);
+  std::string cell(trimmed(row_[time_]));
+  auto found = time_of(cell, of_day);
+  if (date_ && (of_day || (!found && !options_.time_format.empty()))) {
+    cell = fmt::format("{} {}", trimmed(row_[*date_]), cell);
+    found = time_of(cell, of_day);
+    if (!found || of_day)
+      throw row_.error(*date_, "a date as 2016-01-12, since its row has a time of day",
+                       "correct the cell, or drop the column if it is none; if all are written otherwise, say how "
+                       "both are, as --time-format '%d/%m/%Y %H:%M:%S'");
+    times_have_dates_ = true;
+  }
   if (!found && !options_.time_format.empty())
     throw row_.error(time_, "a time as --time-format says, " + in_quotes(options_.time_format),
                      "correct the cell or drop the row");
@@ -254,7 +267,7 @@ bool RecordingReader::take_time(Row& row) {
   times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
   if (options_.time_format.empty() && !times_are_numbers_ && !of_day) {
     constexpr std::size_t behind_date = 11;
-    const std::string_view text = trimmed(row_[time_]);
+    const std::string_view text = cell;
     const std::string_view zone = text.substr(std::min(text.find_first_of("+-Zz", behind_date), text.size()));
     if (zone_ && *zone_ != zone && other_zone_.line == 0)
       other_zone_ = {row_.line(), *found - zoned_, zone_->empty() || zone.empty()};
@@ -279,7 +292,8 @@ bool RecordingReader::take_time(Row& row) {
         : sensor_ ? "sort the rows by time and drop repeated ones of one sensor, or give --on-bad-time skip"
         : time == before
             ? fmt::format(
-                  "where several sensors measure at one time, name them in a column sensor{}; where times were rounded, "
+                  "where several sensors measure at one time, name them in a column sensor{}; where times were "
+                  "rounded, "
                   "write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
             : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
@@ -515,7 +529,9 @@ std::vector<std::string> RecordingReader::nines() const {
 }
 
 std::string RecordingReader::taken() const {
-  std::vector<std::string> parts = {fmt::format("{} in {}", csv_.names()[time_], time_unit_->words)};
+  std::vector<std::string> parts = {times_have_dates_
+                                        ? fmt::format("{} and {}", csv_.names()[*date_], csv_.names()[time_])
+                                        : fmt::format("{} in {}", csv_.names()[time_], time_unit_->words)};
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
     const Quantity& quantity = quantities[q];
@@ -564,7 +580,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
 std::string RecordingReader::unused() const {
   const auto names = csv_.names();
   std::vector<bool> done(names.size());
-  for (const auto& index : {std::optional(time_), sensor_, track_, roll_})
+  for (const auto& index : {std::optional(time_), sensor_, track_, roll_, times_have_dates_ ? date_ : std::nullopt})
     if (index) done[*index] = true;
   for (const auto& wanted : select_) done[wanted.first] = true;
   for (const auto& column : columns_)

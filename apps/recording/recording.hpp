@@ -82,6 +82,9 @@ class RecordingReader {
   bool located() const { return has(Role::position) || has(Role::place); }
   int axes() const { return axes_; }
   bool has_sensors() const { return sensor_.has_value(); }
+  bool tells_accuracy() const {
+    return has(Role::sigma_position) || has(Role::sigma_all_axes) || has(Role::covariance);
+  }
   bool has_tracks() const { return track_.has_value(); }
   bool has_truth() const { return has(Role::truth); }
   bool has_roll() const { return roll_.has_value(); }
@@ -97,7 +100,7 @@ class RecordingReader {
   const std::string& file() const { return csv_.file(); }
 
   /// A time written as those of the recording, in s, and whether it is a time of day; nothing if it is none.
-  std::optional<double> time_of(std::string_view text, bool& of_day) const;
+  std::optional<double> time_of(const std::string& text, bool& of_day) const;
 
   /// Where the frame of every track begins, if not at its own first row.
   const std::optional<Geodetic>& origin() const { return origin_; }
@@ -193,8 +196,8 @@ class RecordingReader {
   std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
   const TimeColumn* time_unit_ = time_columns;
-  bool times_are_numbers_ = false;
-  std::optional<std::size_t> sensor_, track_, roll_;
+  bool times_are_numbers_ = false, times_have_dates_ = false;
+  std::optional<std::size_t> date_, sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
   bool from_north_ = false;
   int axes_ = 3;

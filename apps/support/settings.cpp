@@ -325,8 +325,10 @@ std::vector<std::string> Settings::names() const {
 
 Settings Settings::overlaid_by(const Settings& own) const {
   Settings settings;
-  settings.layers_ = layers_;
-  settings.layers_.insert(settings.layers_.end(), own.layers_.begin(), own.layers_.end());
+  for (const bool is_file : {true, false})
+    for (const Settings* const each : {this, &own})
+      std::ranges::copy_if(each->layers_, std::back_inserter(settings.layers_),
+                           [&](const auto& layer) { return layer->origin.is_file == is_file; });
   return settings;
 }
 

@@ -69,7 +69,7 @@ class Settings {
   /// The keys that are set, sorted.
   std::vector<std::string> names() const;
 
-  /// These settings where `own` says nothing else.
+  /// These settings where `own` says nothing else; what `--set` says of either goes before what a file says.
   Settings overlaid_by(const Settings& own) const;
 
   /// Throws InputError for a key, here or in a table taken by `sub`, that was never asked for; suggests the nearest one

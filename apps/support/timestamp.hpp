@@ -18,6 +18,9 @@ std::optional<double> parse_timestamp(std::string_view text);
 /// a zone may follow. `of_day` tells whether it is a time of day.
 std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day);
 
+/// What is wrong with such a format, if it is: zones by name, or what tells of a day but not which; or nothing.
+std::string_view doubt_of_format(std::string_view format);
+
 /// Whether that is a time of day, which tells no date.
 bool is_time_of_day(std::string_view text);
 

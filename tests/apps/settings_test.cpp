@@ -179,10 +179,11 @@ lift = "zero"
 [filter.imm]
 kind = "imm"
 sigma_w = 4
+tau_s = 6
 [filter.himm]
 kind = "himm"
 )",
-                                      {"lift=unbiased", "filter.himm.sigma_w=5", "filter.slow.kind=himm"});
+                                      {"lift=unbiased", "filter.himm.sigma_w=5", "filter.slow.kind=himm", "tau_s=7"});
   const Settings filters = settings.sub("filter");
   EXPECT_EQ(filters.names(), (Strings{"himm", "imm", "slow"}));
 
@@ -190,6 +191,7 @@ kind = "himm"
   EXPECT_EQ(imm.get<std::string>("kind"), "imm");
   EXPECT_EQ(imm.get<double>("sigma_w"), 4.0);
   EXPECT_EQ(imm.get<std::string>("lift"), "unbiased");
+  EXPECT_EQ(imm.get<double>("tau_s"), 7.0);
 
   const Settings himm = settings.overlaid_by(filters.sub("himm"));
   EXPECT_EQ(himm.get<std::string>("kind"), "himm");

@@ -257,6 +257,9 @@ class TrackRun {
   void measured(const Row& row, const Target& target) {
     const auto position = where(row, target);
     outcome_.doubts.see(row, position, axes_);
+    constexpr std::size_t most_tracks = 64;
+    if (recording_.has_tracks() && (outcome_.doubts_of.size() < most_tracks || outcome_.doubts_of.contains(row.track)))
+      outcome_.doubts_of[row.track].see(row, position, axes_);
     const bool is_seen = axes_seen(row.plot, axes_) == axes_;
     if (is_seen && row.plot.sensor != AnyPlot::Sensor::components) validate(row);
     const bool judged = row.truth && is_seen;
@@ -530,16 +533,17 @@ class TrackRun {
     if (const auto doubts = outcome_.doubts.sentences(recording_); !doubts.empty())
       throw InputError("{}", doubts.front());
     if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
-      throw InputError(
-          message({.where = file(),
-                   .what = places_.several()
-                               ? "the bearings cross at angles too small, or are too few, to tell where a target starts"
-                               : "bearings from one place do not tell where a target starts",
-                   .remedy = fmt::format(
-                       "{}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s",
-                       places_.several() ? "give two rows or more of each station"
-                                         : "name each row's station in a column sensor and say where it stands, as "
-                                           "sensor.NAME.at = [E, N]")}));
+      throw InputError(message(
+          {.where = file(),
+           .what = places_.several()
+                       ? "the bearings cross at angles too small, or are too few, to tell where a target starts"
+                       : "bearings from one place do not tell where a target starts",
+           .remedy = fmt::format(
+               "{}, or give start = \"given\" with start_mean, start_covariance_diagonal and start_time_s",
+               places_.several()
+                   ? "give two rows or more of each station, or models of less freedom (--set \"models=[dwna]\")"
+                   : "name each row's station in a column sensor and say where it stands, as "
+                     "sensor.NAME.at = [E, N]")}));
     throw InputError(message(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"

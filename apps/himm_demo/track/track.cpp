@@ -134,6 +134,11 @@ class Reporter {
 
   std::vector<std::string> make_warnings() const {
     std::vector<std::string> warnings = outcome_.doubts.sentences(recording_);  // causes before what they bring about
+    // What is true of one track need not show among all.
+    constexpr std::size_t most_said = 3;
+    for (auto own = outcome_.doubts_of.begin(); own != outcome_.doubts_of.end() && warnings.size() < most_said; ++own)
+      for (const std::string& sentence : own->second.sentences(recording_))
+        if (outcome_.doubts_of.size() > 1) warnings.push_back(fmt::format("track '{}' of {}", own->first, sentence));
     const auto warn = [&]<class... Words>(bool holds, fmt::format_string<Words...> format, Words&&... words) {
       if (holds) warnings.push_back(fmt::format(format, std::forward<Words>(words)...));
     };
@@ -178,17 +183,18 @@ class Reporter {
     const Sums* const consistent = nearest_to_consistent();
     const Sums best = consistent ? *consistent : Sums{};
     const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
-    const bool low = consistent && worst.many == 0 && nis < 0.1 * usual;  // what the gate lets pass has a low one
+    const double least = recording_.tells_accuracy() ? 0.2 : 0.1;
+    const bool low = consistent && worst.many == 0 && nis < least * usual;  // what the gate lets pass has a low one
     const double share = best.predicted_variance / best.innovation_variance;
-    const bool by_prediction = nis >= 0.1 * usual * (1.0 - share);
+    const bool by_prediction = nis >= least * usual * (1.0 - share);
     warn(low && by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
          "is the prediction's: sigma_w is too great for this target",
          file_, nis, usual, 100.0 * share);
     warn(low && !by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far better than the "
-         "sensor's sigmas say, or in another unit than was taken; headers may name one, as range_nmi, range_km, "
-         "altitude_ft",
+         "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "
+         "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
     const Sums* const nearest = nearest_to_truth();
     const auto error = nearest ? length_of(nearest->error) : 0.0, stated = nearest ? length_of(nearest->sigma) : 1.0;

@@ -293,6 +293,7 @@ struct TrackOutcome {
   std::size_t predicted = 0;                              ///< tracks, up to the time that was asked for
   std::optional<Geodetic> origin;  ///< from where positions are counted, if that is one place for all tracks
   Doubts doubts;
+  std::map<std::string, Doubts> doubts_of;  ///< each track, up to some
   Validity validity;
   Outliers outliers;
   Refusals refusals;

@@ -282,6 +282,11 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
   Columns columns;
   for (const auto& file : options.files) read(file, options, settings, data, columns);
   summarize(data, columns);
+  if (data.geodetic && !data.has_truth && !options.radar.sigma)
+    data.notes.push_back(
+        "errors that last from row to row, as those of a GNSS, cannot be told from the target's way without a truth: "
+        "sigma_position_m is how far rows scatter beside their neighbours, and what is stated of estimates leaves out "
+        "what lasts");
   const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
