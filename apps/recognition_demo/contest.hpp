@@ -86,13 +86,14 @@ Relation<Random, Random> mostly_right(const RandomVariable& reading, const Rando
 
 /// A relation as a page shows it, with what text_of(row, column) says beside each number.
 template <class Numbers, class TextOf>
-HeatMap map_of(const Numbers& relation, std::string title, std::string value_label, const TextOf& text_of) {
-  HeatMap map{.title = std::move(title),
+HeatMap map_of(const Numbers& relation, const std::string& title, const std::string& value_label,
+               const TextOf& text_of) {
+  HeatMap map{.title = title,
               .row_label = relation.from().name(),
               .column_label = relation.to().name(),
               .rows = labels_of(relation.from()),
               .columns = labels_of(relation.to()),
-              .value_label = std::move(value_label)};
+              .value_label = value_label};
   map.fill([&](std::size_t row, std::size_t column) {
     return HeatMap::Cell{relation(row, column), text_of(row, column)};
   });

@@ -1,5 +1,3 @@
-
-
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/witness.hpp>
 

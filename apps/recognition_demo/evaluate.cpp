@@ -72,8 +72,7 @@ struct TaughtFold {
 TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options) {
   ScratchCursor<std::uint32_t> fold_of(folds);
   LearnedModel model = learn(data, options, [&](const DataRow& row) { return fold_of[row.index()] != fold; });
-  const std::vector<std::string> kinds(std::begin(kind_names), std::end(kind_names));
-  auto contestants = classifiers(model, kinds);
+  auto contestants = classifiers(model, kind_names);
   return {fold, std::move(model), std::move(contestants)};
 }
 

@@ -1,6 +1,7 @@
 #include "recognition_demo/learned_model.hpp"
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include <sigmax/recognition/discretization.hpp>
@@ -10,29 +11,25 @@ namespace {
 
 /// The columns with the bins of numeric ones, of some rows; several passes over long tables.
 std::vector<FeatureCode> fitted(const DataTable& data, const RowChoice& chosen, const LearningOptions& options) {
-  std::vector<std::size_t> numeric;
-  std::vector<EqualFrequencyFit> fits;
-  for (std::size_t i = 0; i < data.columns.size(); ++i)
-    if (data.columns[i].numeric) {
-      numeric.push_back(i);
-      fits.emplace_back(options.equal_width ? 1 : options.bins);  // for the ends alone, one bin will do
-    }
+  std::map<std::size_t, EqualFrequencyFit> fits;         // by column
+  for (std::size_t i = 0; i < data.columns.size(); ++i)  // for the ends alone, one bin will do
+    if (data.columns[i].numeric) fits.emplace(i, options.equal_width ? 1 : options.bins);
   for (bool another_pass = !fits.empty(); another_pass;) {
     data.for_each([&](const DataRow& row) {
       if (!chosen(row)) return;
-      for (std::size_t k = 0; k < fits.size(); ++k) fits[k].see(row.number(numeric[k]));
+      for (auto& [column, fit] : fits) fit.see(row.number(column));
     });
     another_pass = false;
-    for (auto& fit : fits) another_pass |= fit.wants_another_pass();
+    for (auto& [column, fit] : fits) another_pass |= fit.wants_another_pass();
   }
   std::vector<FeatureCode> codes;
   for (const DataColumn& column : data.columns) codes.push_back({column.name, column.values, std::nullopt});
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    FeatureCode& code = codes[numeric[k]];
-    code.least = fits[k].least();
-    code.greatest = fits[k].greatest();
+  for (const auto& [column, fit] : fits) {
+    FeatureCode& code = codes[column];
+    code.least = fit.least();
+    code.greatest = fit.greatest();
     const bool wide = options.equal_width && code.least < code.greatest;
-    code.bins = wide ? equal_width(std::array{code.least, code.greatest}, options.bins) : fits[k].discretization();
+    code.bins = wide ? equal_width(std::array{code.least, code.greatest}, options.bins) : fit.discretization();
   }
   return codes;
 }

@@ -65,7 +65,7 @@ inline constexpr std::string_view sigma_max_is_max =
     "(Without --misread a reading is the feature itself, so that sigma-max inference, (17), is max inference.)";
 
 /// The kinds of classifiers: "sigma", "max", "sigma-max".
-inline constexpr std::string_view kind_names[] = {"sigma", "max", "sigma-max"};
+inline const std::vector<std::string> kind_names = {"sigma", "max", "sigma-max"};
 
 /// The classifiers of the named kinds, in the order of `kind_names`; those with possibilities for the ratio scale and
 /// for Dubois and Prade's transform.

@@ -1,5 +1,3 @@
-
-
 #include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
 #include <sigmax/core/update.hpp>

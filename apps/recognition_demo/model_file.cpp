@@ -174,7 +174,7 @@ ModelFile read_model(const std::filesystem::path& path) {
   const std::string label = root.at("label").text();
   std::vector<std::string> kinds = names(root.at("kinds"), "kinds of classifiers");
   for (const Node& kind : root.at("kinds").list("kinds"))
-    if (std::ranges::find(kind_names, kind.text()) == std::end(kind_names))
+    if (std::ranges::find(kind_names, kind.text()) == kind_names.end())
       throw kind.error(fmt::format("one of {}", fmt::join(kind_names, ", ")));
   LearningOptions options;
   options.smoothing = root.at("smoothing").number(0.0, 1e9, "a number that is not negative");

@@ -1,5 +1,3 @@
-
-
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
 
@@ -10,7 +8,7 @@ struct TrainOptions {
   std::string file;
   DataOptions data;
   LearningOptions learning;
-  std::vector<std::string> kinds{std::begin(kind_names), std::end(kind_names)};
+  std::vector<std::string> kinds = kind_names;
   std::string model;  ///< the file to write
   OutputOptions output;
 };
@@ -59,7 +57,7 @@ void add_train(CLI::App& program, const std::string& command) {
   app.option("--model", options->model, "The model to write").required().type("MODEL.json");
   app.option("--kinds", options->kinds, "The kinds of classifiers in the model")
       .list()
-      .one_of(std::vector<std::string>{"sigma", "max", "sigma-max"})
+      .one_of(kind_names)
       .text("sigma,max,sigma-max [all]");
   add_quiet(app, options->output.quiet);
   add_wide(app, options->output.wide);
