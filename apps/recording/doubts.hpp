@@ -47,7 +47,7 @@ class Doubts {
   };
   /// The rates along x, y and z, and of the range; those of the first two together, taken for each other, and a right
   /// angle to the left.
-  enum Rate : std::size_t { x, y, z, range, velocities, exchanged, to_the_left };
+  enum Rate : unsigned { x, y, z, range, velocities, exchanged, to_the_left };
   using Rates = std::array<Agreement, to_the_left + 1>;
   /// What grows by the first four: a position, with the height that the row tells, and the range.
   using Grown = Eigen::Array4d;
