@@ -497,7 +497,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
       "UTC; see whether each has the zone that it was told in",
       zone.line, zone.step);
-  say(recording.at_one_time() > std::max(steps_.size(), few),
+  say(recording.at_one_time() > std::max(recording.rows(), few),
       "{} rows have the time of the row before, and were skipped: if times were rounded, as to whole seconds, write "
       "them in full{}",
       recording.at_one_time(),

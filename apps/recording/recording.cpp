@@ -228,6 +228,7 @@ bool RecordingReader::next(Row& row) {
     for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
       if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W")) abroad_.add(row_.line());
   }
+  ++rows_;
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
   return true;

@@ -136,7 +136,10 @@ class RecordingReader {
   /// Rows dropped since their time was not after that of their track's row before.
   std::size_t skipped() const { return skipped_; }
 
-  /// Of these, those at the time of that row.
+  /// Rows that were taken.
+  std::size_t rows() const { return rows_; }
+
+  /// Of those dropped, those at the time of that row.
   std::size_t at_one_time() const { return at_one_time_; }
 
   /// The most of those before a row, and its line.
@@ -203,7 +206,7 @@ class RecordingReader {
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
-  std::size_t skipped_ = 0, at_one_time_ = 0;
+  std::size_t rows_ = 0, skipped_ = 0, at_one_time_ = 0;
   Counted senseless_, abroad_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;

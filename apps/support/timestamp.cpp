@@ -125,8 +125,8 @@ std::optional<double> parse_timestamp(std::string_view text, const std::string& 
 
 std::string_view doubt_of_format(std::string_view format) {
   std::string told;  // the directives, and those that others stand for
-  for (std::size_t at = format.find('%'); at + 1 < format.size(); at = format.find('%', at + 2)) {
-    const char each = format[format.find_first_not_of("EO0123456789_-^#", at + 1)];
+  for (auto at = format.find('%'); at != format.npos && at + 1 < format.size(); at = format.find('%', at + 2)) {
+    const char each = format[std::min(format.find_first_not_of("EO0123456789_-^#", at + 1), format.size() - 1)];
     told += each == 'D' || each == 'F' || each == 'c' || each == 'x' ? "Ymd" : std::string(1, each);
   }
   const auto tells = [&](std::string_view any) { return told.find_first_of(any) != told.npos; };

@@ -135,10 +135,11 @@ class Reporter {
   std::vector<std::string> make_warnings() const {
     std::vector<std::string> warnings = outcome_.doubts.sentences(recording_);  // causes before what they bring about
     // What is true of one track need not show among all.
+    const bool ask_each = warnings.empty() && outcome_.doubts_of.size() > 1;
     constexpr std::size_t most_said = 3;
-    for (auto own = outcome_.doubts_of.begin(); own != outcome_.doubts_of.end() && warnings.size() < most_said; ++own)
+    for (auto own = outcome_.doubts_of.begin(); ask_each && own != outcome_.doubts_of.end(); ++own)
       for (const std::string& sentence : own->second.sentences(recording_))
-        if (outcome_.doubts_of.size() > 1) warnings.push_back(fmt::format("track '{}' of {}", own->first, sentence));
+        if (warnings.size() < most_said) warnings.push_back(fmt::format("track '{}' of {}", own->first, sentence));
     const auto warn = [&]<class... Words>(bool holds, fmt::format_string<Words...> format, Words&&... words) {
       if (holds) warnings.push_back(fmt::format(format, std::forward<Words>(words)...));
     };
@@ -186,7 +187,7 @@ class Reporter {
     const double least = recording_.tells_accuracy() ? 0.2 : 0.1;
     const bool low = consistent && worst.many == 0 && nis < least * usual;  // what the gate lets pass has a low one
     const double share = best.predicted_variance / best.innovation_variance;
-    const bool by_prediction = nis >= least * usual * (1.0 - share);
+    const bool by_prediction = share > 0.5 && nis >= least * usual * (1.0 - share);
     warn(low && by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
          "is the prediction's: sigma_w is too great for this target",
