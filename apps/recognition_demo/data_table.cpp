@@ -277,6 +277,11 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
         for_typing);
     say(!two.empty(), ": {} are read as one number: if they are names, as those of versions are, give --categorical {}",
         two, for_typing);
+    const auto [left_out, value] = column.left_out();
+    say(left_out > 0,
+        ": {} cells count as missing by --missing, as {}, which is among its other numbers: where it is one of these, "
+        "leave out --missing and empty the cells of the column that it was meant for",
+        left_out, value);
     say(column.nothings() > 0, ": {} cells are 'none', which counts as missing among numbers: if it says zero, write 0",
         column.nothings());
     return;
@@ -336,11 +341,10 @@ bool MissingWords::operator()(std::string_view cell) {
   return false;
 }
 
-std::vector<std::string> MissingWords::never_met() const {
+std::vector<std::string> MissingWords::unmet() const {
   std::vector<std::string> words;
-  for (const Word& word : more_)
-    if (!word.met) words.push_back(in_quotes(word.text));
-  return words;
+  for (const Word& word : more_) words.push_back(in_quotes(word.text));
+  return std::ranges::any_of(more_, &Word::met) ? std::vector<std::string>() : words;
 }
 
 bool MissingWords::among_numbers(std::string_view cell) {
@@ -416,9 +420,9 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   }
   warn_of_classes(classes, table);
   warn_of_names(reader, columns, classes, table);
-  const auto never_met = missing.never_met();
-  warn(table, !never_met.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
-       fmt::join(never_met, ", "));
+  const auto unmet = missing.unmet();
+  warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
+       fmt::join(unmet, " or "));
   const bool copies = warn_of_repeats(table);
   for (std::size_t i = 0; i < columns.size(); ++i) warn_of_values(columns[i], table.columns[i].name, copies, table);
   return table;

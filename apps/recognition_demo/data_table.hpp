@@ -111,8 +111,8 @@ class MissingWords {
   /// Besides, in a column of numbers: "-", "NA", "N/A", "nan", "null", "none", "inf" and the like, in any case.
   bool among_numbers(std::string_view cell);
 
-  /// The words that were added and that no cell was.
-  std::vector<std::string> never_met() const;
+  /// The words that were added, if no cell was one of them.
+  std::vector<std::string> unmet() const;
 
  private:
   struct Word {

@@ -21,12 +21,13 @@ std::string sentence(std::string_view column, std::size_t cells, const std::vect
                      words.size() == 1 ? "that stands" : "these stand", fmt::join(words, ","));
 }
 
-/// Whether a number is written as 99, -999 or 8888.0.
+/// Whether a number is written as 99, -999.0, -99.9 or 8888.
 bool is_code(std::string_view cell, double number) {
-  std::string_view digits = cell.substr(cell.starts_with('-') ? 1 : 0);
-  digits = digits.substr(0, digits.find('.'));
-  return std::abs(number) >= 77.0 && number == std::trunc(number) && digits[0] >= '7' && digits[0] <= '9' &&
-         digits.find_first_not_of(digits[0]) == digits.npos;
+  const std::string_view digits = cell.substr(cell.starts_with('-') ? 1 : 0),
+                         whole = digits.substr(0, digits.find('.'));
+  const char first = digits[0];
+  return std::abs(number) >= 77.0 && first >= '7' && first <= '9' && whole.find_first_not_of(first) == whole.npos &&
+         digits.find_first_not_of(std::string(".0") + first) == digits.npos;
 }
 
 }  // namespace

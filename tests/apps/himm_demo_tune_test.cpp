@@ -229,7 +229,7 @@ TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
       const double speed = 12.0 + 6.0 * std::sin(k / 20.0), noise = (k * k * 7919 % 11 - 5) / 20.0;
       x += speed;
       text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}\n", k, x + (k * k % 25 * 7919 % 25 - 12) / 5.0,
-                          (k * k % 21 * 104729 % 21 - 10) / 5.0, std::min(speed + noise, most),
+                          ((k + 7) * (k + 7) % 25 * 7919 % 25 - 12) / 5.0, std::min(speed + noise, most),
                           (k * k % 13 * 104729 % 13 - 6) / 20.0);
     }
     return program::succeeded(
