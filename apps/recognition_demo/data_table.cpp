@@ -255,9 +255,8 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
       for_typing);
   warn(table, !tells_all && !copies && by_value.may_be_groups(table.classes.size()),
        "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "
-       "are "
-       "of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good for "
-       "others; leave it out by --ignore {}, and ask of others by classify",
+       "are of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good "
+       "for others; leave it out by --ignore {}, and ask of others by classify",
        by_value.values, in_quotes(name), static_cast<double>(by_value.rows) / static_cast<double>(by_value.values),
        by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others), for_typing);
   say(column.names_rows(),

@@ -268,8 +268,7 @@ bool RecordingReader::take_time(Row& row) {
   times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
   if (options_.time_format.empty() && !times_are_numbers_ && !of_day) {
     constexpr std::size_t behind_date = 11;
-    const std::string_view text = cell;
-    const std::string_view zone = text.substr(std::min(text.find_first_of("+-Zz", behind_date), text.size()));
+    const auto zone = std::string_view(cell).substr(std::min(cell.find_first_of("+-Zz", behind_date), cell.size()));
     if (zone_ && *zone_ != zone && other_zone_.line == 0)
       other_zone_ = {row_.line(), *found - zoned_, zone_->empty() || zone.empty()};
     zone_ = zone;
@@ -294,8 +293,7 @@ bool RecordingReader::take_time(Row& row) {
         : time == before
             ? fmt::format(
                   "where several sensors measure at one time, name them in a column sensor{}; where times were "
-                  "rounded, "
-                  "write them in full; else drop repeated rows, or give --on-bad-time skip",
+                  "rounded, write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
             : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
                           track_ ? "" : ", or where there are several targets tell them apart by --track-id COLUMN"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -44,7 +45,12 @@ void Nines::see(std::string_view cell, double number) {
   if (different_.size() <= most_different) different_.insert(number);
   constexpr std::array ends = {-2147483648.0, -32768.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
   const bool is_end = std::ranges::find(ends, number) != ends.end() || std::abs(number) >= 1e20;
-  if (word_.empty() && (is_code(cell, number) || is_end)) {
+  if ((is_code(cell, number) || is_end) && (word_.empty() || std::abs(number) > std::abs(number_))) {
+    if (!word_.empty()) {  // a smaller one is among the others, as 77 of ages is
+      least_ = std::min(least_, number_);
+      greatest_ = std::max(greatest_, number_);
+      others_ += std::exchange(cells_, 0);
+    }
     word_ = cell;
     number_ = number;
   }

@@ -134,8 +134,7 @@ std::string_view doubt_of_format(std::string_view format) {
   const bool of_year = tells("Yy") && (tells("j") || (tells("UW") && tells("aAuw")));
   if (tells("aAjuwUWGgV") && !of_year && !tells("des"))
     return "that does not tell the day: give day and month, or with the year the day in it, %Y-%j, or week and "
-           "weekday, "
-           "%Y-%W-%u; weeks as ISO 8601 counts them, %G and %V, are not read";
+           "weekday, %Y-%W-%u; weeks as ISO 8601 counts them, %G and %V, are not read";
   return {};
 }
 
