@@ -110,12 +110,15 @@ DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_c
   } else if (lower_case(cell) == "none" && !is_word) {
     ++nothings_;
   }
-  counts_ = counts_ && number && *number == std::floor(*number) && *number > last_;
+  if (std::isnan(step_) && std::isfinite(last_) && number) step_ = *number - last_;
+  const bool even = std::isnan(step_) || (number && std::abs(*number - last_ - step_) <= 1e-6 * step_);
+  counts_ = counts_ && number && (*number == std::floor(*number) || even) && *number > last_;
   last_ = number.value_or(last_);
   if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
   if (is_word && has_decimal_comma(cell)) ++comma_cells_;
   if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
     ++(is_limit(unit) ? limit_cells_ : unit_cells_);
+    leading_zeros_ |= cell.size() > 1 && cell[0] == '0' && std::isdigit(static_cast<unsigned char>(cell[1])) != 0;
     if (!is_limit(unit) && units_.size() <= most_units) units_.code(unit);
   } else if (is_word && is_notation(cell) && notations_++ == 0) {
     notation_ = cell;
@@ -125,7 +128,7 @@ DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_c
   if (!empty) {
     result.code = words_.code(cell);
     if (result.code == classes_.size()) classes_.push_back({its_class});
-    ++(classes_[result.code].first == its_class ? classes_[result.code].same : classes_[result.code].others);
+    classes_[result.code].add(its_class);
   }
   if (words_.size() <= most_values) return result;
   too_many_words_ = true;
@@ -139,21 +142,24 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
   if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
   const std::string& name = reader.names()[index_];
   const auto refuse = [&](std::string_view expected, std::size_t cells, std::string_view remedy) {
-    throw InputError(message({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                              .what = fmt::format("column {}", in_quotes(name)),
-                              .found = in_quotes(slip_->word),
-                              .expected = fmt::format("{}, as {} of {} cells have", expected, cells, cells_),
-                              .remedy = std::string(remedy)}));
+    throw InputError({.where = fmt::format("{}:{}", reader.file(), slip_->line),
+                      .what = fmt::format("column {}", in_quotes(name)),
+                      .found = in_quotes(slip_->word),
+                      .expected = fmt::format("{}, as {} of {} cells have", expected, cells, cells_),
+                      .remedy = std::string(remedy)});
   };
   if (comma_cells_ > numeric_cells_)
     refuse("no comma in a number", comma_cells_,
            "write a decimal comma as a point, and leave out one between thousands");
+  if (is_limit(unit_of(slip_->word)) || slip_->word.starts_with('<'))
+    refuse("a number", numeric_cells_,
+           "write one for what is beyond a limit, as the limit itself; as a missing value it would tell nothing");
   if (has_thousands(slip_->word) || (is_notation(slip_->word) && !has_decimal_comma(slip_->word) &&
                                      slip_->word.find_first_of(",' ") != std::string::npos))
     refuse("a plain number", numeric_cells_, "leave out what parts thousands, and write a decimal comma as a point");
-  if (is_limit(unit_of(slip_->word)))
+  if (!unit_of(slip_->word).empty())
     refuse("a number", numeric_cells_,
-           "write one for what is beyond a limit, as the limit itself; as a missing value it would tell nothing");
+           "write the numbers alone, all in one unit, and the unit into the name of the column");
   refuse("a number with a decimal point", numeric_cells_,
          fmt::format(
              "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
@@ -200,7 +206,8 @@ std::string ColumnReader::one_number() const {
 }
 
 bool ColumnReader::holds_units() const {
-  return !categorical_ && words_.size() > few_words && 2 * unit_cells_ > cells_ && units_.size() <= most_units;
+  return !categorical_ && !leading_zeros_ && words_.size() > few_words && 2 * unit_cells_ > cells_ &&
+         units_.size() <= most_units;
 }
 
 std::string ColumnReader::units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
@@ -219,13 +226,36 @@ bool ColumnReader::ByValue::may_be_groups(std::size_t classes) const {
 
 ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& rows_of_class) const {
   if (too_many_words_) return {};
-  ByValue result{.values = classes_.size(), .numeric = is_numeric(), .whole = whole_};
+  ByValue result = summed(classes_, rows_of_class);
   const auto places = words_.sorted().second;
   std::vector<Code> in_order(classes_.size());
-  const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0);
-  for (std::size_t code = 0; code < classes_.size(); ++code) {
+  for (std::size_t code = 0; code < classes_.size(); ++code) in_order[places[code]] = classes_[code].first;
+  for (std::size_t k = 1; k < in_order.size(); ++k) result.changes += in_order[k] != in_order[k - 1] ? 1U : 0U;
+  return result;
+}
+
+ColumnReader::ByValue ColumnReader::by_stem(const std::vector<std::size_t>& rows_of_class) const {
+  if (too_many_words_ || is_numeric()) return {};
+  std::map<std::string_view, ClassesOfValue> stems;
+  for (const auto& [word, code] : words_.codes()) {
+    auto end = word.find_last_of("_-. ");
+    if (end == word.npos || end == 0) end = word.find_last_not_of("0123456789") + 1;
+    if (end == 0 || code >= classes_.size()) return {};
     const auto& [first, same, others] = classes_[code];
-    in_order[places[code]] = first;
+    auto& own = stems.try_emplace(std::string_view(word).substr(0, end), ClassesOfValue{first}).first->second;
+    own.add(first, same);
+    own.others += others;
+  }
+  std::vector<ClassesOfValue> classes;
+  for (const auto& [stem, own] : stems) classes.push_back(own);
+  return summed(classes, rows_of_class);
+}
+
+ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& classes,
+                                           const std::vector<std::size_t>& rows_of_class) const {
+  ByValue result{.values = classes.size(), .numeric = is_numeric(), .whole = whole_};
+  const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0);
+  for (const auto& [first, same, others] : classes) {
     result.rows += same + others;
     result.others += others;
     double alike = 0.0;
@@ -233,7 +263,6 @@ ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& row
       alike += std::pow(static_cast<double>(rows) / all, static_cast<double>(same));
     result.log_chance += std::log(alike);
   }
-  for (std::size_t k = 1; k < in_order.size(); ++k) result.changes += in_order[k] != in_order[k - 1] ? 1U : 0U;
   return result;
 }
 

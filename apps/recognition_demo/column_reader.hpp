@@ -60,6 +60,9 @@ class ColumnReader {
   const Vocabulary& words() const { return words_; }
   const Nines& nines() const { return nines_; }
 
+  /// Whether all are numbers that are taken as words.
+  bool is_made_of_numbers() const { return categorical_ && cells_ > 0 && numeric_cells_ == cells_; }
+
   /// How many cells have a number, or a word that does not stand for a missing one.
   std::size_t filled() const { return cells_; }
 
@@ -101,6 +104,9 @@ class ColumnReader {
   };
   ByValue by_value(const std::vector<std::size_t>& rows_of_class) const;
 
+  /// The same of words without what is behind their last separator, or without their last number: S07 of S07_3.
+  ByValue by_stem(const std::vector<std::size_t>& rows_of_class) const;
+
   /// A number with a point that may part thousands, since all others with a point have three digits behind it, and
   /// those without are below a thousand, some of three digits; or nothing.
   std::string thousands() const;
@@ -118,7 +124,7 @@ class ColumnReader {
   std::pair<std::size_t, std::string> unknowns() const;
 
  private:
-  static constexpr std::size_t most_units = 3, few_words = 8;
+  static constexpr std::size_t most_units = 8, few_words = 8;
 
   void see_whole(double number);
   bool is_run() const;
@@ -134,7 +140,10 @@ class ColumnReader {
   struct ClassesOfValue {
     Code first;
     std::size_t same = 0, others = 0;  // rows of that class, and of others
+
+    void add(Code its_class, std::size_t rows = 1) { (first == its_class ? same : others) += rows; }
   };
+  ByValue summed(const std::vector<ClassesOfValue>& classes, const std::vector<std::size_t>& rows_of_class) const;
 
   std::size_t index_;
   bool categorical_;
@@ -146,10 +155,12 @@ class ColumnReader {
   Nines nines_{true};
   std::string three_digits_, with_zeros_, notation_;  // the first of these
   std::size_t hundreds_ = 0, nothings_ = 0;           // hundreds of three digits
+  bool leading_zeros_ = false;                        // of numbers with a unit, as in 055xx
   bool other_writing_ = false;
   std::set<std::size_t> lengths_;        // of whole numbers, 0 of others, up to two
   std::vector<ClassesOfValue> classes_;  // by code
-  bool counts_ = true;                   // so far, in whole numbers upwards
+  bool counts_ = true;                   // so far, in whole numbers upwards, or by even steps
+  double step_ = nan;                    // the first one
   double last_ = -std::numeric_limits<double>::infinity();
   bool too_many_words_ = false;
   Vocabulary words_, units_;

@@ -31,11 +31,11 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
   }
   if (names.empty()) return;
   throw InputError(
-      message({.where = reader.file(),
-               .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
-               .expected = "at least two different values",
-               .remedy = fmt::format("{}leave out what never changes by --ignore {}",
-                                     gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))}));
+      {.where = reader.file(),
+       .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
+       .expected = "at least two different values",
+       .remedy = fmt::format("{}leave out what never changes by --ignore {}",
+                             gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))});
 }
 
 /// Whether a class is a number of nines, as 99 or -9, beyond all others by more than there are classes.
@@ -82,7 +82,8 @@ void warn_of_classes(const Vocabulary& classes, DataTable& table) {
       ": a single row is of {}: is it a slip of writing? From one row nothing can be learned", listed(lone, 12));
   for (std::size_t k = 0; k < number; ++k) {
     const std::string name = lower_case(table.classes[k]);
-    say(says_unknown(name) || name == "-" || name == "--" || name == "unknown" || is_nines(name, table.classes),
+    say(says_unknown(name) || (name == "-" && !classes.contains("+")) || name == "--" || name == "unknown" ||
+            is_nines(name, table.classes),
         ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
         table.rows_of_class[k], rows, in_quotes(table.classes[k]));
   }
@@ -91,10 +92,13 @@ void warn_of_classes(const Vocabulary& classes, DataTable& table) {
 void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& columns, const Vocabulary& classes,
                    DataTable& table) {
   std::vector<std::string> like_cells;
+  std::size_t words = 0;
   for (const ColumnReader& column : columns)
     if (const std::string& name = reader.names()[column.index()]; column.contains(name))
-      like_cells.push_back(in_quotes(name));
-  warn(table, 2 * like_cells.size() > columns.size() && classes.contains(table.label),
+      words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(name));
+  warn(table,
+       2 * like_cells.size() > columns.size() &&
+           (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
        "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
        "of names above it",
        fmt::join(like_cells, ", "));
@@ -175,6 +179,7 @@ bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// What the rows and the columns tell twice; whether half of the rows do.
 bool warn_of_repeats(DataTable& table) {
+  constexpr std::size_t most_facts = 16;  // of a column
   const DistinctRows rows(table);
   const std::size_t size = rows.cells.size();
   if (size < few_rows) return false;
@@ -194,6 +199,60 @@ bool warn_of_repeats(DataTable& table) {
          "limit do, is to stay",
          100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
+  // Columns of 0 and 1 of which one is 1 in each row of one class, and none in those of the other.
+  std::vector<std::string> one_hot;
+  std::vector<std::size_t> ones(size);
+  for (std::size_t i = 0; i < table.columns.size() && table.classes.size() == 2; ++i) {
+    std::array<std::size_t, 2> found{};  // rows of 1, by class
+    bool binary = table.columns[i].numeric;
+    for (const auto& row : rows.cells) {
+      binary = binary && (row[i] == 0.0 || row[i] == 1.0);
+      found[static_cast<std::size_t>(row.back())] += row[i] == 1.0 ? 1U : 0U;
+    }
+    if (!binary || (found[0] > 0) == (found[1] > 0)) continue;
+    one_hot.push_back(typed(table.columns[i].name));
+    for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
+  }
+  const auto sum = [&](double its_class) {
+    std::set<std::size_t> sums;
+    for (std::size_t k = 0; k < size; ++k)
+      if (rows.cells[k].back() == its_class) sums.insert(ones[k]);
+    return sums;
+  };
+  const auto zero = std::set<std::size_t>{0}, one = std::set<std::size_t>{1};
+  warn(table, one_hot.size() > 1 && ((sum(0.0) == zero && sum(1.0) == one) || (sum(0.0) == one && sum(1.0) == zero)),
+       "of {} columns ({}) one is 1 in each row of one class, and none in those of the other: they are the class "
+       "itself; "
+       "leave them out by --ignore {}",
+       one_hot.size(), listed(one_hot, 3), fmt::join(one_hot, ","));
+  // One fact that several columns tell in the same word, as of what a customer does not have.
+  std::map<std::pair<std::string, std::vector<bool>>, std::vector<std::string>> facts;  // columns by word and rows
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    for (std::size_t code = 0; code < table.columns[i].values.size() && code < most_facts; ++code) {
+      std::vector<bool> stands(size);
+      for (std::size_t k = 0; k < size; ++k) stands[k] = rows.cells[k][i] == static_cast<double>(code);
+      if (20 * std::ranges::count(stands, true) >= std::ssize(stands))
+        facts[{table.columns[i].values[code], stands}].push_back(table.columns[i].name);
+    }
+  for (const auto& [fact, names] : facts)
+    warn(table, names.size() > 2,
+         "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, give "
+         "--missing={}",
+         in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
+  // As a statistics program writes them: each combination of words and class once, and how often.
+  std::size_t combinations = table.classes.size(), numbers = 0;
+  std::string of_counts;
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    if (table.columns[i].numeric) {
+      ++numbers;
+      of_counts = table.columns[i].name;
+    } else {
+      combinations *= table.columns[i].values.size();
+    }
+  warn(table, size == table.size() && size == rows.with_copies && combinations == size && numbers <= 1,
+       "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
+       "write one row for each that was counted",
+       of_counts.empty() ? "" : fmt::format(" (column {})", in_quotes(of_counts)));
   const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
   if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
   for (const auto& [label, counts] : rows.of_class)
@@ -234,6 +293,79 @@ bool warn_of_repeats(DataTable& table) {
   return all_of_them;
 }
 
+/// Where a missing value would tell the class, and does not.
+void warn_of_gaps(DataTable& table) {
+  const std::size_t classes = table.classes.size();
+  std::vector<std::size_t> gaps(table.columns.size() * classes);
+  table.for_each([&](const DataRow& row) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      if (table.columns[i].numeric ? std::isnan(row.number(i)) : row.code(i) == missing_code)
+        ++gaps[i * classes + row.label()];
+  });
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const auto share = [&](std::size_t k) {
+      return static_cast<double>(gaps[i * classes + k]) / static_cast<double>(table.rows_of_class[k]);
+    };
+    std::vector<std::size_t> known;  // classes of which one can tell
+    for (std::size_t k = 0; k < classes; ++k)
+      if (table.rows_of_class[k] >= few_rows) known.push_back(k);
+    if (known.empty()) return;
+    const auto [least, most] = std::ranges::minmax(known, {}, share);
+    warn_of(table.columns[i].name, table, share(most) - share(least) >= 0.5,
+            ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
+            "empty cell says something, as no or less than a limit, write it",
+            100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
+  }
+}
+
+/// Rows of a class that are much as the row before, as those of a recording: by the ratio of von Neumann (1941) of most
+/// columns of numbers, which is 2 of what comes in no order.
+void warn_of_order(DataTable& table) {
+  constexpr double lasting = 0.3;
+  struct Sums {
+    double n = 0.0, sum = 0.0, squares = 0.0, last = nan;
+  };
+  const std::size_t columns = table.columns.size(), classes = table.classes.size();
+  std::vector<Sums> of(columns * classes);
+  std::vector<double> steps(columns), pairs(columns);
+  std::size_t runs = 0, last = classes;
+  table.for_each([&](const DataRow& row) {
+    runs += std::exchange(last, row.label()) != row.label() ? 1U : 0U;
+    for (std::size_t i = 0; i < columns; ++i) {
+      const double number = table.columns[i].numeric ? row.number(i) : nan;
+      if (std::isnan(number)) continue;
+      Sums& own = of[i * classes + row.label()];
+      if (own.n > 0.0) {
+        steps[i] += (number - own.last) * (number - own.last);
+        ++pairs[i];
+      }
+      ++own.n, own.sum += number, own.squares += number * number, own.last = number;
+    }
+  });
+  std::size_t numbers = 0, smooth = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    double squares = 0.0;
+    for (std::size_t c = 0; c < classes; ++c)
+      if (const Sums& own = of[i * classes + c]; own.n > 0.0) squares += own.squares - own.sum * own.sum / own.n;
+    if (pairs[i] < 10.0 * few_rows || !(squares > 0.0)) continue;
+    ++numbers;
+    smooth += steps[i] < lasting * squares ? 1U : 0U;
+  }
+  double expected = 1.0;  // runs of rows in no order
+  const auto all = static_cast<double>(table.size());
+  for (const std::size_t rows : table.rows_of_class)
+    expected += static_cast<double>(rows) * (1.0 - static_cast<double>(rows) / all);
+  const bool in_runs = runs > classes && 10.0 * static_cast<double>(runs) < expected;
+  constexpr std::string_view too_good =
+      "as in a recording: the folds part what belongs together, and the shares of right answers are too good for "
+      "others; "
+      "train on one part of it, and ask of another by classify";
+  const bool is_smooth = smooth > 1 && 2 * smooth > numbers;
+  warn(table, is_smooth, "{} of {} columns of numbers change little from one row of a class to the next, {}", smooth,
+       numbers, too_good);
+  warn(table, in_runs && !is_smooth, "the classes of {} rows stand in {} runs only, {}", table.size(), runs, too_good);
+}
+
 /// Whether a row holds the names of the columns, the first one perhaps behind a byte order mark, as where files were
 /// joined.
 bool is_header(const CsvRow& row, const CsvReader& reader) {
@@ -253,13 +385,18 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
   say(tells_all,
       " alone tells the class of each row: if it is not known before the class is, leave it out by --ignore {}",
       for_typing);
-  warn(table, !tells_all && !copies && by_value.may_be_groups(table.classes.size()),
+  const auto by_stem = column.names_rows() ? column.by_stem(table.rows_of_class) : by_value;
+  warn(table, !tells_all && !copies && by_stem.may_be_groups(table.classes.size()),
        "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "
        "are of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good "
-       "for others; leave it out by --ignore {}, and ask of others by classify",
-       by_value.values, in_quotes(name), static_cast<double>(by_value.rows) / static_cast<double>(by_value.values),
-       by_value.others == 0 ? "" : fmt::format(", but for {} of them", by_value.others), for_typing);
-  say(column.names_rows(),
+       "for others, also without it (--ignore {}): keep the rows of some apart, and ask of those by classify",
+       by_stem.values, in_quotes(name) + (column.names_rows() ? ", without their last part" : ""),
+       static_cast<double>(by_stem.rows) / static_cast<double>(by_stem.values),
+       by_stem.others == 0 ? "" : fmt::format(", but for {} of them", by_stem.others), for_typing);
+  say(column.names_rows() && column.is_made_of_numbers(),
+      " holds numbers, most of which stand once, so that --categorical {} leaves little to learn: take them as numbers",
+      for_typing);
+  say(column.names_rows() && !column.is_made_of_numbers(),
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
       for_typing);
@@ -398,11 +535,10 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   if (table.size() == 0) throw InputError("{}: there is no row below the header", reader.file());
   std::tie(table.classes, table.class_order_) = classes.sorted();
   if (table.classes.size() == 1)
-    throw InputError(
-        message({.where = fmt::format("{}:{}", reader.file(), first_line),
-                 .what = fmt::format("column {}", in_quotes(options.label)),
-                 .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.size()),
-                 .expected = "at least two classes"}));
+    throw InputError({.where = fmt::format("{}:{}", reader.file(), first_line),
+                      .what = fmt::format("column {}", in_quotes(options.label)),
+                      .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.size()),
+                      .expected = "at least two classes"});
   table.rows_of_class.resize(rows_of.size());
   table.last_line_of_class.resize(rows_of.size());
   for (std::size_t code = 0; code < rows_of.size(); ++code) {
@@ -422,6 +558,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   const auto unmet = missing.unmet();
   warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
        fmt::join(unmet, " or "));
+  warn_of_gaps(table);
+  warn_of_order(table);
   const bool copies = warn_of_repeats(table);
   for (std::size_t i = 0; i < columns.size(); ++i) warn_of_values(columns[i], table.columns[i].name, copies, table);
   return table;

@@ -72,10 +72,9 @@ EncounterData read_encounter(const std::string& file) {
       double sum = 0.0;
       for (const double times : own.count) sum += times;
       if (own.lower != first.lower || own.upper != first.upper || !(sum > 0.0))
-        throw InputError(
-            message({.where = reader.file(),
-                     .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
-                     .expected = "counts, in the same bins for every class"}));
+        throw InputError({.where = reader.file(),
+                          .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
+                          .expected = "counts, in the same bins for every class"});
     }
     bins.emplace_back(std::vector<double>(first.lower.begin() + 1, first.lower.end()));
     variables.push_back(bins.back().variable<Random>(feature_names[i]));

@@ -324,7 +324,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
           "{}: the shares of the classes alone have a log-loss of {:.3f}: its probabilities are worse than these{}",
           outcome.name, of_shares,
           options.learning.equal_prior ? ", which --equal-prior leaves out"
-          : data.columns.size() > 1 ? ", and too sure, as where several columns tell the same, or few rows have a value"
+          : data.columns.size() > 1 ? ", and too sure, as where several columns tell the same, or a value or bin has "
+                                      "few rows of a class (fewer --bins)"
                                     : "");
   for (const Outcome& outcome : results.outcomes())
     if (outcome.excluded > 0)

@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include <fmt/ranges.h>
+
 #include <sigmax/recognition/discretization.hpp>
 
 namespace sigmax::apps {
@@ -125,23 +127,84 @@ void add_learning(CLI::App& program, std::string& file, DataOptions& data, Learn
            "Every class is equally plausible before, whatever its share of the rows");
 }
 
+namespace {
+
+/// Σ n log(n/Σ n): where counts are parted, the sum of these grows by what that tells.
+double knowledge(const std::vector<double>& counts) {
+  double sum = 0.0, result = 0.0;
+  for (const double n : counts) {
+    sum += n;
+    result += n > 0.0 ? n * std::log(n) : 0.0;
+  }
+  return sum > 0.0 ? result - sum * std::log(sum) : 0.0;
+}
+
+/// How often each class stands in each bin of a column.
+std::vector<std::vector<double>> classes_of_bins(const LearnedModel& model, std::size_t column) {
+  const std::size_t classes = model.counts.pattern().size();
+  std::vector<std::vector<double>> found(model.features[column].labels().size(), std::vector<double>(classes));
+  for (std::size_t c = 0; c < classes; ++c)
+    for (std::size_t bin = 0; bin < found.size(); ++bin) found[bin][c] = model.counts.of(column, c)[bin];
+  return found;
+}
+
+/// The greatest share of the numbers that is in one bin.
+double fullest(const std::vector<std::vector<double>>& bins) {
+  double most = 0.0, all = 0.0;
+  for (const auto& counts : bins) {
+    const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+    most = std::max(most, sum);
+    all += sum;
+  }
+  return most / all;
+}
+
+}  // namespace
+
 void print_warnings(const DataTable& data, const LearningOptions& options) {
-  const auto warn = [](const std::string& warning) { complain("recognition_demo: warning: " + warning); };
-  for (const auto& warning : data.warnings) warn(warning);
-  if (!options.equal_width || options.bins < 3) return;
-  const LearnedModel model = learn(data, options);
+  constexpr std::size_t many_bins = 64;
+  for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
+  if (std::ranges::none_of(data.columns, &DataColumn::numeric) || options.bins < 3) return;
+  LearningOptions other = options;
+  other.equal_width = false;
+  other.bins = std::max(many_bins, options.bins);
+  const LearnedModel model = learn(data, options), fine = learn(data, other);
+  std::vector<std::string> coarse;  // columns whose bins put together what is different
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     if (!data.columns[i].numeric) continue;
-    std::vector<double> in_bin(model.features[i].labels().size());
-    for (std::size_t c = 0; c < data.classes.size(); ++c)
-      for (std::size_t bin = 0; bin < in_bin.size(); ++bin) in_bin[bin] += model.counts.of(i, c)[bin];
-    const double all = std::accumulate(in_bin.begin(), in_bin.end(), 0.0), most = std::ranges::max(in_bin);
-    if (most > 0.95 * all)
-      warn(
-          fmt::format("{}: column {}: {:.3g} % of the numbers are in one of {} bins of equal width, since few are far "
-                      "from all others: leave out --equal-width, or those if they are slips or stand for none",
-                      data.file, in_quotes(data.columns[i].name), 100.0 * most / all, in_bin.size()));
+    const auto warn = [&](bool holds, std::string_view format, const auto&... words) {
+      if (holds)
+        complain(fmt::format("recognition_demo: warning: {}: column {}: {}", data.file, in_quotes(data.columns[i].name),
+                             fmt::format(fmt::runtime(format), words...)));
+    };
+    const auto bins = classes_of_bins(model, i), fine_bins = classes_of_bins(fine, i);
+    const double share = fullest(bins);
+    warn(options.equal_width && share > 0.95 && fullest(fine_bins) < 0.9,
+         "{:.3g} % of the numbers are in one of {} bins of equal width, since few are far from all others: leave out "
+         "--equal-width, or those if they are slips or stand for none",
+         100.0 * share, bins.size());
+    if (fine_bins.size() <= bins.size()) continue;
+    double by_bins = 0.0, by_fine = 0.0;
+    std::vector<double> all(data.classes.size());
+    for (const auto& counts : bins) by_bins += knowledge(counts);
+    for (const auto& counts : fine_bins) {
+      by_fine += knowledge(counts);
+      for (std::size_t c = 0; c < all.size(); ++c) all[c] += counts[c];
+    }
+    const double freedom = static_cast<double>((fine_bins.size() - bins.size()) * (all.size() - 1));
+    const double lost = by_fine - by_bins, chance = freedom / 2.0 + 5.0 * std::sqrt(freedom / 2.0);
+    if (!(lost > chance)) continue;
+    const bool are_zeros = !options.equal_width && share > 0.5 && bins.size() < 4;
+    warn(are_zeros,
+         "{:.3g} % of the numbers are in one bin, as where most are 0, and the others in {} of {}: give more --bins",
+         100.0 * share, bins.size() - 1, options.bins);
+    if (!are_zeros && lost > 0.3 * (by_bins - knowledge(all))) coarse.push_back(typed(data.columns[i].name));
   }
+  if (!coarse.empty())
+    complain(
+        fmt::format("recognition_demo: warning: {}: {} bins put together numbers of column {} that tell different "
+                    "classes: give more --bins, or, if they are codes or hours, --categorical {}",
+                    data.file, options.bins, in_quotes(coarse.front()), fmt::join(coarse, ",")));
 }
 
 std::string described(const DataTable& data) {

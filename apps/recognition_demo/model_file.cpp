@@ -55,11 +55,11 @@ class Node {
 
   InputError error(std::string_view expected, std::string_view remedy = {}) const {
     const std::string found = json_.is_structured() ? (json_.is_array() ? "a list" : "an object") : json_.dump();
-    return InputError(message({.where = file_,
-                               .what = path_.empty() ? "" : in_quotes(path_),
-                               .found = in_quotes(found),
-                               .expected = expected,
-                               .remedy = remedy}));
+    return InputError({.where = file_,
+                       .what = path_.empty() ? "" : in_quotes(path_),
+                       .found = in_quotes(found),
+                       .expected = expected,
+                       .remedy = remedy});
   }
 
  private:
@@ -114,10 +114,10 @@ Json parsed(const std::filesystem::path& path) {
     // Its words are "[json.exception.parse_error.101] parse error at line 3, column 1: …".
     std::string what = error.what();
     if (const auto place = what.find("] "); place != std::string::npos) what = what.substr(place + 2);
-    throw InputError(message({.where = path.native(),
-                              .what = what,
-                              .expected = "a model as `recognition_demo train` writes it",
-                              .remedy = "train it again if the file was cut off"}));
+    throw InputError({.where = path.native(),
+                      .what = what,
+                      .expected = "a model as `recognition_demo train` writes it",
+                      .remedy = "train it again if the file was cut off"});
   } catch (const Json::exception&) {  // a number as 1e400
     throw InputError(
         "{}: holds a number that no double can hold: expected a model as `recognition_demo train` writes it",

@@ -139,10 +139,9 @@ PerformanceData read_performance(const std::string& file) {
     for (const auto& of_type : data.types) {
       const auto found = cells.find({of_type, of_variable});
       if (found == cells.end())
-        throw InputError(
-            message({.where = reader.file(),
-                     .what = fmt::format("type {} has no quantity {}", in_quotes(of_type), in_quotes(of_variable)),
-                     .remedy = "add the row, or remove the quantity from all types"}));
+        throw InputError({.where = reader.file(),
+                          .what = fmt::format("type {} has no quantity {}", in_quotes(of_type), in_quotes(of_variable)),
+                          .remedy = "add the row, or remove the quantity from all types"});
       row.push_back(found->second);
     }
   }

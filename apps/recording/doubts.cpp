@@ -58,6 +58,26 @@ bool cross(const Position& a, double alpha, const Position& b, double beta) {
 
 }  // namespace
 
+double rounding_of(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  std::vector<double> apart;  // those that differ by more than the reading of decimals does
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
+  if (apart.empty()) return std::numeric_limits<double>::infinity();
+  const double least = *std::ranges::min_element(apart);
+  const auto whole = std::ranges::count_if(
+      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
+  // Where hardly a number comes twice, and all are one step apart, it is the way of what moves evenly.
+  const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
+  const bool is_even = 5 * single > 4 * std::ssize(numbers) && 2 * apart.size() > numbers.size();
+  if (10 * whole >= 9 * std::ssize(apart) && !is_even) return least / std::sqrt(12.0);
+  for (double digits = 1.0; digits < 1e7; digits *= 10.0)  // as they are written
+    if (std::ranges::all_of(
+            numbers, [&](double number) { return std::abs(number * digits - std::round(number * digits)) < 1e-3; }))
+      return 1.0 / (digits * std::sqrt(12.0));
+  return 0.0;
+}
+
 void Doubts::Agreement::add(double told_now, double growth) {
   if (std::isnan(told_now)) return;
   product += told_now * growth;
@@ -140,9 +160,14 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     if (ways_.size() < many_ways) ways_.insert(std::lround(1000.0 * std::log(before.way)));
   }
   before.way = way;
+  if (way > 0.0) {
+    auto& steps = steps_on_[before.runs[0] > 0 ? 1 : 0];
+    ++steps.count;
+    steps.sum += way;
+  }
   Vector<3> change = (now.rate - last.rate).head<3>();
   if (std::isnan(now.rate[z])) change[z] = 0.0;
-  const std::array changes = {way, rise, length(change)};
+  const std::array changes = {way, rise, length(change), length(now.at - now.error - last.at + last.error)};
   for (std::size_t i = 0; i < changes.size(); ++i) stays_[i].see(changes[i], before.runs[i]);
   if (!std::isnan(now.height + last.height)) zero_heights_.see((now.height == 0.0) != (last.height == 0.0), rise);
   const auto is_much_nearer = [&](const Vector<3>& at) {
@@ -163,7 +188,13 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     square_ += now.error.array().square();
     next_ += now.error.array() * last.error.array();
   }
+  // A velocity that is told less often holds, but not for long.
+  before.silent = std::isnan(now.rate[x]) ? before.silent + 1 : 0;
   now.rate = now.rate.isNaN().select(last.rate, now.rate);
+  if (before.silent == few) {
+    now.rate.setConstant(nan);
+    before.since.fill({now.time, now.grown});
+  }
   for (std::size_t k = 0; k < lengths.size(); ++k) {
     Since& since = before.since[k];
     since.told += dt * (last.rate + now.rate) / 2.0;
@@ -173,6 +204,13 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     const auto add = [&](std::size_t rate, double told_now, double growth) { rates_[k][rate].add(told_now, growth); };
     for (const Rate rate : {x, y, z, range}) add(rate, told[rate], grew[rate]);
     for (const Rate rate : {x, y}) add(velocities, told[rate], grew[rate]);
+    if (k == 1 && !std::isnan(told[x] + told[y])) {
+      const Vector<3> off(told[x] - grew[x], told[y] - grew[y], 0.0);
+      offsets_ += off;
+      ++offset_.count;
+      offset_.grew += dot(off, off);
+      offset_.told += told[x] * told[x] + told[y] * told[y];
+    }
     add(exchanged, told[y], grew[x]);
     add(exchanged, told[x], grew[y]);
     add(to_the_left, -told[y], grew[x]);
@@ -272,7 +310,8 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
   ++times_;
   if (std::fmod(plot.time, 100.0) < 60.0 && std::fmod(hundreds, 100.0) < 60.0) ++clocks_;
   if (std::fmod(plot.time, 50.0) != 0.0) ++uneven_;
-  if (hundreds != std::exchange(hundreds_, hundreds)) ++minutes_;
+  if (hundreds != hundreds_) ++minutes_;
+  if (std::floor(hundreds / 100.0) != std::floor(std::exchange(hundreds_, hundreds) / 100.0)) ++hours_;
   latest_ = plot.time;
   Track& track = tracks_[row.track];
   const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
@@ -284,13 +323,20 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     radians_ += std::cos(azimuth / degree - true_one);
     ++azimuths_;
   }
+  farthest_ = std::max(farthest_, std::hypot(origin[0], origin[1]));
   if (is_bearing) see_bearing({plot.origin, plot.z[0]}, track.bearing);
   if (!position || axes_seen(plot, axes) < axes) return;
   const Vector<3> at(position->data());
   farthest_ = std::max(farthest_, std::hypot(at[0], at[1]));
+  constexpr std::size_t enough_numbers = 1000;
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const auto number = component_of(plot, static_cast<int>(i)); number && numbers_[i].size() < enough_numbers)
+      numbers_[i].push_back(*number);
   if (!twice_) twice_ = row.twice;
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
-  const auto rate = [&](int i) { return i < axes ? component_of(plot, axes + i).value_or(nan) : nan; };
+  const auto rate = [&](int i) {
+    return i < axes ? component_of(plot, axes + i).value_or(row.rates[static_cast<std::size_t>(i)]) : nan;
+  };
   const Spoke now{plot.time,
                   at,
                   {at[0], at[1], std::isnan(height) ? at[2] : height, is_radar ? plot.z[0] : 0.0},
@@ -358,6 +404,15 @@ std::string Doubts::other_times() const {
   return fmt::format("{:.6g} s apart up to {:.6g} and {:.6g} s from {:.6g} on", before, time, then, time + *longest);
 }
 
+double Doubts::rounding(const RecordingReader& recording) const {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < 2 && recording.located(); ++i)
+    if (const double own = rounding_of(numbers_[i]);
+        std::isfinite(own) && std::set(numbers_[i].begin(), numbers_[i].end()).size() >= 2 * few)
+      greatest = std::max(greatest, own);
+  return greatest * (recording.geodetic() ? metres_a_degree : 1.0);
+}
+
 std::vector<std::string> Doubts::sentences(const RecordingReader& recording) const {
   std::vector<std::string> sentences;
   const auto say = [&](bool holds, std::string_view format, const auto&... words) {
@@ -378,8 +433,17 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   say(swapped,
       "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
       "east, vy along y, or north, a latitude is along y, and a course is clockwise from north");
+  // What noise makes of rates falls with the rows that they are taken over; what moves does not.
+  const Agreement &by_one = rates_[0][velocities], &by_ten = rates_[1][velocities];
+  const auto square = [](const Agreement& rates) { return rates.grew / static_cast<double>(rates.count); };
+  const double size = by_one.grew / by_one.told;
+  const bool same_size = by_ten.count >= few && square(by_one) < 2.0 * square(by_ten) && size > 0.25 && size < 4.0;
+  bool is_clear = swapped;  // how the velocities are told
   for (std::size_t i = swapped ? z : x; i < kinds.size(); ++i) {
-    const auto found = std::ranges::find_if(rates_, [&](const Rates& rates) { return rates[i].other_sign(); });
+    const double most = i < z && same_size ? -0.8 : 0.0;
+    const auto found = std::ranges::find_if(
+        rates_, [&](const Rates& rates) { return rates[i].other_sign() && rates[i].correlation() < most; });
+    is_clear |= found != rates_.end();
     say(found != rates_.end(), "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i][0],
         kinds[i][1], found == rates_.end() ? 0.0 : (*found)[i].correlation(), kinds[i][2]);
   }
@@ -395,15 +459,37 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   for (const Rates& rates : rates_) {
     constexpr double earth = 6.4e6;  // of whose north one is another's, far away
     const double angle = std::atan2(rates[to_the_left].product, rates[velocities].product);
-    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(rates[velocities].error_square(), 0.0)) +
+    Agreement turned = rates[velocities];  // as far as they are
+    turned.product = std::hypot(turned.product, rates[to_the_left].product);
+    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(turned.error_square(), 0.0)) +
                           (recording.on_the_earth() ? 2.0 * farthest_ / earth : 0.0);
-    if (!rates[velocities].fits() || std::abs(angle) < margin) continue;
+    if (is_clear || !turned.fits() || std::abs(angle) < margin) continue;
     say(true,
         "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
         "and whether it is one, and no heading",
         std::abs(angle) / degree, angle > 0.0 ? "right" : "left");
-    break;
+    is_clear = true;
   }
+  const auto rows_of_offset = static_cast<double>(offset_.count);
+  const Vector<3> off = offsets_ / rows_of_offset;
+  const bool is_off = offset_.count >= few && 2.0 * dot(off, off) > offset_.grew / rows_of_offset &&
+                      dot(off, off) > 0.003 * offset_.told / rows_of_offset;
+  const bool elsewhere = same_size && by_ten.correlation() < 0.7;
+  const Stays& told = stays_[2];
+  const bool frozen = told.same > 9 * told.changed;
+  say(!is_clear && (is_off || elsewhere) && frozen,
+      "{} of {} velocities repeat the one before to the last digit, and the positions do not go so: nothing measured "
+      "them; leave their cells empty",
+      told.same, told.same + told.changed);
+  is_clear |= frozen;
+  say(!is_clear && is_off,
+      "the velocities are ({}) m/s off how the positions grow, on the average and much the same all the time: see "
+      "whether they are relative to something that moves, as water, air or the vehicle of the sensor",
+      numbers_of(off, 2));
+  say(!is_clear && !is_off && elsewhere,
+      "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see whether "
+      "they are along x and y, and not ahead and to a side, and whether a course is in the unit of its header",
+      by_ten.correlation());
   say_scale(z, "vertical velocities", "heights");
   say_scale(range, "range rates", "ranges");
   const auto n = static_cast<double>(azimuths_);
@@ -445,11 +531,18 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "row before, which is no noise: see whether both have the same axes, units and times, and whether the truth is "
       "empty where there is none",
       off_ / static_cast<double>(errors_), same_, errors_);
+  constexpr double earth = 6.371e6, far_away = 4e5;
+  const bool is_far = recording.seen_from_places() && recording.axes() == 2 && farthest_ > far_away;
+  say(is_far,
+      "sensors or targets are {:.3g} km from where the map begins, on which lines of sight from elsewhere are "
+      "straight: "
+      "it is {:.2g} km off there",
+      farthest_ / 1e3, std::pow(farthest_, 3) / (6e3 * earth * earth));
   std::set<std::string> doubted;  // so that none is named twice
   for (const auto& [sensors, rows] : apart_) {
     const auto& [one, other] = sensors;
     const std::string why = rows.size() < few || doubted.contains(one) ? "" : why_apart(rows, recording.axes());
-    if (why.empty()) continue;
+    if (why.empty() || is_far) continue;
     doubted.insert(other);
     say(true,
         "beside sensor '{}', sensor '{}' is {} in most of {} rows, which is more than either scatters: see where both "
@@ -457,6 +550,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         one, other, why, rows.size(), other);
   }
   std::size_t straight = 0;
+  const double least_bend = 10.0 * std::sqrt(12.0) * rounding(recording);  // else a lone step of the numbers
   for (const auto& [sensor, all] : bends_) {
     auto bends = all;
     std::ranges::sort(bends);
@@ -465,7 +559,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     for (const auto& [bend, way] : bends)
       if (different.size() <= few) different.insert(static_cast<float>(bend));
     const auto is_straight = [&](const auto& each) { return each.first < std::min(0.02 * usual, 5e-4 * each.second); };
-    if (bends.size() >= 2 * few && different.size() > few)
+    if (bends.size() >= 2 * few && different.size() > few && usual > least_bend)
       straight += static_cast<std::size_t>(std::ranges::count_if(bends, is_straight));
   }
   say(5 * straight > 2 * bent_,
@@ -492,6 +586,23 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "{} positive latitudes or longitudes stand beside an S or a W, first on line {}, and were taken as north and "
       "east: give those of the south and the west a minus sign",
       abroad, first_abroad);
+  const bool along_the_ground = recording.polar() && recording.axes() == 2;
+  const auto& headers = recording.csv().names();
+  const auto tells_height = [](std::string_view name) {
+    const std::string lower = lower_case(name);
+    constexpr std::array words = {"slant", "altitude", "height", "depth", "flight_level", "flight level"};
+    return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
+  };
+  const auto height = std::ranges::find_if(headers, tells_height);
+  say(along_the_ground && !recording.located() && height != headers.end(),
+      "ranges are taken along the ground, beside a column {}: a slant range is longer; write range·cos(elevation), or "
+      "give an elevation_deg",
+      in_quotes(height == headers.end() ? "" : *height));
+  const auto& [relative, first_relative] = recording.relative();
+  say(relative > 0,
+      "an R stands beside {} azimuths, first on line {}, as beside those that are relative to a heading, and they were "
+      "taken from {}: add the heading",
+      relative, first_relative, recording.from_north() ? "north" : "east");
   const auto& zone = recording.other_zone();
   say(zone.line > 0 && (zone.is_none || std::abs(zone.step) > 10.0 * step),
       "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
@@ -514,7 +625,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "positions leap by {:.3g} m in {:.3g} s on line {}, 20 times as far as in the rows about it, and stay there{}: "
       "see whether a place, a unit, a zone or an axis changed, or the target (--track-id)",
       leap.way, leap.dt, leap.line, leaps_ > 1 ? fmt::format("; {} such in all", leaps_) : "");
-  const auto& [positions, heights, speeds] = stays_;
+  const auto& [positions, heights, speeds, truths] = stays_;
   const std::pair<const Stays&, std::string_view> slower[] = {{heights, "heights"}, {speeds, "velocities"}};
   for (const auto& [stays, what] : slower)
     say(stays.regular() && stays.changes.size() > few && !positions.regular(),
@@ -533,6 +644,11 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "targets are mixed, name the column that tells them apart by --track-id, and if those of several sensors, one "
       "that is called sensor",
       returns_, jumps);
+  say(truths.same >= few && truths.changes.size() > few && 3 * truths.same > truths.changed &&
+          20 * positions.same < truths.same,
+      "{} of {} truths repeat the one before to the last digit, although what is measured moves: empty those cells, as "
+      "errors are counted from where the target was",
+      truths.same, truths.same + truths.changed);
   double moved = 0.0, duration = 0.0;
   for (const auto& [name, track] : tracks_) {
     if (!track.first) continue;
@@ -544,7 +660,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const bool goes_any_way = ways_.size() > few && 2 * ways_.size() > std::min(held_again_, many_ways);
   const bool held_again = 4 * held_again_ > 3 * positions.changed && goes_any_way;
   const bool on_its_way = moved > 0.5 * path_ && (goes_any_way || positions.regular());
-  say(positions.same >= few && 4 * positions.same > jumps && (on_its_way || held_again),
+  // Where some rows repeat the one before, at random, the next step is of several rows; after a rest it is a short one.
+  const auto& [on, after] = steps_on_;
+  const bool catches_up =
+      tracks_.size() == 1 && on.count >= few && after.count >= few && after.mean() > 1.5 * on.mean() && goes_any_way;
+  say(positions.same >= few &&
+          ((4 * positions.same > jumps && (on_its_way || held_again)) || (10 * positions.same > jumps && catches_up)),
       "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "
       "count as new measurements, and the filters take their estimates for better than they are; leave one row of each",
       positions.same, jumps);
@@ -557,7 +678,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       step);
   if (!recording.times_are_seconds()) return sentences;
   const bool of_a_date = latest_ >= 1.9e13 && latest_ < 2.1e13;
-  say(times_ >= 2 * few && clocks_ == times_ && (minutes_ > 2 || of_a_date) && uneven_ > 0,
+  // Of whole minutes none ends on 6000 to 9999.
+  const bool are_minutes = hours_ > 2 && step < 2000.0;
+  say(times_ >= 2 * few && clocks_ == times_ && (minutes_ > 2 || of_a_date) && (uneven_ > 0 || are_minutes),
       "no time ends on 60 to 99, as numbers of seconds would; if they are hours, minutes and seconds in a row, give "
       "--time-format {}",
       latest_ < 1e6 ? "%H%M%S" : "%Y%m%d%H%M%S");
@@ -566,8 +689,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.
-    say(unit.unit_s < 1.0 && !in_minutes && step * unit.unit_s >= 0.1 && step * unit.unit_s <= 20.0 &&
-            speed / unit.unit_s >= 0.5 && speed / unit.unit_s < 500.0,
+    say(unit.unit_s < 1.0 && !in_minutes && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
+            step * unit.unit_s <= 20.0 && speed / unit.unit_s >= 0.5 && speed / unit.unit_s < 500.0,
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
         step, speed, unit.words, unit.name);
   say(speed > 1.2e4,  // nothing on the Earth or about it is as fast

@@ -12,11 +12,20 @@
 
 namespace sigmax::apps {
 
+inline constexpr double metres_a_degree = 60.0 * units::nautical_mile;  // of latitude
+
+/// The standard deviation of the rounding of numbers that come in whole steps; else 0, and infinite where they never
+/// change.
+double rounding_of(std::vector<double> numbers);
+
 /// Signs that a recording's numbers mean something else than they were taken for, gathered row by row.
 class Doubts {
  public:
   /// A row, and where its measurement was, in m.
   void see(const Row& row, const std::optional<Position>& position, int axes);
+
+  /// The standard deviation of the rounding of coordinates in m, if they come in whole steps; of several the greatest.
+  double rounding(const RecordingReader& recording) const;
 
   /// Sentences, each with the name or the option that mends it.
   std::vector<std::string> sentences(const RecordingReader& recording) const;
@@ -42,7 +51,8 @@ class Doubts {
     }
     /// Whether the rate has the other sign, by four standard errors of a correlation that is none.
     bool other_sign() const {
-      return correlation() < -0.5 && correlation() * correlation() * static_cast<double>(count) > 16.0;
+      const double square = correlation() * correlation();
+      return count >= few && correlation() < -0.5 && square * static_cast<double>(count - 2) > 16.0 * (1.0 - square);
     }
   };
   /// The rates along x, y and z, and of the range; those of the first two together, taken for each other, and a right
@@ -106,7 +116,8 @@ class Doubts {
     std::array<Since, 3> since;
     std::optional<std::pair<double, Vector<3>>> before{};  // the last one
     double way = 0.0;                                      // between these, along the ground if there is a height
-    std::array<std::size_t, 3> runs{};                     // of stays_, that last
+    std::array<std::size_t, 4> runs{};                     // of stays_, that last
+    std::size_t silent = 0;                                // rows since a velocity was told
     std::vector<Vector<3>> recent{};                       // the last few
     std::vector<std::pair<double, double>> moves{};        // the last few ways, and speeds along them
     std::optional<Leap> leap{};                            // that the next few rows confirm
@@ -139,13 +150,21 @@ class Doubts {
 
   std::map<std::string, Track> tracks_;
   std::set<std::string> sensors_;
-  std::vector<double> steps_;   // between measurements of a track, the first thousands
-  std::array<Rates, 3> rates_;  // from row to row, where noise hides what is slow, and over many rows
-  double farthest_ = 0.0;       // of positions from where they are counted
-  double path_ = 0.0;           // of all positions, each sensor's own
-  std::array<Stays, 3> stays_;  // of positions, heights and velocities
-  std::size_t held_again_ = 0;  // positions that change, where the next one does not
-  std::set<long> ways_;         // how far those went, some, as logarithms to three digits
+  std::array<std::vector<double>, 2> numbers_;  // of coordinates along x and y in m, the first thousand
+  std::vector<double> steps_;                   // between measurements of a track, the first thousands
+  std::array<Rates, 3> rates_;                  // from row to row, where noise hides what is slow, and over many rows
+  Agreement offset_;  // of what ten rows tell from how they grew: its squares, and those of what is told
+  Vector<3> offsets_ = Vector<3>::Zero();  // the sum
+  double farthest_ = 0.0;                  // of positions from where they are counted
+  double path_ = 0.0;                      // of all positions, each sensor's own
+  std::array<Stays, 4> stays_;             // of positions, heights, velocities and truths
+  std::size_t held_again_ = 0;             // positions that change, where the next one does not
+  std::set<long> ways_;                    // how far those went, some, as logarithms to three digits
+  struct {
+    std::size_t count = 0;
+    double sum = 0.0;
+    double mean() const { return sum / static_cast<double>(count); }
+  } steps_on_[2];               // ways after a position that was not held, and after one that was
   std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
   std::optional<Leap> leap_{};  // the first, and how many there are
   std::size_t leaps_ = 0;
@@ -166,6 +185,7 @@ class Doubts {
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places
   std::size_t times_ = 0, clocks_ = 0, minutes_ = 0, uneven_ = 0;
+  std::size_t hours_ = 0;
   double hundreds_ = nan, latest_ = 0.0;  // of the last time
 };
 

@@ -45,11 +45,13 @@ std::string_view instead_of(std::string_view header) {
   constexpr std::string_view sigma = "one standard deviation along each axis is sigma_position_m";
   constexpr std::string_view rate = "how fast the range grows is range_rate_mps, how fast it falls closing_rate_mps";
   constexpr std::string_view height = "a height is altitude_m beside a latitude, else z_m";
+  constexpr std::string_view sensor = "what tells sensors apart is sensor";
   constexpr std::string_view elevation = "an angle upwards from the horizon is elevation_deg";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
-      {"accuracy", sigma},       {"sigma_m", sigma},       {"std_m", sigma},         {"doppler", rate},
-      {"radial_velocity", rate}, {"elevation_m", height},  {"elevation_ft", height}, {"height", height},
-      {"zenith", elevation},     {"depression", elevation}};
+      {"accuracy", sigma},       {"sigma_m", sigma},      {"std_m", sigma},         {"doppler", rate},
+      {"radial_velocity", rate}, {"elevation_m", height}, {"elevation_ft", height}, {"height", height},
+      {"depression", elevation}, {"sensor-type", sensor}, {"sensor_type", sensor},  {"sensor_id", sensor},
+      {"sensor_name", sensor}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;
   return {};
@@ -98,8 +100,8 @@ std::map<std::string, std::string, std::less<>> mapping_of(const std::vector<std
     if (equals == std::string::npos || equals + 1 == column.size())
       throw UsageError("--columns: {} is not NAME=HEADER", in_quotes(column));
     if (std::ranges::find(known, name) == known.end())
-      throw UsageError(message(
-          {.what = fmt::format("--columns: there is no name {}", in_quotes(name)), .remedy = remedy_for(name)}));
+      throw UsageError(
+          {.what = fmt::format("--columns: there is no name {}", in_quotes(name)), .remedy = remedy_for(name)});
     if (!mapping.emplace(name, column.substr(equals + 1)).second)
       throw UsageError("--columns: '{}' is given twice", name);
   }

@@ -31,17 +31,17 @@ inline constexpr double hour = 3600.0;
 
 inline constexpr Unit lengths[] = {
     {"m", 1.0, "m"},       {"km", 1e3, "km"},  {"ft", foot, "ft"}, {"nmi", nautical_mile, "nautical miles"},
-    {"mi", mile, "miles"}, {"cm", 1e-2, "cm"}, {"mm", 1e-3, "mm"}};
+    {"mi", mile, "miles"}, {"cm", 1e-2, "cm"}, {"mm", 1e-3, "mm"}, {"yd", 3.0 * foot, "yards"}};
 inline constexpr Unit areas[] = {{"m2", 1.0, "m²"}, {"", 1.0, "m²"}};
 inline constexpr Unit speeds[] = {
     {"mps", 1.0, "m/s"},         {"kmh", 1e3 / hour, "km/h"}, {"kt", nautical_mile / hour, "kt"},
-    {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"}};
+    {"mph", mile / hour, "mph"}, {"fps", foot, "ft/s"},       {"fpm", foot / 60.0, "ft/min"},
+    {"cmps", 1e-2, "cm/s"},      {"mmps", 1e-3, "mm/s"}};
 inline constexpr auto closing_speeds = [] {  // of ranges that fall
   auto all = std::to_array(speeds);
   for (Unit& unit : all) unit.value = -unit.value;
   return all;
 }();
-inline constexpr Unit degrees[] = {{"deg", 1.0, "°"}};
 inline constexpr Unit angles[] = {{"deg", 1.0, "°"}, {"rad", 1.0 / degree, "rad"}};
 inline constexpr Unit azimuths[] = {{"deg", 1.0, "°"},
                                     {"rad", 1.0 / degree, "rad"},
@@ -78,23 +78,24 @@ struct Quantity {
 };
 
 /// All of them: those of a role in the order of the axes, or of range, azimuth and elevation; covariances row by row,
-/// as far as their diagonal; the range rate and the azimuth, and what stands for them.
-inline constexpr std::array<Quantity, 39> quantities = {
+/// as far as their diagonal; the range rate, the azimuth and the elevation, and what stands for them.
+inline constexpr std::array<Quantity, 40> quantities = {
     {{Role::position, {"x"}, units::lengths},
      {Role::position, {"y"}, units::lengths},
      {Role::position, {"z"}, units::lengths},
-     {Role::place, {"latitude"}, units::degrees, " north"},
-     {Role::place, {"longitude"}, units::degrees, " east"},
+     {Role::place, {"latitude"}, units::angles, " north"},
+     {Role::place, {"longitude"}, units::angles, " east"},
      {Role::place, {"altitude_gnss", "altitude"}, units::lengths, " above the ellipsoid"},
      {Role::polar, {"range"}, units::lengths},
      {Role::polar, {"azimuth"}, units::azimuths},
      {Role::polar, {"elevation"}, units::angles, " above the horizon"},
      {Role::polar, {"bearing"}, units::bearings},
+     {Role::polar, {"zenith"}, units::angles, " from the zenith"},
      {Role::velocity, {"vx"}, units::speeds},
      {Role::velocity, {"vy"}, units::speeds},
      {Role::velocity, {"vz", "vertical_rate"}, units::speeds, " upwards"},
      {Role::course, {"groundspeed", "speed", "sog"}, units::speeds},
-     {Role::course, {"track", "course", "cog"}, units::degrees, " clockwise from north"},
+     {Role::course, {"track", "course", "cog"}, units::angles, " clockwise from north"},
      {Role::range_rate, {"range_rate"}, units::speeds},
      {Role::range_rate, {"closing_rate"}, units::closing_speeds},
      {Role::truth, {"true_x"}, units::lengths},
@@ -116,8 +117,8 @@ inline constexpr std::array<Quantity, 39> quantities = {
      {Role::sensor_position, {"sensor_x"}, units::lengths},
      {Role::sensor_position, {"sensor_y"}, units::lengths},
      {Role::sensor_position, {"sensor_z"}, units::lengths},
-     {Role::sensor_place, {"sensor_latitude"}, units::degrees, " north"},
-     {Role::sensor_place, {"sensor_longitude"}, units::degrees, " east"},
+     {Role::sensor_place, {"sensor_latitude"}, units::angles, " north"},
+     {Role::sensor_place, {"sensor_longitude"}, units::angles, " east"},
      {Role::sensor_place, {"sensor_altitude"}, units::lengths, " above the ellipsoid"}}};
 
 /// Headers of times, and the unit of their numbers, in s; one that --columns names counts, else the first that there

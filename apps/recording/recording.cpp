@@ -30,8 +30,11 @@ double in_seconds(double number, double unit_s) {
 
 /// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
 bool says_unit(std::string_view header, std::string_view unit) {
-  return header.ends_with(fmt::format("_{}", unit)) || header.ends_with(fmt::format("({})", unit)) ||
-         header.ends_with(fmt::format("[{}]", unit));
+  for (const std::string_view other : {unit, unit == "ft" ? "feet" : unit == "m" ? "meters" : unit})
+    if (header.ends_with(fmt::format("_{}", other)) || header.ends_with(fmt::format("({})", other)) ||
+        header.ends_with(fmt::format("[{}]", other)))
+      return true;
+  return false;
 }
 
 /// Whether it is how accurate others of the row are.
@@ -109,6 +112,8 @@ void RecordingReader::find_columns() {
   sensor_ = find("sensor");
   roll_ = find("roll_deg");
   if (!has(Role::polar, 1)) std::swap(column(Role::polar, 1), column(Role::polar, 3));
+  from_zenith_ = !has(Role::polar, 2) && has(Role::polar, 4);
+  if (from_zenith_) std::swap(column(Role::polar, 2), column(Role::polar, 4));
   drop(Role::polar, 3);
   const auto& azimuth = column(Role::polar, 1);
   if (azimuth && azimuth->unit->from_north) {
@@ -141,6 +146,7 @@ void RecordingReader::find_columns() {
         "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
         file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
+  if (!options_.velocity && located() && !options_.simulated) doubted_ = columns_;
   if (!options_.velocity || axes_ == 1 || !has_course) drop(Role::course);
   drop(Role::velocity, options_.velocity ? axes : 0);
   if (!has(Role::range_rate)) std::swap(column(Role::range_rate), column(Role::range_rate, 1));
@@ -183,13 +189,12 @@ void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool h
        "add one that names each row's sensor, or map its header with --columns"}};
   for (const auto& [holds, what, remedy] : refusals)
     if (holds)
-      throw InputError(
-          message({.where = file() + ":1",
-                   .what = what,
-                   .found = list_of(csv_.names()),
-                   .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] (or "
-                               "altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg[,elevation_deg]",
-                   .remedy = remedy}));
+      throw InputError({.where = file() + ":1",
+                        .what = what,
+                        .found = list_of(csv_.names()),
+                        .expected = "time_s,x_m[,y_m[,z_m]], or time_s,latitude_deg,longitude_deg[,altitude_m] (or "
+                                    "altitude_gnss_ft, altitude_ft), or time_s,range_m,azimuth_deg[,elevation_deg]",
+                        .remedy = remedy});
 }
 
 /// The first column that may be a coordinate, but for its unit.
@@ -215,6 +220,7 @@ bool RecordingReader::next(Row& row) {
   take_numbers();
   if (said(Role::course).value_or(0.0) < 0.0 && said(Role::course, 1).value_or(0.0) < 0.0) ++negative_speeds_;
   row.truth = position(Role::truth);
+  row.rates = rates();
   const double time = row.plot.time;
   const auto plot = measured();
   const auto counts = [&](Role role) { return says(role) && !is_senseless(role); };
@@ -227,6 +233,10 @@ bool RecordingReader::next(Row& row) {
     const auto first = columns_[place_of(Role::place) + i]->index + 1;
     for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
       if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W")) abroad_.add(row_.line());
+  }
+  if (says(Role::polar)) {
+    const auto first = columns_[place_of(Role::polar) + 1]->index + 1;
+    if (first < row_.size() && trimmed(row_[first]) == "R") relative_.add(row_.line());
   }
   ++rows_;
   row.plot = plot.value_or(AnyPlot{});
@@ -245,7 +255,9 @@ std::optional<double> RecordingReader::time_of(const std::string& text, bool& of
 bool RecordingReader::take_time(Row& row) {
   row.line = row_.line();
   row.track = track_ ? trimmed(row_[*track_]) : std::string_view{};
-  if (track_ && row.track.empty()) throw row_.error(*track_, "what tells its track from others", "fill the cell");
+  if (track_ && row.track.empty())
+    throw row_.error(*track_, "what tells its track from others",
+                     rows_ == 0 ? "fill the cell, or drop the line, if it holds units" : "fill the cell");
   bool of_day = false;
   std::string cell(trimmed(row_[time_]));
   auto found = time_of(cell, of_day);
@@ -263,8 +275,9 @@ bool RecordingReader::take_time(Row& row) {
                      "correct the cell or drop the row");
   if (!found)
     throw row_.error(time_, "a number of seconds, or a date and time as 2016-01-12T13:02:11.218Z",
-                     "correct the cell or drop the row; if all are written otherwise, say how, as --time-format "
-                     "'%d/%m/%Y %H:%M:%S'");
+                     (rows_ == 0 ? "drop the line, if it holds units; " : "") +
+                         std::string("correct the cell or drop the row; if all are written otherwise, say how, as "
+                                     "--time-format '%d/%m/%Y %H:%M:%S'"));
   times_are_numbers_ = options_.time_format.empty() && parse_number(row_[time_]);
   if (options_.time_format.empty() && !times_are_numbers_ && !of_day) {
     constexpr std::size_t behind_date = 11;
@@ -295,8 +308,9 @@ bool RecordingReader::take_time(Row& row) {
                   "where several sensors measure at one time, name them in a column sensor{}; where times were "
                   "rounded, write them in full; else drop repeated rows, or give --on-bad-time skip",
                   track_ ? "" : ", and where several targets do, give the column that tells them apart by --track-id")
-            : fmt::format("sort the rows by time{}, or give --on-bad-time skip",
-                          track_ ? "" : ", or where there are several targets tell them apart by --track-id COLUMN"));
+            : fmt::format("sort the rows by time, or where a clock counts down, change its sign{}, or give "
+                          "--on-bad-time skip",
+                          track_ ? "" : "; or where there are several targets, tell them apart by --track-id COLUMN"));
   ++skipped_;
   if (time == before)
     ++at_one_time_;
@@ -369,9 +383,29 @@ void RecordingReader::take_numbers() {
     const bool of_velocity = role == Role::velocity || q == place_of(Role::course);
     if (said_[q] && of_velocity && std::abs(*said_[q]) >= beyond_sense) said_[q].reset();
     if (said_[q]) *said_[q] *= columns_[q]->unit->value;
+    if (said_[q] && from_zenith_ && q == place_of(Role::polar) + 2) said_[q] = 90.0 - *said_[q];
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
+}
+
+/// What columns tell of the velocity that do not count.
+Position RecordingReader::rates() const {
+  const auto told = [&](Role role, std::size_t i) {
+    const auto& column = doubted_[place_of(role) + i];
+    const auto number = column ? parse_number(row_[column->index]) : std::nullopt;
+    const bool is_none =
+        !number || number == column->not_available || std::abs(*number) >= beyond_sense ||
+        std::ranges::any_of(options_.missing, [&](const auto& word) { return parse_number(word) == number; });
+    return is_none ? nan : *number * column->unit->value;
+  };
+  Position rates = {told(Role::velocity, 0), told(Role::velocity, 1), told(Role::velocity, 2)};
+  const double speed = told(Role::course, 0), course = told(Role::course, 1) * degree;
+  if (std::isnan(rates[0]) && axes_ > 1 && speed >= 0.0) {
+    rates[0] = speed * std::sin(course);
+    rates[1] = speed * std::cos(course);
+  }
+  return rates;
 }
 
 bool RecordingReader::says(Role role) const {
@@ -410,8 +444,12 @@ Geodetic RecordingReader::place(Role role) const {
     return Geodetic::checked(*said(role), *said(role, 1), said(role, 2).value_or(0.0));
   } catch (const std::invalid_argument&) {
     const bool is_latitude = std::abs(*said(role)) > 90.0;
-    throw error(role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
-                "correct the cell or drop the row");
+    throw error(
+        role, is_latitude ? 0 : 1, is_latitude ? "degrees from −90 to 90" : "degrees from −360 to 360",
+        std::abs(*said(role)) < 1000.0 && std::abs(*said(role, 1)) < 1000.0
+            ? "correct the cell or drop the row"
+            : "if all are so, they are no degrees, but degrees and minutes in a row, as 5359.4, minutes, degrees "
+              "× 10⁷ or semicircles × 2³¹: write degrees");
   }
 }
 
@@ -531,13 +569,16 @@ std::string RecordingReader::taken() const {
   std::vector<std::string> parts = {times_have_dates_
                                         ? fmt::format("{} and {}", csv_.names()[*date_], csv_.names()[time_])
                                         : fmt::format("{} in {}", csv_.names()[time_], time_unit_->words)};
+  for (const TimeColumn& other : time_columns)
+    if (&other != time_unit_ && says_unit(csv_.names()[time_], other.name.substr(5)))
+      parts[0] += fmt::format(", as --columns says, and not in {}", other.words);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!columns_[q]) continue;
-    const Quantity& quantity = quantities[q];
+    const Quantity& quantity = quantities[from_zenith_ && q == place_of(Role::polar) + 2 ? q + 2 : q];
     std::string part =
         fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
     for (const Unit& other : quantity.units)
-      if (other.value != columns_[q]->unit->value && says_unit(csv_.names()[columns_[q]->index], other.suffix))
+      if (other.words != columns_[q]->unit->words && says_unit(csv_.names()[columns_[q]->index], other.suffix))
         part += fmt::format(", as --columns says, and not in {}", other.words);
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
@@ -568,6 +609,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
       {velocity && options_.simulated, "--radar measures no velocity"},
       {options_.simulated && role == Role::polar, "--radar measures positions"},
       {options_.simulated && is_accuracy(role), "--radar has its own"},
+      {role == Role::course && axes_ == 1, "along one axis it is vx_mps, and vx_kmh, if it has a sign"},
       {!other.empty(), needs},
       {velocity, "give --set sigma_velocity_mps=…"},
       {!options_.range_rate && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},

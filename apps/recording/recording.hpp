@@ -39,6 +39,7 @@ struct Row {
   std::optional<Geodetic> sensor_place{};  ///< the same on the Earth
   std::optional<double> twice{};  ///< the number that is both its x and its y, or its latitude and its longitude
   std::optional<Position> truth{};
+  Position rates = {nan, nan, nan};  ///< the velocity that it tells, in m/s, if that does not count
   std::optional<double> roll_deg{};
   bool predicted = false;  ///< no row, but the time of --predict-to
 
@@ -119,6 +120,9 @@ class RecordingReader {
   /// Numbers of a place beside which stands another hemisphere than that which they were taken for.
   const Counted& abroad() const { return abroad_; }
 
+  /// Azimuths beside which an R says that they are relative to a heading.
+  const Counted& relative() const { return relative_; }
+
   /// Numbers of nines that may stand for none, a sentence for each column.
   std::vector<std::string> nines() const;
 
@@ -179,6 +183,7 @@ class RecordingReader {
   bool refused_time(const Row& row, double time);
   std::optional<double> number_in(std::size_t column);
   void take_numbers();
+  Position rates() const;
   const std::optional<double>& said(Role role, std::size_t i = 0) const { return said_[place_of(role) + i]; }
   bool says(Role role) const;
   bool is_senseless(Role role) const;
@@ -196,18 +201,19 @@ class RecordingReader {
   CsvRow row_;
   std::map<std::string, std::string, std::less<>> mapping_;  // of headers, as the options say
   std::array<std::optional<Column>, quantities.size()> columns_;
-  std::array<std::optional<double>, quantities.size()> said_;  // of the row, in m, m/s and degrees
+  std::array<std::optional<Column>, quantities.size()> doubted_;  // velocities that do not count
+  std::array<std::optional<double>, quantities.size()> said_;     // of the row, in m, m/s and degrees
   std::size_t time_ = 0;
   const TimeColumn* time_unit_ = time_columns;
   bool times_are_numbers_ = false, times_have_dates_ = false;
   std::optional<std::size_t> date_, sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
-  bool from_north_ = false;
+  bool from_north_ = false, from_zenith_ = false;
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t rows_ = 0, skipped_ = 0, at_one_time_ = 0;
-  Counted senseless_, abroad_, left_behind_;
+  Counted senseless_, abroad_, relative_, left_behind_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;
   std::optional<std::string> zone_;  // of the last date and time, which was

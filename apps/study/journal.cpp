@@ -57,11 +57,10 @@ Reading parsed(const std::filesystem::path& path, std::string_view text) {
     const std::string_view line = has_seal ? found.substr(0, found.size() - seal_size) : found;
     const bool as_written = has_seal && found == sealed(line);
     if (number == 1 && !as_written)
-      throw InputError(
-          message({.where = path.native() + ":1",
-                   .what = has_seal ? damage : "the line has no checksum, so an older version wrote this journal",
-                   .remedy = fmt::format("{}, or delete the file and give its command again, which starts anew",
-                                         has_seal ? "copy the file again" : "go on and merge by that version")}));
+      throw InputError({.where = path.native() + ":1",
+                        .what = has_seal ? damage : "the line has no checksum, so an older version wrote this journal",
+                        .remedy = fmt::format("{}, or delete the file and give its command again, which starts anew",
+                                              has_seal ? "copy the file again" : "go on and merge by that version")});
     if (number == 1)
       reading.journal.study = line;
     else if (!as_written || !read_line(line, reading.journal.rows))
@@ -101,9 +100,9 @@ Journaled read_journal(const std::filesystem::path& path) {
   auto [journal, sound, damaged] = parsed(path, read_text(path));
   if (journal.study.empty()) throw InputError("{}: is empty: expected the journal of a campaign", path.native());
   if (!damaged.empty())
-    throw InputError(message({.where = fmt::format("{}:{}", path.native(), damaged.front()),
-                              .what = damage,
-                              .remedy = "copy the file again, or give its command again, which mends it"}));
+    throw InputError({.where = fmt::format("{}:{}", path.native(), damaged.front()),
+                      .what = damage,
+                      .remedy = "copy the file again, or give its command again, which mends it"});
   return std::move(journal);
 }
 
@@ -115,11 +114,11 @@ void require_study(const std::filesystem::path& journal, std::string_view found,
   const auto whole = [](const auto& options, auto option) {
     return option == options.end() ? "no further option" : fmt::format("'{}'", printable(*option));
   };
-  throw InputError(message({.where = journal.native() + ":1",
-                            .what = what,
-                            .found = whole(theirs, their),
-                            .expected = whole(ours, our),
-                            .remedy = remedy}));
+  throw InputError({.where = journal.native() + ":1",
+                    .what = what,
+                    .found = whole(theirs, their),
+                    .expected = whole(ours, our),
+                    .remedy = remedy});
 }
 
 Journal::Journal(std::filesystem::path path)

@@ -26,8 +26,7 @@ void read_shard(const std::string& text, Sharing& sharing) {
 
 bool run_first(const Study& study, const Sharing& sharing, Ranks* ranks, const OutputOptions& options, const Add& add) {
   if (sharing.shards > 1 && options.out.empty())
-    throw UsageError(
-        message({.what = "--shard without --out would leave nothing to merge", .remedy = "give --out DIR"}));
+    throw UsageError({.what = "--shard without --out would leave nothing to merge", .remedy = "give --out DIR"});
   if (sharing.shards > 1 && !options.report.empty())
     throw UsageError("--report shows all shards, and this is one; give it to merge");
   { const ResultFiles trial(options); }  // refuses a place that cannot be written before the work

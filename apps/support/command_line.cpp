@@ -110,8 +110,8 @@ Arguments with_subcommand(const CLI::App& app, const std::string& default_subcom
   std::vector<std::string> names;
   for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
   if (std::ranges::find(names, arguments.front()) == names.end())
-    throw UsageError(message({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
-                              .remedy = suggestion(arguments.front(), names)}));
+    throw UsageError({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
+                      .remedy = suggestion(arguments.front(), names)});
   return arguments;
 }
 
@@ -128,10 +128,10 @@ void refuse_unknown_options(const CLI::App& app, const Arguments& arguments) {
     const std::string name = argument.substr(2, argument.find('=') - 2);
     if (std::ranges::find(known, name) != known.end()) continue;
     const std::string nearest = nearest_word(name, known, "--");
-    throw UsageError(
-        message({.what = fmt::format("{} has no option {}", subcommand->get_name(), in_quotes("--" + name)),
-                 .remedy = nearest.empty() ? fmt::format("see {} {} --help", app.get_name(), subcommand->get_name())
-                                           : nearest}));
+    throw UsageError({.what = fmt::format("{} has no option {}", subcommand->get_name(), in_quotes("--" + name)),
+                      .remedy = nearest.empty()
+                                    ? fmt::format("see {} {} --help", app.get_name(), subcommand->get_name())
+                                    : nearest});
   }
 }
 

@@ -103,11 +103,11 @@ std::optional<double> CsvRow::optional_number(std::size_t column) const {
 
 InputError CsvRow::error(std::size_t column, std::string_view expected, std::string_view remedy) const {
   const std::string_view field = (*this)[column];
-  return InputError(message({.where = fmt::format("{}:{}", header_->file, line_),
-                             .what = fmt::format("column {}", in_quotes(header_->names[column])),
-                             .found = is_blank(field) ? "an empty cell" : in_quotes(field),
-                             .expected = expected,
-                             .remedy = remedy}));
+  return InputError({.where = fmt::format("{}:{}", header_->file, line_),
+                     .what = fmt::format("column {}", in_quotes(header_->names[column])),
+                     .found = is_blank(field) ? "an empty cell" : in_quotes(field),
+                     .expected = expected,
+                     .remedy = remedy});
 }
 
 std::string listed(std::span<const std::string> names, std::size_t most) {
@@ -169,13 +169,12 @@ std::optional<std::size_t> CsvReader::find(std::string_view name) const {
 std::size_t CsvReader::column(std::string_view name) const {
   if (const auto index = find(name)) return *index;
   const bool is_lone = std::ranges::count(names(), "") + 1 == std::ssize(names());
-  throw InputError(
-      message({.where = file(),
-               .what = fmt::format("there is no column {}", in_quotes(name)),
-               .remedy = fmt::format("the columns are {}{}", fmt::join(names(), ", "),
-                                     is_lone ? ": one name in the first line; it is to hold those of all columns, "
-                                               "parted by commas, tabs or semicolons"
-                                             : "")}));
+  throw InputError({.where = file(),
+                    .what = fmt::format("there is no column {}", in_quotes(name)),
+                    .remedy = fmt::format("the columns are {}{}", fmt::join(names(), ", "),
+                                          is_lone ? ": one name in the first line; it is to hold those of all columns, "
+                                                    "parted by commas, tabs or semicolons"
+                                                  : "")});
 }
 
 void CsvReader::read_header() {
@@ -199,7 +198,8 @@ void CsvReader::read_header() {
     // Unnamed columns, as a trailing comma makes them, cannot be asked for and so are not ambiguous.
     if (!name.empty() && !seen.insert(name).second)
       throw error(row.line(),
-                  {.what = fmt::format("two columns are named {}", in_quotes(name)), .remedy = "rename one of them"});
+                  {.what = fmt::format("two columns are named {}", in_quotes(name)),
+                   .remedy = "rename one of them, or, if the first row is of data, put a row of names above it"});
     header_->names.emplace_back(name);
   }
 }
@@ -210,13 +210,18 @@ bool CsvReader::next(CsvRow& row) {
   const bool first = std::exchange(is_first_, false);
   if (row.size() == names().size()) return true;
   const bool may_name_rows = first && names().size() > 1 && row.size() == names().size() + 1;
-  throw error(row.line(), {.found = fmt::format("{} fields", row.size()),
-                           .expected = fmt::format("{} as in the header", names().size()),
-                           .remedy = may_name_rows ? "if the first ones name the rows, give them a name in the header, "
-                                                     "which R's write.table leaves out"
-                                     : ended_      ? "the file ends within this line: see whether it is whole"
-                                                   : fmt::format("add or drop {0}; text with {0} stands in quotes",
-                                                                 plural_of(separator_))});
+  const bool may_end = may_name_rows && row[names().size()].empty();
+  throw error(
+      row.line(),
+      {.found = fmt::format("{} fields", row.size()),
+       .expected = fmt::format("{} as in the header", names().size()),
+       .remedy = may_end         ? fmt::format("the line ends with one of the {}, and the header does not: "
+                                                       "add one there",
+                                               plural_of(separator_))
+                 : may_name_rows ? "if the first ones name the rows, give them a name in the header, "
+                                   "which R's write.table leaves out"
+                 : ended_        ? "the file ends within this line: see whether it is whole"
+                          : fmt::format("add or drop {0}; text with {0} stands in quotes", plural_of(separator_))});
 }
 
 bool CsvReader::read_record(CsvRow& row) {
@@ -259,12 +264,30 @@ void CsvReader::read_quoted(CsvRow& row) {
       throw error(opened, {.what = "the quote opened here is not closed at the end of the file",
                            .remedy = "see whether the file is whole, and write a quote inside quotes twice"});
     if (byte == '"') {
-      if (peek() != '"') return;
+      if (peek() != '"') break;
       get();
     }
     append(row, byte);
     if (byte == '\n' || (byte == '\r' && peek() != '\n')) ++line_;
   }
+  refuse_swallowed(row, opened);
+}
+
+/// A quote that should not be there takes in rows up to another such.
+void CsvReader::refuse_swallowed(const CsvRow& row, std::size_t opened) const {
+  const std::string_view last = row.text_;
+  const auto first_end = last.find('\n', row.ends_.empty() ? 0 : row.ends_.back());
+  std::size_t rows = 0;
+  for (auto begin = first_end; begin < last.rfind('\n');) {
+    const auto end = last.find('\n', begin + 1);
+    rows += count_in(last.substr(begin + 1, end - begin - 1), separator_) + 1 == names().size() ? 1U : 0U;
+    begin = end;
+  }
+  if (names().size() > 1 && rows > 1 && rows + opened + 1 >= line_)
+    throw error(opened, {.what = fmt::format("the quote opened here is closed on line {}, and what is between looks "
+                                             "like {} rows",
+                                             line_, rows),
+                         .remedy = "drop the quote, or write it twice inside quotes"});
 }
 
 void CsvReader::end_line(int byte) {
@@ -314,7 +337,7 @@ bool CsvReader::fill() {
 InputError CsvReader::error(std::size_t line, Complaint complaint) const {
   const std::string where = fmt::format("{}:{}", file(), line);
   complaint.where = where;
-  return InputError(message(complaint));
+  return InputError(complaint);
 }
 
 }  // namespace sigmax::apps

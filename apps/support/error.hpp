@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -9,10 +10,23 @@
 
 namespace sigmax::apps {
 
-/// What the user is told, as `message` puts it together: "where: what: found …, expected …; remedy".
+/// The parts of a message to the user; empty parts are left out.
+struct Complaint {
+  std::string_view where{};     ///< "flight.csv:12"
+  std::string_view what{};      ///< "column 'x_m'"
+  std::string_view found{};     ///< "'abc'", see `in_quotes`
+  std::string_view expected{};  ///< "a number"
+  std::string_view remedy{};    ///< "correct the cell"
+};
+
+/// Reads "flight.csv:12: column 'x_m': found 'abc', expected a number; correct the cell".
+std::string message(const Complaint& complaint);
+
+/// What the user is told.
 class UserError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit UserError(const std::convertible_to<std::string> auto& text) : runtime_error(text) {}
+  explicit UserError(const Complaint& complaint) : runtime_error(message(complaint)) {}
 
   template <class First, class... Rest>
   explicit UserError(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest)
@@ -30,18 +44,6 @@ class UsageError : public UserError {
  public:
   using UserError::UserError;
 };
-
-/// The parts of a message to the user; empty parts are left out.
-struct Complaint {
-  std::string_view where{};     ///< "flight.csv:12"
-  std::string_view what{};      ///< "column 'x_m'"
-  std::string_view found{};     ///< "'abc'", see `in_quotes`
-  std::string_view expected{};  ///< "a number"
-  std::string_view remedy{};    ///< "correct the cell"
-};
-
-/// Reads "flight.csv:12: column 'x_m': found 'abc', expected a number; correct the cell".
-std::string message(const Complaint& complaint);
 
 /// Text from a file as a message may show it: in quotes, control characters as \xNN, long text cut with an ellipsis.
 std::string in_quotes(std::string_view text);

@@ -73,7 +73,8 @@ std::string Nines::doubt_of(std::string_view column, const End& end, double othe
     words.push_back(told->second.word);
     cells += told->second.cells;
     codes = codes || told->second.word == word_;
-    if (codes && told->first - next > next + other_end && others_ + cells_ >= few + cells)
+    const bool are_few = words.size() == 1 || told->second.word == word_ || others_ + cells_ >= 9 * cells;
+    if (codes && are_few && told->first - next > next + other_end && others_ + cells_ >= few + cells)
       return sentence(column, cells, words);
   }
   return {};
@@ -84,6 +85,13 @@ std::string Nines::doubt(std::string_view column) const {
   const bool is_great = number_ < 0.0 ? least_ > 0.1 * number_ : greatest_ < 0.1 * number_;
   if (!word_.empty() && others_ >= few && (is_far || is_great)) return sentence(column, cells_, {word_});
   if (low_.empty()) return {};
+  const auto& [farthest, told] = *low_.begin();
+  const std::string_view bare = std::string_view(told.word).substr(0, told.word.find('.'));
+  const bool is_none = bare == "-1" || bare == "-9" || bare == "-99" || bare == "-999";
+  if (is_none && told.cells >= again && std::next(low_.begin())->first <= 0.0 && different_.size() > most_different)
+    return fmt::format(
+        "column {}: {} cells are {}, the only ones below 0; if that stands for no value, give --missing={}",
+        in_quotes(column), told.cells, told.word, told.word);
   const std::string above = doubt_of(column, high_, low_.begin()->first);
   return above.empty() ? doubt_of(column, low_, high_.begin()->first) : above;
 }

@@ -114,8 +114,8 @@ void AtomicFile::discard() noexcept {
 
 void AtomicFile::fail(int error_number) {
   discard();
-  throw InputError(message(
-      {.where = path_.native(), .what = "cannot be written: " + reason(error_number), .remedy = remedy(error_number)}));
+  throw InputError(
+      {.where = path_.native(), .what = "cannot be written: " + reason(error_number), .remedy = remedy(error_number)});
 }
 
 void remove_unfinished_files() noexcept {
@@ -129,9 +129,9 @@ std::filesystem::path output_directory(std::filesystem::path path) {
   if (!error && !std::filesystem::is_directory(path, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
-    throw InputError(message({.where = path.native(),
-                              .what = "the directory cannot be created: " + reason(error.value()),
-                              .remedy = remedy(error.value())}));
+    throw InputError({.where = path.native(),
+                      .what = "the directory cannot be created: " + reason(error.value()),
+                      .remedy = remedy(error.value())});
   return path;
 }
 

@@ -35,10 +35,9 @@ UnnamedFile::~UnnamedFile() {
 }
 
 void UnnamedFile::fail(const char* what, int error_number) const {
-  throw InputError(
-      message({.where = directory().native(),
-               .what = "a temporary file for " + purpose_ + " cannot be " + what + ": " + reason(error_number),
-               .remedy = "make room there, or name another directory by the variable TMPDIR"}));
+  throw InputError({.where = directory().native(),
+                    .what = "a temporary file for " + purpose_ + " cannot be " + what + ": " + reason(error_number),
+                    .remedy = "make room there, or name another directory by the variable TMPDIR"});
 }
 
 /// Calls transfer(done), which returns how many bytes it moved, until all are.

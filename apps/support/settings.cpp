@@ -50,11 +50,11 @@ struct Reader {
   }
 
   InputError error(const toml::node& node, std::string_view expected, std::string_view remedy = {}) const {
-    return InputError(message({.where = origin.place(node.source()),
-                               .what = key_name(key),
-                               .found = described(node),
-                               .expected = expected,
-                               .remedy = remedy}));
+    return InputError({.where = origin.place(node.source()),
+                       .what = key_name(key),
+                       .found = described(node),
+                       .expected = expected,
+                       .remedy = remedy});
   }
 
   void read(const toml::node& node, double& value) const {
@@ -126,8 +126,8 @@ void refuse_beyond_ascii(std::string_view text, const Origin& origin) {
       toml::source_region region;
       region.begin.line = static_cast<toml::source_index>(1 + std::ranges::count(before, '\n'));
       region.begin.column = static_cast<toml::source_index>(1 + std::ranges::count_if(line, starts_character));
-      throw InputError(message(
-          {.where = origin.place(region), .what = "is not TOML", .remedy = "put characters beyond ASCII into quotes"}));
+      throw InputError(
+          {.where = origin.place(region), .what = "is not TOML", .remedy = "put characters beyond ASCII into quotes"});
     }
     if (closing.empty()) {
       if (rest[0] == '#') closing = "\n";
@@ -152,8 +152,7 @@ toml::table parsed(std::string_view text, const Origin& origin) {
   try {
     return toml::parse(text, origin.name);
   } catch (const toml::parse_error& error) {
-    throw InputError(
-        message({.where = origin.place(error.source()), .what = "is not TOML", .remedy = error.description()}));
+    throw InputError({.where = origin.place(error.source()), .what = "is not TOML", .remedy = error.description()});
   }
 }
 
@@ -237,9 +236,9 @@ struct Settings::Layer {
   void refuse_unknown() const {
     for (const auto& [key, node] : *table)
       if (!asked.contains(key.str()))
-        throw InputError(message({.where = origin.place(key.source()),
-                                  .what = "unknown " + key_name(fmt::format("{}{}", prefix, key.str())),
-                                  .remedy = suggestion(key.str(), asked, prefix)}));
+        throw InputError({.where = origin.place(key.source()),
+                          .what = "unknown " + key_name(fmt::format("{}{}", prefix, key.str())),
+                          .remedy = suggestion(key.str(), asked, prefix)});
     for (const auto& [key, layer] : children) layer->refuse_unknown();
   }
 };
@@ -340,7 +339,7 @@ InputError Settings::error(std::string_view key, std::string_view expected, std:
   if (const Layer* const layer = find(key)) return layer->reader(key).error(*layer->table->get(key), expected, remedy);
   const auto known = defaults_.find(key);
   const std::string found = known == defaults_.end() ? "nothing" : "the default " + in_quotes(known->second);
-  return InputError(message({.what = key_name(key), .found = found, .expected = expected, .remedy = remedy}));
+  return InputError({.what = key_name(key), .found = found, .expected = expected, .remedy = remedy});
 }
 
 }  // namespace sigmax::apps

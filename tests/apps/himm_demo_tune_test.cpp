@@ -232,8 +232,8 @@ TEST_F(Tune, SaysWhereTheSigmasHadToGrowFarBeyondWhatWasFitted) {
                           ((k + 7) * (k + 7) % 25 * 7919 % 25 - 12) / 5.0, std::min(speed + noise, most),
                           (k * k % 13 * 104729 % 13 - 6) / 20.0);
     }
-    return program::succeeded(
-               tune({directory.write("speeds.csv", text), "--set", "filters=imm", "--set", "sigma_velocity_mps=0.5"}))
+    return program::succeeded(tune({directory.write("speeds.csv", text), "--set", "filters=imm", "--set",
+                                    "sigma_velocity_mps=0.5", "--models", "dwna+dwpa"}))
         .on_one_line();
   };
   EXPECT_TRUE(

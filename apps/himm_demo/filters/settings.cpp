@@ -210,9 +210,9 @@ void turn_to(const LocalFrame& frame, AnyPlot& plot, int axes) {
 TargetChoice choice_of(const FilterSettings& settings, int axes) {
   for (const auto& motion : settings.motions)
     if (axes < motion.known().least_axes)
-      throw UsageError(message({.what = "filter '" + settings.name + "': the recording has one axis, and " +
-                                        motion.name + " turns in a plane",
-                                .remedy = "choose motions that do not turn"}));
+      throw UsageError({.what = "filter '" + settings.name + "': the recording has one axis, and " + motion.name +
+                                " turns in a plane",
+                        .remedy = "choose motions that do not turn"});
   TargetChoice choice = settings;
   choice.axes = axes;
   choice.rules = {.gate_probability = settings.gate_probability,

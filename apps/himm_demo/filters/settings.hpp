@@ -62,6 +62,9 @@ struct FilterSettings : TargetChoice {
   }
 };
 
+/// From so many bearings at most a track starts: those of a ship may tell little before it turns.
+inline constexpr std::size_t bearings_of_a_start = 128;
+
 /// The library's choice that the settings stand for. Throws UsageError for motions that turn along one axis.
 TargetChoice choice_of(const FilterSettings& settings, int axes);
 

@@ -137,7 +137,9 @@ class TrackRun {
         estimates_(options, filters, recording) {
     outcome_.filters.resize(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f) {
-      prototypes_.emplace_back(choice_of(filters[f], axes_));
+      TargetChoice choice = choice_of(filters[f], axes_);
+      if (crosses_) choice.rules.waiting = bearings_of_a_start;
+      prototypes_.emplace_back(choice);
       for (auto& part : outcome_.filters[f].sums) part.weights.assign(filters[f].models.size(), 0.0);
       keeps_all_ |= filters[f].smooth;
     }
@@ -533,7 +535,7 @@ class TrackRun {
     if (const auto doubts = outcome_.doubts.sentences(recording_); !doubts.empty())
       throw InputError("{}", doubts.front());
     if (outcome_.bearings > 0 && outcome_.bearings == outcome_.measurements)
-      throw InputError(message(
+      throw InputError(
           {.where = file(),
            .what = places_.several()
                        ? "the bearings cross at angles too small, or are too few, to tell where a target starts"
@@ -543,8 +545,8 @@ class TrackRun {
                places_.several()
                    ? "give two rows or more of each station, or models of less freedom (--set \"models=[dwna]\")"
                    : "name each row's station in a column sensor and say where it stands, as "
-                     "sensor.NAME.at = [E, N]")}));
-    throw InputError(message(
+                     "sensor.NAME.at = [E, N]")});
+    throw InputError(
         {.where = file(),
          .what = targets_.size() > 1 ? "no track is long enough for every filter to start"
                                      : "there is too little for every filter to start",
@@ -555,7 +557,7 @@ class TrackRun {
          .expected = "more than the three measurements that start a filter (two rows if the start is given)",
          .remedy = recording_.skipped() > outcome_.rows ? "sort the rows by time"
                    : outcome_.partial > 0 ? "a track starts from whole positions; drop a column that is always empty"
-                                          : "give more rows, or start = \"given\" with start_time_s"}));
+                                          : "give more rows, or start = \"given\" with start_time_s"});
   }
 
   const TrackOptions& options_;

@@ -151,13 +151,29 @@ class Reporter {
          "covers the error of the conversion, or radar_measurement=polar, which converts only for the start",
          file_, validity.first_line, validity.first_value, validity.first_range, Validity::limit, validity.outside,
          validity.measurements, std::ceil(validity.sigma_range_needed / unit) * unit);
+    const double rounding = outcome_.doubts.rounding(recording_);
+    const double least = std::ranges::min(filters_, {}, [](const FilterSettings& filter) {
+                           return filter.accuracy.position_m.front();
+                         }).accuracy.position_m.front();
+    warn(rounding > 2.0 * least && !recording_.tells_accuracy() && !options_.radar.sigma,
+         "{}: the coordinates are rounded, which alone makes errors of {:.3g} m along an axis, where sigma_position_m "
+         "is "
+         "{:.3g}: give --set sigma_position_m={:.3g} or more",
+         file_, rounding, least, rounding);
+    const auto is_tied = [](const std::string& model) { return model == "dwna" || model == "dwpa"; };
+    const bool tied = std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
+      return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, is_tied);
+    });
     const Outliers& outliers = outcome_.outliers;
     const bool many =
         options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
     warn(outliers.count > 0,
          "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
-         "or raise sigma_w or the sensor's sigmas{}",
+         "or {}sigma_w or the sensor's sigmas{}{}",
          file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
+         outcome_.bearings == outcome_.measurements ? "lower, where bearings are far apart in time, or raise "
+                                                    : "raise ",
+         tied ? "; dwna and dwpa tie a velocity to the way of the step: try --set models=[cwna,cwpa]" : "",
          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
     const auto most =
         std::ranges::max_element(outcome_.filters, {}, [](const FilterOutcome& one) { return one.lost.rows; });
@@ -184,10 +200,10 @@ class Reporter {
     const Sums* const consistent = nearest_to_consistent();
     const Sums best = consistent ? *consistent : Sums{};
     const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
-    const double least = recording_.tells_accuracy() ? 0.2 : 0.1;
-    const bool low = consistent && worst.many == 0 && nis < least * usual;  // what the gate lets pass has a low one
+    const double low_nis = recording_.tells_accuracy() ? 0.2 : 0.1;
+    const bool low = consistent && worst.many == 0 && nis < low_nis * usual;  // what the gate lets pass has a low one
     const double share = best.predicted_variance / best.innovation_variance;
-    const bool by_prediction = share > 0.5 && nis >= least * usual * (1.0 - share);
+    const bool by_prediction = share > 0.5 && nis >= low_nis * usual * (1.0 - share);
     warn(low && by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
          "is the prediction's: sigma_w is too great for this target",
@@ -357,9 +373,8 @@ class Reporter {
 /// Each rank reads the recording for itself.
 void refuse_what_ranks_cannot_share(const TrackOptions& options) {
   if (options.recording.track_id.empty())
-    throw UsageError(
-        message({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
-                 .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"}));
+    throw UsageError({.what = "under mpirun each rank follows its share of the tracks, but all rows are one",
+                      .remedy = "name the column that tells tracks apart by --track-id, or run it without mpirun"});
   if (options.recording.file == "-")
     throw UsageError(
         "under mpirun every rank reads the recording, but standard input comes only once; give the name of a file");
@@ -382,8 +397,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
   if (const std::string& text = options.predict_to_text; !text.empty()) {
     options.predict_to = recording.time_of(text, options.predict_to_time_of_day);
     if (!options.predict_to)
-      throw UsageError(
-          message({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"}));
+      throw UsageError({.what = "--predict-to", .found = in_quotes(text), .expected = "a time as in the file"});
   }
   if (recording.moves_alone()) start_at_zero(filters);
   refuse_to_overwrite(options.output, {options.recording.file, options.filters.config}, {"estimates.csv"});

@@ -15,10 +15,9 @@ constexpr double stray_share = 0.01;  // of all measurements
 void refuse_other_kind(const TuneOptions& options, const TuneData& data, const RecordingReader& recording) {
   const std::string& file = recording.file();
   if (recording.axes() != data.axes)
-    throw InputError(
-        message({.where = file,
-                 .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options.files[0], data.axes),
-                 .remedy = "tune recordings of one, two and three axes apart"}));
+    throw InputError({.where = file,
+                      .what = fmt::format("it has {} axes, {} has {}", recording.axes(), options.files[0], data.axes),
+                      .remedy = "tune recordings of one, two and three axes apart"});
   if (options.objective != Objective::prequential && !options.radar.sigma && !recording.has_truth())
     throw InputError(
         "{}:1: --truth, but there is no column true_x_m; leave out --truth, name the columns with --columns, or take "
@@ -37,8 +36,6 @@ QuantityKey quantity_of(const AnyPlot& plot, std::size_t i) {
 /// The numbers of each sensor's columns, as they were written.
 using Columns = std::map<std::string, std::map<QuantityKey, std::vector<double>>, std::less<>>;
 
-constexpr double metres_a_degree = 60.0 * units::nautical_mile;  // of latitude
-
 /// Takes down a row's numbers; of a place in m along a meridian, and of a velocity along two axes or more also the
 /// speed, since that may be what was rounded. It is filed behind the velocity.
 void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
@@ -53,23 +50,6 @@ void take_down(const Row& row, int axes, bool geodetic, Columns& columns) {
     if (is_component && key.second >= axes && key.second < axes + 2) squares += plot.z[i] * plot.z[i];
   }
   if (is_moving(plot, axes)) own[{plot.sensor, 2 * axes}].push_back(std::sqrt(squares));
-}
-
-/// The standard deviation of the rounding of numbers that come in whole steps; else 0, and infinite where they never
-/// change.
-double rounding_of(std::vector<double> numbers) {
-  std::ranges::sort(numbers);
-  std::vector<double> apart;  // those that differ by more than the reading of decimals does
-  for (std::size_t k = 1; k < numbers.size(); ++k)
-    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
-  if (apart.empty()) return std::numeric_limits<double>::infinity();
-  const double least = *std::ranges::min_element(apart);
-  const auto whole = std::ranges::count_if(
-      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
-  // Where hardly a number comes twice, and all are one step apart, it is the way of what moves evenly.
-  const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
-  const bool is_even = 5 * single > 4 * std::ssize(numbers);
-  return 10 * whole >= 9 * std::ssize(apart) && !is_even ? least / std::sqrt(12.0) : 0.0;
 }
 
 void read(const std::string& file, const TuneOptions& options, const FilterSettings& settings, TuneData& data,
@@ -286,7 +266,9 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
     data.notes.push_back(
         "errors that last from row to row, as those of a GNSS, cannot be told from the target's way without a truth: "
         "sigma_position_m is how far rows scatter beside their neighbours, and what is stated of estimates leaves out "
-        "what lasts");
+        "what lasts; of rows far apart it holds the turns between them, too: where the device's accuracy is known, "
+        "keep "
+        "it by --keep sensors");
   const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
@@ -354,6 +336,7 @@ std::vector<AnyPlot> TuneData::plots(const TuneTrack& track, const FilterSetting
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings) {
   TargetChoice choice = choice_of(settings, data.axes);
   choice.rules.record = false;
+  if (data.crosses) choice.rules.waiting = bearings_of_a_start;
   return choice;
 }
 

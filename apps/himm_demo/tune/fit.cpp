@@ -253,10 +253,10 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
     const std::string name = joined.substr(from, to - from);
     from = to + 1;
     if (!known_motion(name))
-      throw UsageError(message({.what = "--models",
-                                .found = in_quotes(name),
-                                .expected = fmt::format("one of {}, joined by + as dwna+dwpa", fmt::join(known, ", ")),
-                                .remedy = nearest_word(name, known)}));
+      throw UsageError({.what = "--models",
+                        .found = in_quotes(name),
+                        .expected = fmt::format("one of {}, joined by + as dwna+dwpa", fmt::join(known, ", ")),
+                        .remedy = nearest_word(name, known)});
     std::size_t same = 0;
     while (same < used.size() && (used[same] || settings.motions[same].name != name)) ++same;
     if (same < used.size()) used[same] = true;
@@ -331,7 +331,8 @@ class Fitter {
       const double before = best.value;
       search_numbers(best, round == 0 ? start : 0);
       learn(best);
-      if (!(before - best.value > least_improvement)) break;
+      const bool parted = round == 0 && part_models(best);
+      if (!(before - best.value > least_improvement) && !parted) break;
     }
     return best;
   }
@@ -431,6 +432,27 @@ class Fitter {
       }
   }
 
+  /// Where many rows count as stray ones, as the flights of a bird beside its nights, models that are alike are no
+  /// help: each is tried as a far wilder one than the others, which may be quieter than they are. Whether that is
+  /// better.
+  bool part_models(Found& best) const {
+    const FilterSettings begun = best.settings;
+    if (begun.models.size() < 2 || !(data_.share_of_strays(judged(data_, begun, options_.objective)) > 0.05))
+      return false;
+    auto numbers = free_numbers(begun, data_, options_);
+    std::erase_if(numbers, [](const FreeNumber& number) { return number.sensor || !number.noise; });
+    bool better = false;
+    for (const FreeNumber& wild : numbers)
+      for (double factor = 10.0; factor < 1e12; factor *= 10.0)
+        for (const double of_others : {1.0, 1e-3}) {
+          FilterSettings tried = begun;
+          for (const FreeNumber& number : numbers)
+            number.set(tried, (&number == &wild ? factor : of_others) * number.parameter.start);
+          better |= take_if_better(best, tried);
+        }
+    return better;
+  }
+
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
   /// are thought exact are explained by a wild target, or all by great errors.
   void scan(Found& best, Scanned scanned) const {
@@ -525,12 +547,13 @@ bool fits_noises(const TuneOptions& options) {
   return options.objective == Objective::prequential && options.fits("models") && options.fits("sensors");
 }
 
-/// What the rows say of settings, and how many do not pass the gate.
+/// What the rows say of settings, and which do not pass the gate.
 struct Kept {
   double nis = 1.0;    ///< the mean of those that do, none for more than the usual gate lets pass, a measured quantity
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
   double reach_of_kept = 1.0;  ///< likewise, of those that pass alone
-  std::size_t set_aside = 0;
+  double loss = std::numeric_limits<double>::infinity();
+  std::vector<RowPlace> set_aside{};  ///< that do not
 };
 
 /// Rows in a row that do not pass are one event, beyond all others.
@@ -538,7 +561,7 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
   constexpr double stated = 0.95;
   double sum = 0.0, numbers = 0.0;
   std::vector<double> parts;  // of the quantile
-  std::vector<RowPlace> set_aside;
+  Kept kept;
   const auto look = [&](std::size_t, const TargetPoint& now) {
     if (!now.nis) return;
     const auto size = static_cast<int>(now.normalized_innovation.size());
@@ -547,16 +570,20 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
     parts.push_back(*now.nis / chi_square_quantile(stated, size));
   };
   try {
-    losses(data, judged_settings(settings, objective), objective, look, &set_aside);
+    kept.loss =
+        objective_of(losses(data, judged_settings(settings, objective), objective, look, &kept.set_aside), objective);
   } catch (const std::exception&) {
     return {};
   }
-  if (parts.empty()) return {.set_aside = set_aside.size()};
-  const double reach_of_kept = quantile(parts, stated);
+  if (parts.empty()) return kept;
+  kept.nis = sum / numbers;
+  kept.reach_of_kept = quantile(parts, stated);
+  const auto& set_aside = kept.set_aside;
   for (std::size_t k = 0; k < set_aside.size(); ++k)
     if (k == 0 || set_aside[k].track != set_aside[k - 1].track || set_aside[k].row > set_aside[k - 1].row + 1)
       parts.push_back(std::numeric_limits<double>::infinity());
-  return {sum / numbers, quantile(parts, stated), reach_of_kept, set_aside.size()};
+  kept.reach = quantile(parts, stated);
+  return kept;
 }
 
 /// Real errors have long tails, and what is most likely need not be as wide as the errors are: all noises change by
@@ -564,12 +591,14 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
 /// of the rows. Of several targets, of which some move as no others do, that goes no farther than until the mean NIS is
 /// near the end of 0.9 to 1.1. Rows that not even sigmas four times as great reach are no noise: where they are too
 /// many, the others alone count. So it does nothing where the rows state their sigmas, since sigma_w alone would change
-/// the gains. The result is to four digits, and without a gate of ours that turns nothing away; and by how much the
-/// sigmas changed.
+/// the gains. The result is to four digits, and without a gate of ours if the rows after confirm all that it turns away
+/// and nearly as much is told without; and by how much the sigmas changed.
 double finish(FilterSettings& settings, double gate, const TuneData& data, const TuneOptions& options) {
   constexpr double least_nis = 0.93, greatest_nis = 1.07, tolerance = 0.03, most_at_once = 2.0;
   constexpr std::size_t most_steps = 12;
   constexpr double most_in_all = 16.0;  // of variances
+  constexpr std::size_t fewest_rows = 50;
+  constexpr double tolerable = 0.5;  // nats a row
   const FilterSettings fitted = settings;
   const bool all_may_change =
       fits_noises(options) && std::ranges::any_of(free_numbers(settings, data, options), [](const FreeNumber& number) {
@@ -585,8 +614,9 @@ double finish(FilterSettings& settings, double gate, const TuneData& data, const
     }
     const Kept kept = kept_by(settings, data, options.objective);
     const double reach = kept_alone ? kept.reach_of_kept : kept.reach;
-    const double wanted =
-        data.tracks.size() > 1 ? std::clamp(reach, kept.nis / greatest_nis, kept.nis / least_nis) : reach;
+    double wanted = data.tracks.size() > 1 ? std::clamp(reach, kept.nis / greatest_nis, kept.nis / least_nis) : reach;
+    // Where tracks are short, much of it is how wide they begin.
+    if (data.measurements < fewest_rows * data.tracks.size()) wanted = std::max(wanted, 1.0);
     const double factor = std::clamp(wanted, 1.0 / most_at_once, most_at_once);
     if (!(std::abs(factor - 1.0) > tolerance)) break;
     in_all *= factor;
@@ -597,7 +627,13 @@ double finish(FilterSettings& settings, double gate, const TuneData& data, const
       if (number.noise) number.set(settings, std::sqrt(factor) * number.parameter.start);
   }
   round_off(settings);
-  if (kept_by(settings, data, options.objective).set_aside == 0) settings.gate_probability = gate;
+  FilterSettings open = settings;
+  open.gate_probability = gate;
+  TuneData told = data;
+  const auto strays = leave_out_strays(told, judged_settings(settings, options.objective));
+  const Kept kept = kept_by(settings, data, options.objective);
+  const bool are_confirmed = std::ranges::find_first_of(kept.set_aside, strays) == kept.set_aside.end();
+  if (are_confirmed && kept_by(open, data, options.objective).loss < kept.loss + tolerable) settings = open;
   return std::sqrt(in_all);
 }
 

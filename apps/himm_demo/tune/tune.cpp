@@ -74,10 +74,11 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
           fmt::format("model {}: it is almost never the most likely: drop it, or let it differ more.", mode.name));
   constexpr std::size_t one_in = 20;
   if (const std::size_t aside = diagnosis.set_aside.size(); one_in * aside > rows + aside)
-    sentences.push_back(
-        fmt::format("{} of {} rows are set aside, since no model expects them, and all this is said of the others "
-                    "alone: see what is their own; where they are flights or turns, a greater sigma_w expects them.",
-                    aside, rows + aside));
+    sentences.push_back(fmt::format(
+        "{} of {} rows are set aside, since no model expects them, and all this is said of the others "
+        "alone: see what is their own; where they are flights or turns, a greater sigma_w expects them, and where "
+        "velocities are measured beside positions, --models cwna,cwpa,cwna+cwpa may.",
+        aside, rows + aside));
   if (sentences.empty())
     sentences.push_back("nothing: the innovations are as large and as independent as they should be.");
   return sentences;
@@ -111,8 +112,8 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
     if (modes)
       cells.emplace_back(weight);
     else
-      cells.insert(cells.end(),
-                   {tally.autocorrelation(), Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
+      cells.insert(cells.end(), {right > 0.0 ? Cell(tally.autocorrelation()) : Cell(nan),
+                                 Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
     table.row(std::move(cells));
   }
   return table;
@@ -384,18 +385,17 @@ Diagnosis diagnose(const TuneData& data, const FilterSettings& settings, Objecti
     lost = losses(data, settings, objective, look, &diagnosis.set_aside);
   } catch (const std::exception& error) {
     const TuneTrack& its = data.tracks[track];
-    throw InputError(
-        message({.where = fmt::format("{}:{}", its.file, its.rows.front().line),
-                 .what = fmt::format("filter '{}' on the track that begins here: {}", settings.name, error.what()),
-                 .remedy = "begin with settings that track takes, see --config and --set"}));
+    throw InputError({.where = fmt::format("{}:{}", its.file, its.rows.front().line),
+                      .what = fmt::format("filter '{}' on the track that begins here: {}", settings.name, error.what()),
+                      .remedy = "begin with settings that track takes, see --config and --set"});
   }
   if (std::isnan(mean_loss(lost)))
     throw InputError(
-        message({.where = data.tracks.front().file,
-                 .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
-                                     settings.name),
-                 .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a "
-                           "start, --set start=given; see himm_demo keys"}));
+        {.where = data.tracks.front().file,
+         .what = fmt::format("filter '{}' makes no estimate that could be judged: its start may want positions",
+                             settings.name),
+         .remedy = "say where each station of bearings stands, as --set sensor.NAME.at=[E,N], or give them a "
+                   "start, --set start=given; see himm_demo keys"});
   for (auto& mode : diagnosis.modes) mode.weight /= static_cast<double>(std::max<std::size_t>(rows, 1));
   for (auto& [name, tally] : sensors) diagnosis.sensors.push_back({name.empty() ? "all rows" : name, tally});
   if (judged > 0) {
@@ -550,7 +550,7 @@ Objective objective_of(const std::string& truth) {
   if (truth == "rmse" || truth == "true") return Objective::rmse;
   if (truth == "density") return Objective::density;
   throw UsageError(
-      message({.what = "--truth", .found = in_quotes(truth), .expected = "--truth, --truth=rmse or --truth=density"}));
+      {.what = "--truth", .found = in_quotes(truth), .expected = "--truth, --truth=rmse or --truth=density"});
 }
 
 void tune_and_write(TuneOptions options) {

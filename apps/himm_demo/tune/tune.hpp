@@ -41,6 +41,7 @@ struct TuneOptions {
 /// A row: the number of its track, and its own there.
 struct RowPlace {
   std::size_t track, row;
+  bool operator==(const RowPlace&) const = default;
 };
 
 /// A measured quantity: the kind of plot, and the place of a component or its number in the plot.
