@@ -222,8 +222,7 @@ bool warn_of_repeats(DataTable& table) {
   const auto zero = std::set<std::size_t>{0}, one = std::set<std::size_t>{1};
   warn(table, one_hot.size() > 1 && ((sum(0.0) == zero && sum(1.0) == one) || (sum(0.0) == one && sum(1.0) == zero)),
        "of {} columns ({}) one is 1 in each row of one class, and none in those of the other: they are the class "
-       "itself; "
-       "leave them out by --ignore {}",
+       "itself; leave them out by --ignore {}",
        one_hot.size(), listed(one_hot, 3), fmt::join(one_hot, ","));
   // One fact that several columns tell in the same word, as of what a customer does not have.
   std::map<std::pair<std::string, std::vector<bool>>, std::vector<std::string>> facts;  // columns by word and rows
@@ -358,8 +357,7 @@ void warn_of_order(DataTable& table) {
   const bool in_runs = runs > classes && 10.0 * static_cast<double>(runs) < expected;
   constexpr std::string_view too_good =
       "as in a recording: the folds part what belongs together, and the shares of right answers are too good for "
-      "others; "
-      "train on one part of it, and ask of another by classify";
+      "others; train on one part of it, and ask of another by classify";
   const bool is_smooth = smooth > 1 && 2 * smooth > numbers;
   warn(table, is_smooth, "{} of {} columns of numbers change little from one row of a class to the next, {}", smooth,
        numbers, too_good);

@@ -535,8 +535,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const bool is_far = recording.seen_from_places() && recording.axes() == 2 && farthest_ > far_away;
   say(is_far,
       "sensors or targets are {:.3g} km from where the map begins, on which lines of sight from elsewhere are "
-      "straight: "
-      "it is {:.2g} km off there",
+      "straight: it is {:.2g} km off there",
       farthest_ / 1e3, std::pow(farthest_, 3) / (6e3 * earth * earth));
   std::set<std::string> doubted;  // so that none is named twice
   for (const auto& [sensors, rows] : apart_) {
@@ -590,6 +589,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const auto& headers = recording.csv().names();
   const auto tells_height = [](std::string_view name) {
     const std::string lower = lower_case(name);
+    if (lower.starts_with("sensor_")) return false;
     constexpr std::array words = {"slant", "altitude", "height", "depth", "flight_level", "flight level"};
     return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
   };

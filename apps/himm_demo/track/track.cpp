@@ -155,10 +155,9 @@ class Reporter {
     const double least = std::ranges::min(filters_, {}, [](const FilterSettings& filter) {
                            return filter.accuracy.position_m.front();
                          }).accuracy.position_m.front();
-    warn(rounding > 2.0 * least && !recording_.tells_accuracy() && !options_.radar.sigma,
+    warn(rounding > 2.0 * least && !recording_.tells_accuracy() && !recording_.has_sensors() && !options_.radar.sigma,
          "{}: the coordinates are rounded, which alone makes errors of {:.3g} m along an axis, where sigma_position_m "
-         "is "
-         "{:.3g}: give --set sigma_position_m={:.3g} or more",
+         "is {:.3g}: give --set sigma_position_m={:.3g} or more",
          file_, rounding, least, rounding);
     const auto is_tied = [](const std::string& model) { return model == "dwna" || model == "dwpa"; };
     const bool tied = std::ranges::all_of(filters_, [&](const FilterSettings& filter) {

@@ -267,8 +267,7 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
         "errors that last from row to row, as those of a GNSS, cannot be told from the target's way without a truth: "
         "sigma_position_m is how far rows scatter beside their neighbours, and what is stated of estimates leaves out "
         "what lasts; of rows far apart it holds the turns between them, too: where the device's accuracy is known, "
-        "keep "
-        "it by --keep sensors");
+        "keep it by --keep sensors");
   const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
