@@ -264,30 +264,12 @@ void CsvReader::read_quoted(CsvRow& row) {
       throw error(opened, {.what = "the quote opened here is not closed at the end of the file",
                            .remedy = "see whether the file is whole, and write a quote inside quotes twice"});
     if (byte == '"') {
-      if (peek() != '"') break;
+      if (peek() != '"') return;
       get();
     }
     append(row, byte);
     if (byte == '\n' || (byte == '\r' && peek() != '\n')) ++line_;
   }
-  refuse_swallowed(row, opened);
-}
-
-/// A quote that should not be there takes in rows up to another such.
-void CsvReader::refuse_swallowed(const CsvRow& row, std::size_t opened) const {
-  const std::string_view last = row.text_;
-  const auto first_end = last.find('\n', row.ends_.empty() ? 0 : row.ends_.back());
-  std::size_t rows = 0;
-  for (auto begin = first_end; begin < last.rfind('\n');) {
-    const auto end = last.find('\n', begin + 1);
-    rows += count_in(last.substr(begin + 1, end - begin - 1), separator_) + 1 == names().size() ? 1U : 0U;
-    begin = end;
-  }
-  if (names().size() > 1 && rows > 1 && rows + opened + 1 >= line_)
-    throw error(opened, {.what = fmt::format("the quote opened here is closed on line {}, and what is between looks "
-                                             "like {} rows",
-                                             line_, rows),
-                         .remedy = "drop the quote, or write it twice inside quotes"});
 }
 
 void CsvReader::end_line(int byte) {

@@ -96,7 +96,6 @@ class CsvReader {
   void end_line(int byte);
   void append(CsvRow& row, int byte) const;
   void refuse_endless(const CsvRow& row) const;
-  void refuse_swallowed(const CsvRow& row, std::size_t opened) const;
   int peek();
   int get();
   bool fill();
