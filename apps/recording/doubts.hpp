@@ -150,7 +150,7 @@ class Doubts {
 
   std::map<std::string, Track> tracks_;
   std::set<std::string> sensors_;
-  std::array<std::vector<double>, 2> numbers_;  // of coordinates along x and y in m, the first thousand
+  std::array<std::vector<double>, 2> numbers_;  // along x and y, as rows tell them, the first thousand
   std::vector<double> steps_;                   // between measurements of a track, the first thousands
   std::array<Rates, 3> rates_;                  // from row to row, where noise hides what is slow, and over many rows
   Agreement offset_;  // of what ten rows tell from how they grew: its squares, and those of what is told

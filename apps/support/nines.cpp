@@ -88,7 +88,7 @@ std::string Nines::doubt(std::string_view column) const {
   const auto& [farthest, told] = *low_.begin();
   const std::string_view bare = std::string_view(told.word).substr(0, told.word.find('.'));
   const bool is_none = bare == "-1" || bare == "-9" || bare == "-99" || bare == "-999";
-  if (is_none && told.cells >= again && std::next(low_.begin())->first <= 0.0 && different_.size() > most_different)
+  if (different_.size() > most_different && is_none && told.cells >= again && std::next(low_.begin())->first <= 0.0)
     return fmt::format(
         "column {}: {} cells are {}, the only ones below 0; if that stands for no value, give --missing={}",
         in_quotes(column), told.cells, told.word, told.word);
