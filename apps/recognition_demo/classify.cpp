@@ -55,6 +55,7 @@ class RowReader {
         label_(reader.find(model.label)),
         classes_(labels_of(model.counts.pattern())) {
     for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
+    for (const FeatureCode& feature : model.features) binned_.emplace_back(feature.bins ? feature.bins->size() : 0);
     numbers_.resize(columns_.size());
     filled_.resize(columns_.size());
   }
@@ -101,6 +102,16 @@ class RowReader {
       const auto& [all, below, above] = numbers_[i];
       if (filled_[i] == 0 && rows_ > 1 && learned > 0.0)
         result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
+      // What moves within the range that was learned crowds in one of the bins.
+      for (std::size_t bin = 0; bin < binned_[i].size() && all >= enough; ++bin) {
+        double usual = 0.0;
+        for (std::size_t c = 0; c < classes_.size(); ++c) usual += model_.counts.of(i, c)[bin] / learned;
+        if (const double share = binned_[i][bin] / static_cast<double>(all); share > usual + 0.6)
+          result.say(
+              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they "
+              "in the same unit?",
+              in_quotes(feature.name), 100.0 * share, all, feature.bins->labels()[bin], 100.0 * usual);
+      }
       const auto outside = std::max(below, above);
       const auto n = static_cast<double>(all);
       const bool many = all >= enough && static_cast<double>(outside) / n > std::max(0.2, enough / learned);
@@ -158,7 +169,9 @@ class RowReader {
                                                        shortest(feature.least), shortest(feature.greatest))
                                          : "a number nearer to those learned from")
                   .what();
-        return feature.bins->bin(*number);
+        const std::size_t bin = feature.bins->bin(*number);
+        ++binned_[i][bin];
+        return bin;
       }
       return unseen(row, columns_[i], "a finite number with a decimal point",
                     has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
@@ -188,6 +201,7 @@ class RowReader {
   std::size_t rows_ = 0;
   std::vector<std::size_t> filled_;                  // of each column, the rows with a value
   std::vector<std::array<std::size_t, 3>> numbers_;  // of each column: all, below and above those learned from
+  std::vector<std::vector<double>> binned_;          // of each column, numbers by bin
   std::size_t unseen_cells_ = 0, far_cells_ = 0;
   std::string first_unseen_, first_far_;
 };

@@ -381,8 +381,8 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
   const auto by_value = column.by_value(table.rows_of_class);
   const bool tells_all = by_value.tells_all(table.classes.size());
   say(tells_all,
-      " alone tells the class of each row: if it is not known before the class is, leave it out by --ignore {}",
-      for_typing);
+      " alone tells the class of each row{}: if it is not known before the class is, leave it out by --ignore {}",
+      column.filled() < table.size() ? " that has a value" : "", for_typing);
   const auto by_stem = column.names_rows() ? column.by_stem(table.rows_of_class) : by_value;
   warn(table, !tells_all && !copies && by_stem.may_be_groups(table.classes.size()),
        "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "

@@ -312,6 +312,14 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
   result.say(
       "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
+  const auto most = std::ranges::max_element(data.rows_of_class);
+  const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
+  std::vector<std::string> worse;
+  for (const Outcome& outcome : results.outcomes())
+    if (outcome.confusion().accuracy() < most_often) worse.push_back(in_quotes(outcome.name));
+  if (!worse.empty())
+    result.say("{:.2f} % of the rows are {}: who always says so is right more often than {}", 100.0 * most_often,
+               in_quotes(data.classes[static_cast<std::size_t>(most - data.rows_of_class.begin())]), list_of(worse));
   double of_shares = 0.0;
   for (const std::size_t rows : data.rows_of_class) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());

@@ -148,6 +148,29 @@ std::vector<std::vector<double>> classes_of_bins(const LearnedModel& model, std:
   return found;
 }
 
+/// What is known of one class, against all others, from its share in these bins: more than from none. And from the one
+/// of the limits between them that tells most.
+struct Told {
+  double by_bins = 0.0, by_a_limit = 0.0;
+};
+Told told_of(std::size_t its_class, const std::vector<std::vector<double>>& bins) {
+  const auto sum = [](const std::vector<double>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); };
+  std::vector<double> all(2), below(2);
+  Told told;
+  for (const auto& counts : bins) {
+    const std::vector<double> own = {counts[its_class], sum(counts) - counts[its_class]};
+    told.by_bins += knowledge(own);
+    for (std::size_t i = 0; i < 2; ++i) all[i] += own[i];
+  }
+  for (const auto& counts : bins) {
+    below[0] += counts[its_class], below[1] += sum(counts) - counts[its_class];
+    told.by_a_limit = std::max(told.by_a_limit,
+                               knowledge(below) + knowledge({all[0] - below[0], all[1] - below[1]}) - knowledge(all));
+  }
+  told.by_bins -= knowledge(all);
+  return told;
+}
+
 /// The greatest share of the numbers that is in one bin.
 double fullest(const std::vector<std::vector<double>>& bins) {
   double most = 0.0, all = 0.0;
@@ -162,12 +185,12 @@ double fullest(const std::vector<std::vector<double>>& bins) {
 }  // namespace
 
 void print_warnings(const DataTable& data, const LearningOptions& options) {
-  constexpr std::size_t many_bins = 64;
+  constexpr std::size_t many_bins = 64, most_bins = 1000;
   for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
   if (std::ranges::none_of(data.columns, &DataColumn::numeric) || options.bins < 3) return;
   LearningOptions other = options;
   other.equal_width = false;
-  other.bins = std::max(many_bins, options.bins);
+  other.bins = std::max(options.bins, std::min(std::max(many_bins, 4 * options.bins), most_bins));
   const LearnedModel model = learn(data, options), fine = learn(data, other);
   std::vector<std::string> coarse;  // columns whose bins put together what is different
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
@@ -193,18 +216,26 @@ void print_warnings(const DataTable& data, const LearningOptions& options) {
     }
     const double freedom = static_cast<double>((fine_bins.size() - bins.size()) * (all.size() - 1));
     const double lost = by_fine - by_bins, chance = freedom / 2.0 + 5.0 * std::sqrt(freedom / 2.0);
-    if (!(lost > chance)) continue;
+    // A class of few rows is lost where one limit would tell more of it than all bins; one of 64 does by chance.
+    constexpr double by_chance = 10.0;
+    bool loses_one = false;
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const double by_its_bins = told_of(c, bins).by_bins;
+      loses_one |= told_of(c, fine_bins).by_a_limit > 1.1 * by_its_bins + by_chance;
+    }
+    if (!(lost > chance) && !loses_one) continue;
     const bool are_zeros = !options.equal_width && share > 0.5 && bins.size() < 4;
     warn(are_zeros,
          "{:.3g} % of the numbers are in one bin, as where most are 0, and the others in {} of {}: give more --bins",
          100.0 * share, bins.size() - 1, options.bins);
-    if (!are_zeros && lost > 0.3 * (by_bins - knowledge(all))) coarse.push_back(typed(data.columns[i].name));
+    if (!are_zeros && (loses_one || lost > 0.3 * (by_bins - knowledge(all))))
+      coarse.push_back(typed(data.columns[i].name));
   }
   if (!coarse.empty())
     complain(
-        fmt::format("recognition_demo: warning: {}: {} bins put together numbers of column {} that tell different "
-                    "classes: give more --bins, or, if they are codes or hours, --categorical {}",
-                    data.file, options.bins, in_quotes(coarse.front()), fmt::join(coarse, ",")));
+        fmt::format("recognition_demo: warning: {}: {} bins put together numbers of {} that tell different classes: "
+                    "give more --bins{}, or, what is codes or hours, by --categorical",
+                    data.file, options.bins, listed(coarse, 12), options.equal_width ? "" : " or --equal-width"));
 }
 
 std::string described(const DataTable& data) {

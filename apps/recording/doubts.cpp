@@ -190,14 +190,16 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   }
   // A velocity that is told less often holds, but not for long.
   before.silent = std::isnan(now.rate[x]) ? before.silent + 1 : 0;
+  const double longest = 3.0 * std::exchange(before.step, dt);
   now.rate = now.rate.isNaN().select(last.rate, now.rate);
   if (before.silent == few) {
     now.rate.setConstant(nan);
-    before.since.fill({now.time, now.grown});
+    before.since.fill({now.time, now.grown, now.rate});
   }
   for (std::size_t k = 0; k < lengths.size(); ++k) {
     Since& since = before.since[k];
     since.told += dt * (last.rate + now.rate) / 2.0;
+    since.held |= before.silent > 0 || dt > longest;
     if (++since.rows < lengths[k]) continue;
     const double T = now.time - since.time;
     const Grown grew = (now.grown - since.grown) / T, told = since.told / T;
@@ -211,11 +213,14 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
       offset_.grew += dot(off, off);
       offset_.told += told[x] * told[x] + told[y] * told[y];
     }
+    for (const Rate rate : {x, y})
+      if (!since.held && !std::isnan(told[rate]))
+        late_[k].add(now.rate[rate] - since.rate[rate], (grew[rate] - told[rate]) * T);
     add(exchanged, told[y], grew[x]);
     add(exchanged, told[x], grew[y]);
     add(to_the_left, -told[y], grew[x]);
     add(to_the_left, told[x], grew[y]);
-    since = {now.time, now.grown};
+    since = {now.time, now.grown, now.rate};
   }
   before.last = now;
 }
@@ -356,7 +361,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
   if (track.latest != row.sensor || sensors_.empty()) sensors_.insert(row.sensor);
   see_other(row.sensor, now, track);
   track.latest = row.sensor;
-  const Since since{now.time, now.grown};
+  const Since since{now.time, now.grown, now.rate};
   const auto [before, first] = track.spoke.try_emplace(row.sensor, Sensor{now, {since, since, since}});
   if (!first) see_rates(before->second, now);
   if (!is_radar) track.located = at;
@@ -490,6 +495,18 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see whether "
       "they are along x and y, and not ahead and to a side, and whether a course is in the unit of its header",
       by_ten.correlation());
+  const double step = steps_.empty() ? nan : median(steps_);
+  const auto found_late = std::ranges::find_if(late_, [&](const Agreement& some) {
+    return some.count >= 2 * few && some.correlation() * some.correlation() > 0.25 && some.error_square() < 0.04 &&
+           std::abs(some.growth_per_told()) > 0.3 * step;
+  });
+  const bool is_late = found_late != late_.end();
+  const double late = is_late ? found_late->growth_per_told() : nan;
+  say(!is_clear && !is_off && !elsewhere && is_late,
+      "the velocities are those of {:.2g} s {} the positions beside them{}: write each beside the time that it is of, "
+      "or do not let them count, by no sigma_velocity_mps",
+      std::abs(late), late > 0.0 ? "before" : "after",
+      late > 0.0 && late < 0.7 * step ? ", as where each is the way since the row before by the step" : "");
   say_scale(z, "vertical velocities", "heights");
   say_scale(range, "range rates", "ranges");
   const auto n = static_cast<double>(azimuths_);
@@ -507,7 +524,6 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       would_cross && !recording.from_north()
           ? "all but a few would, if they ran clockwise from north: give --azimuth-from north"
           : "see whether the stations stand where it is said, and how azimuths run");
-  const double step = steps_.empty() ? nan : median(steps_);
   const double lag = lag_.growth_per_told();
   const bool lags = errors_ >= few && lag_.correlation() * lag_.correlation() > 0.5 && std::abs(lag) > 0.3 * step &&
                     std::abs(lag) < 20.0 * step;

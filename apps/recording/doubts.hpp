@@ -101,8 +101,9 @@ class Doubts {
   /// Where a sensor's quantities were some rows ago, and how far they went since by the rates that it told.
   struct Since {
     double time;
-    Grown grown, told = Grown::Zero();
+    Grown grown, rate, told = Grown::Zero();
     std::size_t rows = 0;
+    bool held = false;  ///< whether some rows told no rate, or there was a gap
   };
   /// From one row to the next much farther than before and after, and not back again: nothing turns so sharply.
   struct Leap {
@@ -114,13 +115,14 @@ class Doubts {
   struct Sensor {
     Spoke last;
     std::array<Since, 3> since;
-    std::optional<std::pair<double, Vector<3>>> before{};  // the last one
-    double way = 0.0;                                      // between these, along the ground if there is a height
-    std::array<std::size_t, 4> runs{};                     // of stays_, that last
-    std::size_t silent = 0;                                // rows since a velocity was told
-    std::vector<Vector<3>> recent{};                       // the last few
-    std::vector<std::pair<double, double>> moves{};        // the last few ways, and speeds along them
-    std::optional<Leap> leap{};                            // that the next few rows confirm
+    std::optional<std::pair<double, Vector<3>>> before{};   // the last one
+    double way = 0.0;                                       // between these, along the ground if there is a height
+    std::array<std::size_t, 4> runs{};                      // of stays_, that last
+    double step = std::numeric_limits<double>::infinity();  // up to it
+    std::size_t silent = 0;                                 // rows since a velocity was told
+    std::vector<Vector<3>> recent{};                        // the last few
+    std::vector<std::pair<double, double>> moves{};         // the last few ways, and speeds along them
+    std::optional<Leap> leap{};                             // that the next few rows confirm
   };
   /// How far a sensor's position is off the way between two of another one, and how that other one moves there.
   struct Off {
@@ -155,6 +157,7 @@ class Doubts {
   std::array<Rates, 3> rates_;                  // from row to row, where noise hides what is slow, and over many rows
   Agreement offset_;  // of what ten rows tell from how they grew: its squares, and those of what is told
   Vector<3> offsets_ = Vector<3>::Zero();  // the sum
+  std::array<Agreement, 3> late_;          // how velocities change over these rows, and what positions grow beyond them
   double farthest_ = 0.0;                  // of positions from where they are counted
   double path_ = 0.0;                      // of all positions, each sensor's own
   std::array<Stays, 4> stays_;             // of positions, heights, velocities and truths

@@ -27,7 +27,7 @@ struct SensorPlace {
 
 /// A sensor's standard deviations, as a filter believes them, and where it stands.
 struct Accuracy {
-  std::array<double, 3> radar{};         ///< of range, azimuth and elevation, in m and rad
+  std::array<double, 3> radar{10.0, 0.1 * degree, 0.1 * degree};  ///< of range, azimuth and elevation, in m and rad
   std::vector<double> position_m{10.0};  ///< of measurements that are no radar's: one, or one an axis
   std::optional<double> velocity_mps;    ///< of each component; without it a velocity is not taken for a measurement
   std::optional<double> range_rate_mps;  ///< of a radar's; likewise

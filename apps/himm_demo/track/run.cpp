@@ -428,8 +428,7 @@ class TrackRun {
           const double R = plot.variance(axis), left = point.covariance[static_cast<std::size_t>(axis) * (n + 1)];
           if (!(left < R)) continue;
           const double S = R * R / (R - left);  // since P R/S is left of P
-          sums.innovation_variance += S;
-          sums.predicted_variance += S - R;
+          sums.predicted_share.add((S - R) / S);
         }
       });
     }

@@ -105,6 +105,20 @@ class Reporter {
     say(!outcome_.range_rate_unknown.empty(),
         "Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps: " +
             numbered(outcome_.range_rate_unknown));
+    const Accuracy usual = {};
+    const auto are_usual = [&](auto Accuracy::*sigma) {
+      return !options_.radar.sigma && std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
+        return filter.sensors.empty() && filter.accuracy.*sigma == usual.*sigma;
+      });
+    };
+    std::vector<std::string> sigmas;
+    if (recording_.located() && !recording_.tells_accuracy() && are_usual(&Accuracy::position_m))
+      sigmas.push_back(fmt::format("sigma_position_m = {}", usual.position_m.front()));
+    if (outcome_.bearings < outcome_.measurements && recording_.polar() && are_usual(&Accuracy::radar))
+      sigmas.push_back(fmt::format("sigma_range_m = {}", usual.radar[0]));
+    if ((recording_.polar() || recording_.bearings()) && are_usual(&Accuracy::radar))
+      sigmas.push_back(fmt::format("sigma_azimuth_deg = {:.6g}", usual.radar[1] / degree));
+    say(!sigmas.empty(), fmt::format("Sigmas that are the defaults: {}", fmt::join(sigmas, ", ")));
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
         fmt::format("{} track{} by {}{}", outcome_.tracks, outcome_.tracks == 1 ? "" : "s", options_.recording.track_id,
@@ -168,10 +182,9 @@ class Reporter {
         options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
     warn(outliers.count > 0,
          "{}:{}: no filter expects this measurement (NIS {:.3g}); above an NIS of {} are {} of {}; look for outliers, "
-         "or {}sigma_w or the sensor's sigmas{}{}",
+         "or raise sigma_w or the sensor's sigmas{}{}{}",
          file_, outliers.worst_line, outliers.worst_nis, Outliers::limit, outliers.count, outcome_.measurements,
-         outcome_.bearings == outcome_.measurements ? "lower, where bearings are far apart in time, or raise "
-                                                    : "raise ",
+         outcome_.bearings == outcome_.measurements ? ", or lower sigma_w, where bearings are far apart in time" : "",
          tied ? "; dwna and dwpa tie a velocity to the way of the step: try --set models=[cwna,cwpa]" : "",
          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
     const auto most =
@@ -201,12 +214,12 @@ class Reporter {
     const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
     const double low_nis = recording_.tells_accuracy() ? 0.2 : 0.1;
     const bool low = consistent && worst.many == 0 && nis < low_nis * usual;  // what the gate lets pass has a low one
-    const double share = best.predicted_variance / best.innovation_variance;
-    const bool by_prediction = share > 0.5 && nis >= low_nis * usual * (1.0 - share);
+    const double share = best.predicted_share.count() > 0 ? best.predicted_share.mean() : 0.0;
+    const bool by_prediction = share > 0.5, alone = nis >= 0.5 * usual * (1.0 - share);
     warn(low && by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
-         "is the prediction's: sigma_w is too great for this target",
-         file_, nis, usual, 100.0 * share);
+         "is the prediction's: {} too great for this target",
+         file_, nis, usual, 100.0 * share, alone ? "sigma_w is" : "sigma_w and the sensor's sigmas are");
     warn(low && !by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far better than the "
          "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "

@@ -205,8 +205,8 @@ struct Sums {
   std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
   std::vector<double> weights;
   InnovationTally innovations;
-  /// The variance of positions' innovations, and what of it is the prediction's: the rest is the sensor's.
-  double innovation_variance = 0.0, predicted_variance = 0.0;
+  RunningMean
+      predicted_share;  ///< of the variance of positions' innovations, the prediction's: the rest is the sensor's
   std::size_t count = 0;
 };
 using SumsByPart = std::array<Sums, parts.size()>;
