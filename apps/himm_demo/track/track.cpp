@@ -215,7 +215,8 @@ class Reporter {
     const double low_nis = recording_.tells_accuracy() ? 0.2 : 0.1;
     const bool low = consistent && worst.many == 0 && nis < low_nis * usual;  // what the gate lets pass has a low one
     const double share = best.predicted_share.count() > 0 ? best.predicted_share.mean() : 0.0;
-    const bool by_prediction = share > 0.5, alone = nis >= 0.5 * usual * (1.0 - share);
+    const bool by_prediction = share > 0.5 && nis >= low_nis * usual * (1.0 - share);
+    const bool alone = nis >= 0.5 * usual * (1.0 - share);
     warn(low && by_prediction,
          "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
          "is the prediction's: {} too great for this target",
