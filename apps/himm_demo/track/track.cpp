@@ -93,18 +93,6 @@ class Reporter {
                           : converted         ? ", a radar's measurements converted"
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
-    say(recording_.moves_alone(),
-        "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
-        "are counted from there");
-    for (const auto& notes : {recording_.notes(), outcome_.places})
-      for (const std::string& note : notes) say(true, note);
-    say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
-    say(!outcome_.velocity_unknown.empty(),
-        "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
-            numbered(outcome_.velocity_unknown));
-    say(!outcome_.range_rate_unknown.empty(),
-        "Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps: " +
-            numbered(outcome_.range_rate_unknown));
     const Accuracy usual = {};
     const auto are_usual = [&](auto Accuracy::*sigma) {
       return !options_.radar.sigma && std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
@@ -119,6 +107,18 @@ class Reporter {
     if ((recording_.polar() || recording_.bearings()) && are_usual(&Accuracy::radar))
       sigmas.push_back(fmt::format("sigma_azimuth_deg = {:.6g}", usual.radar[1] / degree));
     say(!sigmas.empty(), fmt::format("Sigmas that are the defaults: {}", fmt::join(sigmas, ", ")));
+    say(recording_.moves_alone(),
+        "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
+        "are counted from there");
+    for (const auto& notes : {recording_.notes(), outcome_.places})
+      for (const std::string& note : notes) say(true, note);
+    say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
+    say(!outcome_.velocity_unknown.empty(),
+        "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
+            numbered(outcome_.velocity_unknown));
+    say(!outcome_.range_rate_unknown.empty(),
+        "Rows whose range rate does not count, for want of sensor.NAME.sigma_range_rate_mps: " +
+            numbered(outcome_.range_rate_unknown));
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
         fmt::format("{} track{} by {}{}", outcome_.tracks, outcome_.tracks == 1 ? "" : "s", options_.recording.track_id,
