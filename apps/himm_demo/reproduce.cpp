@@ -607,8 +607,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   const ResultTable sentences = sentences_table(all), claims = sentences.part(SentencePart::claims, "no."),
                     readings = sentences.part(SentencePart::readings, "no.");
   const std::string each_reading = "Each reading of (57), as printed and then as released";
-  result.fact({"runs"}, options.choice.runs);
-  result.fact({"seed"}, options.choice.seed);
+  result.facts("runs", options.choice.runs, "seed", options.choice.seed);
   result.text = fmt::format("Section VI, sentence by sentence: {} runs of each scenario, group and preset, seed {}\n",
                             options.choice.runs, options.choice.seed);
   result.add(claims, {.csv = "claims.csv", .summary = {"sentences"}});
@@ -673,12 +672,9 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
     for (std::size_t s = 0; s < of(preset).size(); ++s)
       for (std::size_t i = 0; i < of(preset)[s].against_correct.size(); ++i) {
         const Measured& measured = of(preset)[s].against_correct[i];
-        Path path = {"figures", name_of(preset), std::to_string(s + 1), place_and_subject_of(measured), "per_cent"};
-        result.fact(path, relative(measured));
-        path.back() = "against_correct_imm";
-        result.fact(path, shown(measured));
-        path.back() = "against_released_imm";
-        result.fact(path, shown(of(preset)[s].against_released[i]));
+        result.facts_at({"figures", name_of(preset), std::to_string(s + 1), place_and_subject_of(measured)}, "per_cent",
+                        relative(measured), "against_correct_imm", shown(measured), "against_released_imm",
+                        shown(of(preset)[s].against_released[i]));
       }
   result.publish(files);
 }

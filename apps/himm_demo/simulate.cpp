@@ -579,12 +579,8 @@ void report(const Found& found, ResultFiles& files) {
   Result result(options.output);
   result.page.title =
       fmt::format("Scenario {}, group {}: {} simulated runs", options.scenario, options.group, experiment.runs);
-  result.fact({"scenario"}, options.scenario);
-  result.fact({"group"}, options.group);
-  result.fact({"preset"}, name_of(options.preset));
-  result.fact({"runs"}, experiment.runs);
-  result.fact({"seed"}, experiment.seed);
-  result.fact({"settings_toml"}, as_toml(experiment.filters));
+  result.facts("scenario", options.scenario, "group", options.group, "preset", name_of(options.preset), "runs",
+               experiment.runs, "seed", experiment.seed, "settings_toml", as_toml(experiment.filters));
   result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
              name_of(options.preset), experiment.runs, experiment.seed);
   result.say("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first, phases[0].last,
@@ -607,8 +603,7 @@ void report(const Found& found, ResultFiles& files) {
   result.add(figures.part(FigurePart::rmse, "position RMSE, m"),
              {.printed = !brief, .title = "Position RMSE by phase"});
   for (std::size_t i = 0; i < compared.size(); ++i) {
-    result.fact({"comparisons", i, "filter"}, compared[i].filter);
-    result.fact({"comparisons", i, "minus"}, compared[i].reference);
+    result.facts_at({"comparisons", i}, "filter", compared[i].filter, "minus", compared[i].reference);
     result.add(compared[i].table, {.printed = !brief,
                                    .summary = {"comparisons", i, "rmse_difference_m"},
                                    .title = crowded(experiment) ? "" : "Difference of RMSE, paired by run, ± 95 %"});

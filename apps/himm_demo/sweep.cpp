@@ -591,8 +591,7 @@ void report(const SweepOptions& options, const SweepWorld& world) {
   const ResultTable filters = filters_table(world);
   const std::string answered = answer(world), stopped = limits(world);
   const bool all_shown = world.all_tuned().size() <= most_rows;
-  result.fact({"campaign"}, world.study().description);
-  result.fact({"searched"}, searched(world));
+  result.facts("campaign", world.study().description, "searched", searched(world));
   result.say(searched(world));
   if (world.imm()) {
     result.add(above_imm_table(world), {});

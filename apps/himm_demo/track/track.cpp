@@ -38,31 +38,23 @@ class Reporter {
 
  private:
   void add_facts() {
-    const auto add = [&](const Path& path, const Cell& value) { result_.fact(path, value); };
-    add({"file"}, file_);
-    add({"seed"}, options_.seed);
+    result_.facts("file", file_, "seed", options_.seed);
     if (const auto& sigma = options_.radar.sigma)
-      for (std::size_t i = 0; i < 3; ++i)
-        add({"radar", std::array{"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"}[i]}, (*sigma)[i]);
+      result_.facts_at({"radar"}, "sigma_range_m", (*sigma)[0], "sigma_azimuth_deg", (*sigma)[1], "sigma_elevation_deg",
+                       (*sigma)[2]);
     if (options_.radar.sigma || outcome_.some_unplaced)
-      for (std::size_t i = 0; i < 3; ++i) add({"radar", "at_m", i}, options_.radar.place()[i]);
-    if (const auto& origin = outcome_.origin) {
-      add({"origin", "latitude_deg"}, origin->latitude_deg);
-      add({"origin", "longitude_deg"}, origin->longitude_deg);
-      add({"origin", "altitude_m"}, origin->altitude_m);
-    }
-    add({"rows"}, outcome_.rows);
-    add({"measurements"}, outcome_.measurements);
-    if (outcome_.partial > 0) add({"partial_measurements"}, outcome_.partial);
-    if (outcome_.bearings > 0) add({"bearings"}, outcome_.bearings);
-    add({"skipped"}, recording_.skipped());
-    if (recording_.has_sensors())
-      for (const auto& [sensor, rows] : outcome_.sensors) add({"sensors", sensor}, rows);
-    if (recording_.has_tracks()) {
-      add({"tracks", "count"}, outcome_.tracks);
-      result_.fact({"tracks", "never_started"}, outcome_.never_started);
-    }
-    add({"settings_toml"}, as_toml(filters_));
+      for (std::size_t i = 0; i < 3; ++i) result_.fact({"radar", "at_m", i}, options_.radar.place()[i]);
+    if (const auto& origin = outcome_.origin)
+      result_.facts_at({"origin"}, "latitude_deg", origin->latitude_deg, "longitude_deg", origin->longitude_deg,
+                       "altitude_m", origin->altitude_m);
+    result_.facts("rows", outcome_.rows, "measurements", outcome_.measurements);
+    if (outcome_.partial > 0) result_.fact({"partial_measurements"}, outcome_.partial);
+    if (outcome_.bearings > 0) result_.fact({"bearings"}, outcome_.bearings);
+    result_.fact({"skipped"}, recording_.skipped());
+    for (const auto& [sensor, rows] : outcome_.sensors) result_.fact({"sensors", sensor}, rows);
+    if (recording_.has_tracks())
+      result_.facts_at({"tracks"}, "count", outcome_.tracks, "never_started", outcome_.never_started);
+    result_.fact({"settings_toml"}, as_toml(filters_));
   }
 
   /// Which filters have some of these, and how many.
@@ -362,9 +354,8 @@ class Reporter {
         std::vector<std::string> told;
         for (std::size_t i = 0; i < stays.size(); ++i) {
           const std::string& mode = filters_[f].models[stays[i].mode];
-          result_.fact({"histories", filters_[f].name, track, i, "since_s"}, stays[i].since);
-          result_.fact({"histories", filters_[f].name, track, i, "mode"}, mode);
-          result_.fact({"histories", filters_[f].name, track, i, "start"}, stays[i].is_start);
+          result_.facts_at({"histories", filters_[f].name, track, i}, "since_s", stays[i].since, "mode", mode, "start",
+                           stays[i].is_start);
           if (i < shown) told.push_back(fmt::format("{} from {} s", mode, shortest(stays[i].since)));
         }
         result_.text += "\n";
