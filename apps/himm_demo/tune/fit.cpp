@@ -702,13 +702,9 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     borrow(borrowed, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
     if (fitter.is_better(borrowed, bases[c].settings)) bases[c].settings = std::move(borrowed);
   }
-  for_each_run(
-      sets, options.threads,
-      [&](std::size_t c) {
-        if (!similar && c == first) return begun[c];
-        return far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models);
-      },
-      [&](std::size_t c, Fitter::Found&& found) { begun[c] = std::move(found); });
+  in_parallel(sets, options.threads, [&](std::size_t c) {
+    if (similar || c != first) begun[c] = far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models);
+  });
   const std::size_t starts = similar ? 1 : options.starts;
   for_each_run(
       sets * starts, options.threads,
@@ -726,29 +722,22 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     tuned.strays = leave_out_strays(told, judged_settings(likeliest.settings, options.objective));
   const Fitter fitter_of_told(told, options, progress);
   std::vector<std::vector<RowLosses>> without(sets);
-  for_each_run(
-      sets, options.threads,
-      [&](std::size_t c) {
-        if (!tuned.strays.empty()) {
-          tell(c, "without strays");
-          fitted[c] = fitter_of_told.fit(fitted[c].settings, 0);
-        }
-        tell(c, "errors and folds");
-        const LossSurface surface = fitter_of_told.surface(fitted[c]);
-        std::vector<RowLosses> own;
-        for (std::size_t fold = 0; fold < options.folds; ++fold) {
-          const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
-          own.push_back(judged(told, Fitter(told, options, progress, counts).refine(fitted[c], surface, true).settings,
-                               options.objective));
-          progress.advance();
-        }
-        Fitter::Found found = fitter_of_told.refine(fitted[c], surface, false);
-        found.widened = finish(found.settings, settings.gate_probability, data, options);
-        return std::pair(std::move(found), std::move(own));
-      },
-      [&](std::size_t c, std::pair<Fitter::Found, std::vector<RowLosses>>&& found) {
-        std::tie(fitted[c], without[c]) = std::move(found);
-      });
+  in_parallel(sets, options.threads, [&](std::size_t c) {
+    if (!tuned.strays.empty()) {
+      tell(c, "without strays");
+      fitted[c] = fitter_of_told.fit(fitted[c].settings, 0);
+    }
+    tell(c, "errors and folds");
+    const LossSurface surface = fitter_of_told.surface(fitted[c]);
+    for (std::size_t fold = 0; fold < options.folds; ++fold) {
+      const auto counts = [&](std::size_t t, std::size_t k) { return folds[t][k] != fold; };
+      without[c].push_back(judged(
+          told, Fitter(told, options, progress, counts).refine(fitted[c], surface, true).settings, options.objective));
+      progress.advance();
+    }
+    fitted[c] = fitter_of_told.refine(fitted[c], surface, false);
+    fitted[c].widened = finish(fitted[c].settings, settings.gate_probability, data, options);
+  });
 
   for (std::size_t c = 0; c <= sets; ++c) {
     Candidate& candidate = tuned.candidates.emplace_back(Candidate{"as before", settings});
