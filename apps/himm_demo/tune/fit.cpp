@@ -93,12 +93,11 @@ void add_motions(const FilterSettings& settings, std::vector<FreeNumber>& number
       const bool linear = which == MotionParameter::turn_rate;
       if (!motion.known().has_parameter(which) || !(linear || motion[which] > 0.0)) continue;
       const auto& known = motion_parameters()[static_cast<std::size_t>(which)];
-      FreeNumber& number = numbers.emplace_back();
-      number.parameter.name = fmt::format("{} of {}", known.key, settings.models[j]);
-      number.parameter.start = motion[which];
-      number.parameter.scale = linear ? Scale::linear : Scale::logarithmic;
-      number.noise = which == MotionParameter::sigma_w || which == MotionParameter::turn_drift;
-      number.set = [=](FilterSettings& changed, double value) { changed.motions[j][which] = value; };
+      numbers.push_back({.parameter = {.name = fmt::format("{} of {}", known.key, settings.models[j]),
+                                       .start = motion[which],
+                                       .scale = linear ? Scale::linear : Scale::logarithmic},
+                         .set = [=](FilterSettings& changed, double value) { changed.motions[j][which] = value; },
+                         .noise = which == MotionParameter::sigma_w || which == MotionParameter::turn_drift});
     }
 }
 
@@ -113,14 +112,13 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   const auto add = [&](std::string_view what, double start, double least,
                        const std::function<void(Accuracy&, double)>& set) {
     if (std::isinf(least)) return;  // a column that never changes tells nothing of its noise
-    FreeNumber& number = numbers.emplace_back();
-    number.parameter.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name);
-    number.sensor = number.noise = true;
-    number.least = least;
-    number.parameter.start = std::max(start, least);
-    number.set = [=](FilterSettings& changed, double value) {
-      set(accuracy_in(changed, name), std::max(value, least));
-    };
+    numbers.push_back(
+        {.parameter = {.name = fmt::format("{}{}{}", what, name.empty() ? "" : " of ", name),
+                       .start = std::max(start, least)},
+         .set = [=](FilterSettings& changed, double value) { set(accuracy_in(changed, name), std::max(value, least)); },
+         .sensor = true,
+         .noise = true,
+         .least = least});
   };
   const auto least = [&](int from, int to) { return sensor.rounding_of(AnyPlot::Sensor::components, from, to); };
   const auto least_of_radar = [&](int i) {
@@ -247,7 +245,7 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
   FilterSettings result = settings;
   result.motions.clear();
   const auto known = each(known_motions(), &KnownMotion::name);
-  std::vector<bool> used(settings.motions.size(), false);
+  std::vector<MotionChoice> left = settings.motions;
   for (std::size_t from = 0; from <= joined.size();) {
     const std::size_t to = std::min(joined.find('+', from), joined.size());
     const std::string name = joined.substr(from, to - from);
@@ -257,11 +255,10 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
                         .found = in_quotes(name),
                         .expected = fmt::format("one of {}, joined by + as dwna+dwpa", fmt::join(known, ", ")),
                         .remedy = nearest_word(name, known)});
-    std::size_t same = 0;
-    while (same < used.size() && (used[same] || settings.motions[same].name != name)) ++same;
-    if (same < used.size()) used[same] = true;
-    result.motions.push_back(same < used.size() ? settings.motions[same] : settings.motions.front());
+    const auto same = std::ranges::find(left, name, &MotionChoice::name);
+    result.motions.push_back(same == left.end() ? settings.motions.front() : *same);
     result.motions.back().name = name;
+    if (same != left.end()) left.erase(same);
   }
   result.models = names_of(result.motions);
   const std::size_t modes = result.models.size();
