@@ -24,14 +24,6 @@ void record(const TargetPoint& point, const Vector<6>& truth, Trace& trace) {
 
 }  // namespace
 
-Trace::Trace(std::size_t samples)
-    : error(samples, {nan, nan, nan}),
-      covariance(samples, SquareMatrix<3>::Constant(nan)),
-      nees_position(samples, nan),
-      nees_velocity(samples, nan),
-      nis(samples, nan),
-      weights(samples) {}
-
 std::vector<AnyPlot> plots_of(const FilterSettings& filter, double step_s, std::span<const Polar> seen) {
   std::vector<AnyPlot> plots;
   for (const auto& [range, azimuth, elevation] : seen) {
@@ -68,7 +60,7 @@ TracedRun Experiment::traced(std::uint64_t number) const {
   RandomStream random(seed, number);
   const Recording recording = simulate(scenario, group.data, random);
   const std::size_t samples = recording.truth.size();
-  TracedRun run{recording.truth, Trace(samples), std::vector<Trace>(filters.size(), Trace(samples))};
+  TracedRun run{recording.truth, {samples}, std::vector(filters.size(), Trace{samples})};
   run.measurement.error = errors_of(recording);
   try {
     for (std::size_t f = 0; f < filters.size(); ++f)

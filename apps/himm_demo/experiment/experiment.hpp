@@ -12,14 +12,12 @@ using Errors = std::vector<std::array<double, 3>>;
 
 /// One filter in one run, sample by sample; NaN where there is no estimate.
 struct Trace {
-  Errors error;
-  std::vector<SquareMatrix<3>> covariance;  ///< of the position, as the filter states it
-  std::vector<double> nees_position;
-  std::vector<double> nees_velocity;
-  std::vector<double> nis;
-  std::vector<std::vector<double>> weights;
-
-  explicit Trace(std::size_t samples);
+  std::size_t samples;
+  Errors error = Errors(samples, {nan, nan, nan});
+  /// Of the position, as the filter states it.
+  std::vector<SquareMatrix<3>> covariance = std::vector<SquareMatrix<3>>(samples, SquareMatrix<3>::Constant(nan));
+  std::vector<double> nees_position = std::vector(samples, nan), nees_velocity = nees_position, nis = nees_position;
+  std::vector<std::vector<double>> weights = std::vector<std::vector<double>>(samples);
 
   double squared_error(std::size_t sample, std::size_t axis) const { return error[sample][axis] * error[sample][axis]; }
 };
