@@ -187,23 +187,14 @@ const Condition& condition_of(const Statement& statement, const std::vector<Cond
 }
 
 /// The figure of one filter that is not by axis.
-Statistic figure_of(const Statement& statement, const Condition& condition, const std::string& filter,
-                    std::size_t phase) {
-  switch (statement.figure) {
-    case FigureOf::onset_rmse:
-      return sqrt(condition.mean(filter, Column::onset_z + 1) / condition.mean(filter, Column::onset_z)) - 1.0;
-    case FigureOf::cross_time:
-      return condition.cross_time_of_runs(filter);
-    case FigureOf::cross_time_curves:
-      return condition.cross_time_of_curves(filter);
-    case FigureOf::lead:
-      return condition.mean(filter, Column::lead + phase);
-    case FigureOf::switches_of_the_run:
-      return condition.mean(filter, Column::switches) + condition.mean(filter, Column::switches + 1) +
-             condition.mean(filter, Column::switches + 2);
-    default:
-      return condition.mean(filter, Column::switches + phase);
-  }
+Statistic figure_of(FigureOf figure, const Condition& condition, const std::string& filter, std::size_t phase) {
+  const auto mean = [&](std::size_t column) { return condition.mean(filter, column); };
+  if (figure == FigureOf::onset_rmse) return sqrt(mean(Column::onset_z + 1) / mean(Column::onset_z)) - 1.0;
+  if (figure == FigureOf::cross_time) return condition.cross_time_of_runs(filter);
+  if (figure == FigureOf::cross_time_curves) return condition.cross_time_of_curves(filter);
+  if (figure == FigureOf::lead) return mean(Column::lead + phase);
+  if (figure == FigureOf::switches) return mean(Column::switches + phase);
+  return mean(Column::switches) + mean(Column::switches + 1) + mean(Column::switches + 2);
 }
 
 /// All figures of a sentence under a preset.
@@ -219,8 +210,10 @@ std::vector<Measured> measure(const Sentence& sentence, const std::vector<Condit
       values.push_back(std::move(value));
     };
     const auto add_figure = [&](std::optional<std::size_t> phase) {
-      const Statistic own = figure_of(statement, condition, of, phase.value_or(0));
-      add(phase, {}, against.empty() ? own : own - figure_of(statement, condition, against, phase.value_or(0)));
+      const auto figure = [&](const std::string& filter) {
+        return figure_of(statement.figure, condition, filter, phase.value_or(0));
+      };
+      add(phase, {}, against.empty() ? figure(of) : figure(of) - figure(against));
     };
     const bool by_phase = statement.figure == FigureOf::lead || statement.figure == FigureOf::switches;
     if (!by_phase && statement.figure != FigureOf::rmse) add_figure({});
@@ -311,26 +304,17 @@ constexpr std::array phase_names = {"before", "during", "after"};
 
 const char* words_of(Preset preset) { return preset == Preset::released ? "As released" : "As printed"; }
 
-std::string_view words_of(Verdict verdict) {
-  constexpr std::array words = {"holds", "only released", "does not hold", "undecided"};
-  return words[static_cast<std::size_t>(verdict)];
+/// That of an enumerator, of words in the order of all.
+template <class Enumerator, std::size_t size>
+std::string_view word_of(Enumerator one, const std::array<const char*, size>& words) {
+  return words[static_cast<std::size_t>(one)];
 }
-
-std::string_view letter_of(Verdict verdict) {
-  constexpr std::array letters = {"yes", "(yes)", "no", "?"};
-  return letters[static_cast<std::size_t>(verdict)];
-}
-
-std::string_view name_of(FigureOf figure) {
-  constexpr std::array names = {"RMSE",          "RMSE of z after 81", "cross-time",       "crossing of curves",
-                                "share of DWPA", "switches",           "switches of a run"};
-  return names[static_cast<std::size_t>(figure)];
-}
-
-std::string_view word_of(Actor actor) {
-  constexpr std::array words = {"himm", "himm_5", "imm", "most likely", "measurement", ""};
-  return words[static_cast<std::size_t>(actor)];
-}
+constexpr std::array verdict_words = {"holds", "only released", "does not hold", "undecided"};
+constexpr std::array verdict_letters = {"yes", "(yes)", "no", "?"};
+constexpr std::array finding_names = {"inside", "outside", "open"};
+constexpr std::array figure_names = {"RMSE",          "RMSE of z after 81", "cross-time",       "crossing of curves",
+                                     "share of DWPA", "switches",           "switches of a run"};
+constexpr std::array actor_words = {"himm", "himm_5", "imm", "most likely", "measurement", ""};
 
 /// "1/2": scenario and group.
 std::string name_of(const Condition& condition) { return fmt::format("{}/{}", condition.scenario, condition.group); }
@@ -356,9 +340,9 @@ std::string text_of(const Measured& measured) {
 /// Of whom a figure is, and when: "himm : imm, during z".
 std::string subject_of(const Measured& measured) {
   const Statement& statement = *measured.statement;
-  std::string text(word_of(statement.of));
-  if (statement.against != Actor::nobody) text.append(" : ").append(word_of(statement.against));
-  if (statement.figure != FigureOf::rmse) text.append(", ").append(name_of(statement.figure));
+  std::string text(word_of(statement.of, actor_words));
+  if (statement.against != Actor::nobody) text.append(" : ").append(word_of(statement.against, actor_words));
+  if (statement.figure != FigureOf::rmse) text.append(", ").append(word_of(statement.figure, figure_names));
   if (measured.phase) text.append(", ").append(phase_names[*measured.phase]);
   if (measured.axis) text.append(" ").append(axis_names[*measured.axis]);
   return text;
@@ -401,7 +385,7 @@ ResultTable sentences_table(const Judgements& all) {
                          .header = preset == Preset::released ? "as released" : "as printed",
                          .align = Align::left,
                          .parts = SentencePart::claims},
-                        words_of(all.at(preset).at(reading_of(preset))[s].verdict())});
+                        word_of(all.at(preset).at(reading_of(preset))[s].verdict(), verdict_words)});
     for (const Preset preset : both_presets)
       for (const std::string reading : himm_readings) {  // of whose name three letters fit into 80 columns
         const std::string word = reading.substr(reading.rfind('_') + 1);
@@ -409,7 +393,7 @@ ResultTable sentences_table(const Judgements& all) {
                            .header = word.size() <= 3 ? word : word.substr(0, 3) + ".",
                            .align = Align::left,
                            .parts = SentencePart::readings},
-                          letter_of(all.at(preset).at(reading)[s].verdict())});
+                          word_of(all.at(preset).at(reading)[s].verdict(), verdict_letters)});
       }
     table.row_of(fields);
   }
@@ -418,24 +402,22 @@ ResultTable sentences_table(const Judgements& all) {
 
 /// How many figures of each sentence are where it wants them, and the one that speaks most against it.
 ResultTable deciding_figures(const std::vector<Judged>& all) {
-  ResultTable table({{.header = "no."},
-                     {.header = "sure"},
-                     {.header = "least favourable", .align = Align::left},
-                     {.header = "correct IMM"},
-                     {.header = "released IMM"}});
+  ResultTable table;
   for (std::size_t s = 0; s < all.size(); ++s) {
     const auto& figures = all[s].against_correct;
     const auto inside = std::ranges::count(figures, Finding::inside, &Measured::finding);
     const std::size_t worst = least_favourable(figures);
-    table.row({s + 1, fmt::format("{}/{}", inside, figures.size()), place_and_subject_of(figures[worst]),
-               text_of(figures[worst]), text_of(all[s].against_released[worst])});
+    table.row_of({{{.header = "no."}, s + 1},
+                  {{.header = "sure"}, fmt::format("{}/{}", inside, figures.size())},
+                  {{.header = "least favourable", .align = Align::left}, place_and_subject_of(figures[worst])},
+                  {{.header = "correct IMM"}, text_of(figures[worst])},
+                  {{.header = "released IMM"}, text_of(all[s].against_released[worst])}});
   }
   return table;
 }
 
 /// Every figure of every sentence.
 ResultTable figures_table(const Judgements& all) {
-  constexpr std::array finding_names = {"inside", "outside", "open"};
   ResultTable table;
   for (const auto& [preset, by_reading] : all)
     for (const auto& [reading, judged] : by_reading)
@@ -452,13 +434,13 @@ ResultTable figures_table(const Judgements& all) {
                           {{.key = "group"}, statement.group},
                           {{.key = "phase"}, measured.phase ? Cell(phase_names[*measured.phase]) : Cell()},
                           {{.key = "axis"}, measured.axis ? Cell(axis_names[*measured.axis]) : Cell()},
-                          {{.key = "figure"}, name_of(statement.figure)},
+                          {{.key = "figure"}, word_of(statement.figure, figure_names)},
                           {{.key = "of"}, cast.filter(statement.of)},
                           {{.key = "against"}, cast.filter(statement.against)},
                           {{.key = "value", .interval = true}, measured.interval},
                           {{.key = "wanted_above"}, statement.region.above},
                           {{.key = "wanted_below"}, statement.region.below},
-                          {{.key = "finding"}, finding_names[static_cast<std::size_t>(measured.finding)]}});
+                          {{.key = "finding"}, word_of(measured.finding, finding_names)}});
           }
   return table;
 }
@@ -532,7 +514,8 @@ HeatMap overview_map(const std::vector<Condition>& conditions, const std::vector
 std::string chart_of(const Measured& measured) {
   const Statement& statement = *measured.statement;
   if (statement.figure == FigureOf::rmse)
-    return fmt::format("RMSE of {} against {}", word_of(statement.of), word_of(statement.against));
+    return fmt::format("RMSE of {} against {}", word_of(statement.of, actor_words),
+                       word_of(statement.against, actor_words));
   if (relative(measured)) return "The z axis after the onset, and who leads";
   return statement.against == Actor::nobody ? "Cross-times and switches" : "Differences of cross-times and switches";
 }
