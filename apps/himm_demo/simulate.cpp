@@ -434,8 +434,8 @@ std::vector<Field> figures_of(const Found& found, const Performance& of) {
            .parts = FigurePart::rmse},
           value(axis));
   };
-  std::array<std::string, 3> phases;
-  for (std::size_t p = 0; p < 3; ++p) phases[p] = found.experiment.scenario.phases[p].name;
+  const auto phases =
+      each(found.experiment.scenario.phases, [](const Phase& phase) { return std::string(phase.name); });
   for (std::size_t p = 0; p < 3; ++p) {
     add({.key = "rmse_" + phases[p] + "_m",
          .header = phases[p],
@@ -489,38 +489,33 @@ struct Comparison {
 };
 
 Comparison compared(const Found& found, const Performance& of, const Performance& to) {
-  const bool claimed = judged(*of.filter(), *to.filter());
-  std::vector<ResultColumn> columns = {
-      {.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left}};
-  for (const char* axis : axis_names)
-    columns.push_back({.key = axis, .header = axis, .sign = true, .sized = true, .interval = true});
-  if (claimed) {
-    columns.push_back({.header = "the paper says", .align = Align::left});
-    columns.push_back({.header = to.filter()->imm_mixing == MixingWeights::correct ? "against the correct IMM that"
-                                                                                   : "against the released IMM that",
-                       .align = Align::left});
-  }
-  Comparison comparison{of.name(), to.name(), ResultTable(columns), ""};
+  Comparison comparison{of.name(), to.name(), {}, ""};
   for (std::size_t p = 0; p < 3; ++p) {
     const std::string_view phase = found.experiment.scenario.phases[p].name;
-    std::vector<Cell> cells = {phase};
+    std::vector<Field> fields = {
+        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left}, phase}};
     std::array<Interval, 3> difference;
     std::array<double, 3> reference;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       difference[axis] = of.minus(to, p, axis);
       reference[axis] = to.phase_rmse(p, axis);
-      cells.emplace_back(difference[axis]);
+      const char* const name = axis_names[axis];
+      fields.push_back(
+          {{.key = name, .header = name, .sign = true, .sized = true, .interval = true}, difference[axis]});
     }
-    if (claimed) {
+    if (judged(*of.filter(), *to.filter())) {
       const Region claim = claim_of(found.options.scenario, found.options.group, p);
       const std::string holds = verdict(claim, difference, reference);
-      cells.emplace_back(word_of(claim));
-      cells.emplace_back(holds);
+      const bool correct = to.filter()->imm_mixing == MixingWeights::correct;
+      fields.push_back({{.header = "the paper says", .align = Align::left}, word_of(claim)});
+      fields.push_back(
+          {{.header = fmt::format("against the {} IMM that", correct ? "correct" : "released"), .align = Align::left},
+           holds});
       comparison.sentence += fmt::format("{} {} the manoeuvre the paper says {}, which {}{}",
                                          p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase,
                                          word_of(claim), holds, p == 2 ? "." : "");
     }
-    comparison.table.row(std::move(cells));
+    comparison.table.row_of(fields);
   }
   return comparison;
 }
