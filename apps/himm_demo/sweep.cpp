@@ -60,10 +60,9 @@ struct Tuned {
   Statistic score;      ///< the same as the tuning score, of other runs
 };
 
-/// The name of a lift in settings.
-const char* name_of(Lift lift) {
-  return lift == Lift::zero ? "zero" : lift == Lift::unbiased ? "unbiased" : "borrowed_variance";
-}
+/// The names in settings of the first lifts, in their order.
+constexpr std::array lift_names = {"zero", "borrowed_variance", "unbiased"};
+const char* name_of(Lift lift) { return lift_names.at(static_cast<std::size_t>(lift)); }
 
 /// The list, beyond each end by the ratio of the last two numbers, as many steps, in six digits, so that what a table
 /// says can be given again. One number is fixed and has no continuation.
@@ -118,8 +117,6 @@ bool at_the_limit(const std::vector<Axis>& lattice, const Place& place) {
 constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
-
-constexpr std::array swept_lifts = {Lift::zero, Lift::unbiased, Lift::borrowed_variance};
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
   Errors error(recording.truth.size(), {nan, nan, nan});
@@ -284,8 +281,7 @@ class SweepWorld {
     own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-    own.lift =
-        *std::ranges::find_if(swept_lifts, [&](Lift lift) { return name_of(lift) == choice_.lifts[place.back()]; });
+    own.lift = static_cast<Lift>(std::ranges::find(lift_names, choice_.lifts[place.back()]) - lift_names.begin());
     return own;
   }
   Recording recording(std::size_t condition, int number) const {
@@ -455,22 +451,19 @@ ResultTable filters_table(const SweepWorld& world) {
 /// The score of the tuned IMM, and by how much the others are above it, with a mark where the interval is on one side
 /// of zero.
 ResultTable above_imm_table(const SweepWorld& world) {
-  std::vector<ResultColumn> columns = {{.header = "scenario", .align = Align::left}, {.header = "imm", .digits = 3}};
-  for (const auto& filter : world.filters())
-    if (filter.name != "imm") columns.push_back({.header = filter.name, .group = "% above imm:"});
-  columns.push_back({.header = "himm", .group = "% above imm:"});
-  ResultTable table(columns);
+  ResultTable table;
   for (std::size_t c = 0; c < world.conditions().size(); ++c) {
-    const auto marked = [&](std::size_t f) {
-      const Interval above = world.against_imm(c, f);
-      return Cell(number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " "));
+    std::vector<Field> fields = {{{.header = "scenario", .align = Align::left}, words_of(world.conditions()[c])},
+                                 {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
+    const auto add = [&](const std::string& name, std::optional<std::size_t> f) {
+      const Interval above = f ? world.against_imm(c, *f) : Interval{};
+      fields.push_back({{.header = name, .group = "% above imm:"},
+                        f ? Cell(number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ")) : Cell()});
     };
-    std::vector<Cell> cells = {words_of(world.conditions()[c]), world.tuned(c, *world.imm()).score.value()};
     for (std::size_t f = 0; f < world.filters().size(); ++f)
-      if (f != *world.imm()) cells.push_back(marked(f));
-    const auto himm = world.himm(c);
-    cells.push_back(himm ? marked(*himm) : Cell());
-    table.row(std::move(cells));
+      if (f != *world.imm()) add(world.filters()[f].name, f);
+    add("himm", world.himm(c));
+    table.row_of(fields);
   }
   return table;
 }
@@ -634,7 +627,13 @@ Option add_list(Subcommand& app, const std::string& name, std::vector<Value>& va
   return app.option(name, values, fmt::format("{} [{}]", meaning, fmt::join(values, ", "))).list().text("A,B,…");
 }
 
-void add_conditions(Subcommand& app, SweepChoice& choice) {
+}  // namespace
+
+void add_sweep(CLI::App& program, const std::string& command) {
+  Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
+  const auto options = std::make_shared<SweepOptions>();
+  options->output.command = command;
+  SweepChoice& choice = options->choice;
   const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
     add_list(app, name, values, meaning).number_in(0.05, 20.0);
   };
@@ -644,9 +643,6 @@ void add_conditions(Subcommand& app, SweepChoice& choice) {
   add_factors("--strength", choice.strength, "Acceleration, times the paper's");
   add_factors("--length", choice.length, "Length of the manoeuvre, times the paper's");
   app.flag("--cross", choice.cross, "Every combination of these four, rather than each alone with the others 1");
-}
-
-void add_settings(Subcommand& app, SweepChoice& choice) {
   add_list(app, "--filters", choice.filters, "Names as of the setting filters; the others are compared with imm");
   add_list(app, "--probability", choice.probability, "Off-diagonals of P, the two rows apart").number_in(1e-12, 1.0);
   add_list(app, "--possibility", choice.possibility, "Off-diagonals of the matrix of possibilities, the two rows apart")
@@ -659,21 +655,11 @@ void add_settings(Subcommand& app, SweepChoice& choice) {
              "only what is listed")
       .in(0, 100)
       .shows_default();
-}
-
-}  // namespace
-
-void add_sweep(CLI::App& program, const std::string& command) {
-  Subcommand app(program, "sweep", "Every filter at its best settings, in many conditions.");
-  const auto options = std::make_shared<SweepOptions>();
-  options->output.command = command;
-  add_conditions(app, options->choice);
-  add_settings(app, options->choice);
-  app.option("--tuning-runs", options->choice.tuning_runs, "Runs by which the best settings are chosen")
+  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen")
       .in(1, 1000000)
       .shows_default();
-  app.option("--runs", options->choice.runs, "Other runs by which they are judged").in(2, 1000000).shows_default();
-  add_seed(app, options->choice.seed);
+  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000).shows_default();
+  add_seed(app, choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);
   add_output(app, options->output);
