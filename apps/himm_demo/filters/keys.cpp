@@ -81,15 +81,9 @@ std::string written(std::size_t value, double) { return std::to_string(value); }
 std::string written(std::optional<double> value, double) { return value ? toml_number(*value) : ""; }
 std::string written(const std::vector<double>& values, double) { return values.empty() ? "" : toml_list(values); }
 std::string written(bool value, double) { return value ? "true" : "false"; }
-
-bool is_told(double) { return true; }
-bool is_told(std::size_t) { return true; }
-bool is_told(std::optional<double> value) { return value.has_value(); }
-bool is_told(const std::vector<double>& values) { return !values.empty(); }
-bool is_told(bool value) { return value; }
 /// @}
 
-/// One of them, which `of` finds in its owner.
+/// One of them, which `of` finds in its owner. Where there is none, or a flag is off, that changes nothing.
 template <class Owner, class Of>
 Key<Owner> value(std::string name, std::string meaning, Of of, Range range, double unit = 1.0) {
   return {name,
@@ -97,7 +91,10 @@ Key<Owner> value(std::string name, std::string meaning, Of of, Range range, doub
           std::string(range.expected),
           [=](const Settings& settings, Owner& owner) { read(settings, name, range, unit, std::invoke(of, owner)); },
           [=](Owner owner) { return written(std::invoke(of, owner), unit); },
-          [=](Owner owner) { return is_told(std::invoke(of, owner)); }};
+          [=](Owner owner) {
+            const std::string text = written(std::invoke(of, owner), unit);
+            return !text.empty() && text != "false";
+          }};
 }
 
 /// A number for each model: one for all, or one each.
@@ -194,137 +191,6 @@ bool mixes(const FilterSettings& filter) {
 bool has_prior(const FilterSettings& filter) { return filter.lift == Lift::prior; }
 bool keeps_histories(const FilterSettings& filter) { return filter.scheme == Scheme::histories; }
 bool given(const FilterSettings& filter) { return filter.start == StartRule::given; }
-
-/// Models, how the mode moves on, and how mixtures over it collapse.
-std::vector<FilterKey> mode_keys() {
-  using F = FilterSettings;
-  return {
-      choice("scheme", "When several modes become one Gaussian.", &F::scheme,
-             "interacting, common_start, second_order, independent, histories"),
-      models(),
-      per_model(MotionParameter::sigma_w),
-      per_model(MotionParameter::tau),
-      per_model(MotionParameter::turn_rate),
-      per_model(MotionParameter::turn_drift),
-      only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
-           choice("member",
-                  "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
-                  "have the Kalman filter, and kf refuses others.",
-                  &F::member, "kf, ekf, ukf, ckf")),
-      only([](const F& f) { return f.scheme != Scheme::independent; },
-           value<F>("sojourn_s",
-                    "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
-                    "time between two rows, and Π that P on the ratio scale.",
-                    &F::sojourn_s,
-                    {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
-      transition("transition_probability", "P, from one row to the next. For a random mode.",
-                 "rows of numbers that sum to 1", ".95 on the diagonal; of histories .996, of a manoeuvre .97", false),
-      transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
-                 "rows of numbers whose maximum is 1",
-                 "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
-      only([](const F& f) { return f.fuzzy && mixes(f); },
-           choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
-                  "selected, own, own_recentred, released, envelope")),
-      only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
-           choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
-                  "stay, first, last")),
-      only([](const F& f) { return !f.fuzzy && mixes(f); },
-           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, "correct, released")),
-      only([](const F& f) { return !f.fuzzy; }, choice("output_spread",
-                                                       "Whether the output's covariance (68) has the spread of the "
-                                                       "means, or omits it as printed. For a random mode.",
-                                                       &F::output_spread, "included, omitted"))};
-}
-
-/// Likelihoods, what a model lacks, histories, and the output.
-std::vector<FilterKey> estimate_keys() {
-  using F = FilterSettings;
-  return {
-      choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
-             &F::likelihood, "density, possibility"),
-      choice("lift", "What stands for a component that a model lacks.", &F::lift,
-             "zero, borrowed_variance, unbiased, prior"),
-      only(has_prior, value<F>("entry_scales",
-                               "Standard deviations of a component that begins, if lift is prior: of accelerations in "
-                               "m/s². Histories try each of them.",
-                               [](F& f) -> std::vector<double>& { return f.entry.scales; },
-                               {"positive standard deviations", positive})),
-      only(has_prior, value<F>("entry_vertical", "So much of them along z.",
-                               [](F& f) -> double& { return f.entry.vertical; }, {"a positive share", positive})),
-      only([](const F& f) { return has_prior(f) && turns(f); },
-           value<F>(
-               "entry_turn_deg_s", "Standard deviation of the rate with which ct begins.",
-               [](F& f) -> double& { return f.entry.turn_rate; }, {"a positive one, in °/s", positive}, degree)),
-      only(keeps_histories,
-           value<F>("histories", "So many histories of the mode are kept at most, and one that ends in each mode.",
-                    &F::histories,
-                    {"a whole number from 1 to 10000",
-                     [](double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }})),
-      only(keeps_histories,
-           value<F>("cut",
-                    "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 all.",
-                    &F::cut, {"a number from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; }})),
-      only(keeps_histories,
-           value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
-                    &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
-      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output,
-             "mixed, most_likely"),
-      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, "stay, first, last")};
-}
-
-/// Start, gate, restart; smoothing, and how radar measurements are taken.
-std::vector<FilterKey> life_keys() {
-  using F = FilterSettings;
-  return {
-      choice("start",
-             "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
-             "given.",
-             &F::start, "points, released, given"),
-      only(turns,
-           value<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
-                    &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
-      only(given, value<F>("start_mean", "The mean of a given start.", &F::start_mean,
-                           {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
-      only(given,
-           value<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
-                    {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
-      only(given,
-           value<F>("start_time_s", "When a given start holds; without it, one step before the first measurement.",
-                    &F::start_time_s, {"a time, in s", any})),
-      only([](const F& f) { return f.gate_probability < 1.0; },
-           value<F>("gate_probability",
-                    "The probability that a right measurement passes the gate. What does not pass counts as missed. 1 "
-                    "is no gate.",
-                    &F::gate_probability,
-                    {"a probability above 0; 1 is no gate", [](double p) { return p > 0.0 && p <= 1.0; }})),
-      value<F>("restart_after_s",
-               "After so long without a measurement that passes, the filter starts again from the next three.",
-               &F::restart_after_s, {"a positive time, in s", positive}),
-      only([](const F& f) { return f.gate_probability < 1.0; },
-           value<F>("restart_after_rejections",
-                    "After so many measurements in a row that the gate turned away, the filter starts again from them. "
-                    "0 is never.",
-                    &F::restart_after_rejections,
-                    {"a whole number from 0 to 1000",
-                     [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
-      value<F>("smooth", "Whether the output is of the whole recording rather than of what came before.", &F::smooth,
-               flag),
-      only(keeps_histories,
-           value<F>(
-               "explain",
-               "Whether track tells when the mode changed: the most possible history of each track, with its dates.",
-               &F::explain, flag)),
-      choice("radar_measurement",
-             "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
-             "own space.",
-             &F::radar_measurement, "standard, unbiased, debiased, polar")};
-}
-
-std::vector<FilterKey> made_filter_keys() {
-  std::vector<FilterKey> result = mode_keys();
-  for (const auto& part : {estimate_keys(), life_keys()}) result.insert(result.end(), part.begin(), part.end());
-  return result;
-}
 
 std::vector<Key<Accuracy>> made_accuracy_keys() {
   using A = Accuracy;
@@ -446,7 +312,115 @@ std::string key_table() {
 }  // namespace
 
 const std::vector<FilterKey>& filter_keys() {
-  static const std::vector<FilterKey> keys = made_filter_keys();
+  using F = FilterSettings;
+  static const std::vector<FilterKey> keys = {
+      // Models, how the mode moves on, and how mixtures over it collapse.
+      choice("scheme", "When several modes become one Gaussian.", &F::scheme,
+             "interacting, common_start, second_order, independent, histories"),
+      models(), per_model(MotionParameter::sigma_w), per_model(MotionParameter::tau),
+      per_model(MotionParameter::turn_rate), per_model(MotionParameter::turn_drift),
+      only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
+           choice("member",
+                  "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
+                  "have the Kalman filter, and kf refuses others.",
+                  &F::member, "kf, ekf, ukf, ckf")),
+      only([](const F& f) { return f.scheme != Scheme::independent; },
+           value<F>("sojourn_s",
+                    "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
+                    "time between two rows, and Π that P on the ratio scale.",
+                    &F::sojourn_s,
+                    {"positive times, in s", [](double s) { return s > 0.0 && std::isfinite(1.0 / s); }})),
+      transition("transition_probability", "P, from one row to the next. For a random mode.",
+                 "rows of numbers that sum to 1", ".95 on the diagonal; of histories .996, of a manoeuvre .97", false),
+      transition("transition_possibility", "Π, from one row to the next. For a fuzzy mode.",
+                 "rows of numbers whose maximum is 1",
+                 "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
+      only([](const F& f) { return f.fuzzy && mixes(f); },
+           choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
+                  "selected, own, own_recentred, released, envelope")),
+      only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
+           choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
+                  "stay, first, last")),
+      only([](const F& f) { return !f.fuzzy && mixes(f); },
+           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, "correct, released")),
+      only([](const F& f) { return !f.fuzzy; }, choice("output_spread",
+                                                       "Whether the output's covariance (68) has the spread of the "
+                                                       "means, or omits it as printed. For a random mode.",
+                                                       &F::output_spread, "included, omitted")),
+      // Likelihoods, what a model lacks, histories, and the output.
+      choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
+             &F::likelihood, "density, possibility"),
+      choice("lift", "What stands for a component that a model lacks.", &F::lift,
+             "zero, borrowed_variance, unbiased, prior"),
+      only(has_prior, value<F>("entry_scales",
+                               "Standard deviations of a component that begins, if lift is prior: of accelerations in "
+                               "m/s². Histories try each of them.",
+                               [](F& f) -> std::vector<double>& { return f.entry.scales; },
+                               {"positive standard deviations", positive})),
+      only(has_prior, value<F>("entry_vertical", "So much of them along z.",
+                               [](F& f) -> double& { return f.entry.vertical; }, {"a positive share", positive})),
+      only([](const F& f) { return has_prior(f) && turns(f); },
+           value<F>(
+               "entry_turn_deg_s", "Standard deviation of the rate with which ct begins.",
+               [](F& f) -> double& { return f.entry.turn_rate; }, {"a positive one, in °/s", positive}, degree)),
+      only(keeps_histories,
+           value<F>("histories", "So many histories of the mode are kept at most, and one that ends in each mode.",
+                    &F::histories,
+                    {"a whole number from 1 to 10000",
+                     [](double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }})),
+      only(keeps_histories,
+           value<F>("cut",
+                    "The output is of the histories with so much of the best one's weight: 1 is the best alone, 0 all.",
+                    &F::cut, {"a number from 0 to 1", [](double c) { return c >= 0.0 && c <= 1.0; }})),
+      only(keeps_histories,
+           value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
+                    &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
+      choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output,
+             "mixed, most_likely"),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, "stay, first, last"),
+      // Start, gate, restart; smoothing, and how radar measurements are taken.
+      choice("start",
+             "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
+             "given.",
+             &F::start, "points, released, given"),
+      only(turns,
+           value<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
+                    &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
+      only(given, value<F>("start_mean", "The mean of a given start.", &F::start_mean,
+                           {"nine numbers x, y, z, vx, vy, vz, ax, ay, az", any})),
+      only(given,
+           value<F>("start_covariance_diagonal", "The variances of a given start.", &F::start_covariance_diagonal,
+                    {"variances that are not negative", not_negative, "give the squares of standard deviations"})),
+      only(given,
+           value<F>("start_time_s", "When a given start holds; without it, one step before the first measurement.",
+                    &F::start_time_s, {"a time, in s", any})),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           value<F>("gate_probability",
+                    "The probability that a right measurement passes the gate. What does not pass counts as missed. 1 "
+                    "is no gate.",
+                    &F::gate_probability,
+                    {"a probability above 0; 1 is no gate", [](double p) { return p > 0.0 && p <= 1.0; }})),
+      value<F>("restart_after_s",
+               "After so long without a measurement that passes, the filter starts again from the next three.",
+               &F::restart_after_s, {"a positive time, in s", positive}),
+      only([](const F& f) { return f.gate_probability < 1.0; },
+           value<F>("restart_after_rejections",
+                    "After so many measurements in a row that the gate turned away, the filter starts again from them. "
+                    "0 is never.",
+                    &F::restart_after_rejections,
+                    {"a whole number from 0 to 1000",
+                     [](double n) { return n >= 0.0 && n <= 1000.0 && n == std::floor(n); }})),
+      value<F>("smooth", "Whether the output is of the whole recording rather than of what came before.", &F::smooth,
+               flag),
+      only(keeps_histories,
+           value<F>(
+               "explain",
+               "Whether track tells when the mode changed: the most possible history of each track, with its dates.",
+               &F::explain, flag)),
+      choice("radar_measurement",
+             "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
+             "own space.",
+             &F::radar_measurement, "standard, unbiased, debiased, polar")};
   return keys;
 }
 
