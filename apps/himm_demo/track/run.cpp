@@ -37,9 +37,7 @@ struct Target {
   /// The frame of a row's estimate.
   const LocalFrame& frame(std::size_t filter, std::size_t tag) const {
     const auto& all = segments[filter];
-    const auto after =
-        std::find_if(all.begin() + 1, all.end(), [&](const auto& segment) { return segment.first_tag > tag; });
-    return std::prev(after)->frame;
+    return std::prev(std::ranges::upper_bound(all.begin() + 1, all.end(), tag, {}, &Segment::first_tag))->frame;
   }
 };
 
@@ -56,70 +54,65 @@ void add_by_part(SumsByPart& sums, std::optional<double> roll, const Add& add) {
 /// estimates.csv: a row for each filter and step.
 class Estimates {
  public:
-  Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording)
-      : iso_times_(options.iso_times),
-        recording_(recording),
-        models_(model_names(filters)),
-        table_(ResultTable::of_keys(keys(filters))) {}
+  /// What a filter tells of a row.
+  struct Told {
+    const std::string& track;
+    const FilterSettings& filter;
+    const TargetPoint& point;
+    const std::optional<Geodetic>& place;
+  };
+
+  Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording) {
+    const auto axes = static_cast<std::size_t>(recording.axes());
+    std::vector<std::string> keys;
+    const auto add = [&](std::string key, std::function<Cell(const Told&)> cell) {
+      keys.push_back(std::move(key));
+      cells_.push_back(std::move(cell));
+    };
+    add("time_s", [](const Told& told) { return told.point.time; });
+    if (options.iso_times) add("time_utc", [](const Told& told) { return iso_time(told.point.time); });
+    if (recording.has_tracks()) add("track", [](const Told& told) { return told.track; });
+    add("filter", [](const Told& told) { return told.filter.name; });
+    // What there is of the mean, and of its standard deviations, along each axis.
+    constexpr std::array formats = {"{}_m", "v{}_mps", "a{}_mps2", "sigma_{}_m", "sigma_v{}_mps"};
+    for (std::size_t k = 0; k < 3 * formats.size(); ++k)
+      add(fmt::format(fmt::runtime(formats[k / 3]), "xyz"[k % 3]), [=](const Told& told) {
+        const std::size_t n = told.point.mean.size(), i = k / 3 % 3 * axes + k % 3;
+        if (k % 3 >= axes || i >= n / axes * axes) return Cell();
+        return Cell(k < 9 ? told.point.mean[i] : std::sqrt(told.point.covariance[i * (n + 1)]));
+      });
+    add("nis", [](const Told& told) { return told.point.nis ? Cell(*told.point.nis) : Cell(); });
+    const auto turns = [](const FilterSettings& filter) {
+      return !std::ranges::all_of(filter.motions, &MotionChoice::linear);
+    };
+    if (std::ranges::any_of(filters, turns))
+      add("turn_rate_deg_s", [=](const Told& told) {  // which comes after the derivatives
+        const std::vector<double>& mean = told.point.mean;
+        return mean.size() % axes > 0 ? Cell(mean[mean.size() / axes * axes] / degree) : Cell();
+      });
+    for (const auto& model : model_names(filters))
+      add("weight_" + model, [=](const Told& told) {
+        const auto& own = told.filter.models;
+        const auto j = static_cast<std::size_t>(std::ranges::find(own, model) - own.begin());
+        return j < own.size() ? Cell(told.point.weights[j]) : Cell();
+      });
+    add("most_likely", [](const Told& told) { return told.filter.models[told.point.most_likely_mode]; });
+    if (recording.on_the_earth()) {
+      add("latitude_deg", [](const Told& told) { return told.place ? Cell(told.place->latitude_deg) : Cell(); });
+      add("longitude_deg", [](const Told& told) { return told.place ? Cell(told.place->longitude_deg) : Cell(); });
+      add("altitude_m",
+          [=](const Told& told) { return told.place && axes == 3 ? Cell(told.place->altitude_m) : Cell(); });
+    }
+    table_ = ResultTable::of_keys(keys);
+  }
 
   std::string header() const { return table_.csv_header(); }
-
-  std::string line(const std::string& track, const FilterSettings& settings, const TargetPoint& point,
-                   const std::optional<Geodetic>& place) const {
-    const auto axes = static_cast<std::size_t>(recording_.axes());
-    const std::size_t n = point.mean.size(), whole = n / axes * axes;  // a rate of turn comes after the derivatives
-    std::vector<Cell> cells = {point.time};
-    if (iso_times_) cells.emplace_back(iso_time(point.time));
-    if (recording_.has_tracks()) cells.emplace_back(track);
-    cells.emplace_back(settings.name);
-    const auto add = [&](std::size_t orders, const auto& number) {
-      for (std::size_t order = 0; order < orders; ++order)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const std::size_t i = order * axes + axis;
-          cells.push_back(axis < axes && i < whole ? Cell(number(i)) : Cell());
-        }
-    };
-    add(3, [&](std::size_t i) { return point.mean[i]; });
-    add(2, [&](std::size_t i) { return std::sqrt(point.covariance[i * (n + 1)]); });
-    cells.push_back(point.nis ? Cell(*point.nis) : Cell());
-    if (turns_) cells.push_back(n > whole ? Cell(point.mean[whole] / degree) : Cell());
-    for (const auto& model : models_) {
-      const auto own = std::ranges::find(settings.models, model) - settings.models.begin();
-      const auto j = static_cast<std::size_t>(own);
-      cells.push_back(j < settings.models.size() ? Cell(point.weights[j]) : Cell());
-    }
-    cells.emplace_back(settings.models[point.most_likely_mode]);
-    if (recording_.on_the_earth()) {
-      cells.push_back(place ? Cell(place->latitude_deg) : Cell());
-      cells.push_back(place ? Cell(place->longitude_deg) : Cell());
-      cells.push_back(place && axes == 3 ? Cell(place->altitude_m) : Cell());
-    }
-    return table_.csv_line(cells);
+  std::string line(const Told& told) const {
+    return table_.csv_line(each(cells_, [&](const auto& cell) { return cell(told); }));
   }
 
  private:
-  std::vector<std::string> keys(const std::vector<FilterSettings>& filters) {
-    std::vector<std::string> keys = {"time_s"};
-    if (iso_times_) keys.emplace_back("time_utc");
-    if (recording_.has_tracks()) keys.emplace_back("track");
-    for (const char* key :
-         {"filter", "x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps", "ax_mps2", "ay_mps2", "az_mps2", "sigma_x_m",
-          "sigma_y_m", "sigma_z_m", "sigma_vx_mps", "sigma_vy_mps", "sigma_vz_mps", "nis"})
-      keys.emplace_back(key);
-    for (const auto& filter : filters)
-      for (const auto& motion : filter.motions) turns_ |= !motion.linear();
-    if (turns_) keys.emplace_back("turn_rate_deg_s");
-    for (const auto& model : models_) keys.push_back("weight_" + model);
-    keys.emplace_back("most_likely");
-    if (recording_.on_the_earth())
-      for (const char* key : {"latitude_deg", "longitude_deg", "altitude_m"}) keys.emplace_back(key);
-    return keys;
-  }
-
-  bool iso_times_;
-  const RecordingReader& recording_;
-  std::vector<std::string> models_;
-  bool turns_ = false;
+  std::vector<std::function<Cell(const Told&)>> cells_;
   ResultTable table_;
 };
 
@@ -436,7 +429,7 @@ class TrackRun {
     std::optional<Geodetic> place;
     if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
     if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
-    if (sinks_.estimates) sinks_.estimates->write(estimates_.line(row.track, filter, point, place));
+    if (sinks_.estimates) sinks_.estimates->write(estimates_.line({row.track, filter, point, place}));
     if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
   }
 
