@@ -201,7 +201,9 @@ class Reporter {
     warn(senseless > 0,
          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
          file_, first_senseless, senseless, senseless == 1 ? "row counts" : "rows count");
-    const Sums* const consistent = nearest_to_consistent();
+    const Sums* const consistent =
+        greatest([](const Sums& sums) { return sums.innovations.count() >= 10; },
+                 [](const Sums& sums) { return sums.innovations.mean_nis() / sums.innovations.expected_nis(); });
     const Sums best = consistent ? *consistent : Sums{};
     const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
     const double low_nis = recording_.tells_accuracy() ? 0.2 : 0.1;
@@ -218,7 +220,9 @@ class Reporter {
          "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "
          "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
-    const Sums* const nearest = nearest_to_truth();
+    const Sums* const nearest =
+        greatest([](const Sums& sums) { return sums.error[0].count() >= std::max<std::size_t>(sums.count, 30); },
+                 [](const Sums& sums) { return -length_of(sums.error); });
     const auto error = nearest ? length_of(nearest->error) : 0.0, stated = nearest ? length_of(nearest->sigma) : 1.0;
     const auto measured = length_of(outcome_.raw[0].error);
     warn(nearest && error > 2.0 * stated,
@@ -245,36 +249,24 @@ class Reporter {
     return std::hypot(axes[0].value(), axes[1].value(), axes[2].value());
   }
 
-  /// Of the filter whose errors are the least, if they are known of many rows; else null.
-  const Sums* nearest_to_truth() const {
+  /// Of the filter of which a figure is the greatest, if all have rows enough for it; else null.
+  template <class Enough, class Figure>
+  const Sums* greatest(const Enough& has_enough, const Figure& figure) const {
     const Sums* best = nullptr;
     for (const auto& filter : outcome_.filters) {
       const Sums& sums = filter.sums[0];
-      if (sums.error[0].count() < 30 || sums.error[0].count() < sums.count) return nullptr;
-      if (!best || length_of(sums.error) < length_of(best->error)) best = &sums;
-    }
-    return best;
-  }
-
-  /// Of the filter with the greatest mean NIS for what is expected of it, if all have some; else null.
-  const Sums* nearest_to_consistent() const {
-    const Sums* best = nullptr;
-    const auto ratio = [](const Sums& sums) { return sums.innovations.mean_nis() / sums.innovations.expected_nis(); };
-    for (const auto& filter : outcome_.filters) {
-      const Sums& sums = filter.sums[0];
-      if (sums.innovations.count() < 10) return nullptr;
-      if (!best || ratio(sums) > ratio(*best)) best = &sums;
+      if (!has_enough(sums)) return nullptr;
+      if (!best || figure(sums) > figure(*best)) best = &sums;
     }
     return best;
   }
 
   /// The table of one part of the rows: a row for the measurement, if its error is known, and for each filter.
   void tabulate(std::size_t p) {
-    const auto models = model_names(filters_);
     ResultTable table;
-    if (truth_known_) table.row_of(row_of(p, models, "measurement", outcome_.raw[p], nullptr));
+    if (truth_known_) table.row_of(row_of(p, outcome_.raw[p], nullptr));
     for (std::size_t f = 0; f < filters_.size(); ++f)
-      table.row_of(row_of(p, models, filters_[f].name, outcome_.filters[f].sums[p], &filters_[f]));
+      table.row_of(row_of(p, outcome_.filters[f].sums[p], &filters_[f]));
     const std::string part(parts[p].name);
     result_.add(table, {.summary = {"results", part}, .title = fmt::format("Rows: {}", part)});
   }
@@ -307,9 +299,10 @@ class Reporter {
         ReportTable{"The tracks", table, "A click on a name opens the track, one on a head sorts by it."});
   }
 
-  std::vector<Field> row_of(std::size_t p, const std::vector<std::string>& models, const std::string& name,
-                            const Sums& sums, const FilterSettings* filter) const {
+  /// Of a filter, or of the measurement.
+  std::vector<Field> row_of(std::size_t p, const Sums& sums, const FilterSettings* filter) const {
     const std::size_t count = filter ? sums.count : sums.error[0].count();
+    const std::string name = filter ? filter->name : measurement_name;
     std::vector<Field> fields = {{{.key = "filter", .header = std::string(parts[p].name), .align = Align::left}, name},
                                  {{.key = "rows", .header = "rows"}, count}};
     const auto add = [&](std::string_view key, const std::string& group, const std::array<RootMeanSquare, 3>& values) {
@@ -338,7 +331,7 @@ class Reporter {
       weights.push_back(fmt::format("{} {:.3f}", filter->models[j], weight));
     }
     fields.push_back({{.header = "mean weights", .align = Align::left}, list_of(weights)});
-    for (const auto& model : models) {
+    for (const auto& model : model_names(filters_)) {
       const auto weight = by_model.find(model);
       fields.push_back({{.key = "mean_weight_" + model}, weight == by_model.end() ? Cell() : Cell(weight->second)});
     }
