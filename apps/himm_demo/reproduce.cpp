@@ -90,12 +90,10 @@ void add_figures(const Experiment& experiment, const Trace& trace, std::size_t m
 /// One scenario and group under one preset, with all that was found there.
 class Condition {
  public:
-  Condition(Preset under, int scenario_number, int group_number, const ReproduceChoice& choice)
-      : preset(under),
-        scenario(scenario_number),
-        group(group_number),
-        experiment(experiment_of(preset, scenario, group, choice)),
-        batches(first_filter + Column::count * experiment.filters.size()) {}
+  Preset preset;
+  int scenario, group;
+  Experiment experiment;
+  Batches batches{first_filter + Column::count * experiment.filters.size()};
 
   /// The runs first … last − 1 of all filters, as one row: how many they are, and the columns of the measurement and of
   /// each filter.
@@ -142,11 +140,6 @@ class Condition {
     }
     return {};
   }
-
-  Preset preset;
-  int scenario, group;
-  Experiment experiment;
-  Batches batches;
 
  private:
   std::size_t place(std::string_view filter) const {
@@ -235,8 +228,9 @@ std::vector<Measured> measure(const Sentence& sentence, const std::vector<Condit
 std::vector<Condition> conditions(const ReproduceChoice& choice) {
   std::vector<Condition> all;
   for (const Preset preset : both_presets)
-    for (const int scenario_number : {1, 2})
-      for (const int group_number : {1, 2, 3, 4}) all.emplace_back(preset, scenario_number, group_number, choice);
+    for (const int scenario : {1, 2})
+      for (const int group : {1, 2, 3, 4})
+        all.push_back({preset, scenario, group, experiment_of(preset, scenario, group, choice)});
   return all;
 }
 

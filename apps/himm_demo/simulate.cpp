@@ -20,12 +20,7 @@ class Performance {
  public:
   /// Of the measurement, if there is no filter.
   explicit Performance(const Experiment& experiment, const FilterSettings* filter = nullptr)
-      : experiment_(experiment),
-        filter_(filter),
-        manoeuvre_(filter ? manoeuvre_model(*filter) : std::nullopt),
-        figures_(first_weight + (filter ? filter->models.size() : 0)),
-        sums_(figures_ * static_cast<std::size_t>(experiment.scenario.samples), 0.0),
-        spread_(3 * static_cast<std::size_t>(experiment.scenario.samples)) {}
+      : experiment_(experiment), filter_(filter) {}
 
   const FilterSettings* filter() const { return filter_; }
   std::string name() const { return filter_ ? filter_->name : "measurement"; }
@@ -148,11 +143,12 @@ class Performance {
 
   const Experiment& experiment_;
   const FilterSettings* filter_;
-  std::optional<std::size_t> manoeuvre_;  // its model
-  std::size_t figures_;
-  std::vector<double> sums_;                                // over the runs, in their order
-  std::vector<RunningMean> spread_;                         // of squared errors, by sample and axis
-  std::array<std::vector<double>, squares> run_squares_{};  // by run
+  std::optional<std::size_t> manoeuvre_ = filter_ ? manoeuvre_model(*filter_) : std::nullopt;  // its model
+  std::size_t samples_ = static_cast<std::size_t>(experiment_.scenario.samples);
+  std::size_t figures_ = first_weight + (filter_ ? filter_->models.size() : 0);
+  std::vector<double> sums_ = std::vector(samples_ * figures_, 0.0);          // over the runs, in their order
+  std::vector<RunningMean> spread_ = std::vector<RunningMean>(3 * samples_);  // of squared errors, by sample and axis
+  std::array<std::vector<double>, squares> run_squares_{};                    // by run
   std::vector<double> crossings_;
 };
 
@@ -161,7 +157,7 @@ bool crowded(const Experiment& experiment) { return experiment.filters.size() > 
 
 /// Of the measurement, then of the filters, so far of no run; and all numbers of a run, which are added to all of them.
 std::vector<Performance> performances(const Experiment& experiment) {
-  std::vector<Performance> all = {Performance(experiment, nullptr)};
+  std::vector<Performance> all = {Performance(experiment)};
   for (const auto& filter : experiment.filters) all.emplace_back(experiment, &filter);
   return all;
 }

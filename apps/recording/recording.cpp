@@ -45,11 +45,7 @@ bool is_accuracy(Role role) {
 
 }  // namespace
 
-RecordingReader::RecordingReader(const RecordingOptions& options)
-    : options_(options),
-      csv_(open_csv(options.file)),
-      mapping_(mapping_of(options.columns)),
-      from_north_(options.azimuth_from_north.value_or(false)) {
+RecordingReader::RecordingReader(const RecordingOptions& options) : options_(options) {
   options_.velocity &= !options.simulated;
   for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
   find_columns();

@@ -197,9 +197,9 @@ class RecordingReader {
   std::vector<double> covariance(const std::vector<int>& places, std::vector<double> variances) const;
 
   RecordingOptions options_;
-  CsvReader csv_;
+  CsvReader csv_ = open_csv(options_.file);
   CsvRow row_;
-  std::map<std::string, std::string, std::less<>> mapping_;  // of headers, as the options say
+  std::map<std::string, std::string, std::less<>> mapping_ = mapping_of(options_.columns);  // of headers
   std::array<std::optional<Column>, quantities.size()> columns_;
   std::array<std::optional<Column>, quantities.size()> doubted_;  // velocities that do not count
   std::array<std::optional<double>, quantities.size()> said_;     // of the row, in m, m/s and degrees
@@ -208,7 +208,7 @@ class RecordingReader {
   bool times_are_numbers_ = false, times_have_dates_ = false;
   std::optional<std::size_t> date_, sensor_, track_, roll_;
   std::vector<std::pair<std::size_t, std::string>> select_;
-  bool from_north_ = false, from_zenith_ = false;
+  bool from_north_ = options_.azimuth_from_north.value_or(false), from_zenith_ = false;
   int axes_ = 3;
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track

@@ -37,13 +37,6 @@ Moves moves_of(const std::array<double, 3>& velocity, const std::array<Position,
 
 }  // namespace
 
-TrackPage::TrackPage(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool truth_known)
-    : filters_(filters),
-      recording_(recording),
-      truth_known_(truth_known),
-      models_(model_names(filters)),
-      smooths_(std::ranges::any_of(filters, &FilterSettings::smooth)) {}
-
 /// Null for tracks that are not shown.
 TrackPage::Track* TrackPage::track_of(const Row& row) {
   if (const auto found = tracks_.find(row.track); found != tracks_.end()) return &found->second;

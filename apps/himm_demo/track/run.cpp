@@ -121,13 +121,7 @@ class TrackRun {
  public:
   TrackRun(const TrackOptions& options, RecordingReader& recording, const std::vector<FilterSettings>& filters,
            TrackSinks sinks, TrackShares& shares)
-      : options_(options),
-        recording_(recording),
-        axes_(recording.axes()),
-        filters_(filters),
-        sinks_(sinks),
-        shares_(shares),
-        estimates_(options, filters, recording) {
+      : options_(options), recording_(recording), filters_(filters), sinks_(sinks), shares_(shares) {
     outcome_.filters.resize(filters.size());
     for (std::size_t f = 0; f < filters.size(); ++f) {
       TargetChoice choice = choice_of(filters[f], axes_);
@@ -554,11 +548,11 @@ class TrackRun {
 
   const TrackOptions& options_;
   RecordingReader& recording_;
-  int axes_;
+  int axes_ = recording_.axes();
   const std::vector<FilterSettings>& filters_;
   TrackSinks sinks_;
   TrackShares& shares_;
-  Estimates estimates_;
+  Estimates estimates_{options_, filters_, recording_};
   TrackOutcome outcome_;
   std::vector<AnyTarget> prototypes_;  // each filter before its first row
   bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two

@@ -81,7 +81,8 @@ struct TrackOutcome;
 /// Collects what the page of a recording shows, in memory that does not grow with its rows: some tracks, thinned.
 class TrackPage {
  public:
-  TrackPage(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool truth_known);
+  TrackPage(const std::vector<FilterSettings>& filters, const RecordingReader& recording, bool truth_known)
+      : filters_(filters), recording_(recording), truth_known_(truth_known) {}
 
   /// What a row measured, as a position where the others are counted from, and where that begins if the recording is
   /// geodetic.
@@ -164,9 +165,9 @@ class TrackPage {
   const std::vector<FilterSettings>& filters_;
   const RecordingReader& recording_;
   bool truth_known_;
-  std::vector<std::string> models_;
-  bool smooths_;                                        // so that estimates come at the end
-  std::vector<std::string> sensors_;                    // as they appear
+  std::vector<std::string> models_ = model_names(filters_);
+  bool smooths_ = std::ranges::any_of(filters_, &FilterSettings::smooth);  // so that estimates come at the end
+  std::vector<std::string> sensors_;                                       // as they appear
   std::map<Position, std::set<std::string>> stations_;  // who stands where and measures ranges or angles
   std::map<std::string, Track> tracks_;
   std::size_t kept_ = 0;       // rows of all tracks
