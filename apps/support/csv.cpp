@@ -155,10 +155,6 @@ CsvReader::CsvReader(std::istream& stream, std::string name)
   read_header();
 }
 
-CsvReader::CsvReader(CsvReader&&) noexcept = default;
-CsvReader& CsvReader::operator=(CsvReader&&) noexcept = default;
-CsvReader::~CsvReader() = default;
-
 std::optional<std::size_t> CsvReader::find(std::string_view name) const {
   const auto& names = header_->names;
   const auto found = std::ranges::find(names, name);

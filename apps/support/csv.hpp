@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,10 +64,6 @@ class CsvReader {
 
   /// Reads a stream, which must outlive the reader; `name` stands for the file in messages.
   CsvReader(std::istream& stream, std::string name);
-
-  CsvReader(CsvReader&&) noexcept;
-  CsvReader& operator=(CsvReader&&) noexcept;
-  ~CsvReader();
 
   const std::string& file() const { return header_->file; }
 
