@@ -454,13 +454,9 @@ void run_classify(const ClassifyOptions& options) {
     if (found.tallies[i].excluded > 0)
       result.say("{}: {} rows excluded every class and were judged by the prior", all[i].name,
                  found.tallies[i].excluded);
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> recognised;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    names.push_back(all[i].name);
-    recognised.push_back(found.tallies[i].recognised);
-  }
-  say_unrecognised(labels_of(pattern), found.rows_of_class, names, recognised, result);
+  std::vector<std::pair<std::string, std::vector<double>>> recognised;
+  for (std::size_t i = 0; i < all.size(); ++i) recognised.emplace_back(all[i].name, found.tallies[i].recognised);
+  say_unrecognised(labels_of(pattern), found.rows_of_class, recognised, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);

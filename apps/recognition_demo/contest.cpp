@@ -116,18 +116,17 @@ std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
 }
 
 void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<std::string>& contestants, const std::vector<std::vector<double>>& recognised,
-                      Result& result) {
+                      const std::vector<std::pair<std::string, std::vector<double>>>& recognised, Result& result) {
   std::map<std::string, std::vector<std::string>> contestants_of;
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
+  for (const auto& [contestant, times] : recognised) {
     std::vector<std::string> never;
     for (std::size_t c = 0; c < classes.size(); ++c)
-      if (rows[c] > 0 && recognised[i][c] == 0.0) never.push_back(fmt::format("{} ({} rows)", classes[c], rows[c]));
-    if (!never.empty()) contestants_of[listed(never, 12)].push_back(contestants[i]);
+      if (rows[c] > 0 && times[c] == 0.0) never.push_back(fmt::format("{} ({} rows)", classes[c], rows[c]));
+    if (!never.empty()) contestants_of[listed(never, 12)].push_back(contestant);
   }
   for (const auto& [never, those] : contestants_of)
     result.say("Not one row was recognised of {} by {}", never,
-               those.size() == contestants.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
+               those.size() == recognised.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
 }
 
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {

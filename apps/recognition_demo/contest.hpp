@@ -63,11 +63,10 @@ struct Dominated {
 };
 std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
 
-/// Says which classes no row was recognised of, and by whom, of the rows of each class and, for each contestant, how
-/// many of them it recognised.
+/// Says which classes no row was recognised of, and by whom, of the rows of each class and, for each contestant by its
+/// name, how many of them it recognised.
 void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<std::string>& contestants, const std::vector<std::vector<double>>& recognised,
-                      Result& result);
+                      const std::vector<std::pair<std::string, std::vector<double>>>& recognised, Result& result);
 
 /// A result begun: the page has its title, and the contestants are what it switches on and off.
 Result result_of_contest(std::string title, const OutputOptions& output,

@@ -339,14 +339,12 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
                  excluded(outcome, options.foldings));
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> recognised;
+  std::vector<std::pair<std::string, std::vector<double>>> recognised;
   for (const Outcome& outcome : results.outcomes()) {
-    names.push_back(outcome.name);
-    recognised.emplace_back();
-    for (std::size_t c = 0; c < data.classes.size(); ++c) recognised.back().push_back(outcome.confusion()(c, c));
+    auto& times = recognised.emplace_back(outcome.name, std::vector<double>()).second;
+    for (std::size_t c = 0; c < data.classes.size(); ++c) times.push_back(outcome.confusion()(c, c));
   }
-  say_unrecognised(data.classes, data.rows_of_class, names, recognised, result);
+  say_unrecognised(data.classes, data.rows_of_class, recognised, result);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
   if (data.classes.size() > most_classes) return;
