@@ -210,43 +210,31 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : value > 0.0 ? "∞" : "-∞";
 }
 
-/// Why the best class rather than the next one, with prior and belief of both.
-struct Reasons {
-  PatternExplanation why;
-  std::array<double, 2> prior, belief;
-};
-
-template <class Kind>
-Reasons reasons(const Classifier<Kind, Kind>& classifier, const Belief<Kind>& belief, const Readings& readings) {
-  const auto best = best_patterns(belief, 2);
-  return {explain(classifier, std::span<const std::size_t>(readings), best[0], best[1]),
-          {classifier.prior()[best[0]], classifier.prior()[best[1]]},
-          {belief[best[0]], belief[best[1]]}};
-}
-
-/// The reasons as a table; none if the readings exclude every class.
-std::optional<ResultTable> explanation(const Contestant& contestant, const RandomVariable& pattern,
-                                       const Readings& readings) {
+/// Why the best class rather than the next one, with prior and belief of both; none if the readings exclude every
+/// class.
+std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
   const Judged by = judged(contestant, readings);
   if (by.excluded) return std::nullopt;
-  auto [why, prior, belief] =
-      contestant.fuzzy()
-          ? reasons(std::get<MaxClassifier>(contestant.classifier), std::get<Belief<Fuzzy>>(by.belief), readings)
-          : reasons(std::get<SigmaClassifier>(contestant.classifier), std::get<Belief<Random>>(by.belief), readings);
-  std::ranges::stable_sort(why.contributions,
-                           [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
-  const std::string &best = pattern.label(why.pattern), &next = pattern.label(why.rival);
-  ResultTable table(
-      {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
-       {.header = "the same of " + next},
-       {.header = "log of the ratio"}});
-  table.row(
-      {fmt::format("before any reading: {} = {:.4g}", best, prior[0]), number(prior[1]), number(why.log_prior_ratio)});
-  for (const Contribution& each : why.contributions)
-    table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
-  table.rule();
-  table.row({fmt::format("{} = {:.4g}", best, belief[0]), number(belief[1]), number(why.log_ratio())});
-  return table;
+  const auto tell = [&]<class Kind>(const Belief<Kind>& belief) {
+    const auto& classifier = std::get<Classifier<Kind, Kind>>(contestant.classifier);
+    const auto both = best_patterns(belief, 2);
+    const std::string &best = belief.variable().label(both[0]), &next = belief.variable().label(both[1]);
+    auto why = explain(classifier, std::span<const std::size_t>(readings), both[0], both[1]);
+    std::ranges::stable_sort(
+        why.contributions, [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
+    ResultTable table(
+        {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
+         {.header = "the same of " + next},
+         {.header = "log of the ratio"}});
+    table.row({fmt::format("before any reading: {} = {:.4g}", best, classifier.prior()[both[0]]),
+               number(classifier.prior()[both[1]]), number(why.log_prior_ratio)});
+    for (const Contribution& each : why.contributions)
+      table.row({each.equation, number(std::exp(each.rival_log_likelihood)), number(each.log_ratio)});
+    table.rule();
+    table.row({fmt::format("{} = {:.4g}", best, belief[both[0]]), number(belief[both[1]]), number(why.log_ratio())});
+    return table;
+  };
+  return std::visit(tell, by.belief);
 }
 
 /// Whether a sigma-max classifier is the max classifier beside it.
@@ -402,7 +390,7 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
   }
   view.panels.emplace_back(std::move(support));
   for (const Contestant& contestant : all)
-    if (auto why = explanation(contestant, pattern, row.readings))
+    if (auto why = explanation(contestant, row.readings))
       view.panels.emplace_back(ReportTable{contestant.name, std::move(*why)});
     else
       view.panels.emplace_back(Words{contestant.name, "The readings exclude every class."});
@@ -463,7 +451,7 @@ void run_classify(const ClassifyOptions& options) {
       for (const Contestant& contestant : all)
         if (repeats_another(contestant, all, model.options))
           continue;
-        else if (const auto table = explanation(contestant, pattern, row.readings))
+        else if (const auto table = explanation(contestant, row.readings))
           result.add(*table, {});
         else
           result.text += fmt::format("\n{}: the readings exclude every class\n", contestant.name);
