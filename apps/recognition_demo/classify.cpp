@@ -251,25 +251,14 @@ struct Classified {
   std::vector<ShownRow> shown;
 };
 
-std::vector<std::string> prediction_keys(const RandomVariable& pattern, bool has_truth) {
-  std::vector<std::string> keys = {"line", "truth", "classifier", "decision", "margin"};
-  if (!has_truth) keys.erase(keys.begin() + 1);
-  for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
-  return keys;
-}
-
-/// What one classifier says of one row: counts it, shows it, and writes it to the file if there is one.
-class Judge {
- public:
-  Judge(const ClassifyOptions& options, bool has_truth, RowFile& file)
-      : least_margin_(options.least_margin), has_truth_(has_truth), file_(file) {}
-
-  template <class Kind>
-  void operator()(const std::string& name, const Belief<Kind>& belief, std::optional<std::size_t> truth,
-                  std::size_t line, Tally& tally, ShownRow* show) {
+Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
+                        CsvReader& reader, RowReader& rows, RowFile& file) {
+  const auto& pattern = model.counts.pattern();
+  // What a classifier says of a row: counted, shown, and written to the file if there is one.
+  const auto take = [&]<class Kind>(const Belief<Kind>& belief, const std::string& name, std::size_t line,
+                                    std::optional<std::size_t> truth, Tally& tally, ShownRow* show) {
     const Decision decision = decide(belief);
-    const auto label = [&](std::size_t c) { return belief.variable().label(c); };
-    const bool rejected = decision.margin < least_margin_;
+    const bool rejected = decision.margin < options.least_margin;
     if (rejected) {
       ++tally.rejected;
     } else {
@@ -278,28 +267,17 @@ class Judge {
       if (truth == decision.pattern) ++tally.right, ++tally.recognised[*truth];
     }
     if (show)
-      show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : label(decision.pattern),
+      show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
                                             SelectiveAlgebra<AlgebraOf<Kind>> ? "N" : "margin", decision.margin,
                                             !rejected && decision.tied > 1 ? ", a tie" : ""));
-    if (!file_) return;
+    if (!file) return;
     std::vector<Cell> cells = {line};
-    if (has_truth_) cells.emplace_back(truth ? label(*truth) : "");
-    const std::vector<Cell> said = {name, rejected ? Cell() : Cell(label(decision.pattern)), decision.margin};
+    if (rows.has_truth()) cells.emplace_back(truth ? pattern.label(*truth) : "");
+    const std::vector<Cell> said = {name, rejected ? Cell() : Cell(pattern.label(decision.pattern)), decision.margin};
     cells.insert(cells.end(), said.begin(), said.end());
     for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-    file_.write(cells);
-  }
-
- private:
-  double least_margin_;
-  bool has_truth_;
-  RowFile& file_;
-};
-
-Classified classify_all(const ClassifyOptions& options, const LearnedModel& model, const std::vector<Contestant>& all,
-                        CsvReader& reader, RowReader& rows, RowFile& file) {
-  const auto& pattern = model.counts.pattern();
-  Judge judge(options, rows.has_truth(), file);
+    file.write(cells);
+  };
   Classified result;
   result.rows_of_class.assign(pattern.size(), 0);
   result.tallies.assign(all.size(), Tally{result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
@@ -315,7 +293,7 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Judged by = judged(all[i], report);
       if (by.excluded) ++result.tallies[i].excluded;
-      std::visit([&](const auto& belief) { judge(all[i].name, belief, truth, row.line(), result.tallies[i], show); },
+      std::visit([&](const auto& belief) { take(belief, all[i].name, row.line(), truth, result.tallies[i], show); },
                  by.belief);
     }
     progress.advance(reader.bytes_read() - progress.done());
@@ -421,7 +399,10 @@ void run_classify(const ClassifyOptions& options) {
 
   CsvReader reader = open_csv(options.file);
   RowReader rows(model, reader, options.unseen == "missing");
-  RowFile file(files, "predictions.csv", prediction_keys(pattern, rows.has_truth()));
+  std::vector<std::string> keys = {"line", "truth", "classifier", "decision", "margin"};
+  if (!rows.has_truth()) keys.erase(keys.begin() + 1);
+  for (std::size_t c = 0; c < pattern.size(); ++c) keys.push_back(pattern.label(c));
+  RowFile file(files, "predictions.csv", keys);
   const Classified found = classify_all(options, model, all, reader, rows, file);
   if (found.rows == 0) throw InputError("{}: there is no row below the header", reader.file());
 
