@@ -79,21 +79,26 @@ class RowReader {
     return found == missing ? std::nullopt : std::optional(found);
   }
 
-  /// How many numbers were far from those that the model was learned from, and the first of them.
+  /// How many cells held what the model does not know, and how many numbers were far from those that it was learned
+  /// from.
+  std::size_t unseen_cells() const { return unseen_cells_; }
   std::size_t far_cells() const { return far_cells_; }
-  /// Whether they are more than long tails have.
-  bool has_many_far_cells() const {
+
+  /// Tells of both, if the numbers are more than long tails have. Says of which columns more than a fifth of the
+  /// numbers is on one side of all that the model was learned from; of few it needs more, for then it may be chance.
+  /// And which columns have no value in any row.
+  void say_outside(Result& result) const {
+    constexpr unsigned enough = 20;
     constexpr std::size_t one_in = 200;
     std::size_t numbers = 0;
     for (const auto& [all, below, above] : numbers_) numbers += all;
-    return far_cells_ > 0 && one_in * far_cells_ >= numbers;
-  }
-  const std::string& first_far() const { return first_far_; }
-
-  /// Says of which columns more than a fifth of the numbers is on one side of all that the model was learned from; of
-  /// few it needs more, for then it may be chance. And which columns have no value in any row.
-  void say_outside(Result& result) const {
-    constexpr unsigned enough = 20;
+    if (unseen_cells_ > 0)
+      result.say("\n{} as missing, since the model does not know {}: {}",
+                 unseen_cells_ == 1 ? "1 cell counts" : fmt::format("{} cells count", unseen_cells_),
+                 unseen_cells_ == 1 ? "it" : "them; the first", first_unseen_);
+    if (far_cells_ > 0 && one_in * far_cells_ >= numbers)
+      result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
+                 far_cells_ == 1 ? "1 number is" : fmt::format("{} numbers are", far_cells_), first_far_);
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const FeatureCode& feature = model_.features[i];
       double learned = 0.0;
@@ -125,10 +130,6 @@ class RowReader {
       result.fact({"numbers_outside_those_learned_from", feature.name}, outside);
     }
   }
-
-  /// How many cells held what the model does not know, and the first of them.
-  std::size_t unseen_cells() const { return unseen_cells_; }
-  const std::string& first_unseen() const { return first_unseen_; }
 
  private:
   static constexpr const char* remedy =
@@ -337,10 +338,7 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
 
 void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const std::vector<Contestant>& all,
                const Classified& found, const RowReader& rows, Result& result) {
-  result.fact({"model"}, options.model);
-  result.fact({"file"}, options.file);
-  result.fact({"rows"}, found.rows);
-  result.fact({"least_margin"}, options.least_margin);
+  result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
   if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
   if (rows.far_cells() > 0) result.fact({"numbers_far_from_those_learned_from"}, rows.far_cells());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -408,14 +406,6 @@ void run_classify(const ClassifyOptions& options) {
 
   Result result = result_of_contest("Classes of " + options.file, options.output);
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
-  if (rows.unseen_cells() > 0)
-    result.say("\n{} as missing, since the model does not know {}: {}",
-               rows.unseen_cells() == 1 ? "1 cell counts" : fmt::format("{} cells count", rows.unseen_cells()),
-               rows.unseen_cells() == 1 ? "it" : "them; the first", rows.first_unseen());
-  if (rows.has_many_far_cells())
-    result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
-               rows.far_cells() == 1 ? "1 number is" : fmt::format("{} numbers are", rows.far_cells()),
-               rows.first_far());
   rows.say_outside(result);
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
   result.add(totals_table(pattern, rows.has_truth(), all, found), {});
