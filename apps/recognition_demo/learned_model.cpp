@@ -140,47 +140,53 @@ double knowledge(const std::vector<double>& counts) {
 }
 
 /// How often each class stands in each bin of a column.
-std::vector<std::vector<double>> classes_of_bins(const LearnedModel& model, std::size_t column) {
+using BinCounts = std::vector<std::vector<double>>;
+
+BinCounts classes_of_bins(const LearnedModel& model, std::size_t column) {
   const std::size_t classes = model.counts.pattern().size();
-  std::vector<std::vector<double>> found(model.features[column].labels().size(), std::vector<double>(classes));
+  BinCounts found(model.features[column].labels().size(), std::vector<double>(classes));
   for (std::size_t c = 0; c < classes; ++c)
     for (std::size_t bin = 0; bin < found.size(); ++bin) found[bin][c] = model.counts.of(column, c)[bin];
   return found;
 }
 
-/// What is known of one class, against all others, from its share in these bins: more than from none. And from the one
-/// of the limits between them that tells most.
-struct Told {
-  double by_bins = 0.0, by_a_limit = 0.0;
-};
-Told told_of(std::size_t its_class, const std::vector<std::vector<double>>& bins) {
-  const auto sum = [](const std::vector<double>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); };
-  std::vector<double> all(2), below(2);
-  Told told;
+double sum_of(const std::vector<double>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); }
+
+/// How often one class stands in each bin, and all others.
+BinCounts against_others(const BinCounts& bins, std::size_t its_class) {
+  return each(bins, [&](const std::vector<double>& counts) {
+    return std::vector{counts[its_class], sum_of(counts) - counts[its_class]};
+  });
+}
+
+/// How often each class stands in all bins together.
+std::vector<double> joined(const BinCounts& bins) {
+  std::vector<double> all(bins.front().size());
+  for (const auto& counts : bins)
+    for (std::size_t c = 0; c < all.size(); ++c) all[c] += counts[c];
+  return all;
+}
+
+double knowledge_by(const BinCounts& bins) {
+  double sum = 0.0;
+  for (const auto& counts : bins) sum += knowledge(counts);
+  return sum;
+}
+
+/// What is known from the one of the limits between bins that tells most, more than from none.
+double told_by_a_limit(const BinCounts& bins) {
+  const auto all = joined(bins);
+  std::vector<double> below(all.size()), above = all;
+  double most = 0.0;
   for (const auto& counts : bins) {
-    const std::vector<double> own = {counts[its_class], sum(counts) - counts[its_class]};
-    told.by_bins += knowledge(own);
-    for (std::size_t i = 0; i < 2; ++i) all[i] += own[i];
+    for (std::size_t c = 0; c < all.size(); ++c) below[c] += counts[c], above[c] -= counts[c];
+    most = std::max(most, knowledge(below) + knowledge(above) - knowledge(all));
   }
-  for (const auto& counts : bins) {
-    below[0] += counts[its_class], below[1] += sum(counts) - counts[its_class];
-    told.by_a_limit = std::max(told.by_a_limit,
-                               knowledge(below) + knowledge({all[0] - below[0], all[1] - below[1]}) - knowledge(all));
-  }
-  told.by_bins -= knowledge(all);
-  return told;
+  return most;
 }
 
 /// The greatest share of the numbers that is in one bin.
-double fullest(const std::vector<std::vector<double>>& bins) {
-  double most = 0.0, all = 0.0;
-  for (const auto& counts : bins) {
-    const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
-    most = std::max(most, sum);
-    all += sum;
-  }
-  return most / all;
-}
+double fullest(const BinCounts& bins) { return std::ranges::max(each(bins, sum_of)) / sum_of(joined(bins)); }
 
 }  // namespace
 
@@ -207,28 +213,23 @@ void print_warnings(const DataTable& data, const LearningOptions& options) {
          "--equal-width, or those if they are slips or stand for none",
          100.0 * share, bins.size());
     if (fine_bins.size() <= bins.size()) continue;
-    double by_bins = 0.0, by_fine = 0.0;
-    std::vector<double> all(data.classes.size());
-    for (const auto& counts : bins) by_bins += knowledge(counts);
-    for (const auto& counts : fine_bins) {
-      by_fine += knowledge(counts);
-      for (std::size_t c = 0; c < all.size(); ++c) all[c] += counts[c];
-    }
-    const double freedom = static_cast<double>((fine_bins.size() - bins.size()) * (all.size() - 1));
-    const double lost = by_fine - by_bins, chance = freedom / 2.0 + 5.0 * std::sqrt(freedom / 2.0);
+    const double freedom = static_cast<double>((fine_bins.size() - bins.size()) * (data.classes.size() - 1));
+    const double by_bins = knowledge_by(bins), lost = knowledge_by(fine_bins) - by_bins;
+    const double chance = freedom / 2.0 + 5.0 * std::sqrt(freedom / 2.0);
     // A class of few rows is lost where one limit would tell more of it than all bins; one of 64 does by chance.
     constexpr double by_chance = 10.0;
     bool loses_one = false;
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      const double by_its_bins = told_of(c, bins).by_bins;
-      loses_one |= told_of(c, fine_bins).by_a_limit > 1.1 * by_its_bins + by_chance;
+    for (std::size_t c = 0; c < data.classes.size(); ++c) {
+      const auto own = against_others(bins, c);
+      const double by_its_bins = knowledge_by(own) - knowledge(joined(own));
+      loses_one |= told_by_a_limit(against_others(fine_bins, c)) > 1.1 * by_its_bins + by_chance;
     }
     if (!(lost > chance) && !loses_one) continue;
     const bool are_zeros = !options.equal_width && share > 0.5 && bins.size() < 4;
     warn(are_zeros,
          "{:.3g} % of the numbers are in one bin, as where most are 0, and the others in {} of {}: give more --bins",
          100.0 * share, bins.size() - 1, options.bins);
-    if (!are_zeros && (loses_one || lost > 0.3 * (by_bins - knowledge(all))))
+    if (!are_zeros && (loses_one || lost > 0.3 * (by_bins - knowledge(joined(bins)))))
       coarse.push_back(typed(data.columns[i].name));
   }
   if (!coarse.empty())
