@@ -72,9 +72,7 @@ std::size_t Vocabulary::numbers() const {
 }
 
 std::string Vocabulary::alike() const {
-  std::vector<std::string_view> words;
-  for (const auto& [word, code] : codes_) words.push_back(word);
-  return apps::alike(words);
+  return apps::alike(each(codes_, [](const auto& word) { return std::string_view(word.first); }));
 }
 
 std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
@@ -246,9 +244,7 @@ ColumnReader::ByValue ColumnReader::by_stem(const std::vector<std::size_t>& rows
     own.add(first, same);
     own.others += others;
   }
-  std::vector<ClassesOfValue> classes;
-  for (const auto& [stem, own] : stems) classes.push_back(own);
-  return summed(classes, rows_of_class);
+  return summed(each(stems, [](const auto& stem) { return stem.second; }), rows_of_class);
 }
 
 ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& classes,

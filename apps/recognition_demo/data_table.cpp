@@ -476,9 +476,8 @@ bool MissingWords::operator()(std::string_view cell) {
 }
 
 std::vector<std::string> MissingWords::unmet() const {
-  std::vector<std::string> words;
-  for (const Word& word : more_) words.push_back(in_quotes(word.text));
-  return std::ranges::any_of(more_, &Word::met) ? std::vector<std::string>() : words;
+  if (std::ranges::any_of(more_, &Word::met)) return {};
+  return each(more_, [](const Word& word) { return in_quotes(word.text); });
 }
 
 bool MissingWords::among_numbers(std::string_view cell) {

@@ -326,8 +326,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
-  std::vector<TrackOutcome> outcomes;
-  for (const Contestant& contestant : all) outcomes.push_back(follow_track(contestant, track.reports));
+  const auto outcomes = each(all, [&](const Contestant& one) { return follow_track(one, track.reports); });
 
   Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
   say_counts(options, data.counts, result);

@@ -64,8 +64,7 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
 View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, EsmRun drawn) {
   constexpr std::size_t most = 100;
   if (drawn.reports.size() > most) drawn.reports.resize(most);
-  std::vector<Beliefs> beliefs;
-  for (const Contestant& contestant : all) beliefs.push_back(beliefs_over(contestant, drawn.reports));
+  const auto beliefs = each(all, [&](const Contestant& one) { return beliefs_over(one, drawn.reports); });
   return {fmt::format("run {}", run + 1),
           support_charts(labels_of(world.platform), all, beliefs, counted_from(1, drawn.reports.size()), "reports",
                          drawn.platform)};

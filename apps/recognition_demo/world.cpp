@@ -132,8 +132,7 @@ void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, 
 }
 
 void run_world(const World& world, const DrawOptions& options, ResultFiles& files) {
-  std::vector<Scoreboard> boards;
-  for (const Condition& condition : world.conditions) boards.emplace_back(condition.contestants);
+  auto boards = each(world.conditions, [](const Condition& one) { return Scoreboard(one.contestants); });
   const Study study{"runs", options.runs * world.conditions.size(), [&](std::size_t cell) {
                       const Condition& condition = world.conditions[cell / options.runs];
                       const Drawn drawn = condition.draw(cell % options.runs);
@@ -148,14 +147,12 @@ void run_world(const World& world, const DrawOptions& options, ResultFiles& file
     if (seen.run < world.runs_in_page && files.report_wanted()) views.push_back(world.view(seen));
   };
   if (!run(study, {.threads = options.threads}, options.output, add)) return;
-  std::vector<Scores> scores;
-  for (const Scoreboard& board : boards) scores.push_back(board.scores());
   Result result = result_of_contest(world.title, options.output, world.conditions.front().contestants);
   if (world.view) {
     result.page.chooser = "Show";
     result.page.views.push_back({fmt::format("all {} runs", options.runs), {}});
   }
-  world.tell(scores, result);
+  world.tell(each(boards, &Scoreboard::scores), result);
   std::ranges::move(views, std::back_inserter(result.page.views));
   result.publish(files);
 }

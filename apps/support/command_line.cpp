@@ -107,8 +107,7 @@ Arguments with_subcommand(const CLI::App& app, const std::string& default_subcom
     if (!default_subcommand.empty()) arguments.insert(arguments.begin(), default_subcommand);
     return arguments;
   }
-  std::vector<std::string> names;
-  for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
+  const auto names = each(app.get_subcommands({}), [](const CLI::App* one) { return one->get_name(); });
   if (std::ranges::find(names, arguments.front()) == names.end())
     throw UsageError({.what = fmt::format("there is no subcommand {}", in_quotes(arguments.front())),
                       .remedy = suggestion(arguments.front(), names)});
