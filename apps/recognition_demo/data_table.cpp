@@ -213,14 +213,10 @@ bool warn_of_repeats(DataTable& table) {
     one_hot.push_back(typed(table.columns[i].name));
     for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
   }
-  const auto sum = [&](double its_class) {
-    std::set<std::size_t> sums;
-    for (std::size_t k = 0; k < size; ++k)
-      if (rows.cells[k].back() == its_class) sums.insert(ones[k]);
-    return sums;
-  };
-  const auto zero = std::set<std::size_t>{0}, one = std::set<std::size_t>{1};
-  warn(table, one_hot.size() > 1 && ((sum(0.0) == zero && sum(1.0) == one) || (sum(0.0) == one && sum(1.0) == zero)),
+  std::map<double, std::set<std::size_t>> sums;  // by class
+  for (std::size_t k = 0; k < size; ++k) sums[rows.cells[k].back()].insert(ones[k]);
+  const decltype(sums) of_the_second{{0.0, {0}}, {1.0, {1}}}, of_the_first{{0.0, {1}}, {1.0, {0}}};
+  warn(table, one_hot.size() > 1 && (sums == of_the_second || sums == of_the_first),
        "of {} columns ({}) one is 1 in each row of one class, and none in those of the other: they are the class "
        "itself; leave them out by --ignore {}",
        one_hot.size(), listed(one_hot, 3), fmt::join(one_hot, ","));
@@ -264,31 +260,29 @@ bool warn_of_repeats(DataTable& table) {
     return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j]) : rows.one_to_one(i, j);
   };
   std::vector<std::pair<std::string, std::vector<std::string>>> families;  // that say the same
+  std::vector<std::string> all_others;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t j = i + 1; j < ranks.size(); ++j)
       if (says_the_same(i, j)) {
         repeated[j] = true;
         others.push_back(typed(table.columns[j].name));
+        all_others.push_back(others.back());
       }
     if (!others.empty()) families.emplace_back(table.columns[i].name, std::move(others));
   }
   constexpr std::size_t most_families = 3;
-  std::vector<std::string> all_others;
-  for (const auto& [name, others] : families) {
-    const std::string names = fmt::format("{}", fmt::join(others, ","));
+  for (const auto& [name, others] : families)
     warn_of(
         name, table, families.size() <= most_families,
         " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
         "--ignore {}",
-        names, others.size() + 1, names);
-    all_others.push_back(names);
-  }
-  warn(table, families.size() > most_families,
+        fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
+  if (families.size() <= most_families) return all_of_them;
+  warn(table, true,
        "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
        "several times; leave the others out by --ignore {}",
-       families.size(), families.empty() ? "" : in_quotes(families[0].first), families.empty() ? "" : all_others[0],
-       fmt::join(all_others, ","));
+       families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
   return all_of_them;
 }
 
@@ -499,7 +493,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   table.file = reader.file();
   table.label = options.label;
   Vocabulary classes;
-  std::vector<std::size_t> rows_of, last_line_of;  // by class, as they come
+  std::vector<std::size_t> rows_of;  // by class, as they come
   std::size_t first_line = 0;
   for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
@@ -516,9 +510,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
     rows_of.resize(classes.size());
-    last_line_of.resize(classes.size());
     ++rows_of[code];
-    last_line_of[code] = row.line();
     if (first_line == 0) first_line = row.line();
     table.cells_.push_back(code);
     table.cells_.push_back(static_cast<double>(row.line()));
@@ -537,11 +529,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
                       .found = fmt::format("{} in all of {} rows", in_quotes(table.classes.front()), table.size()),
                       .expected = "at least two classes"});
   table.rows_of_class.resize(rows_of.size());
-  table.last_line_of_class.resize(rows_of.size());
-  for (std::size_t code = 0; code < rows_of.size(); ++code) {
+  for (std::size_t code = 0; code < rows_of.size(); ++code)
     table.rows_of_class[table.class_order_[code]] = rows_of[code];
-    table.last_line_of_class[table.class_order_[code]] = last_line_of[code];
-  }
   for (const auto& column : columns) column.refuse_slip(reader);
   refuse_useless(reader, columns, table.size());
   table.value_order_.resize(columns.size());

@@ -59,7 +59,6 @@ class DataTable {
   std::string label;
   std::vector<std::string> classes;
   std::vector<std::size_t> rows_of_class;
-  std::vector<std::size_t> last_line_of_class;
   std::vector<DataColumn> columns;
   std::vector<std::string> warnings;  ///< what the reader of the results should know
 

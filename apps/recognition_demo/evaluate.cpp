@@ -270,15 +270,16 @@ void write_predictions(const DataTable& data, const EvaluateOptions& options, Re
 
 /// Throws unless every class can be learned whichever fold is left out.
 void refuse_rare_classes(const DataTable& data) {
-  std::vector<std::string> rare;
-  for (std::size_t c = 0; c < data.classes.size(); ++c)
-    if (data.rows_of_class[c] < 2)
-      rare.push_back(fmt::format("{} (line {})", in_quotes(data.classes[c]), data.last_line_of_class[c]));
+  std::map<std::size_t, std::string> rare;  // by class
+  data.for_each([&](const DataRow& row) {
+    const std::size_t c = row.label();
+    if (data.rows_of_class[c] < 2) rare[c] = fmt::format("{} (line {})", in_quotes(data.classes[c]), row.line());
+  });
   if (rare.empty()) return;
   throw InputError(
       "{}: column {}: found a single row of {}, expected at least two of every class: one to learn from, one to "
       "classify; add rows, or remove those of the class",
-      data.file, in_quotes(data.label), listed(rare, 12));
+      data.file, in_quotes(data.label), listed(each(rare, [](const auto& one) { return one.second; }), 12));
 }
 
 Results evaluated(const DataTable& data, const EvaluateOptions& options) {
