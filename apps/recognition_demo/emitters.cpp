@@ -47,13 +47,6 @@ std::vector<double> spread_over_emitters(const EsmWorld& world, std::size_t plat
   return probabilities;
 }
 
-/// Shares of `size` emitters of which one dominates.
-std::vector<double> dominant_shares(std::size_t size, std::size_t dominant, double share) {
-  std::vector<double> shares(size, (1.0 - share) / static_cast<double>(size - 1));
-  shares[dominant] = share;
-  return shares;
-}
-
 /// Shares of `size` emitters on a grid of equal probability under Dirichlet(α): sticks are broken at the quantiles.
 std::vector<std::vector<double>> dirichlet_grid(std::size_t size, double alpha) {
   if (size == 1) return {{1.0}};
@@ -74,8 +67,8 @@ std::vector<std::vector<double>> dirichlet_grid(std::size_t size, double alpha) 
 std::vector<std::vector<double>> usage_grid(std::size_t size, const Usage& usage) {
   if (usage.kind == Usage::Kind::dirichlet) return dirichlet_grid(size, usage.parameter);
   if (usage.kind == Usage::Kind::equal) return {std::vector<double>(size, 1.0 / static_cast<double>(size))};
-  std::vector<std::vector<double>> grid;
-  for (std::size_t i = 0; i < size; ++i) grid.push_back(dominant_shares(size, i, usage.parameter));
+  std::vector grid(size, std::vector<double>(size, (1.0 - usage.parameter) / static_cast<double>(size - 1)));
+  for (std::size_t i = 0; i < size; ++i) grid[i][i] = usage.parameter;
   return grid;
 }
 
@@ -97,10 +90,10 @@ Relation<Fuzzy, Fuzzy> EsmWorld::carries(double elsewhere) const {
 
 std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, const Usage& usage, RandomStream& random) {
   const std::size_t size = world.carried[platform].size();
-  std::vector<double> shares(size, 1.0 / static_cast<double>(size));
-  if (usage.kind == Usage::Kind::dirichlet) shares = draw_dirichlet(random, size, usage.parameter);
-  if (usage.kind == Usage::Kind::dominant) shares = dominant_shares(size, draw_index(random, size), usage.parameter);
-  return spread_over_emitters(world, platform, shares);
+  if (usage.kind == Usage::Kind::dirichlet)
+    return spread_over_emitters(world, platform, draw_dirichlet(random, size, usage.parameter));
+  const auto grid = usage_grid(size, usage);
+  return spread_over_emitters(world, platform, grid[grid.size() == 1 ? 0 : draw_index(random, grid.size())]);
 }
 
 EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random) {
