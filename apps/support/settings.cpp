@@ -77,17 +77,11 @@ struct Reader {
   }
 
   void read(const toml::node& node, Strings& values) const {
-    if (node.is_string())
-      read(node, values.emplace_back());
-    else
-      read_array(node, values, "a string or an array of strings", R"(["one", "two"])");
+    read_array(node, node.is_string(), values, "a string or an array of strings", R"(["one", "two"])");
   }
 
   void read(const toml::node& node, Numbers& values) const {
-    if (node.is_number())
-      read(node, values.emplace_back());
-    else
-      read_array(node, values, "a number or an array of numbers", "[1.0, 2.0]");
+    read_array(node, node.is_number(), values, "a number or an array of numbers", "[1.0, 2.0]");
   }
 
   void read(const toml::node& node, Matrix& rows) const {
@@ -95,16 +89,18 @@ struct Reader {
     const auto* array = node.as_array();
     if (!array) throw error(node, "an array of rows, each an array of numbers", as_in(example));
     for (const auto& row : *array) {
-      read_array(row, rows.emplace_back(), "a row, which is an array of numbers", example);
+      read_array(row, false, rows.emplace_back(), "a row, which is an array of numbers", example);
       if (rows.back().size() != rows.front().size())
         throw error(row, fmt::format("a row of {} numbers as the first", rows.front().size()),
                     "make all rows of the same length");
     }
   }
 
+  /// The values of an array, or the one that stands for such.
   template <class Value>
-  void read_array(const toml::node& node, std::vector<Value>& values, std::string_view expected,
+  void read_array(const toml::node& node, bool is_one, std::vector<Value>& values, std::string_view expected,
                   std::string_view example) const {
+    if (is_one) return read(node, values.emplace_back());
     const auto* array = node.as_array();
     if (!array) throw error(node, expected, as_in(example));
     for (const auto& element : *array) read(element, values.emplace_back());
@@ -198,16 +194,13 @@ struct Settings::Layer {
   Origin origin;
   std::shared_ptr<const toml::table> document;
   const toml::table* table = nullptr;
-  std::string prefix;
-  std::set<std::string, std::less<>> asked;
-  std::map<std::string, std::shared_ptr<Layer>, std::less<>> children;
+  std::string prefix{};
+  std::set<std::string, std::less<>> asked{};
+  std::map<std::string, std::shared_ptr<Layer>, std::less<>> children{};
 
   static std::shared_ptr<Layer> of(Origin origin, std::string_view text) {
-    auto layer = std::make_shared<Layer>();
-    layer->document = std::make_shared<const toml::table>(parsed(text, origin));
-    layer->table = layer->document.get();
-    layer->origin = std::move(origin);
-    return layer;
+    const auto document = std::make_shared<const toml::table>(parsed(text, origin));
+    return std::make_shared<Layer>(Layer{std::move(origin), document, document.get()});
   }
 
   void require_table_if_any(std::string_view key) const {
@@ -221,13 +214,8 @@ struct Settings::Layer {
     const auto* node = table->get(key);
     if (!node) return nullptr;
     auto& known = children[std::string{key}];
-    if (!known) {
-      known = std::make_shared<Layer>();
-      known->origin = origin;
-      known->document = document;
-      known->table = node->as_table();
-      known->prefix = fmt::format("{}{}.", prefix, key);
-    }
+    if (!known)
+      known = std::make_shared<Layer>(Layer{origin, document, node->as_table(), fmt::format("{}{}.", prefix, key)});
     return known;
   }
 
