@@ -43,24 +43,22 @@ void Nines::see(std::string_view cell, double number) {
     if (end->size() > most_codes + 1) end->erase(std::prev(end->end()));
   }
   if (different_.size() <= most_different) different_.insert(number);
+  const auto add_others = [&](double other, std::size_t cells) {
+    others_ += cells;
+    least_ = std::min(least_, other);
+    greatest_ = std::max(greatest_, other);
+  };
   constexpr std::array ends = {-2147483648.0, -32768.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
   const bool is_end = std::ranges::find(ends, number) != ends.end() || std::abs(number) >= 1e20;
   if ((is_code(cell, number) || is_end) && (word_.empty() || std::abs(number) > std::abs(number_))) {
-    if (!word_.empty()) {  // a smaller one is among the others, as 77 of ages is
-      least_ = std::min(least_, number_);
-      greatest_ = std::max(greatest_, number_);
-      others_ += std::exchange(cells_, 0);
-    }
+    if (!word_.empty()) add_others(number_, std::exchange(cells_, 0));  // a smaller one is such, as 77 of ages is
     word_ = cell;
     number_ = number;
   }
-  if (cell == word_) {
+  if (cell == word_)
     ++cells_;
-  } else {
-    ++others_;
-    least_ = std::min(least_, number);
-    greatest_ = std::max(greatest_, number);
-  }
+  else
+    add_others(number, 1);
 }
 
 std::string Nines::doubt_of(std::string_view column, const End& end, double other_end) const {
