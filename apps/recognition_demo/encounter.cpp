@@ -1,4 +1,5 @@
 #include <map>
+#include <numeric>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>
@@ -69,8 +70,7 @@ EncounterData read_encounter(const std::string& file) {
     const Layers& first = all[{classes.front(), i}];
     for (const auto& name : classes) {
       const Layers& own = all[{name, i}];
-      double sum = 0.0;
-      for (const double times : own.count) sum += times;
+      const double sum = std::accumulate(own.count.begin(), own.count.end(), 0.0);
       if (own.lower != first.lower || own.upper != first.upper || !(sum > 0.0))
         throw InputError({.where = reader.file(),
                           .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
@@ -188,8 +188,7 @@ void say_counts(const EncounterOptions& options, const Counts& counts, Result& r
       "equally plausible before",
       options.file);
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
-    double samples = 0.0;
-    for (const double count : counts.of(0, c)) samples += count;
+    const double samples = std::accumulate(counts.of(0, c).begin(), counts.of(0, c).end(), 0.0);
     result.text += fmt::format("  {}: {:.1f} million samples\n", counts.pattern().label(c), samples * 1e-6);
   }
 }

@@ -18,8 +18,7 @@ struct EsmOptions {
 };
 
 Usage usage_of(const EsmOptions& options) {
-  if (options.usage == "dirichlet") return {Usage::Kind::dirichlet, options.alpha};
-  return {};
+  return options.usage == "dirichlet" ? Usage{Usage::Kind::dirichlet, options.alpha} : Usage{};
 }
 
 std::vector<Contestant> contestants(const EsmWorld& world, const EsmOptions& options) {

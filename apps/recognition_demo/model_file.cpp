@@ -221,8 +221,7 @@ ModelFile read_model(const std::filesystem::path& path) {
       if (sum == 0.0 && options.smoothing == 0.0) throw tables[c].error("a count above zero, as there is no smoothing");
     }
   }
-  std::vector<std::string> missing_words;
-  if (root.has("missing")) missing_words = names(root.at("missing"), "words");
+  auto missing_words = root.has("missing") ? names(root.at("missing"), "words") : std::vector<std::string>();
   LearnedModel model{label, std::move(missing_words), std::move(codes), std::move(counts), options};
   return {std::move(model), std::move(kinds)};
 }

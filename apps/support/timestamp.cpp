@@ -51,9 +51,8 @@ std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
   const std::string_view from = text;
   if (!take(text, "00:00:00")) return std::nullopt;
   const int hour = number_at(from, 0), minute = number_at(from, 3), second = number_at(from, 6);
-  if (hour > 23 || minute > 59 || second > 60) return std::nullopt;
   const auto fraction = take_fraction(text);
-  if (!fraction) return std::nullopt;
+  if (hour > 23 || minute > 59 || second > 60 || !fraction) return std::nullopt;
   return TimeOfDay{(hour * 60 + minute) * 60 + second, *fraction};
 }
 
@@ -87,12 +86,10 @@ std::optional<double> parse_date_and_time(std::string_view text) {
   const year_month_day date{year{number_at(from, 0, 4)}, month{static_cast<unsigned>(number_at(from, 5))},
                             day{static_cast<unsigned>(number_at(from, 8))}};
   const auto time = take_time_of_day(text);
-  if (!date.ok() || !time) return std::nullopt;
-  std::int64_t whole = std::int64_t{sys_days{date}.time_since_epoch().count()} * 86400 + time->whole_s;
   const auto offset = offset_minutes(trimmed(text));
-  if (!offset) return std::nullopt;
-  whole -= 60 * *offset;
-  return static_cast<double>(whole) + time->fraction_s;
+  if (!date.ok() || !time || !offset) return std::nullopt;
+  const auto day_number = std::int64_t{sys_days{date}.time_since_epoch().count()};
+  return static_cast<double>(day_number * 86400 + time->whole_s - 60 * *offset) + time->fraction_s;
 }
 
 }  // namespace
