@@ -156,9 +156,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
     throw InputError("{}: cannot be written: a name in the data is not UTF-8; convert the data to UTF-8",
                      path.native());
   }
-  AtomicFile file{path};
-  file.write(text + "\n");
-  file.commit();
+  write_file(path, text + "\n");
 }
 
 ModelFile read_model(const std::filesystem::path& path) {

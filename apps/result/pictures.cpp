@@ -476,11 +476,6 @@ std::string in_gnuplot(std::string_view text) {
   return quoted + "'";
 }
 
-void save_svg(const LineChart& chart, const std::filesystem::path& path) {
-  const std::string document = svg_of(drawn(chart, {}));
-  AtomicFile file(path);
-  file.write(document);
-  file.commit();
-}
+void save_svg(const LineChart& chart, const std::filesystem::path& path) { write_file(path, svg_of(drawn(chart, {}))); }
 
 }  // namespace sigmax::apps

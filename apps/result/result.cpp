@@ -129,11 +129,7 @@ void ResultFiles::commit() {
   if (report_) report_->store();
   for (AtomicFile& file : files_) file.commit();
   if (report_) report_->commit();
-  for (const auto& [name, document] : pictures_) {
-    AtomicFile file(plots_ / name);
-    file.write(document);
-    file.commit();
-  }
+  for (const auto& [name, document] : pictures_) write_file(plots_ / name, document);
   std::vector<std::string> written;
   if (!names_.empty())
     written.push_back(fmt::format("{}{}{} to {}", fmt::join(names_.begin(), names_.end() - 1, ", "),

@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <deque>
 
-#include <fmt/core.h>
-
 #include "support/command_line.hpp"
 #include "support/error.hpp"
 

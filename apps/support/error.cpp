@@ -3,8 +3,6 @@
 #include <cstddef>
 #include <system_error>
 
-#include <fmt/core.h>
-
 namespace sigmax::apps {
 namespace {
 

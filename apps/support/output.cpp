@@ -118,6 +118,12 @@ void AtomicFile::fail(int error_number) {
       {.where = path_.native(), .what = "cannot be written: " + reason(error_number), .remedy = remedy(error_number)});
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 void remove_unfinished_files() noexcept {
   for (const UnfinishedFile& file : unfinished)
     if (file.named) ::unlink(file.name.data());

@@ -49,6 +49,9 @@ class AtomicFile {
   UnfinishedFile* listed_;  // where a signal handler finds it
 };
 
+/// Writes such a file at once.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
 /// Writes all to a descriptor; false, with errno, where that fails.
 bool write_all(int descriptor, std::string_view text);
 
