@@ -139,9 +139,9 @@ double knowledge(const std::vector<double>& counts) {
   return sum > 0.0 ? result - sum * std::log(sum) : 0.0;
 }
 
-/// How often each class stands in each bin of a column.
 using BinCounts = std::vector<std::vector<double>>;
 
+/// How often each class stands in each bin of a column.
 BinCounts classes_of_bins(const LearnedModel& model, std::size_t column) {
   const std::size_t classes = model.counts.pattern().size();
   BinCounts found(model.features[column].labels().size(), std::vector<double>(classes));
