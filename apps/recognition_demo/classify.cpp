@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <fmt/ranges.h>
-
 #include "support/input.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"

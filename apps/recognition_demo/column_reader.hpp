@@ -1,8 +1,5 @@
 #pragma once
 
-#include <map>
-#include <set>
-
 #include "recognition_demo/data_table.hpp"
 #include "support/nines.hpp"
 #include "support/numbers.hpp"

@@ -1,11 +1,8 @@
 #include "recognition_demo/contest.hpp"
 
-#include <cmath>
 #include <numeric>
 
-#include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
-#include <sigmax/core/update.hpp>
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/dominance.hpp>
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include <sigmax/recognition/classifier.hpp>
 
 #include "result/result.hpp"

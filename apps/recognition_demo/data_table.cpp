@@ -4,11 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include <fmt/ranges.h>
-
 #include "recognition_demo/column_reader.hpp"
 #include "support/input.hpp"
-#include "support/numbers.hpp"
 #include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/text.hpp"

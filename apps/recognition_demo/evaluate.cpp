@@ -1,7 +1,5 @@
-#include <cmath>
 #include <random>
 
-#include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
 #include <sigmax/recognition/folds.hpp>

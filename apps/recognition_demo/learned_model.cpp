@@ -1,12 +1,7 @@
 #include "recognition_demo/learned_model.hpp"
 
-#include <cmath>
 #include <map>
 #include <numeric>
-
-#include <fmt/ranges.h>
-
-#include <sigmax/recognition/discretization.hpp>
 
 namespace sigmax::apps {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include <sigmax/recognition/counts.hpp>
 #include <sigmax/recognition/discretization.hpp>
 

@@ -1,6 +1,4 @@
-#include <sigmax/core/compose.hpp>
 #include <sigmax/core/transform.hpp>
-#include <sigmax/core/update.hpp>
 #include <sigmax/estimation/discrete_white_noise.hpp>
 #include <sigmax/estimation/start.hpp>
 #include <sigmax/hybrid/interacting_multiple_model.hpp>

@@ -1,5 +1,3 @@
-#include <cmath>
-#include <set>
 
 #include "recognition_demo/learned_model.hpp"
 #include "support/input.hpp"

@@ -1,4 +1,3 @@
-#include <initializer_list>
 
 #include <sigmax/core/transform.hpp>
 #include <sigmax/recognition/counts.hpp>

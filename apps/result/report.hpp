@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "result/table.hpp"
 
 namespace sigmax::apps {

@@ -1,7 +1,5 @@
 #include "result/result.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <system_error>
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <variant>
 
 #include <nlohmann/json_fwd.hpp>
