@@ -19,8 +19,7 @@ std::vector<FeatureCode> fitted(const DataTable& data, const RowChoice& chosen, 
     another_pass = false;
     for (auto& [column, fit] : fits) another_pass |= fit.wants_another_pass();
   }
-  std::vector<FeatureCode> codes;
-  for (const DataColumn& column : data.columns) codes.push_back({column.name, column.values, std::nullopt});
+  auto codes = each(data.columns, [](const DataColumn& one) { return FeatureCode{one.name, one.values, {}}; });
   for (const auto& [column, fit] : fits) {
     FeatureCode& code = codes[column];
     code.least = fit.least();

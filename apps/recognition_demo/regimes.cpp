@@ -241,14 +241,12 @@ void run_regimes(const RegimesOptions& options) {
   const EsmWorld esm;
   auto all = regimes();
   World world{"Where is max inference the better one?", {}};
-  std::vector<Setting*> settings;
-  for (Regime& regime : all)
-    for (Setting& setting : regime.settings) {
-      world.conditions.push_back(condition_of(esm, setting, options));
-      settings.push_back(&setting);
-    }
+  for (const Regime& regime : all)
+    for (const Setting& setting : regime.settings) world.conditions.push_back(condition_of(esm, setting, options));
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
-    for (std::size_t i = 0; i < scores.size(); ++i) settings[i]->scores = scores[i];
+    auto next = scores.begin();
+    for (Regime& regime : all)
+      for (Setting& setting : regime.settings) setting.scores = *next++;
     tell(options, all, result);
   };
   run_world(world, options.draws, files);

@@ -64,16 +64,15 @@ struct Reader {
     value = *number;
   }
 
-  void read(const toml::node& node, bool& value) const {
-    const auto* boolean = node.as_boolean();
-    if (!boolean) throw error(node, "true or false", as_in("true"));
-    value = boolean->get();
-  }
+  void read(const toml::node& node, bool& value) const { read_exactly(node, value, "true or false", "true"); }
 
-  void read(const toml::node& node, std::string& value) const {
-    const auto* string = node.as_string();
-    if (!string) throw error(node, "a string", as_in("\"text\""));
-    value = string->get();
+  void read(const toml::node& node, std::string& value) const { read_exactly(node, value, "a string", "\"text\""); }
+
+  template <class Value>
+  void read_exactly(const toml::node& node, Value& value, std::string_view expected, std::string_view example) const {
+    const auto* known = node.as<Value>();
+    if (!known) throw error(node, expected, as_in(example));
+    value = known->get();
   }
 
   void read(const toml::node& node, Strings& values) const {
