@@ -96,7 +96,7 @@ struct TrackReport {
 };
 
 struct TrackReports {
-  std::vector<TrackReport> reports;
+  std::vector<TrackReport> reports{};
   std::size_t rows = 0;           ///< of the recording
   std::size_t on_the_ground = 0;  ///< rows below the first layer of altitude
   double ground_ft = 0.0;
@@ -136,9 +136,7 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
   }
   if (!std::isfinite(lowest)) throw InputError("{}: no row has an altitude", reader.file());
 
-  TrackReports result;
-  result.rows = rows.size();
-  result.ground_ft = ground_ft.value_or(lowest);
+  TrackReports result{.rows = rows.size(), .ground_ft = ground_ft.value_or(lowest)};
   double next = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Row& row = rows[k];
@@ -149,9 +147,8 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
     if (k > 0 && row.time > rows[k - 1].time && row.time - rows[k - 1].time <= longest_step_s)
       turn_rate = std::remainder(row.track - rows[k - 1].track, 360.0) / (row.time - rows[k - 1].time);
     const std::array<double, 4> values = {above_ground, row.speed, row.climb, turn_rate};
-    TrackReport report{row.time, {}};
-    for (std::size_t i = 0; i < values.size(); ++i) report.readings.push_back(data.bins[i].bin(values[i]));
-    result.reports.push_back(std::move(report));
+    auto& readings = result.reports.emplace_back(TrackReport{row.time, {}}).readings;
+    for (std::size_t i = 0; i < values.size(); ++i) readings.push_back(data.bins[i].bin(values[i]));
     next = row.time + every_s;
   }
   if (result.reports.empty())

@@ -24,7 +24,6 @@ struct FittedDensity {
 
   /// Probability below x, which may be infinite.
   double cdf(double x) const {
-    if (std::isinf(x)) return x > 0.0 ? 1.0 : 0.0;
     const double z = (x - location) / scale;
     return std::visit(
         [z](const auto& density) {

@@ -143,10 +143,8 @@ CsvReader::CsvReader(const std::filesystem::path& path)
       header_(std::make_shared<CsvHeader>(CsvHeader{path.string(), {}})),
       buffer_(read_at_once) {
   std::error_code unknown;
-  if (std::filesystem::is_regular_file(path, unknown)) {
-    const auto size = std::filesystem::file_size(path, unknown);
-    if (!unknown) bytes_total_ = size;
-  }
+  const auto size = std::filesystem::file_size(path, unknown);  // of a regular file
+  if (!unknown) bytes_total_ = size;
   read_header();
 }
 
