@@ -185,9 +185,8 @@ std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& le
     if (std::max(relation.to().size(), relation.from().size()) <= most_values)
       all.emplace_back(telling(relation), &relation);
   std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<Panel> maps;
-  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) maps.emplace_back(relation_map(*all[i].second));
-  return maps;
+  all.resize(std::min(most, all.size()));
+  return each(all, [](const auto& one) { return Panel(relation_map(*one.second)); });
 }
 
 }  // namespace sigmax::apps

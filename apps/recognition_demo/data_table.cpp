@@ -234,13 +234,11 @@ bool warn_of_repeats(DataTable& table) {
   // As a statistics program writes them: each combination of words and class once, and how often.
   std::size_t combinations = table.classes.size(), numbers = 0;
   std::string of_counts;
-  for (std::size_t i = 0; i < ranks.size(); ++i)
-    if (table.columns[i].numeric) {
-      ++numbers;
-      of_counts = table.columns[i].name;
-    } else {
-      combinations *= table.columns[i].values.size();
-    }
+  for (const DataColumn& column : table.columns)
+    if (column.numeric)
+      ++numbers, of_counts = column.name;
+    else
+      combinations *= column.values.size();
   warn(table, size == table.size() && size == rows.with_copies && combinations == size && numbers <= 1,
        "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
        "write one row for each that was counted",
