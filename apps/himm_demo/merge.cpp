@@ -1,4 +1,3 @@
-#include <iterator>
 #include <sstream>
 
 #include "himm_demo/subcommands.hpp"

@@ -1,7 +1,5 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <set>
-
 #include "himm_demo/experiment/experiment.hpp"
 #include "result/result.hpp"
 #include "study/statistic.hpp"

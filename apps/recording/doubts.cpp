@@ -1,10 +1,5 @@
 #include "recording/doubts.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <span>
-
 #include "recording/plots.hpp"
 #include "support/text.hpp"
 

@@ -1,6 +1,5 @@
 #include "recording/recording.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "support/input.hpp"

@@ -1,7 +1,5 @@
 #include "himm_demo/track/track.hpp"
 
-#include <iterator>
-
 #include <Eigen/Core>
 
 #include "support/progress.hpp"

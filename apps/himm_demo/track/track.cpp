@@ -4,7 +4,6 @@
 
 #include "himm_demo/track/track.hpp"
 #include "result/braille.hpp"
-#include "support/timestamp.hpp"
 
 namespace sigmax::apps {
 namespace {

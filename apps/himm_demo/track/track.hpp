@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cmath>
 #include <deque>
-#include <set>
 
 #include <sigmax/estimation/consistency.hpp>
 #include <sigmax/estimation/root_mean_square.hpp>

@@ -1,6 +1,5 @@
 #include "himm_demo/tune/tune.hpp"
 
-#include <cmath>
 #include <cstdlib>
 #include <numeric>
 

@@ -1,8 +1,5 @@
 #include "himm_demo/subcommands.hpp"
 
-#include <cmath>
-#include <set>
-
 #include <sigmax/estimation/consistency.hpp>
 
 #include "himm_demo/tune/tune.hpp"
