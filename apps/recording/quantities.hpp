@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -134,14 +135,10 @@ inline constexpr TimeColumn time_columns[] = {
 
 /// Where a role begins among them, and how many it has.
 constexpr std::size_t place_of(Role role) {
-  std::size_t place = 0;
-  while (quantities[place].role != role) ++place;
-  return place;
+  return static_cast<std::size_t>(std::ranges::find(quantities, role, &Quantity::role) - quantities.begin());
 }
 constexpr std::size_t size_of(Role role) {
-  std::size_t size = 0;
-  for (const Quantity& quantity : quantities) size += quantity.role == role ? 1 : 0;
-  return size;
+  return static_cast<std::size_t>(std::ranges::count(quantities, role, &Quantity::role));
 }
 
 /// Calls `use(header, unit)` for each header of a quantity, in order.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include <sigmax/hybrid/any_target.hpp>
 
 #include "recording/recording.hpp"
