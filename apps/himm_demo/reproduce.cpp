@@ -10,10 +10,12 @@
 namespace sigmax::apps {
 namespace {
 
-/// What decides every figure of `himm_demo reproduce`.
-struct ReproduceChoice {
+/// The options of `himm_demo reproduce`; runs and seed decide every figure.
+struct ReproduceOptions {
   int runs = 1000;
   std::uint64_t seed = 1;
+  Sharing sharing;
+  OutputOptions output;
 };
 
 /// The readings of (57) by which there is a filter himm_…; `envelope` is without.
@@ -55,12 +57,12 @@ std::vector<std::string> settings_of(int scenario_number, int group_number) {
   return sets;
 }
 
-Experiment experiment_of(Preset preset, int scenario_number, int group_number, const ReproduceChoice& choice) {
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const ReproduceOptions& options) {
   const Group parameters = group(group_number, scenario_number);
   const Settings settings = Settings::read({}, settings_of(scenario_number, group_number));
   auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
   settings.refuse_unknown();
-  return {scenario(scenario_number, preset),  parameters, std::move(filters), choice.runs, choice.seed,
+  return {scenario(scenario_number, preset),  parameters, std::move(filters), options.runs, options.seed,
           preset == Preset::released ? -1 : 0};
 }
 
@@ -225,29 +227,28 @@ std::vector<Measured> measure(const Sentence& sentence, const std::vector<Condit
 }
 
 /// Both presets, both scenarios and all groups, in this order.
-std::vector<Condition> conditions(const ReproduceChoice& choice) {
+std::vector<Condition> conditions(const ReproduceOptions& options) {
   std::vector<Condition> all;
   for (const Preset preset : both_presets)
     for (const int scenario : {1, 2})
       for (const int group : {1, 2, 3, 4})
-        all.push_back({preset, scenario, group, experiment_of(preset, scenario, group, choice)});
+        all.push_back({preset, scenario, group, experiment_of(preset, scenario, group, options)});
   return all;
 }
 
 /// All runs of the conditions, in batches whose number does not depend on the runs (but for few). Does them, and gives
 /// each condition its own; false where there is nothing to report.
-bool run(const ReproduceChoice& choice, const Sharing& sharing, const OutputOptions& options,
-         std::vector<Condition>& conditions) {
+bool run(const ReproduceOptions& options, std::vector<Condition>& conditions) {
   constexpr std::size_t most_batches = 100;
-  const std::size_t batches = std::min(most_batches, static_cast<std::size_t>(choice.runs));
-  const auto bound = [=](std::size_t batch) { return static_cast<std::uint64_t>(choice.runs) * batch / batches; };
+  const auto runs = static_cast<std::size_t>(options.runs), batches = std::min(most_batches, runs);
+  const auto bound = [=](std::size_t batch) { return std::uint64_t{runs} * batch / batches; };
   const Study study{"batches", conditions.size() * batches,
                     [&](std::size_t cell) {
                       const std::size_t batch = cell % batches;
                       return conditions[cell / batches].batch(bound(batch), bound(batch + 1));
                     },
-                    fmt::format("himm_demo {} reproduce --runs {} --seed {}", version, choice.runs, choice.seed)};
-  return run(study, sharing, options,
+                    fmt::format("himm_demo {} reproduce --runs {} --seed {}", version, options.runs, options.seed)};
+  return run(study, options.sharing, options.output,
              [&](std::size_t cell, const Study::Row& row) { conditions[cell / batches].batches.add(row); });
 }
 
@@ -287,12 +288,6 @@ Judgements judge(const std::vector<Condition>& conditions) {
                                         measure(sentence, conditions, preset, {reading, true})});
   return all;
 }
-
-struct ReproduceOptions {
-  ReproduceChoice choice;
-  Sharing sharing;
-  OutputOptions output;
-};
 
 constexpr std::array phase_names = {"before", "during", "after"};
 
@@ -584,9 +579,9 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   const ResultTable sentences = sentences_table(all), claims = sentences.part(SentencePart::claims, "no."),
                     readings = sentences.part(SentencePart::readings, "no.");
   const std::string each_reading = "Each reading of (57), as printed and then as released";
-  result.facts("runs", options.choice.runs, "seed", options.choice.seed);
+  result.facts("runs", options.runs, "seed", options.seed);
   result.text = fmt::format("Section VI, sentence by sentence: {} runs of each scenario, group and preset, seed {}\n",
-                            options.choice.runs, options.choice.seed);
+                            options.runs, options.seed);
   result.add(claims, {.csv = "claims.csv", .summary = {"sentences"}});
   result.say(
       "(1/2 is scenario 1, group 2. \"only released\": holds only against the released IMM. HIMM has the reading of "
@@ -604,7 +599,7 @@ void report(const ReproduceOptions& options, const std::vector<Condition>& condi
   page.title = "Section VI of the paper, sentence by sentence";
   for (const Preset preset : both_presets) page.verdict.push_back(counts_of(of(preset), preset));
   page.verdict.push_back(
-      fmt::format("{} runs of each scenario, group and preset, seed {}.", options.choice.runs, options.choice.seed));
+      fmt::format("{} runs of each scenario, group and preset, seed {}.", options.runs, options.seed));
   page.panels.emplace_back(ReportTable{.title = "The sentences",
                                        .table = claims,
                                        .note = "\"Only released\": it holds only against the released IMM. HIMM has "
@@ -662,17 +657,17 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
   const auto options = std::make_shared<ReproduceOptions>();
   options->output.command = command;
-  app.option("--runs", options->choice.runs, "Monte Carlo runs of each scenario, group and preset")
+  app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset")
       .in(2, 100000000)
       .shows_default();
   add_threads(app, options->sharing.threads);
-  add_seed(app, options->choice.seed);
+  add_seed(app, options->seed);
   add_shard(app, options->sharing);
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] {
-    auto all = conditions(options->choice);
-    if (run(options->choice, options->sharing, options->output, all)) report(*options, all);
+    auto all = conditions(*options);
+    if (run(*options, all)) report(*options, all);
   });
 }
 
