@@ -58,8 +58,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     std::size_t place;
     RandomStream random;
     std::optional<LocalFrame> frame{};
-    std::optional<double> altitude_m{};  // the last one
-    std::optional<Position> at{};        // likewise, in the frame
+    double altitude_m = nan;       // the last one
+    std::optional<Position> at{};  // likewise, in the frame, once the altitude is known
   };
   RecordingOptions of_file = options.recording;
   of_file.file = file;
@@ -86,22 +86,15 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
     if (!first && places.frame()) first = places.frame()->origin();
     const Row told = row;
     const bool is_place = recording.geodetic() && told.plot.sensor == AnyPlot::Sensor::components;
-    if (is_place && axes_seen(row.plot, data.axes) == 0) {
-      row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
-    } else if (is_place) {
-      const Geodetic here = place_of(row.plot, data.axes, its.altitude_m.value_or(nan));
-      if (!first) first = place_of(row.plot, data.axes, 0.0);
-      if (!its.frame)
-        its.frame.emplace(one_frame ? *first : recording.origin().value_or(place_of(row.plot, data.axes, 0.0)),
-                          data.axes);
-      if (std::isnan(here.altitude_m)) {  // nobody knows the height yet
-        row.plot = AnyPlot::missed(row.plot.time);
-      } else {
-        its.altitude_m = here.altitude_m;
-        its.at = its.frame->to_local(here);
-        row.plot = in_frame(row.plot, *its.frame, *its.at, data.axes);
-      }
+    if (is_place && axes_seen(row.plot, data.axes) > 0) {
+      const Geodetic here = place_of(row.plot, data.axes, its.altitude_m), start = place_of(row.plot, data.axes, 0.0);
+      if (!first) first = start;
+      if (!its.frame) its.frame.emplace(one_frame ? *first : recording.origin().value_or(start), data.axes);
+      its.altitude_m = here.altitude_m;
+      if (!std::isnan(here.altitude_m)) its.at = its.frame->to_local(here);
     }
+    if (is_place)
+      row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
     if (options.radar.sigma)
       see_by_radar(row, position_of(row.plot, data.axes), data.axes, options.radar, its.random, recording.file());
     doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes), data.axes);
@@ -290,15 +283,11 @@ double quantile(std::vector<double>& numbers, double share) {
 }
 
 double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
-  double greatest = 0.0;
-  bool changes = false, any = false;
-  for (const auto& [key, own] : rounding) {
-    if (key.first != kind || key.second < from || key.second > to) continue;
-    any = true;
-    changes |= std::isfinite(own);
-    if (std::isfinite(own)) greatest = std::max(greatest, own);
-  }
-  return any && !changes ? std::numeric_limits<double>::infinity() : greatest;
+  std::optional<double> greatest;
+  for (const auto& [key, own] : rounding)
+    if (key.first == kind && key.second >= from && key.second <= to)
+      if (!greatest || std::isinf(*greatest) || (std::isfinite(own) && own > *greatest)) greatest = own;
+  return greatest.value_or(0.0);
 }
 
 double TuneData::log_stray(const AnyPlot& plot) const {
