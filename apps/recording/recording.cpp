@@ -526,16 +526,16 @@ std::vector<double> RecordingReader::covariance(const std::vector<int>& places, 
   const auto own = [&](std::size_t i, std::size_t j) {
     return places[i] < axes_ ? said(Role::covariance, number(i, j)) : std::nullopt;
   };
-  for (std::size_t i = 0; i < n; ++i) variances[i] = own(i, i).value_or(variances[i]);
   std::vector<double> matrix(n * n);
-  for (std::size_t i = 0; i < n; ++i) matrix[i * (n + 1)] = variances[i];
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
+    matrix[i * (n + 1)] = variances[i] = own(i, i).value_or(variances[i]);
     for (std::size_t j = 0; j < i; ++j) {
       if (own(i, j) && std::isnan(variances[i] + variances[j]))
         throw error(Role::covariance, number(i, j), "an empty cell, since the row does not tell both variances",
                     "fill theirs");
       matrix[i * n + j] = matrix[j * n + i] = own(i, j).value_or(0.0);
     }
+  }
   std::vector<double> left = matrix;  // by elimination
   for (std::size_t k = 0; k < n; ++k) {
     const double pivot = left[k * (n + 1)];

@@ -69,8 +69,7 @@ class Reporter {
 
   /// What was read and how the filters started, in sentences.
   void describe() {
-    std::vector<std::pair<bool, std::string>> all;
-    const auto say = [&](bool holds, std::string words) { all.emplace_back(holds, std::move(words)); };
+    const auto say = [&](bool holds, const std::string& words) { result_.say({{holds, words}}); };
     const bool converted = std::ranges::none_of(
         filters_, [](const FilterSettings& filter) { return filter.radar_measurement == RadarForm::polar; });
     std::vector<std::string> parts;  // of the measurements that are not positions along all axes
@@ -134,7 +133,6 @@ class Reporter {
                     "{}) m, seed {}",
                     shortest(sigma[0]), shortest(sigma[1]), shortest(sigma[2]), shortest(at[0]), shortest(at[1]),
                     shortest(at[2]), options_.seed));
-    result_.say(all);
   }
 
   std::vector<std::string> make_warnings() const {

@@ -172,8 +172,6 @@ class TrackPage {
   std::size_t not_shown_ = 0;  // rows of tracks beyond
 };
 
-class AtomicFile;
-
 /// The options of `himm_demo track`.
 struct TrackOptions {
   RecordingOptions recording;
@@ -204,8 +202,7 @@ struct Sums {
   std::array<RootMeanSquare, 3> sigma;  ///< as the filter states it
   std::vector<double> weights;
   InnovationTally innovations;
-  RunningMean
-      predicted_share;  ///< of the variance of positions' innovations, the prediction's: the rest is the sensor's
+  RunningMean predicted_share;  ///< of the variance of positions' innovations; the rest is the sensor's
   std::size_t count = 0;
 };
 using SumsByPart = std::array<Sums, parts.size()>;
