@@ -37,17 +37,13 @@ constexpr std::string_view small_sigma = "a covariance is positive definite: giv
 
 /// One out of several names, which are those of the enumerators in their order.
 template <class Owner, class Value>
-FilterKey choice(std::string name, std::string meaning, Value Owner::*member, std::string_view names) {
-  std::vector<std::string_view> all;
-  for (std::size_t at = 0, end = 0; end < names.size(); at = end + 2) {
-    end = std::min(names.find(", ", at), names.size());
-    all.push_back(names.substr(at, end - at));
-  }
-  const auto name_of = [=](const FilterSettings& filter) { return all[static_cast<std::size_t>(filter.*member)]; };
-  return {name, std::move(meaning), std::string(names),
+FilterKey choice(std::string name, std::string meaning, Value Owner::*member,
+                 const std::vector<std::string_view>& names) {
+  const auto name_of = [=](const FilterSettings& filter) { return names[static_cast<std::size_t>(filter.*member)]; };
+  return {name, std::move(meaning), list_of(names),
           [=](const Settings& settings, FilterSettings& filter) {
-            const std::string chosen = settings.choice(name, all, name_of(filter));
-            filter.*member = static_cast<Value>(std::ranges::find(all, chosen) - all.begin());
+            const std::string chosen = settings.choice(name, names, name_of(filter));
+            filter.*member = static_cast<Value>(std::ranges::find(names, chosen) - names.begin());
           },
           [=](const FilterSettings& filter) { return fmt::format("\"{}\"", name_of(filter)); }};
 }
@@ -316,14 +312,14 @@ const std::vector<FilterKey>& filter_keys() {
   static const std::vector<FilterKey> keys = {
       // Models, how the mode moves on, and how mixtures over it collapse.
       choice("scheme", "When several modes become one Gaussian.", &F::scheme,
-             "interacting, common_start, second_order, independent, histories"),
+             {"interacting", "common_start", "second_order", "independent", "histories"}),
       models(), per_model(MotionParameter::sigma_w), per_model(MotionParameter::tau),
       per_model(MotionParameter::turn_rate), per_model(MotionParameter::turn_drift),
       only([](const F& f) { return turns(f) || f.radar_measurement == RadarForm::polar; },
            choice("member",
                   "The filter of what is not linear: ct, and every model if radar_measurement is polar; linear models "
                   "have the Kalman filter, and kf refuses others.",
-                  &F::member, "kf, ekf, ukf, ckf")),
+                  &F::member, {"kf", "ekf", "ukf", "ckf"})),
       only([](const F& f) { return f.scheme != Scheme::independent; },
            value<F>("sojourn_s",
                     "Mean sojourn times of the models, one each, instead of the transitions below: P is that of the "
@@ -337,21 +333,21 @@ const std::vector<FilterKey>& filter_keys() {
                  "1 on the diagonal, else 1/2; preset released: 1/5; histories: .004, from a manoeuvre .03", true),
       only([](const F& f) { return f.fuzzy && mixes(f); },
            choice("mixed_covariance", "The reading of (57). For a fuzzy mode.", &F::mixed_covariance,
-                  "selected, own, own_recentred, released, envelope")),
+                  {"selected", "own", "own_recentred", "released", "envelope"})),
       only([](const F& f) { return f.fuzzy && (mixes(f) || f.scheme == Scheme::second_order); },
            choice("mixing_tie", "Which of equally possible predecessors is taken. For a fuzzy mode.", &F::mixing_tie,
-                  "stay, first, last")),
+                  {"stay", "first", "last"})),
       only([](const F& f) { return !f.fuzzy && mixes(f); },
-           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, "correct, released")),
+           choice("imm_mixing", "The weights of (59). For a random mode.", &F::imm_mixing, {"correct", "released"})),
       only([](const F& f) { return !f.fuzzy; }, choice("output_spread",
                                                        "Whether the output's covariance (68) has the spread of the "
                                                        "means, or omits it as printed. For a random mode.",
-                                                       &F::output_spread, "included, omitted")),
+                                                       &F::output_spread, {"included", "omitted"})),
       // Likelihoods, what a model lacks, histories, and the output.
       choice("likelihood", "The innovation's density, or its possibility exp(−d²/2), which has no determinant.",
-             &F::likelihood, "density, possibility"),
+             &F::likelihood, {"density", "possibility"}),
       choice("lift", "What stands for a component that a model lacks.", &F::lift,
-             "zero, borrowed_variance, unbiased, prior"),
+             {"zero", "borrowed_variance", "unbiased", "prior"}),
       only(has_prior, value<F>("entry_scales",
                                "Standard deviations of a component that begins, if lift is prior: of accelerations in "
                                "m/s². Histories try each of them.",
@@ -376,13 +372,13 @@ const std::vector<FilterKey>& filter_keys() {
            value<F>("tempering", "Likelihoods count to this power: below 1 for accuracies that are believed too good.",
                     &F::tempering, {"a number above 0, at most 1", [](double t) { return t > 0.0 && t <= 1.0; }})),
       choice("output", "The output: of all modes, or of the most likely one.", &F::most_likely_output,
-             "mixed, most_likely"),
-      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, "stay, first, last"),
+             {"mixed", "most_likely"}),
+      choice("output_tie", "Which of equally possible modes is taken.", &F::output_tie, {"stay", "first", "last"}),
       // Start, gate, restart; smoothing, and how radar measurements are taken.
       choice("start",
              "How the filter starts: from the first three measurements (points), as the authors' program does, or as "
              "given.",
-             &F::start, "points, released, given"),
+             &F::start, {"points", "released", "given"}),
       only(turns,
            value<F>("start_sigma_turn_deg_s", "Standard deviation of the rate with which ct starts. The rate is 0.",
                     &F::start_sigma_turn_deg_s, {"a positive standard deviation, in °/s", positive})),
@@ -420,7 +416,7 @@ const std::vector<FilterKey>& filter_keys() {
       choice("radar_measurement",
              "A radar's measurements as positions by the standard, unbiased or debiased conversion, or polar: in its "
              "own space.",
-             &F::radar_measurement, "standard, unbiased, debiased, polar")};
+             &F::radar_measurement, {"standard", "unbiased", "debiased", "polar"})};
   return keys;
 }
 
