@@ -300,41 +300,34 @@ class Fitter {
   Fitter(const TuneData& data, const TuneOptions& options, Progress& progress, RowCounts counts = {})
       : data_(data), options_(options), progress_(progress), counts_(std::move(counts)) {}
 
-  struct Found {
-    FilterSettings settings{};
-    double value = std::numeric_limits<double>::infinity();  ///< of the objective
-    std::vector<FittedNumber> numbers{};
-    double widened = 1.0;  ///< see Candidate
-  };
-
   /// What of a filter's numbers is looked for from far away.
   enum class Scanned { all, models, transition };
 
   bool is_better(const FilterSettings& one, const FilterSettings& other) const { return value(one) < value(other); }
 
   /// From far away: great steps.
-  Found far(const FilterSettings& settings, Scanned scanned) const {
-    Found best = from(settings);
+  Fitted far(const FilterSettings& settings, Scanned scanned) const {
+    Fitted best = from(settings);
     if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
     scan(best, scanned);
     return best;
   }
 
   /// From where those led, by start number `start` about it.
-  Found fit(const FilterSettings& settings, std::size_t start) const {
-    Found best = from(settings);
+  Fitted fit(const FilterSettings& settings, std::size_t start) const {
+    Fitted best = from(settings);
     for (std::size_t round = 0; round < rounds; ++round) {
-      const double before = best.value;
+      const double before = best.fitted;
       search_numbers(best, round == 0 ? start : 0);
       learn(best);
       const bool parted = round == 0 && part_models(best);
-      if (!(before - best.value > least_improvement) && !parted) break;
+      if (!(before - best.fitted > least_improvement) && !parted) break;
     }
     return best;
   }
 
   /// The losses about what was found.
-  LossSurface surface(const Found& about) const {
+  LossSurface surface(const Fitted& about) const {
     const auto numbers = told_numbers(about.settings);
     return {numbers.size(), surface_step, [&](const std::vector<double>& offsets) {
               progress_.advance();
@@ -343,8 +336,8 @@ class Fitter {
   }
 
   /// To the least loss of the rows that count, by the surface, and the transition anew.
-  Found refine(const Found& about, const LossSurface& surface, bool learns) const {
-    Found best{about.settings, value(about.settings)};
+  Fitted refine(const Fitted& about, const LossSurface& surface, bool learns) const {
+    Fitted best{about.settings, value(about.settings)};
     const auto numbers = told_numbers(about.settings);
     const auto shape = surface.shape(counts_);
     take_if_better(best, moved(about.settings, numbers, shape.least));
@@ -363,7 +356,7 @@ class Fitter {
 
  private:
   /// The settings, but no number less than may be fitted.
-  Found from(FilterSettings settings) const {
+  Fitted from(FilterSettings settings) const {
     for (const FreeNumber& number : free_numbers(settings, data_, options_))
       if (number.least > 0.0) number.set(settings, number.parameter.start);
     const double found = value(settings);
@@ -382,11 +375,11 @@ class Fitter {
     }
   }
 
-  bool take_if_better(Found& best, const FilterSettings& settings) const {
+  bool take_if_better(Fitted& best, const FilterSettings& settings) const {
     const double found = value(settings);
-    if (!(found < best.value)) return false;
+    if (!(found < best.fitted)) return false;
     best.settings = settings;
-    best.value = found;
+    best.fitted = found;
     return true;
   }
 
@@ -408,14 +401,14 @@ class Fitter {
     return with(settings, numbers, values);
   }
 
-  void learn(Found& best) const {
+  void learn(Fitted& best) const {
     if (has_transition(best.settings, options_)) learn_transition(best);
     if (options_.fits("lift")) try_lifts(best);
   }
 
   /// Where most rows count as stray ones, as where a filter that is made for seconds begins on fixes hours apart, no
   /// number alone makes much of a difference: all noises of the motions, and all of the sensors, by greater steps.
-  void leave_plateau(Found& best, bool with_sensors) const {
+  void leave_plateau(Fitted& best, bool with_sensors) const {
     if (!(data_.share_of_strays(judged(data_, best.settings, options_.objective)) > 0.5)) return;
     const FilterSettings begun = best.settings;
     for (const double of_motions : {1.0, 30.0, 1000.0, 3e-2, 1e-3, 3e-5, 1e-6})
@@ -431,7 +424,7 @@ class Fitter {
   /// Where many rows count as stray ones, as the flights of a bird beside its nights, models that are alike are no
   /// help: each is tried as a far wilder one than the others, which may be quieter than they are. Whether that is
   /// better.
-  bool part_models(Found& best) const {
+  bool part_models(Fitted& best) const {
     const FilterSettings begun = best.settings;
     if (begun.models.size() < 2 || !(data_.share_of_strays(judged(data_, begun, options_.objective)) > 0.05))
       return false;
@@ -451,7 +444,7 @@ class Fitter {
 
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
   /// are thought exact are explained by a wild target, or all by great errors.
-  void scan(Found& best, Scanned scanned) const {
+  void scan(Fitted& best, Scanned scanned) const {
     auto numbers = free_numbers(best.settings, data_, options_);
     std::erase_if(numbers, [&](const FreeNumber& number) {
       return number.parameter.scale != Scale::logarithmic || (scanned != Scanned::all && number.sensor) ||
@@ -459,7 +452,7 @@ class Fitter {
     });
     std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
     for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
-      const double before = best.value;
+      const double before = best.fitted;
       for (FreeNumber& number : numbers) {
         const FilterSettings base = best.settings;
         double taken = number.parameter.start;
@@ -471,11 +464,11 @@ class Fitter {
         if (!number.relative) number.parameter.start = taken;
         progress_.advance(factors.size());
       }
-      if (!(before - best.value > least_improvement)) return;
+      if (!(before - best.fitted > least_improvement)) return;
     }
   }
 
-  void search_numbers(Found& best, std::size_t start) const {
+  void search_numbers(Fitted& best, std::size_t start) const {
     const auto numbers = free_numbers(best.settings, data_, options_);
     std::vector<FitParameter> parameters;
     for (const auto& number : numbers) {
@@ -491,13 +484,13 @@ class Fitter {
     const auto by_nlopt = [&](const auto& function, const FitSearch& from) { search(function, from, most - 1); };
     const Fit found = fit_from(parameters, loss, by_nlopt, fit_search(parameters, options_.seed, start));
     progress_.advance(most - std::min(asked, most));
-    if (found.loss < best.value) best = {with(best.settings, numbers, found.values), found.loss, {}};
+    if (found.loss < best.fitted) best = {with(best.settings, numbers, found.values), found.loss, {}};
   }
 
   /// EM for the transition, as long as it helps: the filters' weights are not exact, so that it need not.
-  void learn_transition(Found& best) const {
+  void learn_transition(Fitted& best) const {
     for (std::size_t k = 0; k < most_em_steps; ++k) {
-      const double before = best.value;
+      const double before = best.fitted;
       FilterSettings next = best.settings;
       TransitionCounts counts(next.models.size(), next.fuzzy);
       const FilterSettings judged = judged_settings(next, options_.objective);
@@ -514,12 +507,12 @@ class Fitter {
       else
         next.sojourn_s = counts.sojourns(next.sojourn_s);
       take_if_better(best, next);
-      if (!(before - best.value > least_improvement)) return;
+      if (!(before - best.fitted > least_improvement)) return;
     }
   }
 
   /// The lift matters where one model lacks what another has.
-  void try_lifts(Found& best) const {
+  void try_lifts(Fitted& best) const {
     const auto& motions = best.settings.motions;
     const auto other = [&](const MotionChoice& motion) {
       return motion.known().derivatives != motions[0].known().derivatives || motion.linear() != motions[0].linear();
@@ -683,7 +676,7 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
   for (std::size_t c = 0; c < sets && similar; ++c)
     if (similar->candidates.size() != sets + 1 || similar->candidates[c + 1].name != bases[c].name) similar = nullptr;
   const Fitter fitter(data, options, progress);
-  std::vector<Fitter::Found> begun(sets), fitted(sets);
+  std::vector<Fitted> begun(sets), fitted(sets);
   // The sensors of one set are those of the others, and another filter's numbers are near: one alone begins from afar.
   const auto far = [&](std::size_t c, Fitter::Scanned scanned) {
     tell(c, "by great steps");
@@ -708,12 +701,12 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
         tell(i % sets, fmt::format("search {} of {}", i / sets + 1, starts));
         return fitter.fit(begun[i % sets].settings, i / sets);
       },
-      [&](std::size_t i, Fitter::Found&& found) {
-        if (found.value < fitted[i % sets].value || i < sets) fitted[i % sets] = std::move(found);
+      [&](std::size_t i, Fitted&& found) {
+        if (found.fitted < fitted[i % sets].fitted || i < sets) fitted[i % sets] = std::move(found);
       });
   TunedFilter tuned;
   TuneData told = data;
-  const auto& likeliest = *std::ranges::min_element(fitted, {}, &Fitter::Found::value);
+  const auto& likeliest = *std::ranges::min_element(fitted, {}, &Fitted::fitted);
   if (fits_noises(options))
     tuned.strays = leave_out_strays(told, judged_settings(likeliest.settings, options.objective));
   const Fitter fitter_of_told(told, options, progress);
@@ -736,11 +729,8 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
   });
 
   for (std::size_t c = 0; c <= sets; ++c) {
-    Candidate& candidate = tuned.candidates.emplace_back(Candidate{"as before", settings});
-    if (c > 0) {
-      const Fitter::Found& found = fitted[c - 1];
-      candidate = {bases[c - 1].name, found.settings, found.numbers, found.value, found.widened};
-    }
+    Candidate& candidate = tuned.candidates.emplace_back(Candidate{{settings}, "as before"});
+    if (c > 0) candidate = {fitted[c - 1], bases[c - 1].name};
     tuned.held_out.push_back(c > 0 ? held_out(folds, without[c - 1]) : judged(told, settings, options.objective));
     candidate.held_out = objective_of(tuned.held_out[c], options.objective);
     if (c == 0) candidate.fitted = candidate.held_out;

@@ -138,14 +138,18 @@ struct FittedNumber {
   bool at_rounding = false;  ///< whether it is as small as the rounding of its column allows
 };
 
-/// One way to set a filter, judged.
-struct Candidate {
-  std::string name;
-  FilterSettings settings{};  ///< fitted to all rows, its noises by one factor more
+/// Settings that were fitted to rows, at the end their noises by one factor more.
+struct Fitted {
+  FilterSettings settings{};
+  double fitted = std::numeric_limits<double>::infinity();  ///< the objective over these rows
   std::vector<FittedNumber> numbers{};
-  double fitted = 0.0;    ///< the objective over all rows, which those settings have seen
-  double widened = 1.0;   ///< that factor, of standard deviations
-  double held_out = 0.0;  ///< the same over all rows, each with settings that have not seen its fold
+  double widened = 1.0;  ///< that factor, of standard deviations
+};
+
+/// One way to set a filter, fitted to all rows, and judged.
+struct Candidate : Fitted {
+  std::string name;
+  double held_out = 0.0;  ///< the objective over all rows, each with settings that have not seen its fold
   MeanDifference gain{};  ///< of the held-out loss of a row on that of the settings before
 };
 
