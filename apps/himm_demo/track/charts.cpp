@@ -143,8 +143,7 @@ std::vector<const TrackPage::Named*> TrackPage::longest_first() const {
 
 void TrackPage::add_to(Report& page, const TrackOutcome& outcome) const {
   page.groups.push_back({measurement_name, true});
-  page.groups.push_back({truth_name, true});
-  if (!truth_known_) page.groups.pop_back();
+  if (truth_known_) page.groups.push_back({truth_name, true});
   for (const auto& filter : filters_) page.groups.push_back({filter.name});
   page.chooser = "Track";
   if (recording_.axes() > 1 && tracks_.size() > 1) page.panels.insert(page.panels.begin() + 1, map_of_all());

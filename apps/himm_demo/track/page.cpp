@@ -48,10 +48,7 @@ TrackPage::Track* TrackPage::track_of(const Row& row) {
         watched.push_back(column(f, i));
   const std::size_t least = 4 * watched.size();
   Thinned rows(column(filters_.size(), 0), std::max(most_rows(), least), std::move(watched));
-  Track track{.first_time = row.plot.time,
-              .rows = std::move(rows),
-              .histories = std::vector<std::vector<ModeStay>>(filters_.size()),
-              .recent = std::vector<Recent>(filters_.size())};
+  Track track{.first_time = row.plot.time, .rows = std::move(rows), .recent = std::vector<Recent>(filters_.size())};
   return &tracks_.emplace(row.track, std::move(track)).first->second;
 }
 
@@ -86,8 +83,14 @@ void TrackPage::close(Track& track, std::size_t left_open) {
   kept_ += longest.kept();
 }
 
-void TrackPage::finish() {
-  for (auto& [name, track] : tracks_) close(track, 0);
+void TrackPage::finish(const TrackOutcome& outcome) {
+  for (auto& [name, track] : tracks_) {
+    close(track, 0);
+    for (const FilterOutcome& filter : outcome.filters) {
+      const auto own = filter.histories.find(name);
+      track.histories.push_back(own == filter.histories.end() ? std::vector<ModeStay>{} : own->second);
+    }
+  }
 }
 
 void TrackPage::measured(const Row& row, const std::optional<Position>& position,
@@ -188,10 +191,6 @@ void TrackPage::mark(const Row& row, std::size_t filter, bool rejection) {
   auto& marks = rejection ? track->rejections : track->restarts;
   if (marks.size() < most_marks)
     marks.push_back({row.plot.time, filter, track->last_position.value_or(Position{nan, nan, nan})});
-}
-
-void TrackPage::explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays) {
-  if (const auto found = tracks_.find(track); found != tracks_.end()) found->second.histories[filter] = stays;
 }
 
 }  // namespace sigmax::apps

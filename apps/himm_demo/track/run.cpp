@@ -228,9 +228,8 @@ class TrackRun {
   }
 
   /// So far from the origin of a frame its axes are no longer east and north.
-  bool far_away(const Position& position) const {
-    return (axes_ == 1 ? std::abs(position[0]) : std::sqrt(position[0] * position[0] + position[1] * position[1])) >
-           50e3;
+  static bool far_away(const Position& position) {
+    return std::sqrt(position[0] * position[0] + position[1] * position[1]) > 50e3;
   }
 
   /// Where a row's measurement was, about where positions are counted from.

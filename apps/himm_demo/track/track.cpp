@@ -406,9 +406,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
   sinks.page = tracks ? &*tracks : nullptr;
   const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
-  for (std::size_t f = 0; tracks && f < filters.size(); ++f)
-    for (const auto& [name, stays] : outcome.filters[f].histories) tracks->explained(name, f, stays);
-  if (tracks) tracks->finish();
+  if (tracks) tracks->finish(outcome);
   Result result(options.output);
   const auto warnings = Reporter(options, recording, filters, outcome, result).made();
   if (tracks) tracks->add_to(result.page, outcome);

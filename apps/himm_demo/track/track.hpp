@@ -93,9 +93,6 @@ class TrackPage {
   void rejected(const Row& row, std::size_t filter) { mark(row, filter, true); }
   void restarted(const Row& row, std::size_t filter) { mark(row, filter, false); }
 
-  /// The best history of a track's modes, once all rows were read.
-  void explained(const std::string& track, std::size_t filter, const std::vector<ModeStay>& stays);
-
   /// Of the track with the most rows: errors along the first axis, or standard deviations, and the first filter's
   /// modes.
   std::vector<LineChart> charts_of_the_first() const;
@@ -104,8 +101,8 @@ class TrackPage {
   /// and where there are several, a map of all.
   void add_to(Report& page, const TrackOutcome& outcome) const;
 
-  /// All rows were read.
-  void finish();
+  /// All rows were read, and the best histories of the tracks' modes are known.
+  void finish(const TrackOutcome& outcome);
 
  private:
   static constexpr std::size_t most_marks = 300;  // of each kind and track
@@ -131,7 +128,7 @@ class TrackPage {
     Thinned rows;  // what was measured, and then what each filter says of it
     std::map<std::pair<double, std::size_t>, std::vector<double>> open{};  // the last of them, by time and line
     std::size_t estimates = 0;                                             // of the first filter
-    std::vector<std::vector<ModeStay>> histories;                          // of each filter
+    std::vector<std::vector<ModeStay>> histories{};                        // of each filter, at the end
     std::vector<Recent> recent;                                            // of each filter
     std::optional<Geodetic> anchor{};
     std::optional<Position> last_position{};  // measured
