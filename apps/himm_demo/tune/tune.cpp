@@ -319,9 +319,7 @@ View view_of(const TuneFindings& findings, const TuneOptions& options, const Tun
   for (std::size_t i = 0; i < all.size(); ++i)
     view.panels.emplace_back(Words{fmt::format("What the innovations say, {}", when(i)),
                                    fmt::format("{}", fmt::join(advice_of(*all[i].second), "\n"))});
-  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1"};
-  nis.reference = 1.0;
-  nis.digits = 3;
+  IntervalChart nis{.title = "NIS a measured quantity", .x_label = "NIS; right is 1", .reference = 1.0, .digits = 3};
   view.panels.emplace_back(innovation_chart(
       nis, findings, true, [](const InnovationTally& tally) { return std::pair(tally.mean_square(), tally.band()); }));
   nis.title = "Correlation of neighbouring innovations";
