@@ -190,15 +190,19 @@ ResultTable changes_table(const TunedFilter& tuned) {
   return table;
 }
 
-/// What the settings before, the best and the simple ones, as far as they differ, lose in each fold, held out, and in
-/// all of them.
-std::vector<std::pair<const char*, std::vector<double>>> by_fold(const TunedFilter& tuned, const TuneOptions& options,
-                                                                 const TuneData& data) {
+/// What settings lose in each fold, held out, and in all of them.
+struct FoldFigures {
+  const char* name;
+  std::vector<double> figures;
+};
+
+/// Of the settings before, the best and the simple ones, as far as they differ.
+std::vector<FoldFigures> by_fold(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
   const RowFolds folds = data.folds(options.folds);
   const auto& [best, simple] = tuned.selected;
-  std::vector<std::pair<const char*, std::vector<double>>> all;
+  std::vector<FoldFigures> all;
   const auto add = [&](const char* name, std::size_t candidate) {
-    auto& figures = all.emplace_back(name, std::vector<double>{}).second;
+    auto& figures = all.emplace_back(FoldFigures{name, {}}).figures;
     for (std::size_t fold = 0; fold <= options.folds; ++fold)
       figures.push_back(figure_of(
           objective_of(tuned.held_out[candidate], options.objective,
