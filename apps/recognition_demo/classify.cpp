@@ -98,6 +98,7 @@ class RowReader {
     if (far_cells_ > 0 && one_in * far_cells_ >= numbers)
       result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
                  far_cells_ == 1 ? "1 number is" : fmt::format("{} numbers are", far_cells_), first_far_);
+    std::array<std::size_t, 3> columns{};  // with numbers, and with more of them below, and above, than by chance
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const FeatureCode& feature = model_.features[i];
       double learned = 0.0;
@@ -119,6 +120,11 @@ class RowReader {
       const auto outside = std::max(below, above);
       const auto n = static_cast<double>(all);
       const bool many = all >= enough && static_cast<double>(outside) / n > std::max(0.2, enough / learned);
+      const auto is_no_chance = [&](std::size_t some) {
+        return static_cast<double>(some) * std::log(n / (n + learned)) < std::log(1e-3);
+      };
+      if (all >= enough) ++columns[0];
+      if (all >= enough && !many) columns[1] += is_no_chance(below), columns[2] += is_no_chance(above);
       // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
       const double log_chance = std::lgamma(n + 1.0) + std::lgamma(learned + 1.0) - std::lgamma(n + learned + 1.0);
       const bool all_of_few = all < enough && all > 0 && outside == all && log_chance < std::log(1e-4);
@@ -128,6 +134,10 @@ class RowReader {
                  shortest(below > above ? feature.least : feature.greatest));
       result.fact({"numbers_outside_those_learned_from", feature.name}, outside);
     }
+    for (const std::size_t side : {1U, 2U})
+      if (columns[side] > 2 && 2 * columns[side] > columns[0])
+        result.say("\nIn {} of {} columns of numbers some are {} that was learned: are they counted alike?",
+                   columns[side], columns[0], side == 1 ? "below the least" : "above the greatest");
   }
 
  private:

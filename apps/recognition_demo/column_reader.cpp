@@ -60,7 +60,7 @@ bool is_limit(std::string_view unit) { return unit == "<" || unit == ">" || unit
 }  // namespace
 
 bool says_unknown(std::string_view word) {
-  constexpr std::array words = {"na", "n/a", "#n/a", "nan", "null"};
+  constexpr std::array words = {"na", "n/a", "n.a.", "#n/a", "<na>", "nan", "nat", "null", "(null)", "\\n", "#div/0!"};
   return std::ranges::find(words, lower_case(word)) != words.end();
 }
 
@@ -216,7 +216,8 @@ bool ColumnReader::ByValue::tells_all(std::size_t classes) const {
 bool ColumnReader::ByValue::may_be_groups(std::size_t classes) const {
   constexpr double by_no_chance = -14.0;
   if (values < fewest_groups || values < 2 * classes || rows < 2 * values || log_chance > by_no_chance) return false;
-  if (numeric && (!whole || 4 * changes < values)) return false;
+  if (numeric && 4 * changes < values) return false;
+  if (numeric && !whole && (others > 0 || rows < 5 * values)) return false;  // as coarse ones of a quantity may be
   return others == 0 || (20 * others < rows && rows < 30 * values);
 }
 

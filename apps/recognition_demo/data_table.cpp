@@ -196,27 +196,29 @@ bool warn_of_repeats(DataTable& table) {
          "limit do, is to stay",
          100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
-  // Columns of 0 and 1 of which one is 1 in each row of one class, and none in those of the other.
+  // Columns of 0 and 1, or of two words, each of which is 1, or the second, in rows of one class only.
   std::vector<std::string> one_hot;
   std::vector<std::size_t> ones(size);
-  for (std::size_t i = 0; i < table.columns.size() && table.classes.size() == 2; ++i) {
-    std::array<std::size_t, 2> found{};  // rows of 1, by class
-    bool binary = table.columns[i].numeric;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    std::set<double> values, classes;
     for (const auto& row : rows.cells) {
-      binary = binary && (row[i] == 0.0 || row[i] == 1.0);
-      found[static_cast<std::size_t>(row.back())] += row[i] == 1.0 ? 1U : 0U;
+      values.insert(row[i]);
+      if (row[i] == 1.0) classes.insert(row.back());
     }
-    if (!binary || (found[0] > 0) == (found[1] > 0)) continue;
+    if (values != std::set{0.0, 1.0} || classes.size() != 1) continue;
     one_hot.push_back(typed(table.columns[i].name));
     for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
   }
   std::map<double, std::set<std::size_t>> sums;  // by class
   for (std::size_t k = 0; k < size; ++k) sums[rows.cells[k].back()].insert(ones[k]);
-  const decltype(sums) of_the_second{{0.0, {0}}, {1.0, {1}}}, of_the_first{{0.0, {1}}, {1.0, {0}}};
-  warn(table, one_hot.size() > 1 && (sums == of_the_second || sums == of_the_first),
-       "of {} columns ({}) one is 1 in each row of one class, and none in those of the other: they are the class "
+  const auto without = std::ranges::count_if(sums, [](const auto& sum) { return sum.second == std::set{0UL}; });
+  const auto with = std::ranges::count_if(sums, [](const auto& sum) { return !sum.second.contains(0); });
+  // Of two classes a column that is 1 in all rows of one alone tells both.
+  warn(table, one_hot.size() > 1 && with + without == std::ssize(sums) && (without == 1 || (without == 0 && with > 2)),
+       "of {} columns ({}) each is 1 in rows of one class only, and one is in each row of {}: they are the class "
        "itself; leave them out by --ignore {}",
-       one_hot.size(), listed(one_hot, 3), fmt::join(one_hot, ","));
+       one_hot.size(), listed(one_hot, 3), without == 0 ? "all classes" : "all classes but one",
+       fmt::join(one_hot, ","));
   // One fact that several columns tell in the same word, as of what a customer does not have.
   std::map<std::pair<std::string, std::vector<bool>>, std::vector<std::string>> facts;  // columns by word and rows
   for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -470,10 +472,8 @@ std::vector<std::string> MissingWords::unmet() const {
 }
 
 bool MissingWords::among_numbers(std::string_view cell) {
-  constexpr std::array<std::string_view, 15> words = {"-",    "--",   "na",       "n/a",       "#n/a",
-                                                      "nan",  "null", "none",     "nil",       "inf",
-                                                      "-inf", "+inf", "infinity", "-infinity", "."};
-  if (operator()(cell)) return true;
+  constexpr std::array words = {"-", "--", ".", "none", "nil", "inf", "-inf", "+inf", "infinity", "-infinity"};
+  if (operator()(cell) || says_unknown(trimmed(cell))) return true;
   const std::string text = lower_case(trimmed(cell));
   return std::ranges::find(words, text) != words.end();
 }
@@ -539,6 +539,13 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   const auto unmet = missing.unmet();
   warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
        fmt::join(unmet, " or "));
+  std::vector<std::string> mostly_empty;
+  for (const ColumnReader& column : columns)
+    if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(reader.names()[column.index()]));
+  warn(table, !mostly_empty.empty(),
+       "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
+       "merged one of a spreadsheet, fill them",
+       mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
   warn_of_order(table);
   const bool copies = warn_of_repeats(table);

@@ -687,8 +687,12 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
       step);
+  const bool of_a_date = latest_ >= 1.9e13 && latest_<2.1e13, is_far_off = latest_> 1e11 && !of_a_date;
+  say(is_far_off,
+      "times from 1970 on would be of the year {:.0f}: see whether they are in a smaller unit than that of their "
+      "header, and name it time_ms, time_us or time_ns",
+      1970.0 + latest_ / 31556952.0);
   if (!recording.times_are_seconds()) return sentences;
-  const bool of_a_date = latest_ >= 1.9e13 && latest_ < 2.1e13;
   // Of whole minutes none ends on 6000 to 9999.
   const bool are_minutes = hours_ > 2 && step < 2000.0;
   say(times_ >= 2 * few && clocks_ == times_ && (minutes_ > 2 || of_a_date) && (uneven_ > 0 || are_minutes),
@@ -700,7 +704,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.
-    say(unit.unit_s < 1.0 && !in_minutes && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
+    say(unit.unit_s < 1.0 && !in_minutes && !is_far_off && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
             step * unit.unit_s <= 20.0 && speed / unit.unit_s >= 0.5 && speed / unit.unit_s < 500.0,
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
         step, speed, unit.words, unit.name);

@@ -128,6 +128,7 @@ std::string_view doubt_of_format(std::string_view format) {
   }
   const auto tells = [&](std::string_view any) { return told.find_first_of(any) != told.npos; };
   if (tells("Z")) return "names of zones are not read: add a column of UTC, or zones as +02:00, which %z reads";
+  if (tells("p") && tells("HkRT")) return "%p goes with hours up to 12, %I: beside %H it tells nothing";
   const bool of_year = tells("Yy") && (tells("j") || (tells("UW") && tells("aAuw")));
   if (tells("aAjuwUWGgV") && !of_year && !tells("des"))
     return "that does not tell the day: give day and month, or with the year the day in it, %Y-%j, or week and "

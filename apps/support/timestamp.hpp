@@ -18,7 +18,8 @@ std::optional<double> parse_timestamp(std::string_view text);
 /// a zone may follow. `of_day` tells whether it is a time of day.
 std::optional<double> parse_timestamp(std::string_view text, const std::string& format, bool& of_day);
 
-/// What is wrong with such a format, if it is: zones by name, or what tells of a day but not which; or nothing.
+/// What is wrong with such a format, if it is: zones by name, halves of a day that do not count, or what tells of a day
+/// but not which; or nothing.
 std::string_view doubt_of_format(std::string_view format);
 
 /// Whether that is a time of day, which tells no date.

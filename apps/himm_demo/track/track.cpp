@@ -119,6 +119,11 @@ class Reporter {
                         : fmt::format(", {} of them too short for every filter to start", short_ones)));
     say(recording_.skipped() > 0,
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
+    const bool by_steps =
+        std::ranges::any_of(model_names(filters_), [](const auto& model) { return model.starts_with("dw"); });
+    say(outcome_.predicted > 0 && by_steps,
+        "What is predicted is one step, in which dwna and dwpa have one acceleration all the time: far ahead their "
+        "sigmas are too great, where those of cwna and cwpa do not depend on steps");
     const auto rejected = counted("rejected", &FilterOutcome::rejected);
     const auto restarts = counted("restarts", &FilterOutcome::restarts);
     say(!rejected.empty(), "Measurements that the gate turned away: " + numbered(rejected));
