@@ -272,6 +272,10 @@ std::string Doubts::why_apart(const std::vector<Off>& rows, int axes) {
     causes.push_back({fmt::format(fmt::runtime(format), std::abs(times) / unit, times > 0.0 ? "early" : "late"),
                       [of, times](const Off& row) -> Vector<3> { return times * of(row); }});
   };
+  causes.push_back({"told with x for y", [](const Off& row) {
+                      const double by = row.at[0] - row.at[1];
+                      return Vector<3>(by, -by, 0.0);
+                    }});
   const auto across = [](const Vector<3>& at) { return Vector<3>(-at[1], at[0], 0.0); };
   consider("{:.2g} s too {} in its times", 1.0, [](const Off& row) { return row.velocity; });
   if (rows.front().from_radar) {
@@ -655,7 +659,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "targets are mixed, name the column that tells them apart by --track-id, and if those of several sensors, one "
       "that is called sensor",
       returns_, jumps);
-  say(truths.same >= few && truths.changes.size() > few && 3 * truths.same > truths.changed &&
+  // A target that stands repeats a few times, for long.
+  const auto at_once = truths.after.find(0);
+  const bool is_held = at_once == truths.after.end() || 10 * at_once->second < 9 * truths.changed;
+  say(truths.same >= few && truths.changes.size() > few && 3 * truths.same > truths.changed && is_held &&
           20 * positions.same < truths.same,
       "{} of {} truths repeat the one before to the last digit, although what is measured moves: empty those cells, as "
       "errors are counted from where the target was",
