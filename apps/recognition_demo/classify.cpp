@@ -53,10 +53,9 @@ class RowReader {
         unseen_is_missing_(unseen_is_missing),
         label_(reader.find(model.label)),
         classes_(labels_of(model.counts.pattern())) {
-    for (const FeatureCode& feature : model.features) columns_.push_back(reader.column(feature.name));
-    for (const FeatureCode& feature : model.features) binned_.emplace_back(feature.bins ? feature.bins->size() : 0);
-    numbers_.resize(columns_.size());
-    filled_.resize(columns_.size());
+    for (const FeatureCode& feature : model.features)
+      columns_.push_back({.index = reader.column(feature.name),
+                          .binned = std::vector<double>(feature.bins ? feature.bins->size() : 0)});
   }
 
   bool has_truth() const { return label_.has_value(); }
@@ -66,7 +65,7 @@ class RowReader {
     ++rows_;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       result.push_back(reading(row, i));
-      filled_[i] += result.back() == missing ? 0U : 1U;
+      columns_[i].filled += result.back() == missing ? 0U : 1U;
     }
     return result;
   }
@@ -90,7 +89,7 @@ class RowReader {
     constexpr unsigned enough = 20;
     constexpr std::size_t one_in = 200;
     std::size_t numbers = 0;
-    for (const auto& [all, below, above] : numbers_) numbers += all;
+    for (const Column& column : columns_) numbers += column.all;
     if (unseen_cells_ > 0)
       result.say("\n{} as missing, since the model does not know {}: {}",
                  unseen_cells_ == 1 ? "1 cell counts" : fmt::format("{} cells count", unseen_cells_),
@@ -99,19 +98,19 @@ class RowReader {
       result.say("\n{} far from those that the model was learned from: are they in the same unit? The first: {}",
                  far_cells_ == 1 ? "1 number is" : fmt::format("{} numbers are", far_cells_), first_far_);
     std::array<std::size_t, 3> columns{};  // with numbers, and with more of them below, and above, than by chance
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
       const FeatureCode& feature = model_.features[i];
       double learned = 0.0;
       for (std::size_t c = 0; c < classes_.size(); ++c)
         for (const double count : model_.counts.of(i, c)) learned += count;
-      const auto& [all, below, above] = numbers_[i];
-      if (filled_[i] == 0 && rows_ > 1 && learned > 0.0)
+      const auto& [index, filled, all, below, above, least, binned] = columns_[i];
+      if (filled == 0 && rows_ > 1 && learned > 0.0)
         result.say("\nColumn {} has no value in any of {} rows", in_quotes(feature.name), rows_);
       // What moves within the range that was learned crowds in one of the bins.
-      for (std::size_t bin = 0; bin < binned_[i].size() && all >= enough; ++bin) {
+      for (std::size_t bin = 0; bin < binned.size() && all >= enough; ++bin) {
         double usual = 0.0;
         for (std::size_t c = 0; c < classes_.size(); ++c) usual += model_.counts.of(i, c)[bin] / learned;
-        if (const double share = binned_[i][bin] / static_cast<double>(all); share > usual + 0.6)
+        if (const double share = binned[bin] / static_cast<double>(all); share > usual + 0.6)
           result.say(
               "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they "
               "in the same unit?",
@@ -124,6 +123,12 @@ class RowReader {
         return static_cast<double>(some) * std::log(n / (n + learned)) < std::log(1e-3);
       };
       if (all >= enough) ++columns[0];
+      const bool is_code = below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0;
+      if (is_code)
+        result.say(
+            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, "
+            "empty those cells",
+            in_quotes(feature.name), below, shortest(*least.begin()));
       if (all >= enough && !many) columns[1] += is_no_chance(below), columns[2] += is_no_chance(above);
       // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
       const double log_chance = std::lgamma(n + 1.0) + std::lgamma(learned + 1.0) - std::lgamma(n + learned + 1.0);
@@ -166,27 +171,31 @@ class RowReader {
 
   std::size_t reading(const CsvRow& row, std::size_t i) {
     const FeatureCode& feature = model_.features[i];
-    const std::string_view cell = trimmed(row[columns_[i]]);
+    Column& column = columns_[i];
+    const std::string_view cell = trimmed(row[column.index]);
     if (feature.bins) {
       if (missing_.among_numbers(cell)) return missing;
       if (const auto number = parse_number(cell)) {
-        auto& [all, below, above] = numbers_[i];
-        ++all, below += *number < feature.least ? 1U : 0U, above += *number > feature.greatest ? 1U : 0U;
+        ++column.all, column.above += *number > feature.greatest ? 1U : 0U;
+        if (*number < feature.least) {
+          ++column.below;
+          if (column.least.size() < 2) column.least.insert(*number);
+        }
         if (is_far(*number, feature) && far_cells_++ == 0)
           first_far_ =
-              row.error(columns_[i], feature.least <= feature.greatest
-                                         ? fmt::format("a number as those learned from, which are from {} to {}",
-                                                       shortest(feature.least), shortest(feature.greatest))
-                                         : "a number nearer to those learned from")
+              row.error(column.index, feature.least <= feature.greatest
+                                          ? fmt::format("a number as those learned from, which are from {} to {}",
+                                                        shortest(feature.least), shortest(feature.greatest))
+                                          : "a number nearer to those learned from")
                   .what();
         const std::size_t bin = feature.bins->bin(*number);
-        ++binned_[i][bin];
+        ++column.binned[bin];
         return bin;
       }
-      return unseen(row, columns_[i], "a finite number with a decimal point",
+      return unseen(row, column.index, "a finite number with a decimal point",
                     has_decimal_comma(cell) ? "write a decimal comma as a point" : remedy);
     }
-    return missing_(cell) ? missing : place(row, columns_[i], feature.values, "a value that the model knows: ");
+    return missing_(cell) ? missing : place(row, column.index, feature.values, "a value that the model knows: ");
   }
 
   /// Where a cell is among names.
@@ -207,11 +216,14 @@ class RowReader {
   bool unseen_is_missing_;
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
-  std::vector<std::size_t> columns_;
+  struct Column {
+    std::size_t index, filled = 0, all = 0, below = 0,
+                       above = 0;  // cells: filled, and numbers beside those learned from
+    std::set<double> least{};      // of those below, the first two that differ
+    std::vector<double> binned;    // numbers by bin
+  };
+  std::vector<Column> columns_;
   std::size_t rows_ = 0;
-  std::vector<std::size_t> filled_;                  // of each column, the rows with a value
-  std::vector<std::array<std::size_t, 3>> numbers_;  // of each column: all, below and above those learned from
-  std::vector<std::vector<double>> binned_;          // of each column, numbers by bin
   std::size_t unseen_cells_ = 0, far_cells_ = 0;
   std::string first_unseen_, first_far_;
 };

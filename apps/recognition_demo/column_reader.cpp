@@ -27,8 +27,10 @@ std::string_view unit_of(std::string_view cell) {
   const auto end = std::min(cell.find_first_not_of(of_numbers, begin), cell.size());
   const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
   const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
-  const bool alone = (before.empty() || after.empty()) && is_sign && after.find_first_of("0123456789") == after.npos;
   const std::string_view number = cell.substr(begin, end - begin);
+  const auto point = number.find_first_of(".,");  // S12 is a name, and EUR 12.50 none
+  const bool is_amount = is_sign || (point != number.npos && point > 0 && point + 1 < number.size());
+  const bool alone = (before.empty() || after.empty()) && is_amount && after.find_first_of("0123456789") == after.npos;
   constexpr std::array no_units = {"'", "=", "~", "*", "−", "\u00A0", "\u202F"};
   if (std::ranges::find(no_units, before.empty() ? after : before) != no_units.end()) return "";
   return alone && (parse_number(number) || has_decimal_comma(number)) ? (before.empty() ? after : before) : "";

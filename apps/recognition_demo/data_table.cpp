@@ -389,6 +389,9 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
       for_typing);
+  say(name.starts_with("Unnamed: "),
+      " is called as pandas calls the numbers of rows that it wrote: if it is these, leave it out by --ignore {}",
+      for_typing);
   if (column.is_numeric()) {
     const std::string nines = column.nines().doubt(name);
     warn(table, !nines.empty(), "{}", nines);
@@ -489,7 +492,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   table.label = options.label;
   Vocabulary classes;
   std::vector<std::size_t> rows_of;  // by class, as they come
-  std::size_t first_line = 0;
+  std::size_t first_line = 0, commented = 0;
   for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
@@ -501,6 +504,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
                       row.blank(label) ? "fill the cell or remove the row"
                                        : "which --missing says to be none: fill the cell, remove the row, or leave out "
                                          "--missing and empty the cells of other columns");
+    commented += row[0].starts_with('#') ? 1U : 0U;
     const Code code = classes.code(trimmed(row[label]));
     if (classes.size() > most_values)
       throw row.error(label, fmt::format("one of at most {} classes", most_values), "choose another --label");
@@ -539,6 +543,10 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   const auto unmet = missing.unmet();
   warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
        fmt::join(unmet, " or "));
+  const auto [line, rows] = reader.swallowed();
+  warn(table, reader.swallowed().is_doubtful(), swallowed_words, line, rows);
+  warn(table, commented > 0 && 2 * commented < table.size(),
+       "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
   std::vector<std::string> mostly_empty;
   for (const ColumnReader& column : columns)
     if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(reader.names()[column.index()]));

@@ -589,6 +589,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are "
         "the same",
         what, two);
+  const auto swallowed = recording.csv().swallowed();
+  say(swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
   const auto nines = recording.nines();
   for (const std::string& sentence : nines) say(true, "{}", sentence);
   say(nines.empty() && twice_rows_ > 1 && 2.0 * to_twice_ > path_,
