@@ -172,6 +172,18 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   if (std::ranges::any_of(before.recent, is_much_nearer)) ++returns_;
   keep(now.at, before.recent);
   see_leap(before, now, jump);
+  const std::span recent = before.recent;
+  before.even = std::abs(dt - before.step) < 0.01 * dt ? before.even + 1 : 0;
+  if (recent.size() > 3 && before.even > 1) {
+    const auto at = [&](std::size_t ago) { return recent[recent.size() - 1 - ago].head<2>(); };
+    const Eigen::Vector2d off = (at(0) - at(2)) / (2.0 * dt) - last.rate.head<2>().matrix();
+    if (!std::isnan(off.sum())) {
+      ++computed_.count;
+      computed_.off += off.squaredNorm();
+      // A third difference has twenty times the variance of a position, and this velocity one of 1/(2 dt²).
+      computed_.rough += (at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3)).squaredNorm() / (40.0 * dt * dt);
+    }
+  }
   if (now.twice != last.twice) to_twice_ += jump;
   if (const double off = length(now.error); !std::isnan(off + last.error[0])) {
     ++errors_;
@@ -494,6 +506,13 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see whether "
       "they are along x and y, and not ahead and to a side, and whether a course is in the unit of its header",
       by_ten.correlation());
+  // Measured ones are off it by the noise of positions, or by what turns within a step, and both are as rough.
+  const bool is_computed = computed_.count >= 2 * few && computed_.off < 0.05 * computed_.rough;
+  say(!is_clear && is_computed,
+      "the velocities are the ways from the rows before to those after by their time, as computed from these "
+      "positions, "
+      "and tell nothing new: do not let them count, by no sigma_velocity_mps");
+  is_clear |= is_computed;
   const double step = steps_.empty() ? nan : median(steps_);
   const auto found_late = std::ranges::find_if(late_, [&](const Agreement& some) {
     return some.count >= 2 * few && some.correlation() * some.correlation() > 0.25 && some.error_square() < 0.04 &&

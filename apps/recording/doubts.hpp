@@ -115,6 +115,7 @@ class Doubts {
     double way = 0.0;                                       // between these, along the ground if there is a height
     std::array<std::size_t, 4> runs{};                      // of stays_, that last
     double step = std::numeric_limits<double>::infinity();  // up to it
+    std::size_t even = 0;                                   // as many steps before are as long
     std::size_t silent = 0;                                 // rows since a velocity was told
     std::vector<Vector<3>> recent{};                        // the last few
     std::vector<std::pair<double, double>> moves{};         // the last few ways, and speeds along them
@@ -153,12 +154,16 @@ class Doubts {
   std::array<Rates, 3> rates_;                  // from row to row, where noise hides what is slow, and over many rows
   Agreement offset_;  // of what ten rows tell from how they grew: its squares, and those of what is told
   Vector<3> offsets_ = Vector<3>::Zero();  // the sum
-  std::array<Agreement, 3> late_;          // how velocities change over these rows, and what positions grow beyond them
-  double farthest_ = 0.0;                  // of positions from where they are counted
-  double path_ = 0.0;                      // of all positions, each sensor's own
-  std::array<Stays, 4> stays_;             // of positions, heights, velocities and truths
-  std::size_t held_again_ = 0;             // positions that change, where the next one does not
-  std::set<long> ways_;                    // how far those went, some, as logarithms to three digits
+  struct {
+    std::size_t count = 0;
+    double off = 0.0, rough = 0.0;
+  } computed_;  // squares: how far velocities are off the way between the rows beside them, and by what noise would be
+  std::array<Agreement, 3> late_;  // how velocities change over these rows, and what positions grow beyond them
+  double farthest_ = 0.0;          // of positions from where they are counted
+  double path_ = 0.0;              // of all positions, each sensor's own
+  std::array<Stays, 4> stays_;     // of positions, heights, velocities and truths
+  std::size_t held_again_ = 0;     // positions that change, where the next one does not
+  std::set<long> ways_;            // how far those went, some, as logarithms to three digits
   struct {
     std::size_t count = 0;
     double sum = 0.0;
