@@ -543,8 +543,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   const auto unmet = missing.unmet();
   warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
        fmt::join(unmet, " or "));
-  const auto [line, rows] = reader.swallowed();
-  warn(table, reader.swallowed().is_doubtful(), swallowed_words, line, rows);
+  const auto swallowed = reader.swallowed();
+  warn(table, swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
   warn(table, commented > 0 && 2 * commented < table.size(),
        "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
   std::vector<std::string> mostly_empty;

@@ -506,12 +506,11 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see whether "
       "they are along x and y, and not ahead and to a side, and whether a course is in the unit of its header",
       by_ten.correlation());
-  // Measured ones are off it by the noise of positions, or by what turns within a step, and both are as rough.
+  // Measured ones are off these ways by the noise of positions, or by what turns within a step.
   const bool is_computed = computed_.count >= 2 * few && computed_.off < 0.05 * computed_.rough;
   say(!is_clear && is_computed,
       "the velocities are the ways from the rows before to those after by their time, as computed from these "
-      "positions, "
-      "and tell nothing new: do not let them count, by no sigma_velocity_mps");
+      "positions, and tell nothing new: do not let them count, by no sigma_velocity_mps");
   is_clear |= is_computed;
   const double step = steps_.empty() ? nan : median(steps_);
   const auto found_late = std::ranges::find_if(late_, [&](const Agreement& some) {
@@ -715,7 +714,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
       step);
-  const bool of_a_date = latest_ >= 1.9e13 && latest_<2.1e13, is_far_off = latest_> 1e11 && !of_a_date;
+  const bool of_a_date = latest_ >= 1.9e13 && latest_ < 2.1e13;
+  const bool is_far_off = !of_a_date && latest_ > 1e11;
   say(is_far_off,
       "times from 1970 on would be of the year {:.0f}: see whether they are in a smaller unit than that of their "
       "header, and name it time_ms, time_us or time_ns",

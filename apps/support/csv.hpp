@@ -123,8 +123,7 @@ class CsvReader {
 /// What to say of the line and the number of rows that quotes have swallowed.
 inline constexpr std::string_view swallowed_words =
     "from the quote on line {} to the next one there are {} lines that look like rows, and count as text: write a "
-    "quote "
-    "inside quotes twice, and see where one is left open";
+    "quote inside quotes twice, and see where one is left open";
 
 /// Opens a file, or the standard input for "-".
 CsvReader open_csv(const std::string& file);
