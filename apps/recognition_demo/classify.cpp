@@ -217,10 +217,10 @@ class RowReader {
   std::optional<std::size_t> label_;
   std::vector<std::string> classes_;
   struct Column {
-    std::size_t index, filled = 0, all = 0, below = 0,
-                       above = 0;  // cells: filled, and numbers beside those learned from
-    std::set<double> least{};      // of those below, the first two that differ
-    std::vector<double> binned;    // numbers by bin
+    std::size_t index, filled = 0;
+    std::size_t all = 0, below = 0, above = 0;  // numbers, and those beside what was learned from
+    std::set<double> least{};                   // of those below, the first two that differ
+    std::vector<double> binned;                 // numbers by bin
   };
   std::vector<Column> columns_;
   std::size_t rows_ = 0;

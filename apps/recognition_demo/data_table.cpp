@@ -200,12 +200,13 @@ bool warn_of_repeats(DataTable& table) {
   std::vector<std::string> one_hot;
   std::vector<std::size_t> ones(size);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    std::set<double> values, classes;
+    std::set<double> classes;
+    bool binary = true;  // without a gap
     for (const auto& row : rows.cells) {
-      values.insert(row[i]);
+      binary = binary && (row[i] == 0.0 || row[i] == 1.0);
       if (row[i] == 1.0) classes.insert(row.back());
     }
-    if (values != std::set{0.0, 1.0} || classes.size() != 1) continue;
+    if (!binary || classes.size() != 1) continue;
     one_hot.push_back(typed(table.columns[i].name));
     for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
   }
