@@ -204,7 +204,12 @@ std::string ColumnReader::one_number() const {
 }
 
 bool ColumnReader::holds_units() const {
-  return !categorical_ && !leading_zeros_ && words_.size() > few_words && 2 * unit_cells_ > cells_ &&
+  // Seats and diagnoses have letters, too: 12A, C50.
+  const auto units = units_.sorted().first;
+  const bool are_letters = units.size() > 2 && std::ranges::all_of(units, [](const std::string& unit) {
+                             return unit.size() == 1 && unit[0] >= 'A' && unit[0] <= 'Z';
+                           });
+  return !are_letters && !categorical_ && !leading_zeros_ && words_.size() > few_words && 2 * unit_cells_ > cells_ &&
          units_.size() <= most_units;
 }
 

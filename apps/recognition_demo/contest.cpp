@@ -126,6 +126,19 @@ void say_unrecognised(const std::vector<std::string>& classes, const std::vector
                those.size() == recognised.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
 }
 
+void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
+                const std::vector<std::pair<std::string, double>>& right, Result& result) {
+  const auto most = std::ranges::max_element(rows);
+  const double share =
+      static_cast<double>(*most) / static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::size_t{0}));
+  std::vector<std::string> worse;
+  for (const auto& [name, own] : right)
+    if (own < share) worse.push_back(in_quotes(name));
+  if (!worse.empty())
+    result.say("{:.2f} % of the rows are {}: who always says so is right more often than {}", 100.0 * share,
+               in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));
+}
+
 Result result_of_contest(std::string title, const OutputOptions& output, const std::vector<Contestant>& contestants) {
   constexpr std::size_t widest_words = 120;  // longer lines are hard to read
   Result result(output);

@@ -66,6 +66,11 @@ std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
 void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
                       const std::vector<std::pair<std::string, std::vector<double>>>& recognised, Result& result);
 
+/// Says if of rows of each class fewer were answered rightly by a contestant, whose share is given by its name, than by
+/// who always says the most frequent class.
+void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
+                const std::vector<std::pair<std::string, double>>& right, Result& result);
+
 /// A result begun: the page has its title, and the contestants are what it switches on and off.
 Result result_of_contest(std::string title, const OutputOptions& output,
                          const std::vector<Contestant>& contestants = {});

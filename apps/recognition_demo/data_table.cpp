@@ -304,7 +304,7 @@ void warn_of_gaps(DataTable& table) {
     const auto [least, most] = std::ranges::minmax(known, {}, share);
     warn_of(table.columns[i].name, table, share(most) - share(least) >= 0.5,
             ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
-            "empty cell says something, as no or less than a limit, write it",
+            "empty cell says something, as no or less than a limit, and does so before the class is known, write it",
             100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
   }
 }
@@ -317,11 +317,28 @@ void warn_of_order(DataTable& table) {
     double n = 0.0, sum = 0.0, squares = 0.0, last = nan;
   };
   const std::size_t columns = table.columns.size(), classes = table.classes.size();
+  // What the rows were sorted by, first by one column, then by the next: how often it comes again, or falls.
+  struct Order {
+    double last = nan;
+    std::size_t again = 0, falls = 0, steps = 0;
+  };
   std::vector<Sums> of(columns * classes);
+  std::vector<Order> orders(columns);
   std::vector<double> steps(columns), pairs(columns);
   std::size_t runs = 0, last = classes;
   table.for_each([&](const DataRow& row) {
     runs += std::exchange(last, row.label()) != row.label() ? 1U : 0U;
+    bool are_same = true;  // the columns before
+    for (std::size_t i = 0; i < columns; ++i) {
+      const double now = table.columns[i].numeric ? row.number(i) : row.code(i);
+      Order& own = orders[i];
+      const double before = std::exchange(own.last, now);
+      if (!are_same) continue;
+      ++own.steps;
+      own.again += now == before ? 1U : 0U;
+      own.falls += now < before ? 1U : 0U;
+      are_same = now == before;
+    }
     for (std::size_t i = 0; i < columns; ++i) {
       const double number = table.columns[i].numeric ? row.number(i) : nan;
       if (std::isnan(number)) continue;
@@ -338,7 +355,9 @@ void warn_of_order(DataTable& table) {
     double squares = 0.0;
     for (std::size_t c = 0; c < classes; ++c)
       if (const Sums& own = of[i * classes + c]; own.n > 0.0) squares += own.squares - own.sum * own.sum / own.n;
-    if (pairs[i] < 10.0 * few_rows || !(squares > 0.0)) continue;
+    const Order& order = orders[i];
+    const bool is_key = 20 * order.falls < order.steps && 2 * order.again > order.steps && order.steps > few_rows;
+    if (pairs[i] < 10.0 * few_rows || !(squares > 0.0) || is_key) continue;
     ++numbers;
     smooth += steps[i] < lasting * squares ? 1U : 0U;
   }
@@ -395,7 +414,7 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
       for_typing);
   if (column.is_numeric()) {
     const std::string nines = column.nines().doubt(name);
-    warn(table, !nines.empty(), "{}", nines);
+    warn(table, !nines.empty(), "{}; where it says something, as never, that is lost so", nines);
     const std::string thousands = column.thousands(), code = column.code_with_zeros(), two = column.one_number();
     say(!thousands.empty(),
         ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
@@ -419,8 +438,9 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
   say(!alike.empty(), alike_words, alike);
   say(column.holds_units(),
       " holds numbers with a unit ({}), which count as words: write the numbers alone, all in one unit, and the unit "
-      "into the name of the column",
-      column.units());
+      "into the name of the column{}",
+      column.units(),
+      column.units() == "E, W" || column.units() == "N, S" ? ", those of S and W with a minus sign" : "");
   say(!notation.empty(),
       " holds no plain numbers, as {}, which count as words: where they are numbers, times or dates, write them as {}, "
       "in seconds or days",

@@ -1,11 +1,8 @@
-#include <random>
-
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/evaluation.hpp>
-#include <sigmax/recognition/folds.hpp>
 #include <sigmax/recognition/reliability.hpp>
 
-#include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/folding.hpp"
 #include "recognition_demo/subcommands.hpp"
 #include "support/parallel.hpp"
 #include "support/progress.hpp"
@@ -39,57 +36,6 @@ struct Outcome {
                       evaluation);
   }
 };
-
-using Folds = ScratchArray<std::uint32_t>;
-
-/// The fold of every row, by `stratified_folds`; of longer tables part by part.
-Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
-  constexpr std::size_t part = std::size_t{1} << 17;
-  FoldDealer dealer(data.rows_of_class, folds);
-  Folds result;
-  std::vector<std::size_t> labels;
-  const auto deal = [&] {
-    for (const std::size_t fold : dealer.deal(labels, generator)) result.push_back(static_cast<std::uint32_t>(fold));
-    labels.clear();
-  };
-  data.for_each([&](const DataRow& row) {
-    labels.push_back(row.label());
-    if (labels.size() == part) deal();
-  });
-  deal();
-  return result;
-}
-
-/// One fold, and the classifiers that the others teach.
-struct TaughtFold {
-  std::size_t fold;
-  LearnedModel model;
-  std::vector<Contestant> contestants;
-};
-
-TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options) {
-  ScratchCursor<std::uint32_t> fold_of(folds);
-  LearnedModel model = learn(data, options, [&](const DataRow& row) { return fold_of[row.index()] != fold; });
-  auto contestants = classifiers(model, kind_names);
-  return {fold, std::move(model), std::move(contestants)};
-}
-
-/// Calls see(row, contestant's index, what it judges) for the rows of a fold, and for each of them for the contestants
-/// from `first` on up to `end`.
-template <class See>
-void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& taught, std::size_t first,
-                   std::size_t end, const See& see) {
-  ScratchCursor<std::uint32_t> fold_of(folds);
-  Readings readings;
-  data.for_each([&](const DataRow& row) {
-    if (fold_of[row.index()] != taught.fold) return;
-    read(taught.model, row, readings);
-    for (std::size_t i = first; i < end; ++i) see(row, i, judged(taught.contestants[i], readings));
-  });
-}
-
-/// Of every row the classifiers that were right, a bit for each.
-using Right = ScratchArray<std::uint8_t>;
 
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
@@ -303,6 +249,35 @@ Results evaluated(const DataTable& data, const EvaluateOptions& options) {
   return results;
 }
 
+/// Says what makes the shares of right answers too good for other rows: columns that are known when the class is, and
+/// rows of one thing.
+void say_too_good(const DataTable& data, double accuracy, double most_often, const EvaluateOptions& options,
+                  Result& result) {
+  constexpr double very_good = 0.9, less = 0.03;
+  if (accuracy > very_good && data.columns.size() > 1) {
+    const auto relations = learned_relations(learn(data, options.learning).counts, options.learning.smoothing);
+    const auto most = static_cast<std::size_t>(std::ranges::max_element(relations, {}, telling) - relations.begin());
+    const auto shares = right_when_left_out(data, options.learning, options.seed, options.threads, most);
+    double without = 0.0;
+    for (std::size_t c = 0; c < shares.size(); ++c)
+      without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
+    const std::string& name = data.columns[most].name;
+    if (without - most_often < (accuracy - most_often) / 3.0)
+      result.say(
+          "Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
+          "out by --ignore {}",
+          in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
+  }
+  const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
+  if (clumps && clumps->less.mean > less && clumps->less.mean > 1.5 * clumps->less.half_width)
+    result.say(
+        "{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
+        "one thing, as a person, a place or a session, or made of one another, the others are too good; keep the rows "
+        "of some apart, and ask of those by classify",
+        100.0 * clumps->accuracy, clumps->rows < data.size() ? fmt::format(" of {} rows", clumps->rows) : "",
+        100.0 * (clumps->accuracy - clumps->less.mean));
+}
+
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
   result.say("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
              options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
@@ -313,12 +288,10 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
-  std::vector<std::string> worse;
-  for (const Outcome& outcome : results.outcomes())
-    if (outcome.confusion().accuracy() < most_often) worse.push_back(in_quotes(outcome.name));
-  if (!worse.empty())
-    result.say("{:.2f} % of the rows are {}: who always says so is right more often than {}", 100.0 * most_often,
-               in_quotes(data.classes[static_cast<std::size_t>(most - data.rows_of_class.begin())]), list_of(worse));
+  say_beaten(
+      data.classes, data.rows_of_class,
+      each(results.outcomes(), [](const Outcome& one) { return std::pair(one.name, one.confusion().accuracy()); }),
+      result);
   double of_shares = 0.0;
   for (const std::size_t rows : data.rows_of_class) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());
@@ -344,6 +317,7 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
     for (std::size_t c = 0; c < data.classes.size(); ++c) times.push_back(outcome.confusion()(c, c));
   }
   say_unrecognised(data.classes, data.rows_of_class, recognised, result);
+  say_too_good(data, results.outcomes().front().confusion().accuracy(), most_often, options, result);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
   if (data.classes.size() > most_classes) return;

@@ -34,6 +34,7 @@ struct LearnedModel {
   std::vector<FeatureCode> features;
   Counts counts;
   LearningOptions options;
+  std::vector<double> right{};  ///< of each class the share of rows that sigma was right about, left out; or empty
 };
 
 /// Says whether a row is to be learned from; the same at every call.

@@ -137,6 +137,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
   if (!model.missing.empty()) json["missing"] = model.missing;
   for (std::size_t c = 0; c < counts.pattern().size(); ++c)
     json["classes"].push_back({{"name", counts.pattern().label(c)}, {"rows", counts.rows(c)}});
+  for (std::size_t c = 0; c < model.right.size(); ++c) json["classes"][c]["right_when_left_out"] = model.right[c];
   for (std::size_t i = 0; i < model.features.size(); ++i) {
     const FeatureCode& code = model.features[i];
     Json feature = {{"name", code.name}};
@@ -178,13 +179,15 @@ ModelFile read_model(const std::filesystem::path& path) {
   options.equal_prior = root.at("equal_prior").boolean();
 
   std::vector<std::string> classes;
-  std::vector<double> rows;
+  std::vector<double> rows, right;
   std::set<std::string> seen;
   for (const Node& each : root.at("classes").list("classes")) {
     classes.push_back(each.at("name").text());
     if (!seen.insert(classes.back()).second) throw each.at("name").error("names that differ");
     rows.push_back(count(each.at("rows")));
     if (rows.back() == 0.0) throw each.at("rows").error("a class with at least one row");
+    if (each.has("right_when_left_out"))
+      right.push_back(each.at("right_when_left_out").number(0.0, std::nextafter(1.0, 2.0), "a share"));
   }
   if (classes.size() < 2) throw root.at("classes").error("at least two classes");
 
@@ -218,7 +221,8 @@ ModelFile read_model(const std::filesystem::path& path) {
     }
   }
   auto missing_words = root.has("missing") ? names(root.at("missing"), "words") : std::vector<std::string>();
-  LearnedModel model{label, std::move(missing_words), std::move(codes), std::move(counts), options};
+  if (right.size() < classes.size()) right.clear();  // models of old have none
+  LearnedModel model{label, std::move(missing_words), std::move(codes), std::move(counts), options, std::move(right)};
   return {std::move(model), std::move(kinds)};
 }
 

@@ -1,4 +1,4 @@
-#include "recognition_demo/learned_model.hpp"
+#include "recognition_demo/folding.hpp"
 #include "recognition_demo/subcommands.hpp"
 
 namespace sigmax::apps {
@@ -30,6 +30,7 @@ void run_train(const TrainOptions& options) {
   print_warnings(data, options.learning);
   LearnedModel model = learn(data, options.learning);
   model.missing = options.data.missing;
+  model.right = right_when_left_out(data, options.learning, 1, 0);
   write_model(model, options.kinds, options.model);
 
   Result result = result_of_contest("", options.output);

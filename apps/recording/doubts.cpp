@@ -184,6 +184,15 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
       computed_.rough += (at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3)).squaredNorm() / (40.0 * dt * dt);
     }
   }
+  // A target that goes on evenly, while the clock leaps.
+  if (recent.size() > 3 && dt > 50.0 * before.step) {
+    const auto move = [&](std::size_t ago) -> Vector<3> {
+      return recent[recent.size() - 1 - ago] - recent[recent.size() - 2 - ago];
+    };
+    const double usual = length(move(1));
+    if (length(move(2) - move(1)) < 0.2 * usual && length(move(0) - move(1)) < 0.2 * usual && slipped_++ == 0)
+      slip_ = {now.line, dt, before.step};
+  }
   if (now.twice != last.twice) to_twice_ += jump;
   if (const double off = length(now.error); !std::isnan(off + last.error[0])) {
     ++errors_;
@@ -420,6 +429,20 @@ std::string Doubts::other_times() const {
   return fmt::format("{:.6g} s apart up to {:.6g} and {:.6g} s from {:.6g} on", before, time, then, time + *longest);
 }
 
+/// Whether a step is an hour longer, of a lone track at night in those months in which it is done somewhere.
+bool Doubts::puts_clocks_forward(double step) const {
+  double time = tracks_.begin()->second.first_time;
+  return std::ranges::any_of(steps_, [&](double own) {
+    const double before = std::exchange(time, time + own);
+    if (std::abs(own - step - 3600.0) > 0.1 * step) return false;
+    const std::chrono::sys_seconds then{std::chrono::seconds(std::lround(before))};
+    const auto day = std::chrono::floor<std::chrono::days>(then);
+    const auto month = static_cast<unsigned>(std::chrono::year_month_day(day).month());
+    const bool in_spring = month == 3 || month == 4 || (month >= 8 && month <= 10);
+    return tracks_.size() > 1 || (in_spring && then - day < std::chrono::hours(5));
+  });
+}
+
 double Doubts::rounding(const RecordingReader& recording) const {
   double greatest = 0.0;
   for (std::size_t i = 0; i < 2 && recording.located(); ++i)
@@ -434,19 +457,30 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const auto say = [&](bool holds, std::string_view format, const auto&... words) {
     if (holds) sentences.push_back(recording.file() + ": " + fmt::format(fmt::runtime(format), words...));
   };
+  const bool by_radar = recording.polar() && !recording.located();
   const std::string range_remedy = fmt::format(
       "where a radar counts closing as positive, its column is closing_rate_mps, else range_rate_mps: name it {}",
       recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
   const std::array<std::array<std::string_view, 3>, 4> kinds = {
       {{"velocities along x", "x",
-        recording.axes() == 1 ? "vx is along x, and so below 0 where x falls"
-                              : "vx is along x, or east, and longitudes west are negative"},
-       {"velocities along y", "y", "vy is along y, or north, and latitudes south are negative"},
+        by_radar                ? "see where azimuths count from, and whether vx is along x, or east"
+        : recording.axes() == 1 ? "vx is along x, and so below 0 where x falls"
+                                : "vx is along x, or east, and longitudes west are negative"},
+       {"velocities along y", "y",
+        by_radar ? "see where azimuths count from, and whether vy is along y, or north"
+                 : "vy is along y, or north, and latitudes south are negative"},
        {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
        {"range rates", "the ranges", range_remedy}}};
+  const char* const way_of_azimuths = recording.from_north() ? "counter-clockwise from east" : "clockwise from north";
+  const char* const remedy_of_azimuths =
+      recording.from_north() ? "name the column azimuth_deg, without --azimuth-from" : "give --azimuth-from north";
   const bool swapped = std::ranges::any_of(
       rates_, [](const Rates& rates) { return rates[exchanged].fits() && rates[velocities].correlation() < 0.5; });
-  say(swapped,
+  say(swapped && by_radar,
+      "the velocities do not fit how the positions grow, but would if azimuths ran {}: {}; or if vx were vy, as vx is "
+      "along x, or east, and a course clockwise from north",
+      way_of_azimuths, remedy_of_azimuths);
+  say(swapped && !by_radar,
       "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
       "east, vy along y, or north, a latitude is along y, and a course is clockwise from north");
   // What noise makes of rates falls with the rows that they are taken over; what moves does not.
@@ -470,8 +504,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that of their "
         "header",
         name, wrong == rates_.end() ? 0.0 : 1.0 / (*wrong)[rate].growth_per_told(), others, others);
+    return wrong != rates_.end();
   };
-  say_scale(velocities, "velocities", "positions");
+  is_clear |= say_scale(velocities, "velocities", "positions");
   for (const Rates& rates : rates_) {
     constexpr double earth = 6.4e6;  // of whose north one is another's, far away
     const double angle = std::atan2(rates[to_the_left].product, rates[velocities].product);
@@ -482,8 +517,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     if (is_clear || !turned.fits() || std::abs(angle) < margin) continue;
     say(true,
         "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
-        "and whether it is one, and no heading",
-        std::abs(angle) / degree, angle > 0.0 ? "right" : "left");
+        "and whether it is one, and no heading{}",
+        std::abs(angle) / degree, angle > 0.0 ? "right" : "left",
+        by_radar ? ", and where azimuths count from and which way they run" : "");
     is_clear = true;
   }
   const auto rows_of_offset = static_cast<double>(offset_.count);
@@ -530,9 +566,8 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
   const auto fits = [&](double sum) { return azimuths_ >= few && n - as_read_ > std::max(9.0 * (n - sum), 1e-3 * n); };
   const char* const reference = recording.has_truth() ? "truth" : "positions";
-  say(fits(other_way_), "the azimuths do not fit the {}, but would if they ran {}: {}", reference,
-      recording.from_north() ? "counter-clockwise from east" : "clockwise from north",
-      recording.from_north() ? "name the column azimuth_deg, without --azimuth-from" : "give --azimuth-from north");
+  say(fits(other_way_), "the azimuths do not fit the {}, but would if they ran {}: {}", reference, way_of_azimuths,
+      remedy_of_azimuths);
   say(fits(radians_) && !recording.from_north(),
       "the azimuths do not fit the {}, but would if they were radians: name the column azimuth_rad", reference);
   const bool diverge = pairs_ >= few && pairs_ > 3 * crossing_;
@@ -609,31 +644,34 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
         what, two);
   const auto swallowed = recording.csv().swallowed();
   say(swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
+  for (const std::string& sentence : recording.rivals()) say(true, "{}", sentence);
   const auto nines = recording.nines();
   for (const std::string& sentence : nines) say(true, "{}", sentence);
   say(nines.empty() && twice_rows_ > 1 && 2.0 * to_twice_ > path_,
       "{} positions have {} for both coordinates, and most of the way is to there and back: if that stands for no "
       "position, empty those cells or name them by --missing",
       twice_rows_, twice_.value_or(0.0));
-  const auto& [abroad, first_abroad] = recording.abroad();
-  say(abroad > 0,
-      "{} positive latitudes or longitudes stand beside an S or a W, first on line {}, and were taken as north and "
-      "east: give those of the south and the west a minus sign",
-      abroad, first_abroad);
+  for (const std::size_t i : {0U, 1U})
+    if (const auto [abroad, first_abroad] = recording.abroad(i); abroad > 0)
+      say(true, "{} positive {}, first on line {}, and were taken as {}: give them a minus sign", abroad,
+          i == 0 ? "latitudes stand beside an S" : "longitudes stand beside a W", first_abroad,
+          i == 0 ? "north" : "east");
   const bool along_the_ground = recording.polar() && recording.axes() == 2;
   const auto& headers = recording.csv().names();
   const auto tells_height = [](std::string_view name) {
     const std::string lower = lower_case(name);
     if (lower.starts_with("sensor_")) return false;
-    constexpr std::array words = {"slant", "altitude", "height", "depth", "flight_level", "flight level"};
-    return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
+    constexpr std::array words = {"slant",        "altitude",     "height",    "depth",
+                                  "flight_level", "flight level", "elevation", "depression"};
+    return lower == "z" || lower.starts_with("z_") ||
+           std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
   };
   const auto height = std::ranges::find_if(headers, tells_height);
   say(along_the_ground && !recording.located() && height != headers.end(),
       "ranges are taken along the ground, beside a column {}: a slant range is longer; write range·cos(elevation), or "
       "give an elevation_deg",
       in_quotes(height == headers.end() ? "" : *height));
-  const auto& [relative, first_relative] = recording.relative();
+  const auto [relative, first_relative] = recording.relative();
   say(relative > 0,
       "an R stands beside {} azimuths, first on line {}, as beside those that are relative to a heading, and they were "
       "taken from {}: add the heading",
@@ -643,6 +681,10 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
       "UTC; see whether each has the zone that it was told in",
       zone.line, zone.step);
+  say(slipped_ > 0,
+      "time goes on by {:.6g} s on line {}, where steps are of {:.6g} s, and the target only as far as in one of "
+      "these{}: see whether a clock was set, days were read as months, or the zone is another one from there on",
+      slip_.dt, slip_.line, slip_.step, slipped_ > 1 ? fmt::format("; so it is {} times", slipped_) : "");
   say(recording.at_one_time() > std::max(recording.rows(), few),
       "{} rows have the time of the row before, and were skipped: if times were rounded, as to whole seconds, write "
       "them in full{}",
@@ -709,8 +751,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       positions.same, jumps);
   if (steps_.size() < few) return sentences;
   const double speed = moved / duration;
-  const auto by_an_hour = [&](double other) { return std::abs(other - step - 3600.0) < 0.1 * step; };
-  say(!recording.times_are_numbers() && step <= 60.0 && std::ranges::any_of(steps_, by_an_hour),
+  say(!recording.times_are_numbers() && step <= 60.0 && puts_clocks_forward(step),
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
       step);

@@ -144,6 +144,7 @@ class Doubts {
   void see_leap(Sensor& before, const Spoke& now, double jump);
   std::string shifted() const;
   std::string other_times() const;
+  bool puts_clocks_forward(double step) const;
   static std::string why_apart(const std::vector<Off>& rows, int axes);
   void see_other(const std::string& sensor, const Spoke& now, Track& track);
 
@@ -172,6 +173,11 @@ class Doubts {
   std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
   std::optional<Leap> leap_{};  // the first, and how many there are
   std::size_t leaps_ = 0;
+  std::size_t slipped_ = 0;  // steps much longer than others, in which the target went as far as in one of those
+  struct {
+    std::size_t line;
+    double dt, step;
+  } slip_{};  // the first
   Stranger zero_heights_, zero_truths_;
   std::optional<double> twice_;  // the first number that is both coordinates of a position
   std::size_t twice_rows_ = 0;

@@ -47,11 +47,28 @@ std::string_view instead_of(std::string_view header) {
   constexpr std::string_view height = "a height is altitude_m beside a latitude, else z_m";
   constexpr std::string_view sensor = "what tells sensors apart is sensor";
   constexpr std::string_view elevation = "an angle upwards from the horizon is elevation_deg";
+  constexpr std::string_view heading = "a course is track_deg; where azimuths are from the bow, add it to them";
+  constexpr std::string_view minutes = "minutes of degrees do not count: add a 60th of them to the degrees";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
-      {"accuracy", sigma},       {"sigma_m", sigma},      {"std_m", sigma},         {"doppler", rate},
-      {"radial_velocity", rate}, {"elevation_m", height}, {"elevation_ft", height}, {"height", height},
-      {"depression", elevation}, {"sensor-type", sensor}, {"sensor_type", sensor},  {"sensor_id", sensor},
-      {"sensor_name", sensor}};
+      {"accuracy", sigma},
+      {"sigma_m", sigma},
+      {"std_m", sigma},
+      {"doppler", rate},
+      {"radial_velocity", rate},
+      {"elevation_m", height},
+      {"elevation_ft", height},
+      {"height", height},
+      {"depression", elevation},
+      {"sensor-type", sensor},
+      {"sensor_type", sensor},
+      {"sensor_id", sensor},
+      {"sensor_name", sensor},
+      {"heading", heading},
+      {"sensor_heading", heading},
+      {"sensor_yaw", heading},
+      {"latitude_min", minutes},
+      {"longitude_min", minutes},
+      {"sensor_height", "how high a sensor stands is sensor_altitude_m beside a latitude, else sensor_z_m"}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;
   return {};

@@ -113,7 +113,7 @@ inline constexpr std::array<Quantity, 40> quantities = {
      {Role::covariance, {"cov_yz"}, units::areas},
      {Role::covariance, {"cov_zz", "var_z"}, units::areas},
      {Role::sigma_polar, {"sigma_range"}, units::lengths},
-     {Role::sigma_polar, {"sigma_azimuth"}, units::angles},
+     {Role::sigma_polar, {"sigma_azimuth", "sigma_bearing"}, units::angles},
      {Role::sigma_polar, {"sigma_elevation"}, units::angles},
      {Role::sensor_position, {"sensor_x"}, units::lengths},
      {Role::sensor_position, {"sensor_y"}, units::lengths},

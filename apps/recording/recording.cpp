@@ -44,6 +44,22 @@ bool is_accuracy(Role role) {
 
 }  // namespace
 
+void Marks::see(std::size_t column, std::string_view cell, std::string_view letters, bool counts, std::size_t line) {
+  constexpr std::string_view words[] = {"south", "north", "west", "east"};
+  const std::string text = lower_case(trimmed(cell));
+  if (text.empty()) return;
+  const auto letter = letters.find(static_cast<char>(text.front() - 'a' + 'A'));
+  auto& [found, are_all] = columns_.try_emplace(column, Counted{}, true).first->second;
+  are_all &= letter != letters.npos && (text.size() == 1 || std::ranges::find(words, text) != std::end(words));
+  if (letter == 0 && counts) found.add(line);
+}
+
+Counted Marks::found() const {
+  for (const auto& [column, marks] : columns_)
+    if (marks.second && marks.first.rows > 0) return marks.first;
+  return {};
+}
+
 RecordingReader::RecordingReader(const RecordingOptions& options) : options_(options) {
   options_.velocity &= !options.simulated;
   for (const auto& [name, header] : mapping_) csv_.column(header);  // each must be there
@@ -141,7 +157,7 @@ void RecordingReader::find_columns() {
         "{}:1: found {}, expected both {} and elevation_deg, or none of them; give all sensors of a file as many axes",
         file(), fmt::join(csv_.names(), ", "), geodetic() ? "altitude_m" : "z_m");
   const auto axes = static_cast<std::size_t>(axes_);
-  if (!options_.velocity && located() && !options_.simulated) doubted_ = columns_;
+  if (!options_.simulated && (polar() || (!options_.velocity && located()))) doubted_ = columns_;
   if (!options_.velocity || axes_ == 1 || !has_course) drop(Role::course);
   drop(Role::velocity, options_.velocity ? axes : 0);
   if (!has(Role::range_rate)) std::swap(column(Role::range_rate), column(Role::range_rate, 1));
@@ -158,6 +174,16 @@ void RecordingReader::find_columns() {
   }
   for (const Role role : {Role::sensor_position, Role::sensor_place})
     drop(role, (polar() || bearings()) && !options_.simulated && are_there(role) ? axes : 0);
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (!columns_[q] || std::ranges::find(mapping_, csv_.names()[columns_[q]->index],
+                                          [](const auto& mapped) { return mapped.second; }) != mapping_.end())
+      continue;
+    for_each_header(quantities[q], [&](const std::string& header, const Unit& unit) {
+      const bool is_angle = quantities[q].units.front().suffix == "deg";
+      if (const auto index = find(header); index && *index != columns_[q]->index)
+        rivals_.push_back({q, {*index, &unit, not_available(header)}, is_angle});
+    });
+  }
 }
 
 void RecordingReader::refuse_other_kinds(bool cartesian, bool time_known, bool has_velocity) const {
@@ -227,11 +253,11 @@ bool RecordingReader::next(Row& row) {
   for (std::size_t i = 0; i < 2 && geodetic(); ++i) {  // whose hemisphere may be in one of the next two columns
     const auto first = columns_[place_of(Role::place) + i]->index + 1;
     for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
-      if (said(Role::place, i) > 0.0 && trimmed(row_[at]) == (i == 0 ? "S" : "W")) abroad_.add(row_.line());
+      abroad_[i].see(at, row_[at], i == 0 ? "SN" : "WE", said(Role::place, i) > 0.0, row_.line());
   }
   if (says(Role::polar)) {
     const auto first = columns_[place_of(Role::polar) + 1]->index + 1;
-    if (first < row_.size() && trimmed(row_[first]) == "R") relative_.add(row_.line());
+    if (first < row_.size()) relative_.see(first, row_[first], "RTM", true, row_.line());
   }
   ++rows_;
   row.plot = plot.value_or(AnyPlot{});
@@ -366,7 +392,8 @@ std::optional<double> RecordingReader::number_in(std::size_t column) {
 /// What the row says of each quantity.
 void RecordingReader::take_numbers() {
   for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt; said_[q])
+    if (said_[q] = columns_[q] ? number_in(columns_[q]->index) : std::nullopt;
+        said_[q] && said_[q] != columns_[q]->not_available)
       nines_[q].see(trimmed(row_[columns_[q]->index]), *said_[q]);
   // A longitude of 181° may be 179° west; it is none beside a latitude that is none, and so is an altitude.
   const auto says_none = [&](std::size_t q) { return said_[q] && said_[q] == columns_[q]->not_available; };
@@ -382,6 +409,36 @@ void RecordingReader::take_numbers() {
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
+  for (Rival& rival : rivals_)
+    rival.see(said_[rival.quantity], parse_number(row_[rival.column.index]), *columns_[rival.quantity]);
+}
+
+void RecordingReader::Rival::see(const std::optional<double>& said, std::optional<double> other, const Column& of) {
+  if (!said || !other || other == column.not_available) return;
+  *other *= column.unit->value;
+  if (column.unit->from_north != of.unit->from_north) *other = 90.0 - *other;
+  ++rows;
+  apart += std::abs(is_angle ? std::remainder(*said - *other, 360.0) : *said - *other);
+  size += std::abs(*said) + std::abs(*other);
+}
+
+std::vector<std::string> RecordingReader::rivals() const {
+  constexpr double most_degrees = 20.0, most_metres = 200.0, most_of_both = 0.2;
+  std::vector<std::string> sentences;
+  for (const auto& [q, column, is_angle, rows, apart, size] : rivals_) {
+    const double mean = apart / static_cast<double>(rows);
+    const bool is_height = quantities[q].role == Role::place;  // of which there are several zeros
+    if (rows == 0 ||
+        !(is_angle ? mean > most_degrees : apart > most_of_both * size && (!is_height || mean > most_metres)))
+      continue;
+    const auto& taken = csv_.names()[columns_[q]->index];
+    sentences.push_back(
+        fmt::format("columns {} and {} differ by {:.3g}{} on the average; {} was taken: see which is right, and leave "
+                    "out the other",
+                    taken, csv_.names()[column.index], mean,
+                    is_angle ? "°" : fmt::format(" {}", quantities[q].units.front().words), taken));
+  }
+  return sentences;
 }
 
 /// What columns tell of the velocity that do not count.
@@ -606,6 +663,7 @@ std::string RecordingReader::why_unused(std::size_t q) const {
       {options_.simulated && is_accuracy(role), "--radar has its own"},
       {role == Role::course && axes_ == 1, "along one axis it is vx_mps, and vx_kmh, if it has a sign"},
       {!other.empty(), needs},
+      {velocity && !located() && has(Role::polar, 1), "velocities do not count in rows of a radar or with a bearing"},
       {velocity, "give --set sigma_velocity_mps=…"},
       {!options_.range_rate && polar() && role == Role::range_rate, "give --set sigma_range_rate_mps=…"},
       {true, "does not go with the others"}};

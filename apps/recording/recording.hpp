@@ -56,6 +56,19 @@ struct Counted {
   }
 };
 
+/// Columns of letters that say more of the number before them, as the S of a latitude, and of no other words.
+class Marks {
+ public:
+  /// A cell, which counts if it is the first of the letters, or the word that begins with it.
+  void see(std::size_t column, std::string_view cell, std::string_view letters, bool counts, std::size_t line);
+
+  /// Those that count of the first such column.
+  Counted found() const;
+
+ private:
+  std::map<std::size_t, std::pair<Counted, bool>> columns_;  // and whether all its cells are such letters
+};
+
 /// Reads a headed CSV recording row by row: Cartesian, geodetic, a radar's or of bearings, or Cartesian rows mixed with
 /// a radar's or with bearings, as its columns say.
 class RecordingReader {
@@ -117,11 +130,14 @@ class RecordingReader {
   /// Rows whose measurement is beyond all numbers of this world, and so counts as missed.
   const Counted& senseless() const { return senseless_; }
 
-  /// Numbers of a place beside which stands another hemisphere than that which they were taken for.
-  const Counted& abroad() const { return abroad_; }
+  /// Latitudes or longitudes beside which stands another hemisphere than that which they were taken for.
+  Counted abroad(std::size_t i) const { return abroad_[i].found(); }
 
   /// Azimuths beside which an R says that they are relative to a heading.
-  const Counted& relative() const { return relative_; }
+  Counted relative() const { return relative_.found(); }
+
+  /// Columns of one quantity that tell it otherwise, a sentence for each.
+  std::vector<std::string> rivals() const;
 
   /// Numbers of nines that may stand for none, a sentence for each column.
   std::vector<std::string> nines() const;
@@ -155,6 +171,16 @@ class RecordingReader {
     std::size_t index;
     const Unit* unit;
     std::optional<double> not_available;
+  };
+  /// Another column of a quantity than that which counts, how far both are apart, and how great, in sum.
+  struct Rival {
+    std::size_t quantity;
+    Column column;
+    bool is_angle;
+    std::size_t rows = 0;
+    double apart = 0.0, size = 0.0;
+
+    void see(const std::optional<double>& said, std::optional<double> other, const Column& of);
   };
   /// The time of a track's last row, and the sensors that spoke then.
   struct Last {
@@ -213,7 +239,10 @@ class RecordingReader {
   std::optional<Geodetic> origin_;
   std::map<std::string, Last, std::less<>> last_;  // by track
   std::size_t rows_ = 0, skipped_ = 0, at_one_time_ = 0;
-  Counted senseless_, abroad_, relative_, left_behind_;
+  Counted senseless_, left_behind_;
+  std::array<Marks, 2> abroad_;
+  Marks relative_;
+  std::vector<Rival> rivals_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;
   std::optional<std::string> zone_;  // of the last date and time, which was

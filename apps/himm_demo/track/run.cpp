@@ -204,6 +204,7 @@ class TrackRun {
     if (row.measured()) ++outcome_.measurements;
     if (axes > 0 && axes < axes_) ++outcome_.partial;
     if (row.plot.sensor == AnyPlot::Sensor::bearing) ++outcome_.bearings;
+    if (row.measured() && !options_.radar.sigma) count_defaults(row.plot, row.sensor);
     if (!recording_.has_sensors()) return;
     ++outcome_.sensors[row.sensor];
     const auto known = [&](std::optional<double> Accuracy::*sigma) {
@@ -213,6 +214,25 @@ class TrackRun {
     if (is_moving(row.plot, axes_) && !known(&Accuracy::velocity_mps)) ++outcome_.velocity_unknown[row.sensor];
     if (row.plot.sensor == AnyPlot::Sensor::doppler && !known(&Accuracy::range_rate_mps))
       ++outcome_.range_rate_unknown[row.sensor];
+  }
+
+  /// Rows of which a position, a range or an azimuth has the sigma of a filter that nobody told another one.
+  void count_defaults(const AnyPlot& plot, const std::string& sensor) {
+    static const Accuracy usual{};
+    std::array<bool, 3> by_default{};
+    if (plot.sensor == AnyPlot::Sensor::components) {
+      for (int i = 0; i < plot.size; ++i)
+        by_default[0] |= plot.places[static_cast<std::size_t>(i)] < axes_ && std::isnan(plot.variance(i));
+    } else {
+      const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing;
+      by_default = {false, !is_bearing && std::isnan(plot.variance(0)), std::isnan(plot.variance(is_bearing ? 0 : 1))};
+    }
+    for (const FilterSettings& filter : filters_) {
+      const Accuracy& own = filter.accuracy_of(sensor);
+      by_default[0] &= own.position_m == usual.position_m;
+      for (const std::size_t k : {1U, 2U}) by_default[k] &= own.radar == usual.radar;
+    }
+    for (std::size_t k = 0; k < by_default.size(); ++k) outcome_.by_default[k] += by_default[k] ? 1U : 0U;
   }
 
   /// Gives the target its frames at its first place. Where errors or a radar are about one point, that is the frame of

@@ -84,18 +84,13 @@ class Reporter {
                                               : ", a radar's measurements"));
     say(true, fmt::format("Taken for: {}", recording_.taken()));
     const Accuracy usual = {};
-    const auto are_usual = [&](auto Accuracy::*sigma) {
-      return !options_.radar.sigma && std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
-        return filter.sensors.empty() && filter.accuracy.*sigma == usual.*sigma;
-      });
-    };
+    const std::string of_each[] = {fmt::format("sigma_position_m = {}", usual.position_m.front()),
+                                   fmt::format("sigma_range_m = {}", usual.radar[0]),
+                                   fmt::format("sigma_azimuth_deg = {:.6g}", usual.radar[1] / degree)};
     std::vector<std::string> sigmas;
-    if (recording_.located() && !recording_.tells_accuracy() && are_usual(&Accuracy::position_m))
-      sigmas.push_back(fmt::format("sigma_position_m = {}", usual.position_m.front()));
-    if (outcome_.bearings < outcome_.measurements && recording_.polar() && are_usual(&Accuracy::radar))
-      sigmas.push_back(fmt::format("sigma_range_m = {}", usual.radar[0]));
-    if ((recording_.polar() || recording_.bearings()) && are_usual(&Accuracy::radar))
-      sigmas.push_back(fmt::format("sigma_azimuth_deg = {:.6g}", usual.radar[1] / degree));
+    for (std::size_t k = 0; k < outcome_.by_default.size(); ++k)
+      if (const std::size_t rows = outcome_.by_default[k]; rows > 0)
+        sigmas.push_back(of_each[k] + (rows < outcome_.measurements ? fmt::format(" (of {} rows)", rows) : ""));
     say(!sigmas.empty(), fmt::format("Sigmas that are the defaults: {}", fmt::join(sigmas, ", ")));
     say(recording_.moves_alone(),
         "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "

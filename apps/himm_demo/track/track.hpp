@@ -274,6 +274,7 @@ struct TrackOutcome {
   std::size_t measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
+  std::array<std::size_t, 3> by_default{};  ///< with a position, a range, an azimuth whose sigma nobody gave
   std::size_t tracks = 0;
   std::vector<std::string> places;                        ///< sentences on where the sensors stand
   bool some_unplaced = false;                             ///< whether some stand where all others do

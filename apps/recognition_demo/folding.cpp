@@ -1,0 +1,197 @@
+#include "recognition_demo/folding.hpp"
+
+#include <numeric>
+
+#include <sigmax/recognition/decision.hpp>
+#include <sigmax/recognition/folds.hpp>
+
+#include "support/parallel.hpp"
+
+namespace sigmax::apps {
+
+Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
+  constexpr std::size_t part = std::size_t{1} << 17;
+  FoldDealer dealer(data.rows_of_class, folds);
+  Folds result;
+  std::vector<std::size_t> labels;
+  const auto deal = [&] {
+    for (const std::size_t fold : dealer.deal(labels, generator)) result.push_back(static_cast<std::uint32_t>(fold));
+    labels.clear();
+  };
+  data.for_each([&](const DataRow& row) {
+    labels.push_back(row.label());
+    if (labels.size() == part) deal();
+  });
+  deal();
+  return result;
+}
+
+TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options,
+                  std::span<const std::string> kinds) {
+  ScratchCursor<std::uint32_t> fold_of(folds);
+  LearnedModel model = learn(data, options, [&](const DataRow& row) {
+    return fold_of[row.index()] != fold && fold_of[row.index()] != no_fold;
+  });
+  auto contestants = classifiers(model, kinds);
+  return {fold, std::move(model), std::move(contestants)};
+}
+
+namespace {
+
+/// Of each row that has a fold whether sigma is right about it, by what the rows of other folds teach.
+Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t number, const LearningOptions& options,
+                     int threads, std::optional<std::size_t> without = {}) {
+  Right right;
+  for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
+  in_parallel(number, threads_or_all(threads), [&](std::size_t fold) {
+    const TaughtFold by = taught(data, folds, fold, options, std::span(kind_names).first(1));
+    const auto note = [&](const DataRow& row, std::size_t, const Judged& judged) {
+      right.set(row.index(), decide(std::get<Belief<Random>>(judged.belief)).pattern == row.label() ? 1 : 0);
+    };
+    classify_rows(data, folds, by, 0, 1, note, without);
+  });
+  return right;
+}
+
+/// Some rows, and the clump that each is in: of those of one clump each is among the three nearest of another one, as
+/// are rows of one person or place, or such as were made of one another. Nearness is by ranks, and by words.
+struct Clumps {
+  static constexpr std::size_t most_rows = 1024;
+  std::vector<std::size_t> rows, labels, clump;
+
+  Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator);
+
+ private:
+  std::vector<std::vector<double>> places(const DataTable& data) const;
+};
+
+/// Of each of the rows the ranks of its numbers, as shares of the rows, and its words. What is missing is a value, too.
+std::vector<std::vector<double>> Clumps::places(const DataTable& data) const {
+  std::vector<std::vector<double>> cells;
+  std::size_t next = 0;
+  data.for_each([&](const DataRow& row) {
+    if (next == rows.size() || rows[next] != row.index()) return;
+    ++next;
+    auto& own = cells.emplace_back();
+    for (std::size_t i = 0; i < data.columns.size(); ++i)
+      own.push_back(!data.columns[i].numeric    ? row.code(i)
+                    : std::isnan(row.number(i)) ? -std::numeric_limits<double>::infinity()
+                                                : row.number(i));
+  });
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    if (!data.columns[i].numeric) continue;
+    auto sorted = each(cells, [&](const auto& own) { return own[i]; });
+    std::ranges::sort(sorted);
+    for (auto& own : cells) {
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), own[i]);
+      own[i] = static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) /
+               (2.0 * static_cast<double>(sorted.size()));
+    }
+  }
+  return cells;
+}
+
+Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator) {
+  constexpr std::size_t neighbours = 3;
+  data.for_each([&](const DataRow& row) {
+    if (generator() % (data.size() - row.index()) >= most_rows - rows.size()) return;
+    rows.push_back(row.index());
+    labels.push_back(row.label());
+  });
+  const auto cells = places(data);
+  const std::size_t n = rows.size();
+  const auto distance = [&](std::size_t a, std::size_t b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < data.columns.size(); ++i)
+      sum += data.columns[i].numeric ? std::abs(cells[a][i] - cells[b][i]) : cells[a][i] == cells[b][i] ? 0.0 : 0.5;
+    return sum;
+  };
+  using Near = std::pair<double, std::size_t>;
+  std::vector<std::vector<Near>> nearest(n);
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b)
+      if (a != b) nearest[a].emplace_back(distance(a, b), b);
+    const auto end = nearest[a].begin() + static_cast<std::ptrdiff_t>(std::min(neighbours, n - 1));
+    std::ranges::partial_sort(nearest[a], end);
+    nearest[a].erase(end, nearest[a].end());
+  }
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < n; ++a)
+    for (const auto& [apart, b] : nearest[a])
+      if (a < b && std::ranges::find(nearest[b], a, &Near::second) != nearest[b].end()) pairs.emplace_back(apart, a, b);
+  std::ranges::sort(pairs);
+  clump.resize(n);
+  std::iota(clump.begin(), clump.end(), std::size_t{0});
+  for (const auto& [apart, a, b] : pairs) {
+    const std::size_t one = clump[a], other = clump[b];
+    const auto in = [&](std::size_t which) { return static_cast<std::size_t>(std::ranges::count(clump, which)); };
+    if (one != other && in(one) + in(other) <= most_alike) std::ranges::replace(clump, other, one);
+  }
+}
+
+}  // namespace
+
+std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                        int threads, std::optional<std::size_t> without) {
+  constexpr std::size_t long_table = 50000;
+  const std::size_t number = data.size() > long_table ? 3 : std::min<std::size_t>(10, data.size());
+  if (std::ranges::min(data.rows_of_class) < 2) return {};
+  std::mt19937_64 generator(seed);
+  const Right right = right_of_sigma(data, folds_of(data, number, generator), number, options, threads, without);
+  ScratchCursor<std::uint8_t> is_right(right);
+  std::vector<double> shares(data.classes.size());
+  data.for_each([&](const DataRow& row) { shares[row.label()] += is_right[row.index()]; });
+  for (std::size_t c = 0; c < shares.size(); ++c) shares[c] /= static_cast<double>(data.rows_of_class[c]);
+  return shares;
+}
+
+std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                  int threads) {
+  constexpr int dealings = 2;
+  constexpr std::uint32_t number = 10;  // of folds
+  // Of a class without a clump enough is left, else it is the class itself that is missed.
+  constexpr std::size_t few_alike = 4, most_of_them = 24;
+  const std::size_t alike =
+      std::min(most_of_them, std::min(Clumps::most_rows, data.size()) / (16 * data.classes.size()));
+  if (alike < few_alike) return std::nullopt;
+  std::mt19937_64 generator(seed);
+  const Clumps clumps(data, alike, generator);
+  const std::size_t n = clumps.rows.size();
+  std::vector<std::size_t> alone(n);
+  std::iota(alone.begin(), alone.end(), std::size_t{0});
+  // Of each class, that of the first row, the clumps go to one fold after the other.
+  const auto dealt = [&](const std::vector<std::size_t>& clump) -> std::optional<Folds> {
+    std::vector<std::vector<std::size_t>> of_class(data.classes.size());
+    for (std::size_t k = 0; k < n; ++k)
+      if (clump[k] == k) of_class[clumps.labels[k]].push_back(k);
+    std::vector<std::uint32_t> fold(n);
+    std::uint32_t next = 0;
+    for (auto& own : of_class) {
+      if (own.size() < 2) return std::nullopt;
+      for (std::size_t left = own.size(); left > 1; --left) std::swap(own[left - 1], own[generator() % left]);
+      for (const std::size_t k : own) fold[k] = next++ % number;
+    }
+    Folds folds;
+    for (std::size_t row = 0, k = 0; row < data.size(); ++row)
+      folds.push_back(k < n && clumps.rows[k] == row ? fold[clump[k++]] : no_fold);
+    return folds;
+  };
+  std::vector<double> right(n), less(n);
+  for (int dealing = 0; dealing < dealings; ++dealing)
+    for (const std::vector<std::size_t>* const clump : {&std::as_const(alone), &clumps.clump}) {
+      const auto folds = dealt(*clump);
+      if (!folds) return std::nullopt;
+      const Right by = right_of_sigma(data, *folds, number, options, threads);
+      ScratchCursor<std::uint8_t> is_right(by);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double share = is_right[clumps.rows[k]] / static_cast<double>(dealings);
+        less[k] += clump == &alone ? share : -share;
+        right[k] += clump == &alone ? share : 0.0;
+      }
+    }
+  RunningMean of_right, of_less;
+  for (std::size_t k = 0; k < n; ++k) of_right.add(right[k]), of_less.add(less[k]);
+  return ByClumps{n, of_right.mean(), of_less.interval()};
+}
+
+}  // namespace sigmax::apps

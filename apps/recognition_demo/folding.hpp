@@ -1,0 +1,58 @@
+#pragma once
+
+#include <random>
+
+#include "recognition_demo/learned_model.hpp"
+
+namespace sigmax::apps {
+
+/// The fold of each row.
+using Folds = ScratchArray<std::uint32_t>;
+inline constexpr std::uint32_t no_fold = 0xFFFFFFFF;
+
+/// The fold of every row, by `stratified_folds`; of longer tables part by part.
+Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator);
+
+/// One fold, and the classifiers that the rows of the others teach.
+struct TaughtFold {
+  std::size_t fold;
+  LearnedModel model;
+  std::vector<Contestant> contestants;
+};
+TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options,
+                  std::span<const std::string> kinds = kind_names);
+
+/// Calls see(row, contestant's index, what it judges) for the rows of a fold, and for each of them for the contestants
+/// from `first` on up to `end`; they are not told one column, if it is given.
+template <class See>
+void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& taught, std::size_t first,
+                   std::size_t end, const See& see, std::optional<std::size_t> without = {}) {
+  ScratchCursor<std::uint32_t> fold_of(folds);
+  Readings readings;
+  data.for_each([&](const DataRow& row) {
+    if (fold_of[row.index()] != taught.fold) return;
+    read(taught.model, row, readings);
+    if (without) readings[*without] = missing;
+    for (std::size_t i = first; i < end; ++i) see(row, i, judged(taught.contestants[i], readings));
+  });
+}
+
+/// Of every row the classifiers that were right, a bit for each.
+using Right = ScratchArray<std::uint8_t>;
+
+/// Of each class the share of its rows that sigma is right about, each by what the rows of other folds teach, of ten
+/// (of long tables three), and without one column, if that is given; nothing if there is a single row of a class.
+std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                        int threads, std::optional<std::size_t> without = {});
+
+/// How many of some rows sigma is right about, and how many less where rows that are much alike stay in one fold, by
+/// pairs of rows; none where a class has too few rows for it. Of long tables some rows are asked, chosen by chance.
+struct ByClumps {
+  std::size_t rows;
+  double accuracy;
+  Interval less;
+};
+std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                  int threads);
+
+}  // namespace sigmax::apps
