@@ -368,7 +368,8 @@ void warn_of_order(DataTable& table) {
   const bool in_runs = runs > classes && 10.0 * static_cast<double>(runs) < expected;
   constexpr std::string_view too_good =
       "as in a recording: the folds part what belongs together, and the shares of right answers are too good for "
-      "others; train on one part of it, and ask of another by classify";
+      "others; train on one part of it, and ask of another by classify, or keep its parts whole by evaluate --groups, "
+      "if a column names them";
   const bool is_smooth = smooth > 1 && 2 * smooth > numbers;
   warn(table, is_smooth, "{} of {} columns of numbers change little from one row of a class to the next, {}", smooth,
        numbers, too_good);
@@ -398,10 +399,11 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
   warn(table, !tells_all && !copies && by_stem.may_be_groups(table.classes.size()),
        "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "
        "are of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good "
-       "for others, also without it (--ignore {}): keep the rows of some apart, and ask of those by classify",
+       "for others, also without it (--ignore {}): keep the rows of each together by {}",
        by_stem.values, in_quotes(name) + (column.names_rows() ? ", without their last part" : ""),
        static_cast<double>(by_stem.rows) / static_cast<double>(by_stem.values),
-       by_stem.others == 0 ? "" : fmt::format(", but for {} of them", by_stem.others), for_typing);
+       by_stem.others == 0 ? "" : fmt::format(", but for {} of them", by_stem.others), for_typing,
+       column.names_rows() ? "a column without that part, and evaluate --groups" : "evaluate --groups " + for_typing);
   say(column.names_rows() && column.is_made_of_numbers(),
       " holds numbers, most of which stand once, so that --categorical {} leaves little to learn: take them as numbers",
       for_typing);

@@ -17,6 +17,7 @@ struct EvaluateOptions {
   std::size_t folds = 10;
   std::size_t foldings = 20;  ///< divisions into folds
   std::uint64_t seed = 1;     ///< of the folds
+  std::string groups;         ///< a column whose values stay whole in a fold; or empty
   int threads = 0;            ///< 0: as many as the machine has
   OutputOptions output;
 };
@@ -36,6 +37,11 @@ struct Outcome {
                       evaluation);
   }
 };
+
+Folds next_folds(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
+                 std::mt19937_64& generator) {
+  return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
+}
 
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
@@ -190,12 +196,13 @@ void add_reliability(Result& result, const Outcome& outcome, std::size_t folding
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const EvaluateOptions& options, ResultFiles& files) {
+void write_predictions(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
+                       ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
   keys.insert(keys.end(), data.classes.begin(), data.classes.end());
   RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
-  const Folds folds = folds_of(data, options.folds, generator);
+  const Folds folds = next_folds(data, groups, options, generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
     const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
@@ -226,7 +233,7 @@ void refuse_rare_classes(const DataTable& data) {
       data.file, in_quotes(data.label), listed(each(rare, [](const auto& one) { return one.second; }), 12));
 }
 
-Results evaluated(const DataTable& data, const EvaluateOptions& options) {
+Results evaluated(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options) {
   Results results(data.size());
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
@@ -234,7 +241,7 @@ Results evaluated(const DataTable& data, const EvaluateOptions& options) {
   Right right;
   for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = folds_of(data, options.folds, generator);
+    const Folds folds = next_folds(data, groups, options, generator);
     for_each_run(
         options.folds, threads,
         [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
@@ -272,16 +279,17 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
   if (clumps && clumps->less.mean > less && clumps->less.mean > 1.5 * clumps->less.half_width)
     result.say(
         "{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
-        "one thing, as a person, a place or a session, or made of one another, the others are too good; keep the rows "
-        "of some apart, and ask of those by classify",
+        "one thing, as a person, a place or a session, or made of one another, the others are too good; keep those of "
+        "one thing together by --groups, if a column names it",
         100.0 * clumps->accuracy, clumps->rows < data.size() ? fmt::format(" of {} rows", clumps->rows) : "",
         100.0 * (clumps->accuracy - clumps->less.mean));
 }
 
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
-  result.say("{}: {}\n{} folds of equal shares of every class, {}seed {}; {}", data.file, described(data),
-             options.folds, options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings),
-             options.seed, described(options.learning));
+  result.say("{}: {}\n{} folds of {}, {}seed {}; {}", data.file, described(data), options.folds,
+             options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups,
+             options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings), options.seed,
+             described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
       "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
@@ -317,7 +325,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
     for (std::size_t c = 0; c < data.classes.size(); ++c) times.push_back(outcome.confusion()(c, c));
   }
   say_unrecognised(data.classes, data.rows_of_class, recognised, result);
-  say_too_good(data, results.outcomes().front().confusion().accuracy(), most_often, options, result);
+  if (options.groups.empty())
+    say_too_good(data, results.outcomes().front().confusion().accuracy(), most_often, options, result);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
   if (data.classes.size() > most_classes) return;
@@ -395,7 +404,8 @@ void run_evaluate(const EvaluateOptions& options) {
     throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
                      options.folds);
   refuse_rare_classes(data);
-  const Results results = evaluated(data, options);
+  const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
+  const Results results = evaluated(data, groups, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
@@ -403,7 +413,8 @@ void run_evaluate(const EvaluateOptions& options) {
   say_scores(data, results, options, result);
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
-  if (files.wanted()) write_predictions(data, options, files);
+  if (!options.groups.empty()) result.fact({"groups"}, options.groups);
+  if (files.wanted()) write_predictions(data, groups, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }
@@ -421,11 +432,20 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
       .in(1, 100000)
       .shows_default();
+  app.option("--groups", options->groups,
+             "A column that names what rows are of, as a patient or a session: folds keep them together, and it is no "
+             "feature")
+      .type("COLUMN");
   add_seed(app, options->seed, "of the folds");
   add_threads(app, options->threads);
   add_output(app, options->output);
   add_report(app, options->output);
-  app.run([options] { run_evaluate(*options); });
+  app.run([options] {
+    if (!options->groups.empty() && options->file == "-")
+      throw UsageError("--groups reads the data twice: it takes no standard input");
+    if (!options->groups.empty()) options->data.ignore.push_back(options->groups);
+    run_evaluate(*options);
+  });
 }
 
 }  // namespace sigmax::apps

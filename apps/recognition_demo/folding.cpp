@@ -5,6 +5,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
 
+#include "support/input.hpp"
 #include "support/parallel.hpp"
 
 namespace sigmax::apps {
@@ -23,6 +24,58 @@ Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& genera
     if (labels.size() == part) deal();
   });
   deal();
+  return result;
+}
+
+Groups groups_of(const DataTable& data, const std::string& column) {
+  CsvReader reader = open_csv(data.file);
+  const std::size_t place = reader.column(column);
+  std::map<std::string, std::uint32_t, std::less<>> numbers;
+  Groups groups;
+  for (CsvRow row; reader.next(row);) {
+    const std::string name(trimmed(row[place]));
+    if (name.empty()) throw row.error(place, "the name of the row's group", "fill the cell");
+    groups.push_back(numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size())).first->second);
+  }
+  return groups;
+}
+
+Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator) {
+  constexpr int most_tries = 100;
+  std::vector<std::size_t> rows;                               // of each group
+  std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
+  ScratchCursor<std::uint32_t> group(groups);
+  data.for_each([&](const DataRow& row) {
+    const std::size_t own = group[row.index()];
+    rows.resize(std::max(rows.size(), own + 1));
+    ++rows[own];
+    of[row.label()].insert(own);
+  });
+  if (rows.size() < folds)
+    throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
+                     rows.size(), folds);
+  std::vector<std::size_t> order(rows.size()), fold(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto is_parted = [&](const std::set<std::size_t>& its) {
+    return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
+  };
+  for (int tried = 0; tried == 0 || !std::ranges::all_of(of, is_parted); ++tried) {
+    if (tried == most_tries) {
+      const auto whole = std::ranges::find_if_not(of, is_parted);
+      throw InputError(
+          "{}: the rows of class {} are of {} groups, which came into one fold: expected two at least, one to learn "
+          "from, one to classify",
+          data.file, in_quotes(data.classes[static_cast<std::size_t>(whole - of.begin())]), whole->size());
+    }
+    for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[generator() % left]);
+    std::vector<std::size_t> sizes(folds);
+    for (const std::size_t one : order) {
+      fold[one] = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
+      sizes[fold[one]] += rows[one];
+    }
+  }
+  Folds result;
+  for (std::size_t row = 0; row < data.size(); ++row) result.push_back(static_cast<std::uint32_t>(fold[group[row]]));
   return result;
 }
 

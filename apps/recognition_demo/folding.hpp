@@ -13,6 +13,15 @@ inline constexpr std::uint32_t no_fold = 0xFFFFFFFF;
 /// The fold of every row, by `stratified_folds`; of longer tables part by part.
 Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator);
 
+/// A number of each row, the same where a column of the file that the data is of holds the same word. Throws InputError
+/// for an empty cell, or a column that there is not.
+using Groups = ScratchArray<std::uint32_t>;
+Groups groups_of(const DataTable& data, const std::string& column);
+
+/// The fold of every row, that of its group: groups go by chance, each into one of the folds with the fewest rows.
+/// Throws InputError if there are fewer groups than folds, or if the rows of a class cannot be parted so.
+Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator);
+
 /// One fold, and the classifiers that the rows of the others teach.
 struct TaughtFold {
   std::size_t fold;
