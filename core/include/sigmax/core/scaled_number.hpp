@@ -26,11 +26,11 @@ class ScaledNumber {
   /// value · 2^exponent; `value` is finite and not negative, and a subnormal one loses nothing.
   constexpr explicit ScaledNumber(double value, std::int64_t exponent = 0) {
     assert(value >= 0.0);
-    const auto bits = std::bit_cast<std::uint64_t>(value) & ~sign;
+    auto bits = std::bit_cast<std::uint64_t>(value) & ~sign;
     if (bits == 0) return;
     if (bits >> 52 == 0) {  // subnormal
-      *this = ScaledNumber(value * 0x1p64, exponent - 64);
-      return;
+      bits = std::bit_cast<std::uint64_t>(value * 0x1p64) & ~sign;
+      exponent -= 64;
     }
     significand_ = std::bit_cast<double>((bits & 0x000f'ffff'ffff'ffff) | 0x3fe0'0000'0000'0000);
     exponent_ = exponent + static_cast<std::int64_t>(bits >> 52) - 1022;
