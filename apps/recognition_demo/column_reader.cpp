@@ -113,6 +113,7 @@ DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_c
   counts_ = counts_ && number && (*number == std::floor(*number) || even) && *number > last_;
   last_ = number.value_or(last_);
   if (is_word && !slip_) slip_ = Slip{row.line(), std::string(cell)};
+  if (is_word && slips_.size() <= few_slips && cell.find_first_of("0123456789") != cell.npos) slips_.emplace(cell);
   if (is_word && has_decimal_comma(cell)) ++comma_cells_;
   if (const auto unit = is_word ? unit_of(cell) : ""; !unit.empty()) {
     ++(is_limit(unit) ? limit_cells_ : unit_cells_);
@@ -158,6 +159,10 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
   if (!unit_of(slip_->word).empty())
     refuse("a number", numeric_cells_,
            "write the numbers alone, all in one unit, and the unit into the name of the column");
+  if (slips_.size() > few_slips)  // what stands for no value comes again
+    refuse("a plain number", numeric_cells_,
+           "write it, and all others that are written so, as plain numbers: -0.05 for (0.05) or 0.05-, and one for a "
+           "range");
   refuse("a number with a decimal point", numeric_cells_,
          fmt::format(
              "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
@@ -177,12 +182,35 @@ std::string ColumnReader::lone_value() const {
 bool ColumnReader::names_rows() const {
   if (cells_ < few_rows) return false;
   return is_numeric() ? counts_ || is_run()
-                      : !too_many_words_ && !holds_units() && notation().empty() && limit_cells_ == 0 &&
-                            2 * words_.size() > cells_;
+                      : !too_many_words_ && !holds_units() && notation().empty() && several_numbers().empty() &&
+                            limit_cells_ == 0 && 2 * words_.size() > cells_;
 }
 
 std::string ColumnReader::notation() const {
-  return !categorical_ && words_.size() > few_words && 2 * notations_ > cells_ && !holds_units() ? notation_ : "";
+  const bool are_most = !categorical_ && words_.size() > few_words && 2 * notations_ > cells_;
+  return are_most && !holds_units() && several_numbers().empty() ? notation_ : "";
+}
+
+std::string ColumnReader::several_numbers() const {
+  if (categorical_ || too_many_words_ || words_.size() <= few_words) return "";
+  std::map<std::string, std::pair<std::size_t, std::string>> forms;  // # is a number
+  std::set<std::string_view> tails;                                  // behind the first number: of a unit they are few
+  for (const auto& [word, code] : words_.codes()) {
+    std::string form;
+    for (const char c : word)
+      if (std::isdigit(static_cast<unsigned char>(c)) == 0)
+        form += c;
+      else if (!form.ends_with('#'))
+        form.ends_with("#.") ? form.pop_back() : form.push_back('#');
+    tails.insert(std::string_view(word).substr(std::min(word.find_first_not_of("0123456789."), word.size())));
+    auto& [count, first] = forms[form];
+    if (count++ == 0) first = word;
+  }
+  const auto& [form, found] = *std::ranges::max_element(forms, {}, [](const auto& one) { return one.second.first; });
+  const bool is_one = form.find_first_not_of("#: '") == form.npos || form == "#/#/#" || tails.size() <= few_words;
+  const bool is_name = !form.starts_with('#') || form.find_first_of("-_.,+") != form.npos;
+  const bool are_most = 10 * found.first >= 9 * words_.size();
+  return are_most && !is_one && !is_name && std::ranges::count(form, '#') > 1 ? found.second : "";
 }
 
 std::pair<std::size_t, std::string> ColumnReader::numbers_among_words() const {

@@ -79,6 +79,10 @@ class ColumnReader {
   /// A cell of those without letters that are no plain number, if most are so and more than a few differ; or nothing.
   std::string notation() const;
 
+  /// A word of those of which nine in ten are several numbers with the same between them, as 15x22 or 120/80, and that
+  /// are no dates and no times; or nothing.
+  std::string several_numbers() const;
+
   /// Among words: how many cells are numbers, if a tenth are and more than a few differ, and the first word.
   std::pair<std::size_t, std::string> numbers_among_words() const;
 
@@ -121,7 +125,7 @@ class ColumnReader {
   std::pair<std::size_t, std::string> unknowns() const;
 
  private:
-  static constexpr std::size_t most_units = 8, few_words = 8;
+  static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5;
 
   void see_whole(double number);
   bool is_run() const;
@@ -145,6 +149,7 @@ class ColumnReader {
   std::size_t index_;
   bool categorical_;
   std::optional<Slip> slip_;
+  std::set<std::string> slips_{};  // different ones with a digit, some
   std::size_t cells_ = 0, numeric_cells_ = 0, comma_cells_ = 0, unit_cells_ = 0, limit_cells_ = 0, notations_ = 0;
   bool whole_ = true;  // all numbers are
   double first_ = 0.0, low_ = 0.0, high_ = 0.0;

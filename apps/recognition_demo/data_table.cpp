@@ -436,13 +436,15 @@ void warn_of_values(const ColumnReader& column, const std::string& name, bool co
         column.nothings());
     return;
   }
-  const std::string alike = column.words().alike(), notation = column.notation();
+  const std::string alike = column.words().alike(), notation = column.notation(), several = column.several_numbers();
   say(!alike.empty(), alike_words, alike);
   say(column.holds_units(),
       " holds numbers with a unit ({}), which count as words: write the numbers alone, all in one unit, and the unit "
       "into the name of the column{}",
       column.units(),
       column.units() == "E, W" || column.units() == "N, S" ? ", those of S and W with a minus sign" : "");
+  say(!several.empty(), " holds several numbers in a cell, as {}: give each a column, or write one number for all",
+      in_quotes(several));
   say(!notation.empty(),
       " holds no plain numbers, as {}, which count as words: where they are numbers, times or dates, write them as {}, "
       "in seconds or days",

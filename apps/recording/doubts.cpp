@@ -1,5 +1,7 @@
 #include "recording/doubts.hpp"
 
+#include <chrono>
+
 #include "recording/plots.hpp"
 #include "support/text.hpp"
 
@@ -176,6 +178,11 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   before.even = std::abs(dt - before.step) < 0.01 * dt ? before.even + 1 : 0;
   if (recent.size() > 3 && before.even > 1) {
     const auto at = [&](std::size_t ago) { return recent[recent.size() - 1 - ago].head<2>(); };
+    const Eigen::Vector2d bend = at(0) - 2.0 * at(1) + at(2), bend_before = at(1) - 2.0 * at(2) + at(3);
+    for (const double own : {bend[0], bend[1]})
+      if (own != 0.0 && second_.sizes.size() < many) second_.sizes.push_back(std::abs(own));
+    second_.squares += bend.squaredNorm();
+    second_.products += bend.dot(bend_before);
     const Eigen::Vector2d off = (at(0) - at(2)) / (2.0 * dt) - last.rate.head<2>().matrix();
     if (!std::isnan(off.sum())) {
       ++computed_.count;
@@ -358,6 +365,10 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     if (const auto number = component_of(plot, static_cast<int>(i)); number && numbers_[i].size() < enough_numbers)
       numbers_[i].push_back(*number);
   if (!twice_) twice_ = row.twice;
+  if (const double variance = plot.variance(0); !is_radar && variance > 0.0) {
+    ++variances_.count;
+    variances_.sum += variance;
+  }
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
   const auto rate = [&](int i) {
     return i < axes ? component_of(plot, axes + i).value_or(row.rates[static_cast<std::size_t>(i)]) : nan;
@@ -441,6 +452,18 @@ bool Doubts::puts_clocks_forward(double step) const {
     const bool in_spring = month == 3 || month == 4 || (month >= 8 && month <= 10);
     return tracks_.size() > 1 || (in_spring && then - day < std::chrono::hours(5));
   });
+}
+
+std::optional<double> Doubts::scatter() const {
+  constexpr double of_noise = -0.5;          // it is −2/3 of noise alone
+  constexpr double median_of_bends = 1.652;  // 0.6745 √6 of the noise, which outliers do not move
+  if (second_.sizes.size() < 200 || sensors_.size() > 1 || !(second_.products < of_noise * second_.squares)) return {};
+  return median(second_.sizes) / median_of_bends;
+}
+
+std::optional<double> Doubts::told_sigma() const {
+  if (variances_.count < 200) return {};
+  return std::sqrt(variances_.sum / static_cast<double>(variances_.count));
 }
 
 double Doubts::rounding(const RecordingReader& recording) const {
@@ -691,6 +714,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       recording.at_one_time(),
       recording.has_tracks() ? ""
                              : "; if rows are of several targets, name the column that tells them apart by --track-id");
+  const std::string date = recording.times_of_day() ? recording.unread_date() : "";
+  say(!date.empty(), "times are those of a day, beside a column {} that is not read: give --columns date={}",
+      in_quotes(date), date);
   const auto& [left, left_by] = recording.left_behind();
   say(left >= few,
       "{} rows after line {} were skipped, since none is later: see whether the time of that row is wrong, and drop "

@@ -23,6 +23,13 @@ class Doubts {
   /// The standard deviation of the rounding of coordinates in m, if they come in whole steps; of several the greatest.
   double rounding(const RecordingReader& recording) const;
 
+  /// By what noise that is another one in each row positions scatter about their way, along an axis in m, where that is
+  /// most of how they bend; nothing where they bend by another law, or steps are uneven.
+  std::optional<double> scatter() const;
+
+  /// The standard deviation along an axis that rows tell of positions, if hundreds do.
+  std::optional<double> told_sigma() const;
+
   /// Sentences, each with the name or the option that mends it.
   std::vector<std::string> sentences(const RecordingReader& recording) const;
 
@@ -159,6 +166,14 @@ class Doubts {
     std::size_t count = 0;
     double off = 0.0, rough = 0.0;
   } computed_;  // squares: how far velocities are off the way between the rows beside them, and by what noise would be
+  struct {
+    std::vector<double> sizes{};           // the first thousands along an axis
+    double squares = 0.0, products = 0.0;  // of all, and of each with the one before
+  } second_;                               // differences of positions
+  struct {
+    std::size_t count = 0;
+    double sum = 0.0;
+  } variances_;                    // that rows tell of positions, along an axis
   std::array<Agreement, 3> late_;  // how velocities change over these rows, and what positions grow beyond them
   double farthest_ = 0.0;          // of positions from where they are counted
   double path_ = 0.0;              // of all positions, each sensor's own

@@ -422,6 +422,15 @@ void RecordingReader::Rival::see(const std::optional<double>& said, std::optiona
   size += std::abs(*said) + std::abs(*other);
 }
 
+std::string RecordingReader::unread_date() const {
+  constexpr std::string_view words[] = {"date", "datum", "day", "fecha"};
+  const auto& names = csv_.names();
+  const auto found = std::ranges::find_if(
+      names, [&](const std::string& name) { return std::ranges::find(words, lower_case(name)) != std::end(words); });
+  const auto index = static_cast<std::size_t>(found - names.begin());
+  return date_ || found == names.end() || index == time_ ? "" : *found;
+}
+
 std::vector<std::string> RecordingReader::rivals() const {
   constexpr double most_degrees = 20.0, most_metres = 200.0, most_of_both = 0.2;
   std::vector<std::string> sentences;

@@ -150,6 +150,9 @@ class RecordingReader {
   };
   const OtherZone& other_zone() const { return other_zone_; }
 
+  /// A column that seems to tell the date, and is not read; or nothing.
+  std::string unread_date() const;
+
   /// Whether there were times of day.
   bool times_of_day() const { return latest_of_day_.has_value(); }
 

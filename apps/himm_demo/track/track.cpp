@@ -158,10 +158,21 @@ class Reporter {
     const double least = std::ranges::min(filters_, {}, [](const FilterSettings& filter) {
                            return filter.accuracy.position_m.front();
                          }).accuracy.position_m.front();
-    warn(rounding > 2.0 * least && !recording_.tells_accuracy() && !recording_.has_sensors() && !options_.radar.sigma,
-         "{}: the coordinates are rounded, which alone makes errors of {:.3g} m along an axis, where sigma_position_m "
-         "is {:.3g}: give --set sigma_position_m={:.3g} or more",
-         file_, rounding, least, rounding);
+    const auto by_rows = outcome_.doubts.told_sigma();
+    const double told = by_rows.value_or(least);
+    const bool is_alone = !recording_.has_sensors() && !options_.radar.sigma;
+    const std::string_view told_by = by_rows ? "their sigmas are" : "sigma_position_m is";
+    const auto remedy = [&](double sigma) {
+      return by_rows ? "see their unit, or write greater ones"
+                     : fmt::format("give --set sigma_position_m={:.3g} or more", sigma);
+    };
+    warn(rounding > 2.0 * told && (by_rows || !recording_.tells_accuracy()) && is_alone,
+         "{}: the coordinates are rounded, which alone makes errors of {:.3g} m along an axis, where {} {:.3g}: {}",
+         file_, rounding, told_by, told, remedy(rounding));
+    const double scatter = outcome_.doubts.scatter().value_or(0.0);
+    warn(scatter > std::max(3.0 * told, 2.0 * rounding) && is_alone && !recording_.polar(),
+         "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}", file_,
+         scatter, told_by, told, remedy(scatter));
     const auto is_tied = [](const std::string& model) { return model == "dwna" || model == "dwpa"; };
     const bool tied = std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
       return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, is_tied);
