@@ -454,10 +454,16 @@ bool Doubts::puts_clocks_forward(double step) const {
   });
 }
 
+bool Doubts::comes_back() const {
+  const std::size_t jumps = stays_[0].same + stays_[0].changed;
+  return 3 * returns_ > 2 * jumps && jumps >= 2 * few;
+}
+
 std::optional<double> Doubts::scatter() const {
   constexpr double of_noise = -0.5;          // it is −2/3 of noise alone
   constexpr double median_of_bends = 1.652;  // 0.6745 √6 of the noise, which outliers do not move
-  if (second_.sizes.size() < 200 || sensors_.size() > 1 || !(second_.products < of_noise * second_.squares)) return {};
+  const bool is_noise = second_.products < of_noise * second_.squares && sensors_.size() == 1 && !comes_back();
+  if (second_.sizes.size() < 200 || !is_noise) return {};
   return median(second_.sizes) / median_of_bends;
 }
 
@@ -574,7 +580,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   const double step = steps_.empty() ? nan : median(steps_);
   const auto found_late = std::ranges::find_if(late_, [&](const Agreement& some) {
     return some.count >= 2 * few && some.correlation() * some.correlation() > 0.25 && some.error_square() < 0.04 &&
-           std::abs(some.growth_per_told()) > 0.3 * step;
+           std::abs(some.growth_per_told()) > 0.3 * step && std::abs(some.growth_per_told()) < 20.0 * step;
   });
   const bool is_late = found_late != late_.end();
   const double late = is_late ? found_late->growth_per_told() : nan;
@@ -742,7 +748,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "no height, empty those cells or name them by --missing",
       zero_heights_.rows);
   const std::size_t jumps = positions.same + positions.changed;
-  say(3 * returns_ > 2 * jumps && jumps >= 2 * few,
+  say(comes_back(),
       "{} of {} positions are near one a few rows before, and five times as far from the last: if rows of several "
       "targets are mixed, name the column that tells them apart by --track-id, and if those of several sensors, one "
       "that is called sensor",

@@ -150,6 +150,7 @@ class Doubts {
   void see_rates(Sensor& before, Spoke now);
   void see_leap(Sensor& before, const Spoke& now, double jump);
   std::string shifted() const;
+  bool comes_back() const;
   std::string other_times() const;
   bool puts_clocks_forward(double step) const;
   static std::string why_apart(const std::vector<Off>& rows, int axes);

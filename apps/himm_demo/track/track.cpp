@@ -171,8 +171,9 @@ class Reporter {
          file_, rounding, told_by, told, remedy(rounding));
     const double scatter = outcome_.doubts.scatter().value_or(0.0);
     warn(scatter > std::max(3.0 * told, 2.0 * rounding) && is_alone && !recording_.polar(),
-         "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}", file_,
-         scatter, told_by, told, remedy(scatter));
+         "{}: positions scatter by {:.3g} m along an axis about their way, each otherwise, where {} {:.3g}: {}{}",
+         file_, scatter, told_by, told, remedy(scatter),
+         recording_.has_tracks() ? "" : "; if they are of several targets, tell these apart with --track-id COLUMN");
     const auto is_tied = [](const std::string& model) { return model == "dwna" || model == "dwpa"; };
     const bool tied = std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
       return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, is_tied);
