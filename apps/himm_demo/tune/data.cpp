@@ -199,6 +199,7 @@ void summarize(TuneData& data, const Columns& columns) {
                     "start anew by --set restart_after_s=…, and where it is another target, tell both apart",
                     longest, data.step_s));
   data.uneven_steps = quantile(steps, 0.9) >= 2.0 * quantile(steps, 0.1);
+  data.longest_step_s = longest;
 }
 
 /// Of the true position, by the estimate's leading components; an axis that there is not counts for nothing.
@@ -261,6 +262,14 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
         "sigma_position_m is how far rows scatter beside their neighbours, and what is stated of estimates leaves out "
         "what lasts; of rows far apart it holds the turns between them, too: where the device's accuracy is known, "
         "keep it by --keep sensors");
+  const bool by_steps = options.models.empty() && std::ranges::any_of(settings.motions, [](const MotionChoice& motion) {
+                          return motion.name == "dwna" || motion.name == "dwpa";
+                        });
+  if (by_steps && !data.uneven_steps && data.longest_step_s >= 10.0 * data.step_s)
+    data.notes.push_back(
+        fmt::format("dwna and dwpa are models of one step, {:.4g} s as a rule: after one of {:.4g} s they state too "
+                    "great sigmas, which cwna and cwpa do not (--models cwna,cwpa,cwna+cwpa)",
+                    data.step_s, data.longest_step_s));
   const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
   const double sigma = settings.accuracy.position_m.front();
   if (width != data.stray_width.end() && width->second < 1e-4 * sigma)

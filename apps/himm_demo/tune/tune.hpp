@@ -84,7 +84,8 @@ struct TuneData {
   /// How wide stray measurements of each quantity scatter: six times what nine in ten changes from one row of a track
   /// to the next stay below, those that are none left out.
   std::map<QuantityKey, double> stray_width{};
-  double step_s = 0.0;        ///< the median time between a track's measurements
+  double step_s = 0.0;  ///< the median time between a track's measurements
+  double longest_step_s = 0.0;
   bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 
   /// The density, as a logarithm, of a stray measurement of this kind: the same for all settings.
