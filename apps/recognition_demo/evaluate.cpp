@@ -38,6 +38,11 @@ struct Outcome {
   }
 };
 
+std::string described_folds(const EvaluateOptions& options) {
+  return fmt::format("{} folds of {}", options.folds,
+                     options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups);
+}
+
 Folds next_folds(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
                  std::mt19937_64& generator) {
   return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
@@ -286,8 +291,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
 }
 
 void say_scores(const DataTable& data, const Results& results, const EvaluateOptions& options, Result& result) {
-  result.say("{}: {}\n{} folds of {}, {}seed {}; {}", data.file, described(data), options.folds,
-             options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups,
+  result.say("{}: {}\n{}, {}seed {}; {}", data.file, described(data), described_folds(options),
              options.foldings == 1 ? "" : fmt::format("in {} foldings, ", options.foldings), options.seed,
              described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
@@ -380,7 +384,7 @@ LineChart reliability_chart(const std::string& classifier, const Reliability& re
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.
 void fill(Report& page, const DataTable& data, const Results& results, const EvaluateOptions& options) {
-  page.verdict = {fmt::format("{}. {} folds, {} foldings, seed {}; {}.", described(data), options.folds,
+  page.verdict = {fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
                               options.foldings, options.seed, described(options.learning))};
   page.panels.emplace_back(
       ReportTable{"Classifiers", outcomes_table(results, options.foldings), "Differences ± 95 % by paired rows."});
