@@ -412,7 +412,7 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
 /// may be more rows of some; or much more often.
 void say_otherwise(const LearnedModel& model, const Classified& found, const std::vector<Contestant>& all,
                    Result& result) {
-  constexpr std::size_t few = 5;
+  constexpr double few = 5.0, few_learned = 10.0;
   constexpr double errors = 3.5, less = 0.05, more = 0.15;
   const auto sigma = std::ranges::find(all, kind_names.front(), &Contestant::name);
   if (sigma == all.end() || model.right.empty()) return;
@@ -421,8 +421,8 @@ void say_otherwise(const LearnedModel& model, const Classified& found, const std
   RunningMean here, there;
   double variance = 0.0;
   for (std::size_t c = 0; c < model.right.size(); ++c) {
-    if (found.rows_of_class[c] < few) continue;
     const auto rows = static_cast<double>(found.rows_of_class[c]), learned = model.counts.rows(c);
+    if (rows < few || learned < few_learned) continue;
     here.add(tally.recognised[c] / rows);
     there.add(model.right[c]);
     const double share = (tally.recognised[c] + model.right[c] * learned + 1.0) / (rows + learned + 2.0);

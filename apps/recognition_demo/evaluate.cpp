@@ -265,7 +265,7 @@ Results evaluated(const DataTable& data, const std::optional<Groups>& groups, co
 /// rows of one thing.
 void say_too_good(const DataTable& data, double accuracy, double most_often, const EvaluateOptions& options,
                   Result& result) {
-  constexpr double very_good = 0.9, less = 0.03;
+  constexpr double very_good = 0.9, much = 0.1, less = 0.03;
   if (accuracy > very_good && data.columns.size() > 1) {
     const auto relations = learned_relations(learn(data, options.learning).counts, options.learning.smoothing);
     const auto most = static_cast<std::size_t>(std::ranges::max_element(relations, {}, telling) - relations.begin());
@@ -274,7 +274,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
     for (std::size_t c = 0; c < shares.size(); ++c)
       without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
     const std::string& name = data.columns[most].name;
-    if (without - most_often < (accuracy - most_often) / 3.0)
+    if (accuracy - most_often > much && without - most_often < (accuracy - most_often) / 3.0)
       result.say(
           "Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
           "out by --ignore {}",
@@ -447,6 +447,7 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   app.run([options] {
     if (!options->groups.empty() && options->file == "-")
       throw UsageError("--groups reads the data twice: it takes no standard input");
+    if (options->groups == options->data.label) throw UsageError("--groups: the label cannot be what rows are of, too");
     if (!options->groups.empty()) options->data.ignore.push_back(options->groups);
     run_evaluate(*options);
   });

@@ -5,6 +5,7 @@
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
 
+#include "recognition_demo/column_reader.hpp"
 #include "support/input.hpp"
 #include "support/parallel.hpp"
 
@@ -34,9 +35,15 @@ Groups groups_of(const DataTable& data, const std::string& column) {
   Groups groups;
   for (CsvRow row; reader.next(row);) {
     const std::string name(trimmed(row[place]));
-    if (name.empty()) throw row.error(place, "the name of the row's group", "fill the cell");
+    if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
     groups.push_back(numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size())).first->second);
   }
+  if (const std::string two = alike(each(numbers, [](const auto& one) { return std::string_view(one.first); }));
+      !two.empty())
+    complain(
+        fmt::format("recognition_demo: warning: {}: column {}: {} differ in case, blanks or the writing of a number "
+                    "only, and count as two groups",
+                    data.file, in_quotes(column), two));
   return groups;
 }
 
@@ -111,6 +118,7 @@ Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t numb
 struct Clumps {
   static constexpr std::size_t most_rows = 1024;
   std::vector<std::size_t> rows, labels, clump;
+  bool are_apart = false;  ///< whether somewhere among the nearest rows the next ones are much farther off
 
   Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator);
 
@@ -161,13 +169,23 @@ Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& g
   };
   using Near = std::pair<double, std::size_t>;
   std::vector<std::vector<Near>> nearest(n);
+  // How much farther the 2k-th row is than the k-th, as a logarithm: of rows in no clumps it falls slowly with k.
+  constexpr std::array<std::size_t, 12> steps = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+  std::array<RunningMean, steps.size()> farther;
   for (std::size_t a = 0; a < n; ++a) {
+    auto& all = nearest[a];
     for (std::size_t b = 0; b < n; ++b)
-      if (a != b) nearest[a].emplace_back(distance(a, b), b);
-    const auto end = nearest[a].begin() + static_cast<std::ptrdiff_t>(std::min(neighbours, n - 1));
-    std::ranges::partial_sort(nearest[a], end);
-    nearest[a].erase(end, nearest[a].end());
+      if (a != b) all.emplace_back(distance(a, b), b);
+    std::ranges::sort(all);
+    const auto same = static_cast<std::size_t>(std::ranges::count(all, 0.0, &Near::first));
+    for (std::size_t i = 0; i < steps.size() && same + 2 * steps[i] <= all.size(); ++i)
+      farther[i].add(std::log(all[same + 2 * steps[i] - 1].first / all[same + steps[i] - 1].first));
+    all.resize(std::min(neighbours, all.size()));
   }
+  constexpr double much = 2.0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t j = i + 1; j < steps.size() && farther[j].count() > 0; ++j)
+      are_apart |= farther[i].mean() > much * farther[j].mean();
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < n; ++a)
     for (const auto& [apart, b] : nearest[a])
@@ -209,6 +227,7 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
   if (alike < few_alike) return std::nullopt;
   std::mt19937_64 generator(seed);
   const Clumps clumps(data, alike, generator);
+  if (!clumps.are_apart) return std::nullopt;
   const std::size_t n = clumps.rows.size();
   std::vector<std::size_t> alone(n);
   std::iota(alone.begin(), alone.end(), std::size_t{0});

@@ -55,7 +55,8 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
                                         int threads, std::optional<std::size_t> without = {});
 
 /// How many of some rows sigma is right about, and how many less where rows that are much alike stay in one fold, by
-/// pairs of rows; none where a class has too few rows for it. Of long tables some rows are asked, chosen by chance.
+/// pairs of rows; none where a class has too few rows for it, or none are much nearer to each other than to the next.
+/// Of long tables some rows are asked, chosen by chance.
 struct ByClumps {
   std::size_t rows;
   double accuracy;

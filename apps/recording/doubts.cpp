@@ -69,8 +69,10 @@ double rounding_of(std::vector<double> numbers) {
   const bool is_even = 5 * single > 4 * std::ssize(numbers) && 2 * apart.size() > numbers.size();
   if (10 * whole >= 9 * std::ssize(apart) && !is_even) return least / std::sqrt(12.0);
   for (double digits = 1.0; digits < 1e7; digits *= 10.0)  // as they are written
-    if (std::ranges::all_of(
-            numbers, [&](double number) { return std::abs(number * digits - std::round(number * digits)) < 1e-3; }))
+    if (std::ranges::all_of(numbers, [&](double number) {
+          const double all = number * digits;
+          return std::abs(all - std::round(all)) < 1e-9 + 1e-15 * std::abs(all);
+        }))
       return 1.0 / (digits * std::sqrt(12.0));
   return 0.0;
 }
@@ -178,11 +180,11 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
   before.even = std::abs(dt - before.step) < 0.01 * dt ? before.even + 1 : 0;
   if (recent.size() > 3 && before.even > 1) {
     const auto at = [&](std::size_t ago) { return recent[recent.size() - 1 - ago].head<2>(); };
-    const Eigen::Vector2d bend = at(0) - 2.0 * at(1) + at(2), bend_before = at(1) - 2.0 * at(2) + at(3);
-    for (const double own : {bend[0], bend[1]})
-      if (own != 0.0 && second_.sizes.size() < many) second_.sizes.push_back(std::abs(own));
-    second_.squares += bend.squaredNorm();
-    second_.products += bend.dot(bend_before);
+    const auto bend = [&](std::size_t ago) -> Eigen::Vector2d { return at(ago) - 2.0 * at(ago + 1) + at(ago + 2); };
+    for (std::size_t lag = 0; lag < second_.products.size() && lag + 2 < recent.size() && lag < before.even; ++lag)
+      second_.products[lag] += bend(0).dot(bend(lag));
+    for (const double own : {bend(0)[0], bend(0)[1]})
+      if ((own != 0.0 || now.at[1] != 0.0) && second_.sizes.size() < many) second_.sizes.push_back(std::abs(own));
     const Eigen::Vector2d off = (at(0) - at(2)) / (2.0 * dt) - last.rate.head<2>().matrix();
     if (!std::isnan(off.sum())) {
       ++computed_.count;
@@ -196,9 +198,15 @@ void Doubts::see_rates(Sensor& before, Spoke now) {
     const auto move = [&](std::size_t ago) -> Vector<3> {
       return recent[recent.size() - 1 - ago] - recent[recent.size() - 2 - ago];
     };
-    const double usual = length(move(1));
-    if (length(move(2) - move(1)) < 0.2 * usual && length(move(0) - move(1)) < 0.2 * usual && slipped_++ == 0)
-      slip_ = {now.line, dt, before.step};
+    const double usual = length(move(1)), leap = dt - before.step;
+    // By a zone or a day, rather than for as long as a target waits whose ways are as long as each other.
+    constexpr double quarter = 900.0, years = 1e7;
+    const bool is_clock = leap > years || std::abs(std::remainder(leap, quarter)) < 0.5 * before.step;
+    if (length(move(2) - move(1)) < 0.2 * usual && length(move(0) - move(1)) < 0.2 * usual) {
+      if (slips_.insert(is_clock ? std::lround(leap) : -1L).second && slips_.size() == 1)
+        slip_ = {now.line, dt, before.step};
+      ++slipped_;
+    }
   }
   if (now.twice != last.twice) to_twice_ += jump;
   if (const double off = length(now.error); !std::isnan(off + last.error[0])) {
@@ -460,9 +468,12 @@ bool Doubts::comes_back() const {
 }
 
 std::optional<double> Doubts::scatter() const {
-  constexpr double of_noise = -0.5;          // it is −2/3 of noise alone
+  const auto& products = second_.products;
+  const auto correlation = [&](std::size_t lag) { return products[lag] / products[0]; };
   constexpr double median_of_bends = 1.652;  // 0.6745 √6 of the noise, which outliers do not move
-  const bool is_noise = second_.products < of_noise * second_.squares && sensors_.size() == 1 && !comes_back();
+  // Of noise alone they are −2/3, 1/6 and 0.
+  const bool is_noise = correlation(1) < -0.58 && correlation(2) < 0.4 && std::abs(correlation(3)) < 0.2 &&
+                        sensors_.size() == 1 && !comes_back();
   if (second_.sizes.size() < 200 || !is_noise) return {};
   return median(second_.sizes) / median_of_bends;
 }
@@ -536,13 +547,13 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
     return wrong != rates_.end();
   };
   is_clear |= say_scale(velocities, "velocities", "positions");
+  constexpr double earth_radius = 6.4e6;  // of whose north one is another's, far away
+  const double north_elsewhere = recording.on_the_earth() || by_radar ? 2.0 * farthest_ / earth_radius : 0.0;
   for (const Rates& rates : rates_) {
-    constexpr double earth = 6.4e6;  // of whose north one is another's, far away
     const double angle = std::atan2(rates[to_the_left].product, rates[velocities].product);
     Agreement turned = rates[velocities];  // as far as they are
     turned.product = std::hypot(turned.product, rates[to_the_left].product);
-    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(turned.error_square(), 0.0)) +
-                          (recording.on_the_earth() ? 2.0 * farthest_ / earth : 0.0);
+    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(turned.error_square(), 0.0)) + north_elsewhere;
     if (is_clear || !turned.fits() || std::abs(angle) < margin) continue;
     say(true,
         "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
@@ -553,8 +564,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   const auto rows_of_offset = static_cast<double>(offset_.count);
   const Vector<3> off = offsets_ / rows_of_offset;
-  const bool is_off = offset_.count >= few && 2.0 * dot(off, off) > offset_.grew / rows_of_offset &&
-                      dot(off, off) > 0.003 * offset_.told / rows_of_offset;
+  const double square_off = dot(off, off) * rows_of_offset;
+  const bool is_off = offset_.count >= few && 2.0 * square_off > offset_.grew &&
+                      square_off > std::max(0.003, north_elsewhere * north_elsewhere) * offset_.told;
   const bool elsewhere = same_size && by_ten.correlation() < 0.7;
   const Stays& told = stays_[2];
   const bool frozen = told.same > 9 * told.changed;
@@ -710,7 +722,9 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
       "UTC; see whether each has the zone that it was told in",
       zone.line, zone.step);
-  say(slipped_ > 0,
+  const bool are_forward = !recording.times_are_numbers() && !recording.zoned() && steps_.size() >= few &&
+                           step <= 60.0 && puts_clocks_forward(step);
+  say(!are_forward && slips_.size() == 1 && !slips_.contains(-1),
       "time goes on by {:.6g} s on line {}, where steps are of {:.6g} s, and the target only as far as in one of "
       "these{}: see whether a clock was set, days were read as months, or the zone is another one from there on",
       slip_.dt, slip_.line, slip_.step, slipped_ > 1 ? fmt::format("; so it is {} times", slipped_) : "");
@@ -783,7 +797,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
       positions.same, jumps);
   if (steps_.size() < few) return sentences;
   const double speed = moved / duration;
-  say(!recording.times_are_numbers() && step <= 60.0 && puts_clocks_forward(step),
+  say(are_forward,
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
       step);

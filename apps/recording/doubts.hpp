@@ -168,9 +168,9 @@ class Doubts {
     double off = 0.0, rough = 0.0;
   } computed_;  // squares: how far velocities are off the way between the rows beside them, and by what noise would be
   struct {
-    std::vector<double> sizes{};           // the first thousands along an axis
-    double squares = 0.0, products = 0.0;  // of all, and of each with the one before
-  } second_;                               // differences of positions
+    std::vector<double> sizes{};          // the first thousands along an axis
+    std::array<double, 4> products = {};  // of each with itself and those before
+  } second_;                              // differences of positions
   struct {
     std::size_t count = 0;
     double sum = 0.0;
@@ -189,6 +189,7 @@ class Doubts {
   std::size_t returns_ = 0;     // positions that are near one of the last few, but not near the last
   std::optional<Leap> leap_{};  // the first, and how many there are
   std::size_t leaps_ = 0;
+  std::set<long> slips_;     // by how long, and -1 for what no clock does
   std::size_t slipped_ = 0;  // steps much longer than others, in which the target went as far as in one of those
   struct {
     std::size_t line;

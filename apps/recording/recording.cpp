@@ -180,8 +180,9 @@ void RecordingReader::find_columns() {
       continue;
     for_each_header(quantities[q], [&](const std::string& header, const Unit& unit) {
       const bool is_angle = quantities[q].units.front().suffix == "deg";
+      const bool is_mirrored = q == place_of(Role::polar) + 1 && unit.from_north != from_north_;
       if (const auto index = find(header); index && *index != columns_[q]->index)
-        rivals_.push_back({q, {*index, &unit, not_available(header)}, is_angle});
+        rivals_.push_back({q, {*index, &unit, not_available(header)}, is_angle, is_mirrored});
     });
   }
 }
@@ -253,13 +254,15 @@ bool RecordingReader::next(Row& row) {
   for (std::size_t i = 0; i < 2 && geodetic(); ++i) {  // whose hemisphere may be in one of the next two columns
     const auto first = columns_[place_of(Role::place) + i]->index + 1;
     for (std::size_t at = first; at < std::min(first + 2, row_.size()); ++at)
-      abroad_[i].see(at, row_[at], i == 0 ? "SN" : "WE", said(Role::place, i) > 0.0, row_.line());
+      if (may_mark(at, {"lat", "lon", "ns", "ew", "n/s", "e/w", "hemi"}))
+        abroad_[i].see(at, row_[at], i == 0 ? "SN" : "WE", said(Role::place, i) > 0.0, row_.line());
   }
   if (says(Role::polar)) {
     const auto first = columns_[place_of(Role::polar) + 1]->index + 1;
-    if (first < row_.size()) relative_.see(first, row_[first], "RTM", true, row_.line());
+    if (first < row_.size() && may_mark(first, {"ref", "rel", "true", "bearing", "t/r", "r/t", "from"}))
+      relative_.see(first, row_[first], "RTM", true, row_.line());
   }
-  ++rows_;
+  if (rows_++ == 0) unread_date_ = find_unread_date();
   row.plot = plot.value_or(AnyPlot{});
   row.plot.time = time;
   return true;
@@ -409,32 +412,41 @@ void RecordingReader::take_numbers() {
     if (said_[q] && is_accuracy(role) && role != Role::covariance && !(*said_[q] > 0.0))
       throw row_.error(columns_[q]->index, "a positive standard deviation", "leave the cell empty where it is unknown");
   }
-  for (Rival& rival : rivals_)
-    rival.see(said_[rival.quantity], parse_number(row_[rival.column.index]), *columns_[rival.quantity]);
+  for (Rival& rival : rivals_) rival.see(said_[rival.quantity], parse_number(row_[rival.column.index]));
 }
 
-void RecordingReader::Rival::see(const std::optional<double>& said, std::optional<double> other, const Column& of) {
+void RecordingReader::Rival::see(const std::optional<double>& said, std::optional<double> other) {
   if (!said || !other || other == column.not_available) return;
   *other *= column.unit->value;
-  if (column.unit->from_north != of.unit->from_north) *other = 90.0 - *other;
+  if (is_mirrored) *other = 90.0 - *other;
   ++rows;
   apart += std::abs(is_angle ? std::remainder(*said - *other, 360.0) : *said - *other);
   size += std::abs(*said) + std::abs(*other);
 }
 
-std::string RecordingReader::unread_date() const {
+/// Whether a column is called as one of letters that say more of a number, or by a letter or two.
+bool RecordingReader::may_mark(std::size_t column, std::initializer_list<std::string_view> words) const {
+  const std::string name = lower_case(csv_.names()[column]);
+  const bool is_other = (sensor_ && column == *sensor_) || (track_ && column == *track_);
+  return !is_other &&
+         (name.size() < 3 || std::ranges::any_of(words, [&](auto word) { return name.find(word) != name.npos; }));
+}
+
+/// A column that seems to tell the date, by its name and by this row, and is not read; or nothing.
+std::string RecordingReader::find_unread_date() const {
   constexpr std::string_view words[] = {"date", "datum", "day", "fecha"};
   const auto& names = csv_.names();
-  const auto found = std::ranges::find_if(
-      names, [&](const std::string& name) { return std::ranges::find(words, lower_case(name)) != std::end(words); });
-  const auto index = static_cast<std::size_t>(found - names.begin());
-  return date_ || found == names.end() || index == time_ ? "" : *found;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!date_ && i != time_ && std::ranges::find(words, lower_case(names[i])) != std::end(words) &&
+        !parse_number(row_[i]) && parse_timestamp(fmt::format("{} 00:00:00", trimmed(row_[i]))))
+      return names[i];
+  return "";
 }
 
 std::vector<std::string> RecordingReader::rivals() const {
   constexpr double most_degrees = 20.0, most_metres = 200.0, most_of_both = 0.2;
   std::vector<std::string> sentences;
-  for (const auto& [q, column, is_angle, rows, apart, size] : rivals_) {
+  for (const auto& [q, column, is_angle, is_mirrored, rows, apart, size] : rivals_) {
     const double mean = apart / static_cast<double>(rows);
     const bool is_height = quantities[q].role == Role::place;  // of which there are several zeros
     if (rows == 0 ||

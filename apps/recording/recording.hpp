@@ -150,8 +150,11 @@ class RecordingReader {
   };
   const OtherZone& other_zone() const { return other_zone_; }
 
+  /// Whether the last date and time had a zone.
+  bool zoned() const { return zone_ && !zone_->empty(); }
+
   /// A column that seems to tell the date, and is not read; or nothing.
-  std::string unread_date() const;
+  const std::string& unread_date() const { return unread_date_; }
 
   /// Whether there were times of day.
   bool times_of_day() const { return latest_of_day_.has_value(); }
@@ -179,11 +182,11 @@ class RecordingReader {
   struct Rival {
     std::size_t quantity;
     Column column;
-    bool is_angle;
+    bool is_angle, is_mirrored;
     std::size_t rows = 0;
     double apart = 0.0, size = 0.0;
 
-    void see(const std::optional<double>& said, std::optional<double> other, const Column& of);
+    void see(const std::optional<double>& said, std::optional<double> other);
   };
   /// The time of a track's last row, and the sensors that spoke then.
   struct Last {
@@ -206,6 +209,8 @@ class RecordingReader {
   std::string other_half(Role role) const;
   std::string why_unused(std::size_t quantity) const;
   std::string unused() const;
+  std::string find_unread_date() const;
+  bool may_mark(std::size_t column, std::initializer_list<std::string_view> words) const;
 
   bool take_time(Row& row);
   double on_its_day(const Row& row, double time_of_day);
@@ -246,6 +251,7 @@ class RecordingReader {
   std::array<Marks, 2> abroad_;
   Marks relative_;
   std::vector<Rival> rivals_;
+  std::string unread_date_;
   std::map<std::size_t, std::size_t> missing_cells_;  // by column
   std::array<Nines, quantities.size()> nines_;
   std::optional<std::string> zone_;  // of the last date and time, which was

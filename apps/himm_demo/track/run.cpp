@@ -230,7 +230,7 @@ class TrackRun {
     for (const FilterSettings& filter : filters_) {
       const Accuracy& own = filter.accuracy_of(sensor);
       by_default[0] &= own.position_m == usual.position_m;
-      for (const std::size_t k : {1U, 2U}) by_default[k] &= own.radar == usual.radar;
+      for (const std::size_t k : {1U, 2U}) by_default[k] &= own.radar[k - 1] == usual.radar[k - 1];
     }
     for (std::size_t k = 0; k < by_default.size(); ++k) outcome_.by_default[k] += by_default[k] ? 1U : 0U;
   }
