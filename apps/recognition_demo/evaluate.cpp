@@ -274,7 +274,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
     for (std::size_t c = 0; c < shares.size(); ++c)
       without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
     const std::string& name = data.columns[most].name;
-    if (accuracy - most_often > much && without - most_often < (accuracy - most_often) / 3.0)
+    if (!shares.empty() && accuracy - most_often > much && without - most_often < (accuracy - most_often) / 3.0)
       result.say(
           "Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
           "out by --ignore {}",

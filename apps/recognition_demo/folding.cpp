@@ -98,6 +98,9 @@ TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, c
 
 namespace {
 
+/// Whether any part of the rows can be learned from that has some of each class, however few values a column has there.
+bool any_part_teaches(const LearningOptions& options) { return options.smoothing > 0.0 && options.misread <= 0.5; }
+
 /// Of each row that has a fold whether sigma is right about it, by what the rows of other folds teach.
 Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t number, const LearningOptions& options,
                      int threads, std::optional<std::size_t> without = {}) {
@@ -182,10 +185,10 @@ Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& g
       farther[i].add(std::log(all[same + 2 * steps[i] - 1].first / all[same + steps[i] - 1].first));
     all.resize(std::min(neighbours, all.size()));
   }
-  constexpr double much = 2.0;
+  constexpr double much = 2.0, some = 0.01;  // where distances are few, many rows are as far as the next
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (std::size_t j = i + 1; j < steps.size() && farther[j].count() > 0; ++j)
-      are_apart |= farther[i].mean() > much * farther[j].mean();
+      are_apart |= farther[j].mean() > some && farther[i].mean() > much * farther[j].mean();
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < n; ++a)
     for (const auto& [apart, b] : nearest[a])
@@ -206,7 +209,7 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
                                         int threads, std::optional<std::size_t> without) {
   constexpr std::size_t long_table = 50000;
   const std::size_t number = data.size() > long_table ? 3 : std::min<std::size_t>(10, data.size());
-  if (std::ranges::min(data.rows_of_class) < 2) return {};
+  if (!any_part_teaches(options) || std::ranges::min(data.rows_of_class) < 2) return {};
   std::mt19937_64 generator(seed);
   const Right right = right_of_sigma(data, folds_of(data, number, generator), number, options, threads, without);
   ScratchCursor<std::uint8_t> is_right(right);
@@ -224,7 +227,7 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
   constexpr std::size_t few_alike = 4, most_of_them = 24;
   const std::size_t alike =
       std::min(most_of_them, std::min(Clumps::most_rows, data.size()) / (16 * data.classes.size()));
-  if (alike < few_alike) return std::nullopt;
+  if (!any_part_teaches(options) || alike < few_alike) return std::nullopt;
   std::mt19937_64 generator(seed);
   const Clumps clumps(data, alike, generator);
   if (!clumps.are_apart) return std::nullopt;

@@ -50,7 +50,8 @@ void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& 
 using Right = ScratchArray<std::uint8_t>;
 
 /// Of each class the share of its rows that sigma is right about, each by what the rows of other folds teach, of ten
-/// (of long tables three), and without one column, if that is given; nothing if there is a single row of a class.
+/// (of long tables three), and without one column, if that is given; nothing if there is a single row of a class, or
+/// where part of the rows might teach nothing, without smoothing or with readings that are mostly wrong.
 std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
                                         int threads, std::optional<std::size_t> without = {});
 
