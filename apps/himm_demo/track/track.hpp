@@ -6,7 +6,7 @@
 #include <sigmax/estimation/root_mean_square.hpp>
 
 #include "himm_demo/filters/settings.hpp"
-#include "recording/doubts.hpp"
+#include "recording/doubts/doubts.hpp"
 #include "recording/plots.hpp"
 #include "result/result.hpp"
 #include "study/ranks.hpp"

@@ -1,0 +1,207 @@
+#include "recording/doubts/doubts.hpp"
+
+#include "recording/plots.hpp"
+#include "support/text.hpp"
+
+namespace sigmax::apps {
+
+using namespace doubts;
+
+double rounding_of(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  std::vector<double> apart;  // those that differ by more than the reading of decimals does
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (const double step = numbers[k] - numbers[k - 1]; step > 1e-10 * std::abs(numbers[k])) apart.push_back(step);
+  if (apart.empty()) return std::numeric_limits<double>::infinity();
+  const double least = *std::ranges::min_element(apart);
+  const auto whole = std::ranges::count_if(
+      apart, [&](double step) { return std::abs(step / least - std::round(step / least)) < 0.05; });
+  // Where hardly a number comes twice, and all are one step apart, it is the way of what moves evenly.
+  const auto single = std::ranges::count_if(apart, [&](double step) { return step < 1.5 * least; });
+  const bool is_even = 5 * single > 4 * std::ssize(numbers) && 2 * apart.size() > numbers.size();
+  if (10 * whole >= 9 * std::ssize(apart) && !is_even) return least / std::sqrt(12.0);
+  for (double digits = 1.0; digits < 1e7; digits *= 10.0)  // as they are written
+    if (std::ranges::all_of(numbers, [&](double number) {
+          const double all = number * digits;
+          return std::abs(all - std::round(all)) < 1e-9 + 1e-15 * std::abs(all);
+        }))
+      return 1.0 / (digits * std::sqrt(12.0));
+  return 0.0;
+}
+
+void Doubts::see(const Row& row, const std::optional<Position>& position, int axes) {
+  const AnyPlot& plot = row.plot;
+  const bool has_rate = plot.sensor == AnyPlot::Sensor::doppler;
+  const bool is_radar = has_rate || plot.sensor == AnyPlot::Sensor::polar;
+  clocks_.see(plot.time);
+  Track& track = tracks_[row.track];
+  const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
+  if (is_radar || plot.sensor == AnyPlot::Sensor::bearing)
+    places_.see(plot, truth ? truth : track.located, track.bearing);
+  if (!position || axes_seen(plot, axes) < axes) return;
+  const Vector<3> at(position->data());
+  places_.see(at);
+  for (int i = 0; i < 2; ++i)
+    if (auto& some = numbers_[static_cast<std::size_t>(i)]; some.size() < enough_numbers)
+      if (const auto number = component_of(plot, i)) some.push_back(*number);
+  if (const double variance = plot.variance(0); !is_radar && variance > 0.0) {
+    ++variances_.count;
+    variances_.sum += variance;
+  }
+  const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
+  const auto rate = [&](int i) {
+    return i < axes ? component_of(plot, axes + i).value_or(row.rates[static_cast<std::size_t>(i)]) : nan;
+  };
+  Spoke now{plot.time,
+            at,
+            {at[0], at[1], std::isnan(height) ? at[2] : height, is_radar ? plot.z[0] : 0.0},
+            {rate(0), rate(1), rate(2), has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
+            truth ? Vector<3>(at - *truth) : Vector<3>::Constant(nan),
+            is_radar ? std::optional(Vector<3>(at - Vector<3>(plot.origin.data()))) : std::nullopt,
+            height,
+            row.twice,
+            row.line};
+  repeats_.see(row, now, axes);
+  const auto [own, first] = track.sensors.try_emplace(row.sensor, now);
+  if (first)
+    sensors_.insert(row.sensor);
+  else
+    see_next(track, row.sensor, own->second, now);
+  track.latest = row.sensor;
+  if (!is_radar) track.located = at;
+  clocks_.see(plot.time, track.first ? std::optional(track.time) : std::nullopt);
+  if (!track.first) {
+    track.first = at;
+    track.first_time = plot.time;
+  }
+  track.last = at;
+  track.time = plot.time;
+}
+
+/// A row after the first of its sensor.
+void Doubts::see_next(const Track& track, const std::string& name, Sensor& sensor, Spoke& now) {
+  Trail& trail = sensor.trail;
+  const Spoke& last = trail.last;
+  const double dt = now.time - last.time;
+  if (!(dt > 0.0)) return;
+  if (const auto& before = trail.before; before && dt <= 2.0 * (last.time - before->first)) {
+    const Vector<3> bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
+    repeats_.see_bend(sensor.repeats, trail, now, length(bend));
+    if (const auto& [other, told] = *track.sensors.find(track.latest);
+        other != name && told.trail.last.time >= last.time)
+      places_.see_other(name, last, now, bend, other, told.trail.last);
+  }
+  repeats_.see(sensor.repeats, trail, now);
+  trail.recent.keep(now.at);
+  trail.even = std::abs(dt - trail.step) < 0.01 * dt ? trail.even + 1 : 0;
+  see_bends(trail, now);
+  clocks_.see_slip(trail, now);
+  places_.see_error(last, now);
+  rates_.see(sensor.rates, trail, now);
+  trail.before = {last.time, last.at};
+  trail.step = dt;
+  trail.last = now;
+}
+
+void Doubts::see_bends(const Trail& trail, const Spoke& now) {
+  const auto& recent = trail.recent;
+  if (!recent.reaches(3) || trail.even < 2) return;
+  const auto bend = [&](std::size_t ago) -> Eigen::Vector2d {
+    return (recent[ago] - 2.0 * recent[ago + 1] + recent[ago + 2]).head<2>();
+  };
+  for (std::size_t lag = 0; lag < second_.products.size() && recent.reaches(lag + 2) && lag < trail.even; ++lag)
+    second_.products[lag] += bend(0).dot(bend(lag));
+  for (const double own : {bend(0)[0], bend(0)[1]})
+    if ((own != 0.0 || now.at[1] != 0.0) && second_.sizes.size() < many) second_.sizes.push_back(std::abs(own));
+}
+
+std::optional<double> Doubts::scatter() const {
+  const auto& products = second_.products;
+  const auto correlation = [&](std::size_t lag) { return products[lag] / products[0]; };
+  constexpr double median_of_bends = 1.652;  // 0.6745 √6 of the noise, which outliers do not move
+  // Of noise alone they are −2/3, 1/6 and 0.
+  const bool is_noise = correlation(1) < -0.58 && correlation(2) < 0.4 && std::abs(correlation(3)) < 0.2 &&
+                        sensors_.size() == 1 && !repeats_.comes_back();
+  if (second_.sizes.size() < 200 || !is_noise) return {};
+  return median(second_.sizes) / median_of_bends;
+}
+
+std::optional<double> Doubts::told_sigma() const {
+  if (variances_.count < 200) return {};
+  return std::sqrt(variances_.sum / static_cast<double>(variances_.count));
+}
+
+double Doubts::rounding(const RecordingReader& recording) const {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < 2 && recording.located(); ++i)
+    if (const double own = rounding_of(numbers_[i]);
+        std::isfinite(own) && std::set(numbers_[i].begin(), numbers_[i].end()).size() >= 2 * few)
+      greatest = std::max(greatest, own);
+  return greatest * (recording.geodetic() ? metres_a_degree : 1.0);
+}
+
+/// What the reader found in cells and headers.
+void Doubts::say_reading(Say& say, const RecordingReader& recording) const {
+  const auto names = each(tracks_, [](const auto& named) -> std::string_view { return named.first; });
+  const std::pair<std::string_view, std::string> twins[] = {{"tracks", alike(names)},
+                                                            {"sensors", alike({sensors_.begin(), sensors_.end()})}};
+  for (const auto& [what, two] : twins)
+    say(!two.empty(),
+        "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are "
+        "the same",
+        what, two);
+  const auto swallowed = recording.csv().swallowed();
+  say(swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
+  for (const std::string& sentence : recording.rivals()) say(true, "{}", sentence);
+  for (const std::string& sentence : recording.nines()) say(true, "{}", sentence);
+  for (const std::size_t i : {0U, 1U})
+    if (const auto [abroad, first_abroad] = recording.abroad(i); abroad > 0)
+      say(true, "{} positive {}, first on line {}, and were taken as {}: give them a minus sign", abroad,
+          i == 0 ? "latitudes stand beside an S" : "longitudes stand beside a W", first_abroad,
+          i == 0 ? "north" : "east");
+  const bool along_the_ground = recording.polar() && recording.axes() == 2;
+  const auto& headers = recording.csv().names();
+  const auto tells_height = [](std::string_view name) {
+    const std::string lower = lower_case(name);
+    if (lower.starts_with("sensor_")) return false;
+    constexpr std::array words = {"slant",        "altitude",     "height",    "depth",
+                                  "flight_level", "flight level", "elevation", "depression"};
+    return lower == "z" || lower.starts_with("z_") ||
+           std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
+  };
+  const auto height = std::ranges::find_if(headers, tells_height);
+  say(along_the_ground && !recording.located() && height != headers.end(),
+      "ranges are taken along the ground, beside a column {}: a slant range is longer; write range·cos(elevation), or "
+      "give an elevation_deg",
+      in_quotes(height == headers.end() ? "" : *height));
+  const auto [relative, first_relative] = recording.relative();
+  say(relative > 0,
+      "an R stands beside {} azimuths, first on line {}, as beside those that are relative to a heading, and they were "
+      "taken from {}: add the heading",
+      relative, first_relative, recording.from_north() ? "north" : "east");
+}
+
+std::vector<std::string> Doubts::sentences(const RecordingReader& recording) const {
+  Say say(recording.file());
+  const double step = clocks_.step();
+  constexpr double earth = 6.4e6;
+  const bool on_the_earth = recording.on_the_earth() || (recording.polar() && !recording.located());
+  const double north_elsewhere = on_the_earth ? 2.0 * places_.farthest() / earth : 0.0;  // is not north here
+  rates_.say(say, recording, repeats_.velocities(), step, north_elsewhere);
+  places_.say(say, recording, step, repeats_.no_truth());
+  say_reading(say, recording);
+  double moved = 0.0, duration = 0.0;
+  std::vector<const Repeats::Sensor*> sensors;
+  for (const auto& [name, track] : tracks_) {
+    if (!track.first) continue;
+    duration += track.time - track.first_time;
+    moved += length(*track.first - *track.last);
+    for (const auto& [sensor, own] : track.sensors) sensors.push_back(&own.repeats);
+  }
+  repeats_.say_interpolated(say, sensors, rounding(recording));
+  repeats_.say(say, recording, tracks_.size(), moved);
+  clocks_.say(say, recording, tracks_.size() == 1, moved / duration);
+  return std::move(say.sentences);
+}
+
+}  // namespace sigmax::apps

@@ -1,0 +1,203 @@
+#include "recording/doubts/rates.hpp"
+
+namespace sigmax::apps::doubts {
+namespace {
+
+bool by_radar(const RecordingReader& recording) { return recording.polar() && !recording.located(); }
+
+}  // namespace
+
+/// Whether what is told is too small, or too great, whichever of the two is noisy.
+bool Rates::Compared::other_size() const {
+  const double margin = 0.08 + 5.0 * std::sqrt(std::max(error_square(), 0.0));
+  return fits() && (growth_per_told() > 1.0 + margin || grew / product < 1.0 / (1.0 + margin));
+}
+
+/// Whether the rate has the other sign, by four standard errors of a correlation that is none.
+bool Rates::Compared::other_sign() const {
+  const double square = correlation() * correlation();
+  return count >= few && correlation() < -0.5 && square * static_cast<double>(count - 2) > 16.0 * (1.0 - square);
+}
+
+void Rates::see(Sensor& sensor, const Trail& trail, Spoke& now) {
+  const Spoke& last = trail.last;
+  const double dt = now.time - last.time;
+  if (trail.recent.reaches(3) && trail.even > 1) {
+    const auto at = [&](std::size_t ago) { return trail.recent[ago].head<2>(); };
+    const Eigen::Vector2d off = (at(0) - at(2)) / (2.0 * dt) - last.rate.head<2>().matrix();
+    if (!std::isnan(off.sum())) {
+      ++computed_.count;
+      computed_.off += off.squaredNorm();
+      // A third difference has twenty times the variance of a position, and this velocity one of 1/(2 dt²).
+      computed_.rough += (at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3)).squaredNorm() / (40.0 * dt * dt);
+    }
+  }
+  // A velocity that is told less often holds, but not for long.
+  sensor.silent = std::isnan(now.rate[x]) ? sensor.silent + 1 : 0;
+  now.rate = now.rate.isNaN().select(last.rate, now.rate);
+  if (sensor.silent == few) {
+    now.rate.setConstant(nan);
+    sensor.since.fill(Since(now));
+  }
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    Since& since = sensor.since[k];
+    since.told += dt * (last.rate + now.rate) / 2.0;
+    since.held |= sensor.silent > 0 || dt > 3.0 * trail.step;
+    if (++since.rows < lengths[k]) continue;
+    const double T = now.time - since.time;
+    const Grown grew = (now.grown - since.grown) / T, told = since.told / T;
+    const auto add = [&](std::size_t rate, double told_now, double growth) { pairs_[k][rate].add(told_now, growth); };
+    for (const Rate rate : {x, y, z, range}) add(rate, told[rate], grew[rate]);
+    for (const Rate rate : {x, y}) {
+      add(velocities, told[rate], grew[rate]);
+      if (!since.held && !std::isnan(told[rate]))
+        late_[k].add(now.rate[rate] - since.rate[rate], (grew[rate] - told[rate]) * T);
+    }
+    add(exchanged, told[y], grew[x]);
+    add(exchanged, told[x], grew[y]);
+    add(to_the_left, -told[y], grew[x]);
+    add(to_the_left, told[x], grew[y]);
+    if (k == 1 && !std::isnan(told[x] + told[y])) {
+      off_.sum += Vector<3>(told[x] - grew[x], told[y] - grew[y], 0.0);
+      ++off_.squares.count;
+      off_.squares.grew += (told - grew).head<2>().square().sum();
+      off_.squares.told += told.head<2>().square().sum();
+    }
+    since = Since(now);
+  }
+}
+
+/// Whether velocities are about as great as positions grow, in which noise is little: what it makes of rates falls with
+/// the rows that they are taken over; what moves does not.
+bool Rates::same_size() const {
+  const Agreement &by_one = pairs_[0][velocities], &by_ten = pairs_[1][velocities];
+  const auto square = [](const Agreement& rates) { return rates.grew / static_cast<double>(rates.count); };
+  const double size = by_one.grew / by_one.told;
+  return by_ten.count >= few && square(by_one) < 2.0 * square(by_ten) && size > 0.25 && size < 4.0;
+}
+
+bool Rates::say_exchanged(Say& say, const RecordingReader& recording) const {
+  const bool holds = std::ranges::any_of(
+      pairs_, [](const Pairs& pairs) { return pairs[exchanged].fits() && pairs[velocities].correlation() < 0.5; });
+  if (by_radar(recording))
+    say(holds,
+        "the velocities do not fit how the positions grow, but would if azimuths ran {}: {}; or if vx were vy, as vx "
+        "is along x, or east, and a course clockwise from north",
+        other_way_of_azimuths(recording), remedy_of_azimuths(recording));
+  else
+    say(holds,
+        "the velocities do not fit how the positions grow, but would if the first were the second: vx is along x, or "
+        "east, vy along y, or north, a latitude is along y, and a course is clockwise from north");
+  return holds;
+}
+
+bool Rates::say_signs(Say& say, const RecordingReader& recording, bool is_exchanged) const {
+  const bool radar = by_radar(recording);
+  const std::string range_remedy = fmt::format(
+      "where a radar counts closing as positive, its column is closing_rate_mps, else range_rate_mps: name it {}",
+      recording.counts_closing() ? "range_rate_mps" : "closing_rate_mps");
+  struct Kind {
+    std::string_view name, others, remedy;
+  };
+  const std::array<Kind, 4> kinds = {
+      {{"velocities along x", "x",
+        radar                   ? "see where azimuths count from, and whether vx is along x, or east"
+        : recording.axes() == 1 ? "vx is along x, and so below 0 where x falls"
+                                : "vx is along x, or east, and longitudes west are negative"},
+       {"velocities along y", "y",
+        radar ? "see where azimuths count from, and whether vy is along y, or north"
+              : "vy is along y, or north, and latitudes south are negative"},
+       {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
+       {"range rates", "the ranges", range_remedy}}};
+  bool any = false;
+  for (std::size_t i = is_exchanged ? z : x; i < kinds.size(); ++i) {
+    const double most = i < z && same_size() ? -0.8 : 0.0;
+    const auto found = std::ranges::find_if(
+        pairs_, [&](const Pairs& pairs) { return pairs[i].other_sign() && pairs[i].correlation() < most; });
+    if (found == pairs_.end()) continue;
+    any = true;
+    say(true, "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i].name,
+        kinds[i].others, (*found)[i].correlation(), kinds[i].remedy);
+  }
+  return any;
+}
+
+bool Rates::say_scale(Say& say, Rate rate, std::string_view name, std::string_view others) const {
+  const auto wrong = std::ranges::find_if(pairs_, [&](const Pairs& pairs) { return pairs[rate].other_size(); });
+  if (wrong == pairs_.end()) return false;
+  say(true,
+      "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that of their "
+      "header",
+      name, 1.0 / (*wrong)[rate].growth_per_told(), others, others);
+  return true;
+}
+
+bool Rates::say_turn(Say& say, const RecordingReader& recording, double turned) const {
+  for (const Pairs& pairs : pairs_) {
+    const double angle = std::atan2(pairs[to_the_left].product, pairs[velocities].product);
+    Compared along = pairs[velocities];  // as far as they are
+    along.product = std::hypot(along.product, pairs[to_the_left].product);
+    const double margin = 2.5 * degree + 5.0 * std::sqrt(std::max(along.error_square(), 0.0)) + turned;
+    if (!along.fits() || std::abs(angle) < margin) continue;
+    say(true,
+        "the velocities point {:.2g}° to the {} of where the positions go: see whether a course is from true north, "
+        "and whether it is one, and no heading{}",
+        std::abs(angle) / degree, angle > 0.0 ? "right" : "left",
+        by_radar(recording) ? ", and where azimuths count from and which way they run" : "");
+    return true;
+  }
+  return false;
+}
+
+/// What else velocities may be of.
+void Rates::say_source(Say& say, const Stays& told, double step, double turned) const {
+  const auto rows = static_cast<double>(off_.squares.count);
+  const Vector<3> off = off_.sum / rows;
+  const double square_off = dot(off, off) * rows;
+  const bool is_off = off_.squares.count >= few && 2.0 * square_off > off_.squares.grew &&
+                      square_off > std::max(0.003, turned * turned) * off_.squares.told;
+  const Agreement& by_ten = pairs_[1][velocities];
+  const bool elsewhere = same_size() && by_ten.correlation() < 0.7;
+  if (told.same > 9 * told.changed)
+    return say(is_off || elsewhere,
+               "{} of {} velocities repeat the one before to the last digit, and the positions do not go so: nothing "
+               "measured them; leave their cells empty",
+               told.same, told.same + told.changed);
+  if (is_off)
+    return say(true,
+               "the velocities are ({}) m/s off how the positions grow, on the average and much the same all the time: "
+               "see whether they are relative to something that moves, as water, air or the vehicle of the sensor",
+               numbers_of(off, 2));
+  if (elsewhere)
+    return say(true,
+               "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see "
+               "whether they are along x and y, and not ahead and to a side, and whether a course is in the unit of "
+               "its header",
+               by_ten.correlation());
+  // Measured ones are off these ways by the noise of positions, or by what turns within a step.
+  if (computed_.count >= 2 * few && computed_.off < 0.05 * computed_.rough)
+    return say(true,
+               "the velocities are the ways from the rows before to those after by their time, as computed from these "
+               "positions, and tell nothing new: do not let them count, by no sigma_velocity_mps");
+  const auto late = std::ranges::find_if(late_, [&](const Agreement& some) {
+    return some.count >= 2 * few && some.error_square() < 0.04 && some.tells_a_delay(0.25, step);
+  });
+  if (late == late_.end()) return;
+  const double delay = late->growth_per_told();
+  say(true,
+      "the velocities are those of {:.2g} s {} the positions beside them{}: write each beside the time that it is of, "
+      "or do not let them count, by no sigma_velocity_mps",
+      std::abs(delay), delay > 0.0 ? "before" : "after",
+      delay > 0.0 && delay < 0.7 * step ? ", as where each is the way since the row before by the step" : "");
+}
+
+void Rates::say(Say& say, const RecordingReader& recording, const Stays& told, double step, double turned) const {
+  const bool is_exchanged = say_exchanged(say, recording), other_sign = say_signs(say, recording, is_exchanged);
+  const bool other_scale = say_scale(say, velocities, "velocities", "positions");
+  if (!is_exchanged && !other_sign && !other_scale && !say_turn(say, recording, turned))
+    say_source(say, told, step, turned);
+  say_scale(say, z, "vertical velocities", "heights");
+  say_scale(say, range, "range rates", "ranges");
+}
+
+}  // namespace sigmax::apps::doubts
