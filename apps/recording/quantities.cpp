@@ -68,6 +68,9 @@ std::string_view instead_of(std::string_view header) {
       {"sensor_yaw", heading},
       {"latitude_min", minutes},
       {"longitude_min", minutes},
+      {"lat_min", minutes},
+      {"lon_min", minutes},
+      {"depth", "a height is upwards: altitude_m beside a latitude, else z_m, of minus the depth"},
       {"sensor_height", "how high a sensor stands is sensor_altitude_m beside a latitude, else sensor_z_m"}};
   for (const auto& [stem, reason] : stems)
     if (has_stem(header, stem)) return reason;

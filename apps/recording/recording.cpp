@@ -650,9 +650,15 @@ std::string RecordingReader::taken() const {
     const Quantity& quantity = quantities[from_zenith_ && q == place_of(Role::polar) + 2 ? q + 2 : q];
     std::string part =
         fmt::format("{} in {}{}", csv_.names()[columns_[q]->index], columns_[q]->unit->words, quantity.note);
-    for (const Unit& other : quantity.units)
-      if (other.words != columns_[q]->unit->words && says_unit(csv_.names()[columns_[q]->index], other.suffix))
-        part += fmt::format(", as --columns says, and not in {}", other.words);
+    const std::string& header = csv_.names()[columns_[q]->index];
+    for (const auto units : {std::span<const Unit>(units::lengths), std::span<const Unit>(units::speeds),
+                             std::span<const Unit>(units::angles), std::span<const Unit>(units::foreign)})
+      for (const Unit& other : units)
+        if (other.words != columns_[q]->unit->words && says_unit(header, other.suffix) && !is_accuracy(quantity.role))
+          part += fmt::format(", as --columns says, and not in {}", other.words);
+    const bool is_height = q == place_of(Role::place) + 2 || q == place_of(Role::position) + 2;
+    if (is_height && lower_case(header).find("depth") != header.npos)
+      part += ", as --columns says, and so upwards, although it is called a depth";
     if (q == place_of(Role::polar) + 1)
       part += fmt::format(" {}{}", from_north_ ? "clockwise from north" : "counter-clockwise from east",
                           located() && bearings() ? " in rows without a position" : "");

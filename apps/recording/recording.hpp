@@ -110,6 +110,7 @@ class RecordingReader {
   /// Whether times are numbers, and of seconds.
   bool times_are_numbers() const { return times_are_numbers_; }
   bool times_are_seconds() const { return times_are_numbers_ && time_unit_->unit_s == 1.0; }
+  double time_unit_s() const { return time_unit_->unit_s; }
   const CsvReader& csv() const { return csv_; }
   const std::string& file() const { return csv_.file(); }
 

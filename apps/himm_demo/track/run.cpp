@@ -27,7 +27,8 @@ struct Target {
   double before = nan;                           // the time of the row before
   std::deque<Row> rows{};                        // whose tags are their numbers
   std::size_t taken = 0;
-  std::size_t told = 0;  // estimates
+  std::size_t told = 0;                                                              // estimates
+  std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
 
   const Row& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
@@ -262,10 +263,12 @@ class TrackRun {
   /// What a row measured, perhaps after a simulated radar has seen it.
   void measured(const Row& row, const Target& target) {
     const auto position = where(row, target);
-    outcome_.doubts.see(row, position, axes_);
+    const bool is_place = recording_.geodetic() && row.plot.sensor == AnyPlot::Sensor::components;
+    const LocalFrame* const frame = is_place && target.anchor ? &*target.anchor : nullptr;
+    outcome_.doubts.see(row, position, frame, axes_);
     constexpr std::size_t most_tracks = 64;
     if (recording_.has_tracks() && (outcome_.doubts_of.size() < most_tracks || outcome_.doubts_of.contains(row.track)))
-      outcome_.doubts_of[row.track].see(row, position, axes_);
+      outcome_.doubts_of[row.track].see(row, position, frame, axes_);
     const bool is_seen = axes_seen(row.plot, axes_) == axes_;
     if (is_seen && row.plot.sensor != AnyPlot::Sensor::components) validate(row);
     const bool judged = row.truth && is_seen;
@@ -418,6 +421,12 @@ class TrackRun {
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
+      if (point.nis && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
+        std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
+        const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
+        outcome_.filters[said.filter].with_velocity.add(own, before);
+        before.assign(own.begin(), own.end());
+      }
       if (point.nis) target.tally.nis[said.filter].add(*point.nis, static_cast<std::size_t>(plot.size));
       add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
         ++sums.count;

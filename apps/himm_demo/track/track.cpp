@@ -179,6 +179,8 @@ class Reporter {
       return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, is_tied);
     });
     const Outliers& outliers = outcome_.outliers;
+    const std::size_t causes = warnings.size();
+    const bool few_outliers = outliers.count > 0 && 20 * outliers.count < outcome_.measurements;
     const bool many =
         options_.recording.track_id.empty() && outliers.count >= 3 && 10 * outliers.count >= outcome_.measurements;
     warn(outliers.count > 0,
@@ -229,6 +231,15 @@ class Reporter {
          "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "
          "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
+    const auto lasting = [](const FilterOutcome& one) {
+      return one.with_velocity.count() < 50 ? 0.0 : one.with_velocity.autocorrelation();
+    };
+    const double lasts = lasting(*std::ranges::min_element(outcome_.filters, {}, lasting));
+    warn(consistent && !low && lasts > 0.5 && nis < usual,
+         "{}: neighbouring innovations of positions are much the same (correlation {:.2f}), beside velocities that "
+         "count: errors of positions that last, as those of a GNSS do, make the estimates worse than they say; raise "
+         "sigma_position_m",
+         file_, lasts);
     const Sums* const nearest =
         greatest([](const Sums& sums) { return sums.error[0].count() >= std::max<std::size_t>(sums.count, 30); },
                  [](const Sums& sums) { return -length_of(sums.error); });
@@ -239,7 +250,8 @@ class Reporter {
          "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
          file_, error, stated,
          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
-    warn(warnings.empty() && consistent && best.innovations.count() >= 50 && best.innovations.share_inside() < 0.8,
+    warn(causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && consistent &&
+             best.innovations.count() >= 50 && best.innovations.share_inside() < 0.8,
          "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
          "himm_demo tune fits them",
          file_, 100.0 * best.innovations.share_inside());

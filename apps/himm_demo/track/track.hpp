@@ -207,6 +207,7 @@ using SumsByPart = std::array<Sums, parts.size()>;
 /// What one filter made of the recording.
 struct FilterOutcome {
   SumsByPart sums;
+  InnovationTally with_velocity{};                         ///< of positions, in rows with a velocity
   std::size_t rejected = 0;                                ///< by the gate
   std::size_t restarts = 0;                                ///< after a gap
   Counted lost;                                            ///< measurements that it does not expect so, but another one

@@ -97,7 +97,8 @@ void read(const std::string& file, const TuneOptions& options, const FilterSetti
       row.plot = its.at ? in_frame(row.plot, *its.frame, *its.at, data.axes) : AnyPlot::missed(row.plot.time);
     if (options.radar.sigma)
       see_by_radar(row, position_of(row.plot, data.axes), data.axes, options.radar, its.random, recording.file());
-    doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes), data.axes);
+    doubts.see(options.radar.sigma ? row : told, position_of(row.plot, data.axes),
+               is_place && !options.radar.sigma && its.frame ? &*its.frame : nullptr, data.axes);
     data.has_truth |= row.truth.has_value();
     auto& rows = data.tracks[its.place].rows;
     row.plot.tag = rows.size();

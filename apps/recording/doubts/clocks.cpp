@@ -124,7 +124,7 @@ void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double 
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
       step);
-  say(is_far_off(),
+  say(is_far_off() && recording.time_unit_s() <= 1.0,
       "times from 1970 on would be of the year {:.0f}: see whether they are in a smaller unit than that of their "
       "header, and name it time_ms, time_us or time_ns",
       1970.0 + latest_ / 31556952.0);

@@ -7,6 +7,20 @@ namespace sigmax::apps {
 
 using namespace doubts;
 
+namespace {
+
+/// A velocity along the axes of a frame rather than those of a place; how fast it climbs is that of its height.
+Vector<3> moved(const std::array<Position, 3>& axes, const Vector<3>& velocity) {
+  Vector<3> sum = Vector<3>::Zero();
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (const double own = velocity[static_cast<Eigen::Index>(i)]; !std::isnan(own))
+      sum += own * Vector<3>(axes[i].data());
+  sum[2] = velocity[2];
+  return sum;
+}
+
+}  // namespace
+
 double rounding_of(std::vector<double> numbers) {
   std::ranges::sort(numbers);
   std::vector<double> apart;  // those that differ by more than the reading of decimals does
@@ -29,7 +43,7 @@ double rounding_of(std::vector<double> numbers) {
   return 0.0;
 }
 
-void Doubts::see(const Row& row, const std::optional<Position>& position, int axes) {
+void Doubts::see(const Row& row, const std::optional<Position>& position, const LocalFrame* frame, int axes) {
   const AnyPlot& plot = row.plot;
   const bool has_rate = plot.sensor == AnyPlot::Sensor::doppler;
   const bool is_radar = has_rate || plot.sensor == AnyPlot::Sensor::polar;
@@ -49,13 +63,15 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, int ax
     variances_.sum += variance;
   }
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
-  const auto rate = [&](int i) {
-    return i < axes ? component_of(plot, axes + i).value_or(row.rates[static_cast<std::size_t>(i)]) : nan;
-  };
+  Vector<3> velocity = Vector<3>::Constant(nan);
+  for (int i = 0; i < axes; ++i)
+    velocity[i] = component_of(plot, axes + i).value_or(row.rates[static_cast<std::size_t>(i)]);
+  const Vector<3> here = frame && !std::isnan(velocity[0]) ? moved(frame->local_axes(*position), velocity) : velocity;
   Spoke now{plot.time,
             at,
             {at[0], at[1], std::isnan(height) ? at[2] : height, is_radar ? plot.z[0] : 0.0},
-            {rate(0), rate(1), rate(2), has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
+            {here[0], here[1], here[2], has_rate ? plot.z[static_cast<std::size_t>(plot.size) - 1] : nan},
+            velocity,
             truth ? Vector<3>(at - *truth) : Vector<3>::Constant(nan),
             is_radar ? std::optional(Vector<3>(at - Vector<3>(plot.origin.data()))) : std::nullopt,
             height,
@@ -184,9 +200,8 @@ void Doubts::say_reading(Say& say, const RecordingReader& recording) const {
 std::vector<std::string> Doubts::sentences(const RecordingReader& recording) const {
   Say say(recording.file());
   const double step = clocks_.step();
-  constexpr double earth = 6.4e6;
-  const bool on_the_earth = recording.on_the_earth() || (recording.polar() && !recording.located());
-  const double north_elsewhere = on_the_earth ? 2.0 * places_.farthest() / earth : 0.0;  // is not north here
+  constexpr double earth = 6.4e6;  // north far from a radar is not north at it
+  const double north_elsewhere = recording.polar() && !recording.located() ? 2.0 * places_.farthest() / earth : 0.0;
   rates_.say(say, recording, repeats_.velocities(), step, north_elsewhere);
   places_.say(say, recording, step, repeats_.no_truth());
   say_reading(say, recording);

@@ -15,8 +15,8 @@ double rounding_of(std::vector<double> numbers);
 /// Signs that a recording's numbers mean something else than they were taken for, gathered row by row.
 class Doubts {
  public:
-  /// A row, and where its measurement was, in m.
-  void see(const Row& row, const std::optional<Position>& position, int axes);
+  /// A row, and where its measurement was, in m; of a place on the Earth, in this frame.
+  void see(const Row& row, const std::optional<Position>& position, const LocalFrame* frame, int axes);
 
   /// The standard deviation of the rounding of coordinates in m, if they come in whole steps; of several the greatest.
   double rounding(const RecordingReader& recording) const;

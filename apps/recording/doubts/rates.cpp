@@ -7,9 +7,9 @@ bool by_radar(const RecordingReader& recording) { return recording.polar() && !r
 
 }  // namespace
 
-/// Whether what is told is too small, or too great, whichever of the two is noisy.
-bool Rates::Compared::other_size() const {
-  const double margin = 0.08 + 5.0 * std::sqrt(std::max(error_square(), 0.0));
+/// Whether what is told is too small, or too great, whichever of the two is noisy, and beyond this share.
+bool Rates::Compared::other_size(double bent) const {
+  const double margin = 0.03 + bent + 5.0 * std::sqrt(std::max(error_square(), 0.0));
   return fits() && (growth_per_told() > 1.0 + margin || grew / product < 1.0 / (1.0 + margin));
 }
 
@@ -35,6 +35,8 @@ void Rates::see(Sensor& sensor, const Trail& trail, Spoke& now) {
   // A velocity that is told less often holds, but not for long.
   sensor.silent = std::isnan(now.rate[x]) ? sensor.silent + 1 : 0;
   now.rate = now.rate.isNaN().select(last.rate, now.rate);
+  now.velocity = now.velocity.array().isNaN().select(last.velocity, now.velocity);
+  if (const double change = (now.rate - last.rate).head<2>().square().sum(); !std::isnan(change)) changes_ += change;
   if (sensor.silent == few) {
     now.rate.setConstant(nan);
     sensor.since.fill(Since(now));
@@ -109,26 +111,38 @@ bool Rates::say_signs(Say& say, const RecordingReader& recording, bool is_exchan
               : "vy is along y, or north, and latitudes south are negative"},
        {"vertical velocities", "the heights", "vz and a vertical rate are upwards"},
        {"range rates", "the ranges", range_remedy}}};
-  bool any = false;
-  for (std::size_t i = is_exchanged ? z : x; i < kinds.size(); ++i) {
+  const auto opposed = [&](std::size_t i) -> const Compared* {
     const double most = i < z && same_size() ? -0.8 : 0.0;
+    const bool is_small = i < z && pairs_[0][i].told < 1e-3 * pairs_[0][velocities].told;
     const auto found = std::ranges::find_if(
         pairs_, [&](const Pairs& pairs) { return pairs[i].other_sign() && pairs[i].correlation() < most; });
-    if (found == pairs_.end()) continue;
-    any = true;
-    say(true, "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i].name,
-        kinds[i].others, (*found)[i].correlation(), kinds[i].remedy);
+    return found == pairs_.end() || is_small ? nullptr : &(*found)[i];
+  };
+  const bool both = !is_exchanged && opposed(x) && opposed(y);
+  say(both,
+      "the velocities point to where the target came from: where a direction is that from which something comes, as "
+      "of wind, add 180°; else vx is along x, or east, vy along y, or north{}",
+      radar ? ", and see where azimuths count from" : "");
+  bool any = both;
+  for (std::size_t i = is_exchanged || both ? z : x; i < kinds.size(); ++i) {
+    const Compared* const found = opposed(i);
+    say(found, "the {} have the other sign than the growth of {} (correlation {:.2f}); {}", kinds[i].name,
+        kinds[i].others, found ? found->correlation() : 0.0, kinds[i].remedy);
+    any |= found != nullptr;
   }
   return any;
 }
 
 bool Rates::say_scale(Say& say, Rate rate, std::string_view name, std::string_view others) const {
-  const auto wrong = std::ranges::find_if(pairs_, [&](const Pairs& pairs) { return pairs[rate].other_size(); });
+  // Where a velocity turns within a step, the mean of two is less than what comes between, by a twelfth of the square.
+  const double bent = rate == velocities ? changes_ / pairs_[0][velocities].told / 6.0 : 0.0;
+  const auto wrong = std::ranges::find_if(pairs_, [&](const Pairs& pairs) { return pairs[rate].other_size(bent); });
   if (wrong == pairs_.end()) return false;
+  const double times = 1.0 / (*wrong)[rate].growth_per_told();
   say(true,
-      "the {} are {:.2g} times what the {} say: see whether their unit, or that of the {} or times, is that of their "
+      "the {} are {:.{}g} times what the {} say: see whether their unit, or that of the {} or times, is that of their "
       "header",
-      name, 1.0 / (*wrong)[rate].growth_per_told(), others, others);
+      name, times, times > 0.8 && times < 1.25 ? 3 : 2, others, others);
   return true;
 }
 
@@ -151,11 +165,8 @@ bool Rates::say_turn(Say& say, const RecordingReader& recording, double turned) 
 
 /// What else velocities may be of.
 void Rates::say_source(Say& say, const Stays& told, double step, double turned) const {
-  const auto rows = static_cast<double>(off_.squares.count);
-  const Vector<3> off = off_.sum / rows;
-  const double square_off = dot(off, off) * rows;
-  const bool is_off = off_.squares.count >= few && 2.0 * square_off > off_.squares.grew &&
-                      square_off > std::max(0.003, turned * turned) * off_.squares.told;
+  const bool is_off = off_.squares.count >= few && 2.0 * square_off() > off_.squares.grew &&
+                      square_off() > std::max(0.003, turned * turned) * off_.squares.told;
   const Agreement& by_ten = pairs_[1][velocities];
   const bool elsewhere = same_size() && by_ten.correlation() < 0.7;
   if (told.same > 9 * told.changed)
@@ -167,7 +178,7 @@ void Rates::say_source(Say& say, const Stays& told, double step, double turned) 
     return say(true,
                "the velocities are ({}) m/s off how the positions grow, on the average and much the same all the time: "
                "see whether they are relative to something that moves, as water, air or the vehicle of the sensor",
-               numbers_of(off, 2));
+               numbers_of(off_.sum / static_cast<double>(off_.squares.count), 2));
   if (elsewhere)
     return say(true,
                "the velocities are about as great as the positions tell, but point elsewhere (correlation {:.2f}): see "
@@ -192,10 +203,15 @@ void Rates::say_source(Say& say, const Stays& told, double step, double turned) 
 }
 
 void Rates::say(Say& say, const RecordingReader& recording, const Stays& told, double step, double turned) const {
-  const bool is_exchanged = say_exchanged(say, recording), other_sign = say_signs(say, recording, is_exchanged);
-  const bool other_scale = say_scale(say, velocities, "velocities", "positions");
-  if (!is_exchanged && !other_sign && !other_scale && !say_turn(say, recording, turned))
-    say_source(say, told, step, turned);
+  bool is_clear = say_exchanged(say, recording);
+  is_clear |= say_signs(say, recording, is_clear);
+  const Pairs& by_ten = pairs_[1];
+  const double along = std::hypot(by_ten[velocities].product, by_ten[to_the_left].product);
+  const double left_by_turn = by_ten[velocities].grew - along * along / by_ten[velocities].told;
+  const bool is_off = off_.squares.count >= few && 2.0 * (off_.squares.grew - square_off()) < left_by_turn;
+  is_clear |= !is_off && say_scale(say, velocities, "velocities", "positions");
+  is_clear = is_clear || (!is_off && say_turn(say, recording, turned));
+  if (!is_clear) say_source(say, told, step, turned);
   say_scale(say, z, "vertical velocities", "heights");
   say_scale(say, range, "range rates", "ranges");
 }

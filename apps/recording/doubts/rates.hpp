@@ -36,12 +36,14 @@ class Rates {
   enum Rate : unsigned { x, y, z, range, velocities, exchanged, to_the_left };
   struct Compared : Agreement {
     bool fits() const { return count >= few && correlation() > 0.9; }
-    bool other_size() const;
+    bool other_size(double bent) const;
     bool other_sign() const;
   };
   using Pairs = std::array<Compared, to_the_left + 1>;
 
   bool same_size() const;
+  /// Of what a constant takes from the squares of `off_`.
+  double square_off() const { return dot(off_.sum, off_.sum) / static_cast<double>(off_.squares.count); }
   bool say_exchanged(Say& say, const RecordingReader& recording) const;
   bool say_signs(Say& say, const RecordingReader& recording, bool is_exchanged) const;
   bool say_scale(Say& say, Rate rate, std::string_view name, std::string_view others) const;
@@ -49,6 +51,7 @@ class Rates {
   void say_source(Say& say, const Stays& told, double step, double turned) const;
 
   std::array<Pairs, lengths.size()> pairs_;       // from row to row, where noise hides what is slow, and over many rows
+  double changes_ = 0.0;                          // of velocities from row to row, squares
   std::array<Agreement, lengths.size()> late_{};  // how velocities change, and what positions grow beyond them
   struct {
     Agreement squares{};

@@ -80,8 +80,8 @@ void Repeats::see(Sensor& sensor, const Trail& trail, const Spoke& now) {
   }
   sensor.way = way;
   if (way > 0.0) (sensor.runs[0] > 0 ? after_ : on_).add(way);
-  Vector<3> change = (now.rate - last.rate).head<3>();
-  if (std::isnan(now.rate[2])) change[2] = 0.0;
+  Vector<3> change = now.velocity - last.velocity;
+  if (std::isnan(now.velocity[2])) change[2] = 0.0;
   const std::array changes = {way, rise, length(change), length(now.at - now.error - last.at + last.error)};
   for (std::size_t i = 0; i < changes.size(); ++i) stays_[i].see(changes[i], sensor.runs[i]);
   if (!std::isnan(now.height + last.height)) zero_heights_.see((now.height == 0.0) != (last.height == 0.0), rise);

@@ -79,7 +79,8 @@ struct Spoke {
   double time;
   Vector<3> at;
   Grown grown, rate;
-  Vector<3> error;  ///< about the truth
+  Vector<3> velocity;  ///< as the row tells it
+  Vector<3> error;     ///< about the truth
   std::optional<Vector<3>> from_radar;
   double height;  ///< as the row tells it
   std::optional<double> twice;
