@@ -144,13 +144,8 @@ std::vector<std::vector<double>> Clumps::places(const DataTable& data) const {
   });
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     if (!data.columns[i].numeric) continue;
-    auto sorted = each(cells, [&](const auto& own) { return own[i]; });
-    std::ranges::sort(sorted);
-    for (auto& own : cells) {
-      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), own[i]);
-      own[i] = static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) /
-               (2.0 * static_cast<double>(sorted.size()));
-    }
+    const auto ranks = ranks_of(each(cells, [&](const auto& own) { return own[i]; }));
+    for (std::size_t k = 0; k < ranks.size(); ++k) cells[k][i] = ranks[k] / (2.0 * static_cast<double>(ranks.size()));
   }
   return cells;
 }
