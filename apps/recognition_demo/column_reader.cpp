@@ -67,8 +67,8 @@ bool says_unknown(std::string_view word) {
 }
 
 std::size_t Vocabulary::numbers() const {
-  return static_cast<std::size_t>(std::count_if(codes_.begin(), codes_.end(),
-                                                [](const auto& word) { return parse_number(word.first).has_value(); }));
+  const auto is_number = [](const auto& word) { return parse_number(word.first).has_value(); };
+  return static_cast<std::size_t>(std::ranges::count_if(codes_, is_number));
 }
 
 std::string Vocabulary::alike() const {
@@ -76,21 +76,17 @@ std::string Vocabulary::alike() const {
 }
 
 std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
-  std::vector<std::string> words(codes_.size());
-  for (const auto& [word, code] : codes_) words[code] = word;
-  std::vector<std::pair<double, std::size_t>> order;  // by value, words behind all numbers
-  for (std::size_t i = 0; i < words.size(); ++i)
-    order.emplace_back(parse_number(words[i]).value_or(std::numeric_limits<double>::infinity()), i);
-  std::ranges::sort(order, [&](const auto& a, const auto& b) {
-    return a.first < b.first || (a.first == b.first && words[a.second] < words[b.second]);
-  });
-  std::vector<std::string> in_order;
-  std::vector<Code> place(words.size());
-  for (const auto& [number, code] : order) {
-    place[code] = static_cast<Code>(in_order.size());
-    in_order.push_back(words[code]);
+  std::vector<std::tuple<double, std::string, Code>> order;  // by value, words behind all numbers
+  for (const auto& [word, code] : codes_)
+    order.emplace_back(parse_number(word).value_or(std::numeric_limits<double>::infinity()), word, code);
+  std::ranges::sort(order);
+  std::vector<std::string> words;
+  std::vector<Code> places(order.size());
+  for (const auto& [number, word, code] : order) {
+    places[code] = static_cast<Code>(words.size());
+    words.push_back(word);
   }
-  return {std::move(in_order), std::move(place)};
+  return {std::move(words), std::move(places)};
 }
 
 DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_class) {

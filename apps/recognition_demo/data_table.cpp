@@ -20,11 +20,13 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
-    names.push_back(typed(reader.names()[column.index()]));
+    const std::string& name = reader.names()[column.index()];
     const std::size_t empty = rows - column.filled();
-    gaps = gaps || (0 < empty && empty < rows);
-    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(reader.names()[column.index()]),
-                                empty > 0 && empty < rows ? fmt::format(" (and no value in {} rows)", empty) : ""));
+    const bool has_gaps = 0 < empty && empty < rows;
+    gaps |= has_gaps;
+    names.push_back(typed(name));
+    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(name),
+                                has_gaps ? fmt::format(" (and no value in {} rows)", empty) : ""));
   }
   if (names.empty()) return;
   throw InputError(
@@ -91,8 +93,8 @@ void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& col
 
 /// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
 struct DistinctRows {
-  /// Of each the number or code by column, NaN where it is missing, and the class.
-  std::vector<std::vector<double>> cells;
+  std::vector<std::vector<double>> columns;  ///< of each row the number or the code, NaN where it is missing
+  std::vector<double> classes;               ///< of each row
   std::size_t with_copies = 0;
   std::map<double, std::pair<std::size_t, std::size_t>> of_class;  ///< how many differ, and with their copies
 
@@ -111,27 +113,29 @@ struct DistinctRows {
       ++found.try_emplace(hash, row_cells, 0).first->second.second;
       if (found.size() > most) found.erase(std::prev(found.end()));
     });
-    for (auto& [hash, row] : found) {
-      auto& [differ, all] = of_class[row.first.back()];
-      ++differ, all += row.second;
-      cells.push_back(std::move(row.first));
-      with_copies += row.second;
+    columns.resize(table.columns.size());
+    for (const auto& [hash, row] : found) {
+      const auto& [cells, times] = row;
+      for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(cells[i]);
+      classes.push_back(cells.back());
+      auto& [differ, all] = of_class[cells.back()];
+      ++differ, all += times;
+      with_copies += times;
     }
-  }
-
-  /// Whether each value of one column stands beside one of another only, and the other way.
-  bool one_to_one(std::size_t a, std::size_t b) const {
-    std::map<double, double> to, from;
-    std::size_t known = 0;
-    for (const auto& row : cells) {
-      if (std::isnan(row[a]) || std::isnan(row[b])) continue;
-      ++known;
-      if (to.emplace(row[a], row[b]).first->second != row[b] || from.emplace(row[b], row[a]).first->second != row[a])
-        return false;
-    }
-    return known >= few_rows && to.size() > 1 && 3 * to.size() < 2 * known;
   }
 };
+
+/// Whether each value of one column stands beside one of another only, and the other way.
+bool one_to_one(const std::vector<double>& a, const std::vector<double>& b) {
+  std::map<double, double> to, from;
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (std::isnan(a[k]) || std::isnan(b[k])) continue;
+    ++known;
+    if (to.emplace(a[k], b[k]).first->second != b[k] || from.emplace(b[k], a[k]).first->second != a[k]) return false;
+  }
+  return known >= few_rows && to.size() > 1 && 3 * to.size() < 2 * known;
+}
 
 /// Whether two columns put the rows in the same order, or the opposite one, but for what rounding does.
 bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
@@ -150,13 +154,13 @@ bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
 bool warn_of_repeats(DataTable& table) {
   constexpr std::size_t most_facts = 16;  // of a column
   const DistinctRows rows(table);
-  const std::size_t size = rows.cells.size();
+  const std::size_t size = rows.classes.size();
   if (size < few_rows) return false;
   std::vector<std::vector<double>> ranks;
   std::vector<bool> comparable;  // by their order
   std::size_t fine = 0;          // columns that most of these rows differ in, as they would not by chance
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    ranks.push_back(ranks_of(each(rows.cells, [&](const auto& row) { return row[i]; })));
+    ranks.push_back(ranks_of(rows.columns[i]));
     const std::size_t different = std::set(ranks[i].begin(), ranks[i].end()).size();
     fine += 2 * different > size ? 1U : 0U;
     comparable.push_back(table.columns[i].numeric && different >= 4);
@@ -173,18 +177,17 @@ bool warn_of_repeats(DataTable& table) {
   std::vector<std::string> one_hot;
   std::vector<std::size_t> ones(size);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::vector<double>& column = rows.columns[i];
     std::set<double> classes;
-    bool binary = true;  // without a gap
-    for (const auto& row : rows.cells) {
-      binary = binary && (row[i] == 0.0 || row[i] == 1.0);
-      if (row[i] == 1.0) classes.insert(row.back());
-    }
+    for (std::size_t k = 0; k < size; ++k)
+      if (column[k] == 1.0) classes.insert(rows.classes[k]);
+    const bool binary = std::ranges::all_of(column, [](double cell) { return cell == 0.0 || cell == 1.0; });
     if (!binary || classes.size() != 1) continue;
     one_hot.push_back(typed(table.columns[i].name));
-    for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
+    for (std::size_t k = 0; k < size; ++k) ones[k] += column[k] == 1.0 ? 1U : 0U;
   }
   std::map<double, std::set<std::size_t>> sums;  // by class
-  for (std::size_t k = 0; k < size; ++k) sums[rows.cells[k].back()].insert(ones[k]);
+  for (std::size_t k = 0; k < size; ++k) sums[rows.classes[k]].insert(ones[k]);
   const auto without = std::ranges::count_if(sums, [](const auto& sum) { return sum.second == std::set{0UL}; });
   const auto with = std::ranges::count_if(sums, [](const auto& sum) { return !sum.second.contains(0); });
   // Of two classes a column that is 1 in all rows of one alone tells both.
@@ -197,8 +200,7 @@ bool warn_of_repeats(DataTable& table) {
   std::map<std::pair<std::string, std::vector<bool>>, std::vector<std::string>> facts;  // columns by word and rows
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     for (std::size_t code = 0; code < table.columns[i].values.size() && code < most_facts; ++code) {
-      std::vector<bool> stands(size);
-      for (std::size_t k = 0; k < size; ++k) stands[k] = rows.cells[k][i] == static_cast<double>(code);
+      const auto stands = each(rows.columns[i], [&](double cell) { return cell == static_cast<double>(code); });
       if (20 * std::ranges::count(stands, true) >= std::ssize(stands))
         facts[{table.columns[i].values[code], stands}].push_back(table.columns[i].name);
     }
@@ -229,7 +231,8 @@ bool warn_of_repeats(DataTable& table) {
   std::vector<bool> repeated(ranks.size());  // an earlier column
   const auto says_the_same = [&](std::size_t i, std::size_t j) {
     if (repeated[i] || repeated[j]) return false;
-    return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j]) : rows.one_to_one(i, j);
+    return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j])
+                                          : one_to_one(rows.columns[i], rows.columns[j]);
   };
   std::vector<std::pair<std::string, std::vector<std::string>>> families;  // that say the same
   std::vector<std::string> all_others;
