@@ -48,10 +48,8 @@ std::string described_folds(const EvaluateOptions& options) {
                      options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups);
 }
 
-Folds next_folds(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
-                 std::mt19937_64& generator) {
-  return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
-}
+/// Divides the rows into folds.
+using Deal = std::function<Folds(std::mt19937_64& generator)>;
 
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
@@ -200,13 +198,12 @@ void add_reliability(Result& result, const Outcome& outcome, std::size_t folding
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
-                       ResultFiles& files) {
+void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOptions& options, ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
   keys.insert(keys.end(), data.classes.begin(), data.classes.end());
   RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
-  const Folds folds = next_folds(data, groups, options, generator);
+  const Folds folds = deal(generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
     const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
@@ -235,7 +232,7 @@ void refuse_rare_classes(const DataTable& data) {
       data.file, in_quotes(data.label), listed(each(rare, [](const auto& one) { return one.second; }), 12));
 }
 
-Results evaluated(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options) {
+Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
   Results results(data.size());
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
@@ -243,7 +240,7 @@ Results evaluated(const DataTable& data, const std::optional<Groups>& groups, co
   Right right;
   for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = next_folds(data, groups, options, generator);
+    const Folds folds = deal(generator);
     for_each_run(
         options.folds, threads,
         [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
@@ -399,7 +396,10 @@ void run_evaluate(const EvaluateOptions& options) {
                      options.folds);
   refuse_rare_classes(data);
   const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
-  const Results results = evaluated(data, groups, options);
+  const Deal deal = [&](std::mt19937_64& generator) {
+    return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
+  };
+  const Results results = evaluated(data, deal, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
@@ -408,7 +408,7 @@ void run_evaluate(const EvaluateOptions& options) {
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
   if (!options.groups.empty()) result.fact({"groups"}, options.groups);
-  if (files.wanted()) write_predictions(data, groups, options, files);
+  if (files.wanted()) write_predictions(data, deal, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }
