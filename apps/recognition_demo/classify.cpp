@@ -1,3 +1,4 @@
+#include <numeric>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/explanation.hpp>
@@ -23,16 +24,16 @@ struct ClassifyOptions {
 
 /// What a classifier decided over all rows.
 struct Tally {
+  std::string name;
   std::vector<std::size_t> decided;  ///< by class
   std::vector<double> recognised;    ///< of the decided rows of a class
   std::size_t rejected = 0;
-  std::size_t right = 0;     ///< of the decided rows whose class is known
   std::size_t judged = 0;    ///< decided rows whose class is known
   std::size_t excluded = 0;  ///< rows that excluded every class
 
   std::optional<double> accuracy() const {
     if (judged == 0) return std::nullopt;
-    return static_cast<double>(right) / static_cast<double>(judged);
+    return std::accumulate(recognised.begin(), recognised.end(), 0.0) / static_cast<double>(judged);
   }
 };
 
@@ -237,7 +238,7 @@ std::string number(double value) {
 std::optional<ResultTable> explanation(const Contestant& contestant, const Readings& readings) {
   const Judged by = judged(contestant, readings);
   if (by.excluded) return std::nullopt;
-  const auto tell = [&]<class Kind>(const Belief<Kind>& belief) {
+  return of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
     const auto& classifier = std::get<Classifier<Kind, Kind>>(contestant.classifier);
     const auto both = best_patterns(belief, 2);
     const std::string &best = belief.variable().label(both[0]), &next = belief.variable().label(both[1]);
@@ -255,8 +256,7 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Readi
     table.rule();
     table.row({fmt::format("{} = {:.4g}", best, belief[both[0]]), number(belief[both[1]]), number(why.log_ratio())});
     return table;
-  };
-  return std::visit(tell, by.belief);
+  });
 }
 
 /// Whether a sigma-max classifier is the max classifier beside it.
@@ -277,8 +277,8 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
                         CsvReader& reader, RowReader& rows, RowFile& file) {
   const auto& pattern = model.counts.pattern();
   // What a classifier says of a row: counted, shown, and written to the file if there is one.
-  const auto take = [&]<class Kind>(const Belief<Kind>& belief, const std::string& name, std::size_t line,
-                                    std::optional<std::size_t> truth, Tally& tally, ShownRow* show) {
+  const auto take = [&]<class Kind>(const Belief<Kind>& belief, std::size_t line, std::optional<std::size_t> truth,
+                                    Tally& tally, ShownRow* show) {
     const Decision decision = decide(belief);
     const bool rejected = decision.margin < options.least_margin;
     if (rejected) {
@@ -286,7 +286,7 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
     } else {
       ++tally.decided[decision.pattern];
       if (truth) ++tally.judged;
-      if (truth == decision.pattern) ++tally.right, ++tally.recognised[*truth];
+      if (truth == decision.pattern) ++tally.recognised[*truth];
     }
     if (show)
       show->decisions.push_back(fmt::format("{} ({} {:.3f}{})", rejected ? "rejected" : pattern.label(decision.pattern),
@@ -295,14 +295,16 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
     if (!file) return;
     std::vector<Cell> cells = {line};
     if (rows.has_truth()) cells.emplace_back(truth ? pattern.label(*truth) : "");
-    const std::vector<Cell> said = {name, rejected ? Cell() : Cell(pattern.label(decision.pattern)), decision.margin};
+    const std::vector<Cell> said = {tally.name, rejected ? Cell() : Cell(pattern.label(decision.pattern)),
+                                    decision.margin};
     cells.insert(cells.end(), said.begin(), said.end());
     for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
     file.write(cells);
   };
   Classified result;
   result.rows_of_class.assign(pattern.size(), 0);
-  result.tallies.assign(all.size(), Tally{result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
+  for (const Contestant& one : all)
+    result.tallies.push_back({one.name, result.rows_of_class, std::vector<double>(pattern.size(), 0.0)});
   Progress progress("classifying", reader.bytes_total().value_or(0), options.output.quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row); ++result.rows) {
     const Readings report = rows.readings(row);
@@ -315,8 +317,7 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Judged by = judged(all[i], report);
       if (by.excluded) ++result.tallies[i].excluded;
-      std::visit([&](const auto& belief) { take(belief, all[i].name, row.line(), truth, result.tallies[i], show); },
-                 by.belief);
+      of_kind(by.belief, [&](const auto& belief) { take(belief, row.line(), truth, result.tallies[i], show); });
     }
     progress.advance(reader.bytes_read() - progress.done());
   }
@@ -337,14 +338,12 @@ ResultTable shown_table(const std::string& label, bool has_truth, const std::vec
   return table;
 }
 
-ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const std::vector<Contestant>& all,
-                         const Classified& result) {
+ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Classified& result) {
   constexpr std::size_t most_classes = 10;
   const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
   ResultTable table;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Tally& tally = result.tallies[i];
-    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, all[i].name}};
+  for (const Tally& tally : result.tallies) {
+    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, tally.name}};
     for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
     row.push_back({{.header = "rejected"}, tally.rejected});
     const bool all_known = tally.judged + tally.rejected == result.rows;
@@ -357,18 +356,16 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const st
   return table;
 }
 
-void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const std::vector<Contestant>& all,
-               const Classified& found, const RowReader& rows, Result& result) {
+void add_facts(const ClassifyOptions& options, const RandomVariable& pattern, const Classified& found,
+               const RowReader& rows, Result& result) {
   result.facts("model", options.model, "file", options.file, "rows", found.rows, "least_margin", options.least_margin);
   if (rows.unseen_cells() > 0) result.fact({"unseen_cells_counted_as_missing"}, rows.unseen_cells());
   if (rows.far_cells() > 0) result.fact({"numbers_far_from_those_learned_from"}, rows.far_cells());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Tally& tally = found.tallies[i];
-    const auto& name = all[i].name;
+  for (const Tally& tally : found.tallies) {
     for (std::size_t c = 0; c < pattern.size(); ++c)
-      result.fact({"classifiers", name, "decided", pattern.label(c)}, tally.decided[c]);
-    result.fact({"classifiers", name, "rejected"}, tally.rejected);
-    if (tally.judged > 0) result.fact({"classifiers", name, "accuracy_of_the_decided"}, *tally.accuracy());
+      result.fact({"classifiers", tally.name, "decided", pattern.label(c)}, tally.decided[c]);
+    result.fact({"classifiers", tally.name, "rejected"}, tally.rejected);
+    if (tally.judged > 0) result.fact({"classifiers", tally.name, "accuracy_of_the_decided"}, *tally.accuracy());
   }
 }
 
@@ -400,7 +397,7 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
   const auto& pattern = model.counts.pattern();
   page.chooser = "Row";
   page.verdict = {fmt::format("{} rows, classified by {}; {}.", result.rows, options.model, described(model.options))};
-  page.panels.emplace_back(ReportTable{"All rows", totals_table(pattern, has_truth, all, result)});
+  page.panels.emplace_back(ReportTable{"All rows", totals_table(pattern, has_truth, result)});
   for (std::size_t i = 0; i < std::min(most_views, result.shown.size()); ++i)
     page.views.push_back(view_of(result.shown[i], pattern, all));
   if (page.views.size() < result.rows)
@@ -410,22 +407,19 @@ void fill(Report& page, const ClassifyOptions& options, const LearnedModel& mode
 
 /// Says if the rows are right less often than those that were learned were when left out, class by class, since there
 /// may be more rows of some; or much more often.
-void say_otherwise(const LearnedModel& model, const Classified& found, const std::vector<Contestant>& all,
-                   Result& result) {
+void say_otherwise(const LearnedModel& model, const Classified& found, Result& result) {
   constexpr double few = 5.0, few_learned = 10.0;
   constexpr double errors = 3.5, less = 0.05, more = 0.15;
-  const auto sigma = std::ranges::find(all, kind_names.front(), &Contestant::name);
-  if (sigma == all.end() || model.right.empty()) return;
-  const Tally& tally = found.tallies[static_cast<std::size_t>(sigma - all.begin())];
-  if (tally.rejected > 0) return;
+  const auto sigma = std::ranges::find(found.tallies, kind_names.front(), &Tally::name);
+  if (sigma == found.tallies.end() || model.right.empty() || sigma->rejected > 0) return;
   RunningMean here, there;
   double variance = 0.0;
   for (std::size_t c = 0; c < model.right.size(); ++c) {
     const auto rows = static_cast<double>(found.rows_of_class[c]), learned = model.counts.rows(c);
     if (rows < few || learned < few_learned) continue;
-    here.add(tally.recognised[c] / rows);
+    here.add(sigma->recognised[c] / rows);
     there.add(model.right[c]);
-    const double share = (tally.recognised[c] + model.right[c] * learned + 1.0) / (rows + learned + 2.0);
+    const double share = (sigma->recognised[c] + model.right[c] * learned + 1.0) / (rows + learned + 2.0);
     variance += share * (1.0 - share) * (1.0 / rows + 1.0 / learned);
   }
   if (here.count() == 0) return;
@@ -465,20 +459,16 @@ void run_classify(const ClassifyOptions& options) {
   result.say("{}: {} rows, by {}", reader.file(), found.rows, options.model);
   rows.say_outside(result);
   if (!found.shown.empty()) result.add(shown_table(model.label, rows.has_truth(), all, found.shown), {});
-  result.add(totals_table(pattern, rows.has_truth(), all, found), {});
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (found.tallies[i].excluded > 0)
-      result.say("{}: {} rows excluded every class and were judged by the prior", all[i].name,
-                 found.tallies[i].excluded);
-  std::vector<std::pair<std::string, std::vector<double>>> recognised;
-  for (std::size_t i = 0; i < all.size(); ++i) recognised.emplace_back(all[i].name, found.tallies[i].recognised);
+  result.add(totals_table(pattern, rows.has_truth(), found), {});
+  for (const Tally& tally : found.tallies)
+    if (tally.excluded > 0)
+      result.say("{}: {} rows excluded every class and were judged by the prior", tally.name, tally.excluded);
+  const auto recognised = each(found.tallies, [](const Tally& one) {
+    return Recognised{one.name, one.recognised, one.rejected == 0 ? one.accuracy() : std::nullopt};
+  });
   say_unrecognised(labels_of(pattern), found.rows_of_class, recognised, result);
-  std::vector<std::pair<std::string, double>> right;  // of those that decided all
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (const Tally& tally = found.tallies[i]; tally.rejected == 0 && tally.judged > 0)
-      right.emplace_back(all[i].name, *tally.accuracy());
-  say_beaten(labels_of(pattern), found.rows_of_class, right, result);
-  say_otherwise(model, found, all, result);
+  say_beaten(labels_of(pattern), found.rows_of_class, recognised, result);
+  say_otherwise(model, found, result);
   if (options.explain)
     for (const ShownRow& row : found.shown) {
       result.text += fmt::format("\nline {}\n", row.line);
@@ -492,7 +482,7 @@ void run_classify(const ClassifyOptions& options) {
       if (std::ranges::any_of(all, [&](const auto& each) { return repeats_another(each, all, model.options); }))
         result.say("{}", sigma_max_is_max);
     }
-  add_facts(options, pattern, all, found, rows, result);
+  add_facts(options, pattern, found, rows, result);
   if (files.report_wanted()) fill(result.page, options, model, all, found, rows.has_truth());
   result.publish(files);
 }

@@ -67,8 +67,8 @@ bool says_unknown(std::string_view word) {
 }
 
 std::size_t Vocabulary::numbers() const {
-  return static_cast<std::size_t>(std::count_if(codes_.begin(), codes_.end(),
-                                                [](const auto& word) { return parse_number(word.first).has_value(); }));
+  const auto is_number = [](const auto& word) { return parse_number(word.first).has_value(); };
+  return static_cast<std::size_t>(std::ranges::count_if(codes_, is_number));
 }
 
 std::string Vocabulary::alike() const {
@@ -76,21 +76,17 @@ std::string Vocabulary::alike() const {
 }
 
 std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
-  std::vector<std::string> words(codes_.size());
-  for (const auto& [word, code] : codes_) words[code] = word;
-  std::vector<std::pair<double, std::size_t>> order;  // by value, words behind all numbers
-  for (std::size_t i = 0; i < words.size(); ++i)
-    order.emplace_back(parse_number(words[i]).value_or(std::numeric_limits<double>::infinity()), i);
-  std::ranges::sort(order, [&](const auto& a, const auto& b) {
-    return a.first < b.first || (a.first == b.first && words[a.second] < words[b.second]);
-  });
-  std::vector<std::string> in_order;
-  std::vector<Code> place(words.size());
-  for (const auto& [number, code] : order) {
-    place[code] = static_cast<Code>(in_order.size());
-    in_order.push_back(words[code]);
+  std::vector<std::tuple<double, std::string, Code>> order;  // by value, words behind all numbers
+  for (const auto& [word, code] : codes_)
+    order.emplace_back(parse_number(word).value_or(std::numeric_limits<double>::infinity()), word, code);
+  std::ranges::sort(order);
+  std::vector<std::string> words;
+  std::vector<Code> places(order.size());
+  for (const auto& [number, word, code] : order) {
+    places[code] = static_cast<Code>(words.size());
+    words.push_back(word);
   }
-  return {std::move(in_order), std::move(place)};
+  return {std::move(words), std::move(places)};
 }
 
 DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_class) {
@@ -213,11 +209,6 @@ std::string ColumnReader::several_numbers() const {
   return are_most && !is_one && !is_name && std::ranges::count(form, '#') > 1 ? found.second : "";
 }
 
-std::pair<std::size_t, std::string> ColumnReader::numbers_among_words() const {
-  const bool some = !categorical_ && slip_ && words_.numbers() > few_words && 10 * numeric_cells_ > cells_;
-  return {some && !holds_units() && limit_cells_ == 0 ? numeric_cells_ : 0, slip_ ? slip_->word : ""};
-}
-
 std::string ColumnReader::one_number() const {
   constexpr std::size_t most = 100;
   if (!is_numeric() || too_many_words_ || words_.size() > most) return "";
@@ -240,8 +231,6 @@ bool ColumnReader::holds_units() const {
   return !are_letters && !categorical_ && !leading_zeros_ && words_.size() > few_words && 2 * unit_cells_ > cells_ &&
          units_.size() <= most_units;
 }
-
-std::string ColumnReader::units() const { return fmt::format("{}", fmt::join(units_.sorted().first, ", ")); }
 
 bool ColumnReader::ByValue::tells_all(std::size_t classes) const {
   const bool few = values < fewest_groups && rows >= 2 * values;
@@ -296,25 +285,92 @@ ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& cl
   return result;
 }
 
-std::string ColumnReader::thousands() const {
-  return is_numeric() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_ ? three_digits_ : "";
-}
-
-std::pair<std::size_t, std::string> ColumnReader::left_out() const {
-  for (const auto& [number, cells] : left_out_)
-    if (low_ < number && number < high_) return {cells, shortest(number)};
-  return {};
-}
-
-std::pair<std::size_t, std::string> ColumnReader::unknowns() const {
-  std::pair<std::size_t, std::string> result;
-  if (is_numeric()) return result;
+void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) const {
+  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
+    table.warn_of(name, holds, format, words...);
+  };
+  const std::string for_typing = typed(name);
+  const ByValue values = by_value(table.rows_of_class);
+  const bool tells_all = values.tells_all(table.classes.size());
+  say(tells_all,
+      " alone tells the class of each row{}: if it is not known before the class is, leave it out by --ignore {}",
+      cells_ < table.size() ? " that has a value" : "", for_typing);
+  const bool is_name = names_rows(), are_numbers = categorical_ && numeric_cells_ == cells_;
+  const ByValue groups = is_name ? by_stem(table.rows_of_class) : values;
+  table.warn(!tells_all && !copies && groups.may_be_groups(table.classes.size()),
+             "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what "
+             "rows are of, as a patient or a session, these are parted by the folds, and the shares of right answers "
+             "are too good for others, also without it (--ignore {}): keep the rows of each together by {}",
+             groups.values, in_quotes(name) + (is_name ? ", without their last part" : ""),
+             static_cast<double>(groups.rows) / static_cast<double>(groups.values),
+             groups.others == 0 ? "" : fmt::format(", but for {} of them", groups.others), for_typing,
+             is_name ? "a column without that part, and evaluate --groups" : "evaluate --groups " + for_typing);
+  say(is_name && are_numbers,
+      " holds numbers, most of which stand once, so that --categorical {} leaves little to learn: take them as numbers",
+      for_typing);
+  say(is_name && !are_numbers,
+      " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
+      "out by --ignore {}",
+      for_typing);
+  say(name.starts_with("Unnamed: "),
+      " is called as pandas calls the numbers of rows that it wrote: if it is these, leave it out by --ignore {}",
+      for_typing);
+  if (is_numeric()) {
+    const std::string nines = nines_.doubt(name), two = one_number();
+    table.warn(!nines.empty(), "{}; where it says something, as never, that is lost so", nines);
+    say(!three_digits_.empty() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_,
+        ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
+        "point parts thousands, leave it out",
+        three_digits_);
+    say(lengths_.size() == 1 && !with_zeros_.empty(),
+        " holds codes, as {}, that are read as numbers: if their order tells nothing, give --categorical {}",
+        with_zeros_, for_typing);
+    say(!two.empty(), ": {} are read as one number: if they are names, as those of versions are, give --categorical {}",
+        two, for_typing);
+    const auto inside =
+        std::ranges::find_if(left_out_, [&](const auto& one) { return low_ < one.first && one.first < high_; });
+    if (inside != left_out_.end())
+      say(true,
+          ": {} cells count as missing by --missing, as {}, which is among its other numbers: where it is one of "
+          "these, leave out --missing and empty the cells of the column that it was meant for",
+          inside->second, shortest(inside->first));
+    say(nothings_ > 0 && 20 * nothings_ >= cells_,
+        ": {} cells are 'none', which counts as missing among numbers: if it says zero, write 0", nothings_);
+    return;
+  }
+  const std::string alike = words_.alike(), notation = this->notation(), several = several_numbers();
+  say(!alike.empty(), alike_words, alike);
+  const std::string units = fmt::format("{}", fmt::join(units_.sorted().first, ", "));
+  say(holds_units(),
+      " holds numbers with a unit ({}), which count as words: write the numbers alone, all in one unit, and the unit "
+      "into the name of the column{}",
+      units, units == "E, W" || units == "N, S" ? ", those of S and W with a minus sign" : "");
+  say(!several.empty(), " holds several numbers in a cell, as {}: give each a column, or write one number for all",
+      in_quotes(several));
+  say(!notation.empty(),
+      " holds no plain numbers, as {}, which count as words: where they are numbers, times or dates, write them as {}, "
+      "in seconds or days",
+      in_quotes(notation), notation.starts_with("−") ? "-1234.5, with the minus of a keyboard" : "1234.5");
+  say(limit_cells_ > 0 && words_.numbers() > 1,
+      " holds numbers and {} limits, as <0.1, and all count as words: write a number for what is beyond a limit, as "
+      "the limit itself",
+      limit_cells_);
+  const std::string slip = slip_ ? slip_->word : "";
+  const bool are_some = !categorical_ && slip_ && words_.numbers() > few_words && 10 * numeric_cells_ > cells_;
+  say(are_some && !holds_units() && limit_cells_ == 0,
+      ": {} of {} cells are numbers, and count as words, since others are none, as {}: where such stand for no number, "
+      "give --missing={}; where they say that it is below a limit, write the limit",
+      numeric_cells_, cells_, in_quotes(slip), typed(slip));
+  std::size_t unknowns = 0;
+  std::string unknown;  // the first such word
   for (const auto& [word, code] : words_.codes())
     if (code < classes_.size() && says_unknown(word)) {
-      result.first += classes_[code].same + classes_[code].others;
-      if (result.second.empty()) result.second = word;
+      unknowns += classes_[code].same + classes_[code].others;
+      if (unknown.empty()) unknown = word;
     }
-  return result;
+  say(unknowns > 0,
+      ": {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give --missing={}",
+      unknowns, table.size(), in_quotes(unknown), typed(unknown));
 }
 
 void ColumnReader::see_whole(double number) {

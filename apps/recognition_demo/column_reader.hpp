@@ -9,6 +9,11 @@ namespace sigmax::apps {
 /// Among fewer rows it is no wonder that all values differ.
 inline constexpr std::size_t few_rows = 20;
 
+/// What to say of two words that are alike.
+inline constexpr const char* alike_words =
+    ": {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are the "
+    "same";
+
 /// Words beyond this many are names of things, not values of a feature.
 inline constexpr std::size_t most_values = 4096;
 
@@ -55,10 +60,6 @@ class ColumnReader {
   std::size_t index() const { return index_; }
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
-  const Nines& nines() const { return nines_; }
-
-  /// Whether all are numbers that are taken as words.
-  bool is_made_of_numbers() const { return categorical_ && cells_ > 0 && numeric_cells_ == cells_; }
 
   /// How many cells have a number, or a word that does not stand for a missing one.
   std::size_t filled() const { return cells_; }
@@ -69,12 +70,18 @@ class ColumnReader {
   /// What there is to see, if it is not two different values: "'red'", or "no value".
   std::string lone_value() const;
 
+  /// Tells the table what the values of the column, which has this name, tell, and how they are written; whether rows
+  /// are copies.
+  void warn(const std::string& name, bool copies, DataTable& table) const;
+
+ private:
+  static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5;
+
   /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
   bool names_rows() const;
 
-  /// Whether most cells, of more than a few different ones, are a number and one of few words, and these words.
+  /// Whether most cells, of more than a few different ones, are a number and one of few words.
   bool holds_units() const;
-  std::string units() const;
 
   /// A cell of those without letters that are no plain number, if most are so and more than a few differ; or nothing.
   std::string notation() const;
@@ -83,14 +90,8 @@ class ColumnReader {
   /// are no dates and no times; or nothing.
   std::string several_numbers() const;
 
-  /// Among words: how many cells are numbers, if a tenth are and more than a few differ, and the first word.
-  std::pair<std::size_t, std::string> numbers_among_words() const;
-
   /// "3.1 and 3.10", which are one number and may be two versions, if there are such and not many others; or nothing.
   std::string one_number() const;
-
-  /// How many cells are a number beyond a limit, as <0.1.
-  std::size_t limits() const { return limit_cells_; }
 
   /// What the classes are of the rows that have the same value.
   struct ByValue {
@@ -107,25 +108,6 @@ class ColumnReader {
 
   /// The same of words without what is behind their last separator, or without their last number: S07 of S07_3.
   ByValue by_stem(const std::vector<std::size_t>& rows_of_class) const;
-
-  /// A number with a point that may part thousands, since all others with a point have three digits behind it, and
-  /// those without are below a thousand, some of three digits; or nothing.
-  std::string thousands() const;
-
-  /// A number as 0387 of a column in which all are as long; or nothing.
-  std::string code_with_zeros() const { return is_numeric() && lengths_.size() == 1 ? with_zeros_ : ""; }
-
-  /// In how many cells of a column of numbers "none" counts as missing, if in one of twenty.
-  std::size_t nothings() const { return is_numeric() && 20 * nothings_ >= cells_ ? nothings_ : 0; }
-
-  /// How many numbers count as missing, and the first of them that is between the least and the greatest of the others.
-  std::pair<std::size_t, std::string> left_out() const;
-
-  /// Among words: how many cells hold what would be missing among numbers, as NA, and the first of these words.
-  std::pair<std::size_t, std::string> unknowns() const;
-
- private:
-  static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5;
 
   void see_whole(double number);
   bool is_run() const;

@@ -26,7 +26,7 @@ Likelihood<Kind> likelihood_of(const Classifier<Kind, Kind>& classifier, const A
 template <class See>
 std::size_t observe_all(const Contestant& contestant, const std::vector<AnyReport>& reports, const See& see) {
   std::size_t refused = 0;
-  const auto observe = [&](const auto& classifier) {
+  of_kind(contestant.classifier, [&](const auto& classifier) {
     Belief belief{classifier.prior()};
     for (const AnyReport& report : reports) {
       try {
@@ -41,8 +41,7 @@ std::size_t observe_all(const Contestant& contestant, const std::vector<AnyRepor
         }
       see(belief);
     }
-  };
-  std::visit(observe, contestant.classifier);
+  });
   return refused;
 }
 
@@ -85,37 +84,33 @@ Beliefs beliefs_over(const Contestant& contestant, const std::vector<AnyReport>&
 }
 
 Judged judged(const Contestant& contestant, const Readings& row) {
-  return std::visit(
-      [&](const auto& classifier) {
-        Belief belief{classifier.prior()};
-        bool excluded = false;
-        try {
-          update(belief, classifier.likelihood(row), belief);
-        } catch (const std::domain_error&) {
-          excluded = true;
-        }
-        return Judged{std::move(belief), excluded};
-      },
-      contestant.classifier);
+  return of_kind(contestant.classifier, [&](const auto& classifier) {
+    Belief belief{classifier.prior()};
+    bool excluded = false;
+    try {
+      update(belief, classifier.likelihood(row), belief);
+    } catch (const std::domain_error&) {
+      excluded = true;
+    }
+    return Judged{std::move(belief), excluded};
+  });
 }
 
 std::vector<Dominated> dominated(const std::vector<Contestant>& contestants) {
   std::vector<Dominated> result;
   for (const Contestant& contestant : contestants)
-    std::visit(
-        [&](const auto& classifier) {
-          const auto& pattern = classifier.prior().variable();
-          for (const Dominance& found : dominated_patterns(classifier))
-            result.push_back({contestant.name, pattern.label(found.pattern), pattern.label(found.dominator)});
-        },
-        contestant.classifier);
+    of_kind(contestant.classifier, [&](const auto& classifier) {
+      const auto& pattern = classifier.prior().variable();
+      for (const Dominance& found : dominated_patterns(classifier))
+        result.push_back({contestant.name, pattern.label(found.pattern), pattern.label(found.dominator)});
+    });
   return result;
 }
 
 void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<std::pair<std::string, std::vector<double>>>& recognised, Result& result) {
+                      const std::vector<Recognised>& all, Result& result) {
   std::map<std::string, std::vector<std::string>> contestants_of;
-  for (const auto& [contestant, times] : recognised) {
+  for (const auto& [contestant, times, share] : all) {
     std::vector<std::string> never;
     for (std::size_t c = 0; c < classes.size(); ++c)
       if (rows[c] > 0 && times[c] == 0.0) never.push_back(fmt::format("{} ({} rows)", classes[c], rows[c]));
@@ -123,17 +118,17 @@ void say_unrecognised(const std::vector<std::string>& classes, const std::vector
   }
   for (const auto& [never, those] : contestants_of)
     result.say("Not one row was recognised of {} by {}", never,
-               those.size() == recognised.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
+               those.size() == all.size() ? "any classifier" : fmt::format("{}", fmt::join(those, "; ")));
 }
 
 void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                const std::vector<std::pair<std::string, double>>& right, Result& result) {
+                const std::vector<Recognised>& all, Result& result) {
   const auto most = std::ranges::max_element(rows);
   const double share =
       static_cast<double>(*most) / static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::size_t{0}));
   std::vector<std::string> worse;
-  for (const auto& [name, own] : right)
-    if (own < share) worse.push_back(in_quotes(name));
+  for (const Recognised& one : all)
+    if (one.share && *one.share < share) worse.push_back(in_quotes(one.contestant));
   if (!worse.empty())
     result.say("{:.2f} % of the rows are {}: who always says so is right more often than {}", 100.0 * share,
                in_quotes(classes[static_cast<std::size_t>(most - rows.begin())]), list_of(worse));

@@ -28,6 +28,12 @@ struct Contestant {
   bool fuzzy() const { return std::holds_alternative<MaxClassifier>(classifier); }
 };
 
+/// What a function says of a classifier, a belief or the like, of whichever kind it is.
+template <class AnyKind, class Of>
+decltype(auto) of_kind(AnyKind&& one, const Of& of) {
+  return std::visit(of, std::forward<AnyKind>(one));
+}
+
 /// What a classifier made of one run.
 struct Trace {
   /// After each report: 1 if the truth alone is the most likely pattern, 1/n if it is one of n, else 0.
@@ -61,15 +67,20 @@ struct Dominated {
 };
 std::vector<Dominated> dominated(const std::vector<Contestant>& contestants);
 
-/// Says which classes no row was recognised of, and by whom, of the rows of each class and, for each contestant by its
-/// name, how many of them it recognised.
-void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                      const std::vector<std::pair<std::string, std::vector<double>>>& recognised, Result& result);
+/// How many rows of each class a contestant recognised, and which share of all, if it decided all of them.
+struct Recognised {
+  std::string contestant;
+  std::vector<double> times;
+  std::optional<double> share;
+};
 
-/// Says if of rows of each class fewer were answered rightly by a contestant, whose share is given by its name, than by
-/// who always says the most frequent class.
+/// Says which classes no row was recognised of, and by whom, of so many rows of each.
+void say_unrecognised(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
+                      const std::vector<Recognised>& all, Result& result);
+
+/// Says if a contestant recognised fewer than who always says the most frequent class.
 void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
-                const std::vector<std::pair<std::string, double>>& right, Result& result);
+                const std::vector<Recognised>& all, Result& result);
 
 /// A result begun: the page has its title, and the contestants are what it switches on and off.
 Result result_of_contest(std::string title, const OutputOptions& output,

@@ -20,11 +20,13 @@ void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& co
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
-    names.push_back(typed(reader.names()[column.index()]));
+    const std::string& name = reader.names()[column.index()];
     const std::size_t empty = rows - column.filled();
-    gaps = gaps || (0 < empty && empty < rows);
-    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(reader.names()[column.index()]),
-                                empty > 0 && empty < rows ? fmt::format(" (and no value in {} rows)", empty) : ""));
+    const bool has_gaps = 0 < empty && empty < rows;
+    gaps |= has_gaps;
+    names.push_back(typed(name));
+    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(name),
+                                has_gaps ? fmt::format(" (and no value in {} rows)", empty) : ""));
   }
   if (names.empty()) return;
   throw InputError(
@@ -46,24 +48,10 @@ bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
   return name.find_first_not_of("-9") == name.npos && nearest > static_cast<double>(classes.size());
 }
 
-/// Adds what a reader of the results should know of the file, if it holds.
-void warn(DataTable& table, bool holds, std::string_view format, const auto&... words) {
-  if (holds) table.warnings.push_back(table.file + ": " + fmt::format(fmt::runtime(format), words...));
-}
-
-/// The same of a column.
-void warn_of(const std::string& column, DataTable& table, bool holds, const std::string& format, const auto&... words) {
-  warn(table, holds, "column {}" + format, in_quotes(column), words...);
-}
-
-constexpr const char* alike_words =
-    ": {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are the "
-    "same";
-
 void warn_of_classes(const Vocabulary& classes, DataTable& table) {
   const std::size_t rows = table.size(), number = table.classes.size();
   const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    warn_of(table.label, table, holds, format, words...);
+    table.warn_of(table.label, holds, format, words...);
   };
   const std::string alike = classes.alike();
   say(!alike.empty(), alike_words, alike);
@@ -93,20 +81,20 @@ void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& col
   for (const ColumnReader& column : columns)
     if (const std::string& name = reader.names()[column.index()]; column.contains(name))
       words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(name));
-  warn(table,
-       2 * like_cells.size() > columns.size() &&
-           (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
-       "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
-       "of names above it",
-       fmt::join(like_cells, ", "));
+  table.warn(
+      2 * like_cells.size() > columns.size() &&
+          (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
+      "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
+      "of names above it",
+      fmt::join(like_cells, ", "));
   for (std::size_t i = 0; i < reader.names().size(); ++i)
-    warn(table, reader.names()[i].empty(), "column {} has no name and is left out", i + 1);
+    table.warn(reader.names()[i].empty(), "column {} has no name and is left out", i + 1);
 }
 
 /// The rows that differ, of long tables some chosen by hash, and how many rows they are with their copies.
 struct DistinctRows {
-  /// Of each the number or code by column, NaN where it is missing, and the class.
-  std::vector<std::vector<double>> cells;
+  std::vector<std::vector<double>> columns;  ///< of each row the number or the code, NaN where it is missing
+  std::vector<double> classes;               ///< of each row
   std::size_t with_copies = 0;
   std::map<double, std::pair<std::size_t, std::size_t>> of_class;  ///< how many differ, and with their copies
 
@@ -125,41 +113,29 @@ struct DistinctRows {
       ++found.try_emplace(hash, row_cells, 0).first->second.second;
       if (found.size() > most) found.erase(std::prev(found.end()));
     });
-    for (auto& [hash, row] : found) {
-      auto& [differ, all] = of_class[row.first.back()];
-      ++differ, all += row.second;
-      cells.push_back(std::move(row.first));
-      with_copies += row.second;
+    columns.resize(table.columns.size());
+    for (const auto& [hash, row] : found) {
+      const auto& [cells, times] = row;
+      for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(cells[i]);
+      classes.push_back(cells.back());
+      auto& [differ, all] = of_class[cells.back()];
+      ++differ, all += times;
+      with_copies += times;
     }
-  }
-
-  /// Whether each value of one column stands beside one of another only, and the other way.
-  bool one_to_one(std::size_t a, std::size_t b) const {
-    std::map<double, double> to, from;
-    std::size_t known = 0;
-    for (const auto& row : cells) {
-      if (std::isnan(row[a]) || std::isnan(row[b])) continue;
-      ++known;
-      if (to.emplace(row[a], row[b]).first->second != row[b] || from.emplace(row[b], row[a]).first->second != row[a])
-        return false;
-    }
-    return known >= few_rows && to.size() > 1 && 3 * to.size() < 2 * known;
-  }
-
-  /// Twice the place of each cell of a column when sorted, the same for equal ones; -1 where it is missing.
-  std::vector<double> ranks(std::size_t column) const {
-    std::vector<double> sorted, result;
-    for (const auto& row : cells)
-      if (!std::isnan(row[column])) sorted.push_back(row[column]);
-    std::ranges::sort(sorted);
-    for (const auto& row : cells) {
-      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), row[column]);
-      const auto place = static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
-      result.push_back(std::isnan(row[column]) ? -1.0 : place);
-    }
-    return result;
   }
 };
+
+/// Whether each value of one column stands beside one of another only, and the other way.
+bool one_to_one(const std::vector<double>& a, const std::vector<double>& b) {
+  std::map<double, double> to, from;
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (std::isnan(a[k]) || std::isnan(b[k])) continue;
+    ++known;
+    if (to.emplace(a[k], b[k]).first->second != b[k] || from.emplace(b[k], a[k]).first->second != a[k]) return false;
+  }
+  return known >= few_rows && to.size() > 1 && 3 * to.size() < 2 * known;
+}
 
 /// Whether two columns put the rows in the same order, or the opposite one, but for what rounding does.
 bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
@@ -178,62 +154,62 @@ bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
 bool warn_of_repeats(DataTable& table) {
   constexpr std::size_t most_facts = 16;  // of a column
   const DistinctRows rows(table);
-  const std::size_t size = rows.cells.size();
+  const std::size_t size = rows.classes.size();
   if (size < few_rows) return false;
   std::vector<std::vector<double>> ranks;
   std::vector<bool> comparable;  // by their order
   std::size_t fine = 0;          // columns that most of these rows differ in, as they would not by chance
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    ranks.push_back(rows.ranks(i));
+    ranks.push_back(ranks_of(rows.columns[i]));
     const std::size_t different = std::set(ranks[i].begin(), ranks[i].end()).size();
     fine += 2 * different > size ? 1U : 0U;
     comparable.push_back(table.columns[i].numeric && different >= 4);
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
-    warn(table, true,
-         "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
-         "other, and the shares of right answers are too good: drop them; what coincides by chance, as values below a "
-         "limit do, is to stay",
-         100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
+    table.warn(
+        true,
+        "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
+        "other, and the shares of right answers are too good: drop them; what coincides by chance, as values below a "
+        "limit do, is to stay",
+        100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
   // Columns of 0 and 1, or of two words, each of which is 1, or the second, in rows of one class only.
   std::vector<std::string> one_hot;
   std::vector<std::size_t> ones(size);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::vector<double>& column = rows.columns[i];
     std::set<double> classes;
-    bool binary = true;  // without a gap
-    for (const auto& row : rows.cells) {
-      binary = binary && (row[i] == 0.0 || row[i] == 1.0);
-      if (row[i] == 1.0) classes.insert(row.back());
-    }
+    for (std::size_t k = 0; k < size; ++k)
+      if (column[k] == 1.0) classes.insert(rows.classes[k]);
+    const bool binary = std::ranges::all_of(column, [](double cell) { return cell == 0.0 || cell == 1.0; });
     if (!binary || classes.size() != 1) continue;
     one_hot.push_back(typed(table.columns[i].name));
-    for (std::size_t k = 0; k < size; ++k) ones[k] += rows.cells[k][i] == 1.0 ? 1U : 0U;
+    for (std::size_t k = 0; k < size; ++k) ones[k] += column[k] == 1.0 ? 1U : 0U;
   }
   std::map<double, std::set<std::size_t>> sums;  // by class
-  for (std::size_t k = 0; k < size; ++k) sums[rows.cells[k].back()].insert(ones[k]);
+  for (std::size_t k = 0; k < size; ++k) sums[rows.classes[k]].insert(ones[k]);
   const auto without = std::ranges::count_if(sums, [](const auto& sum) { return sum.second == std::set{0UL}; });
   const auto with = std::ranges::count_if(sums, [](const auto& sum) { return !sum.second.contains(0); });
   // Of two classes a column that is 1 in all rows of one alone tells both.
-  warn(table, one_hot.size() > 1 && with + without == std::ssize(sums) && (without == 1 || (without == 0 && with > 2)),
-       "of {} columns ({}) each is 1 in rows of one class only, and one is in each row of {}: they are the class "
-       "itself; leave them out by --ignore {}",
-       one_hot.size(), listed(one_hot, 3), without == 0 ? "all classes" : "all classes but one",
-       fmt::join(one_hot, ","));
+  table.warn(one_hot.size() > 1 && with + without == std::ssize(sums) && (without == 1 || (without == 0 && with > 2)),
+             "of {} columns ({}) each is 1 in rows of one class only, and one is in each row of {}: they are the class "
+             "itself; leave them out by --ignore {}",
+             one_hot.size(), listed(one_hot, 3), without == 0 ? "all classes" : "all classes but one",
+             fmt::join(one_hot, ","));
   // One fact that several columns tell in the same word, as of what a customer does not have.
   std::map<std::pair<std::string, std::vector<bool>>, std::vector<std::string>> facts;  // columns by word and rows
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     for (std::size_t code = 0; code < table.columns[i].values.size() && code < most_facts; ++code) {
-      std::vector<bool> stands(size);
-      for (std::size_t k = 0; k < size; ++k) stands[k] = rows.cells[k][i] == static_cast<double>(code);
+      const auto stands = each(rows.columns[i], [&](double cell) { return cell == static_cast<double>(code); });
       if (20 * std::ranges::count(stands, true) >= std::ssize(stands))
         facts[{table.columns[i].values[code], stands}].push_back(table.columns[i].name);
     }
   for (const auto& [fact, names] : facts)
-    warn(table, names.size() > 2,
-         "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, give "
-         "--missing={}",
-         in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
+    table.warn(
+        names.size() > 2,
+        "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, give "
+        "--missing={}",
+        in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
   // As a statistics program writes them: each combination of words and class once, and how often.
   std::size_t combinations = table.classes.size(), numbers = 0;
   std::string of_counts;
@@ -242,10 +218,10 @@ bool warn_of_repeats(DataTable& table) {
       ++numbers, of_counts = column.name;
     else
       combinations *= column.values.size();
-  warn(table, size == table.size() && size == rows.with_copies && combinations == size && numbers <= 1,
-       "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
-       "write one row for each that was counted",
-       of_counts.empty() ? "" : fmt::format(" (column {})", in_quotes(of_counts)));
+  table.warn(size == table.size() && size == rows.with_copies && combinations == size && numbers <= 1,
+             "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
+             "write one row for each that was counted",
+             of_counts.empty() ? "" : fmt::format(" (column {})", in_quotes(of_counts)));
   const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
   if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
   for (const auto& [label, counts] : rows.of_class)
@@ -255,7 +231,8 @@ bool warn_of_repeats(DataTable& table) {
   std::vector<bool> repeated(ranks.size());  // an earlier column
   const auto says_the_same = [&](std::size_t i, std::size_t j) {
     if (repeated[i] || repeated[j]) return false;
-    return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j]) : rows.one_to_one(i, j);
+    return comparable[i] && comparable[j] ? same_order(ranks[i], ranks[j])
+                                          : one_to_one(rows.columns[i], rows.columns[j]);
   };
   std::vector<std::pair<std::string, std::vector<std::string>>> families;  // that say the same
   std::vector<std::string> all_others;
@@ -271,16 +248,17 @@ bool warn_of_repeats(DataTable& table) {
   }
   constexpr std::size_t most_families = 3;
   for (const auto& [name, others] : families)
-    warn_of(
-        name, table, families.size() <= most_families,
+    table.warn_of(
+        name, families.size() <= most_families,
         " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
         "--ignore {}",
         fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
   if (families.size() <= most_families) return all_of_them;
-  warn(table, true,
-       "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
-       "several times; leave the others out by --ignore {}",
-       families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
+  table.warn(
+      true,
+      "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
+      "several times; leave the others out by --ignore {}",
+      families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
   return all_of_them;
 }
 
@@ -302,10 +280,11 @@ void warn_of_gaps(DataTable& table) {
       if (table.rows_of_class[k] >= few_rows) known.push_back(k);
     if (known.empty()) return;
     const auto [least, most] = std::ranges::minmax(known, {}, share);
-    warn_of(table.columns[i].name, table, share(most) - share(least) >= 0.5,
-            ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
-            "empty cell says something, as no or less than a limit, and does so before the class is known, write it",
-            100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
+    table.warn_of(
+        table.columns[i].name, share(most) - share(least) >= 0.5,
+        ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
+        "empty cell says something, as no or less than a limit, and does so before the class is known, write it",
+        100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
   }
 }
 
@@ -371,9 +350,9 @@ void warn_of_order(DataTable& table) {
       "others; train on one part of it, and ask of another by classify, or keep its parts whole by evaluate --groups, "
       "if a column names them";
   const bool is_smooth = smooth > 1 && 2 * smooth > numbers;
-  warn(table, is_smooth, "{} of {} columns of numbers change little from one row of a class to the next, {}", smooth,
-       numbers, too_good);
-  warn(table, in_runs && !is_smooth, "the classes of {} rows stand in {} runs only, {}", table.size(), runs, too_good);
+  table.warn(is_smooth, "{} of {} columns of numbers change little from one row of a class to the next, {}", smooth,
+             numbers, too_good);
+  table.warn(in_runs && !is_smooth, "the classes of {} rows stand in {} runs only, {}", table.size(), runs, too_good);
 }
 
 /// Whether a row holds the names of the columns, the first one perhaps behind a byte order mark, as where files were
@@ -382,86 +361,6 @@ bool is_header(const CsvRow& row, const CsvReader& reader) {
   for (std::size_t i = 1; i < row.size(); ++i)
     if (trimmed(row[i]) != reader.names()[i]) return false;
   return trimmed(row[0]).ends_with(reader.names()[0]);
-}
-
-/// What the values of a column tell, and how they are written; whether rows are copies.
-void warn_of_values(const ColumnReader& column, const std::string& name, bool copies, DataTable& table) {
-  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    warn_of(name, table, holds, format, words...);
-  };
-  const std::string for_typing = typed(name);
-  const auto by_value = column.by_value(table.rows_of_class);
-  const bool tells_all = by_value.tells_all(table.classes.size());
-  say(tells_all,
-      " alone tells the class of each row{}: if it is not known before the class is, leave it out by --ignore {}",
-      column.filled() < table.size() ? " that has a value" : "", for_typing);
-  const auto by_stem = column.names_rows() ? column.by_stem(table.rows_of_class) : by_value;
-  warn(table, !tells_all && !copies && by_stem.may_be_groups(table.classes.size()),
-       "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what rows "
-       "are of, as a patient or a session, these are parted by the folds, and the shares of right answers are too good "
-       "for others, also without it (--ignore {}): keep the rows of each together by {}",
-       by_stem.values, in_quotes(name) + (column.names_rows() ? ", without their last part" : ""),
-       static_cast<double>(by_stem.rows) / static_cast<double>(by_stem.values),
-       by_stem.others == 0 ? "" : fmt::format(", but for {} of them", by_stem.others), for_typing,
-       column.names_rows() ? "a column without that part, and evaluate --groups" : "evaluate --groups " + for_typing);
-  say(column.names_rows() && column.is_made_of_numbers(),
-      " holds numbers, most of which stand once, so that --categorical {} leaves little to learn: take them as numbers",
-      for_typing);
-  say(column.names_rows() && !column.is_made_of_numbers(),
-      " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
-      "out by --ignore {}",
-      for_typing);
-  say(name.starts_with("Unnamed: "),
-      " is called as pandas calls the numbers of rows that it wrote: if it is these, leave it out by --ignore {}",
-      for_typing);
-  if (column.is_numeric()) {
-    const std::string nines = column.nines().doubt(name);
-    warn(table, !nines.empty(), "{}; where it says something, as never, that is lost so", nines);
-    const std::string thousands = column.thousands(), code = column.code_with_zeros(), two = column.one_number();
-    say(!thousands.empty(),
-        ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
-        "point parts thousands, leave it out",
-        thousands);
-    say(!code.empty(),
-        " holds codes, as {}, that are read as numbers: if their order tells nothing, give --categorical {}", code,
-        for_typing);
-    say(!two.empty(), ": {} are read as one number: if they are names, as those of versions are, give --categorical {}",
-        two, for_typing);
-    const auto [left_out, value] = column.left_out();
-    say(left_out > 0,
-        ": {} cells count as missing by --missing, as {}, which is among its other numbers: where it is one of these, "
-        "leave out --missing and empty the cells of the column that it was meant for",
-        left_out, value);
-    say(column.nothings() > 0, ": {} cells are 'none', which counts as missing among numbers: if it says zero, write 0",
-        column.nothings());
-    return;
-  }
-  const std::string alike = column.words().alike(), notation = column.notation(), several = column.several_numbers();
-  say(!alike.empty(), alike_words, alike);
-  say(column.holds_units(),
-      " holds numbers with a unit ({}), which count as words: write the numbers alone, all in one unit, and the unit "
-      "into the name of the column{}",
-      column.units(),
-      column.units() == "E, W" || column.units() == "N, S" ? ", those of S and W with a minus sign" : "");
-  say(!several.empty(), " holds several numbers in a cell, as {}: give each a column, or write one number for all",
-      in_quotes(several));
-  say(!notation.empty(),
-      " holds no plain numbers, as {}, which count as words: where they are numbers, times or dates, write them as {}, "
-      "in seconds or days",
-      in_quotes(notation), notation.starts_with("−") ? "-1234.5, with the minus of a keyboard" : "1234.5");
-  say(column.limits() > 0 && column.words().numbers() > 1,
-      " holds numbers and {} limits, as <0.1, and all count as words: write a number for what is beyond a limit, as "
-      "the limit itself",
-      column.limits());
-  const auto [numbers, other] = column.numbers_among_words();
-  say(numbers > 0,
-      ": {} of {} cells are numbers, and count as words, since others are none, as {}: where such stand for no number, "
-      "give --missing={}; where they say that it is below a limit, write the limit",
-      numbers, column.filled(), in_quotes(other), typed(other));
-  const auto [unknowns, unknown] = column.unknowns();
-  say(unknowns > 0,
-      ": {} of {} rows hold {}, which counts as a value among words: if it stands for no value, give --missing={}",
-      unknowns, table.size(), in_quotes(unknown), typed(unknown));
 }
 
 std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions& options, std::size_t label) {
@@ -504,6 +403,16 @@ bool MissingWords::among_numbers(std::string_view cell) {
   if (operator()(cell) || says_unknown(trimmed(cell))) return true;
   const std::string text = lower_case(trimmed(cell));
   return std::ranges::find(words, text) != words.end();
+}
+
+std::vector<double> ranks_of(const std::vector<double>& numbers) {
+  std::vector<double> sorted;
+  std::ranges::copy_if(numbers, std::back_inserter(sorted), [](double number) { return !std::isnan(number); });
+  std::ranges::sort(sorted);
+  return each(numbers, [&](double number) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), number);
+    return std::isnan(number) ? -1.0 : static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
+  });
 }
 
 DataTable read_data(const std::string& file, const DataOptions& options, bool quiet) {
@@ -566,23 +475,24 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   warn_of_classes(classes, table);
   warn_of_names(reader, columns, classes, table);
   const auto unmet = missing.unmet();
-  warn(table, !unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
-       fmt::join(unmet, " or "));
+  table.warn(!unmet.empty(), "no cell is {}, as --missing says: see how it is written, capitals count",
+             fmt::join(unmet, " or "));
   const auto swallowed = reader.swallowed();
-  warn(table, swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
-  warn(table, commented > 0 && 2 * commented < table.size(),
-       "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
+  table.warn(swallowed.is_doubtful(), swallowed_words, swallowed.line, swallowed.rows);
+  table.warn(commented > 0 && 2 * commented < table.size(),
+             "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
   std::vector<std::string> mostly_empty;
   for (const ColumnReader& column : columns)
     if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(reader.names()[column.index()]));
-  warn(table, !mostly_empty.empty(),
-       "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
-       "merged one of a spreadsheet, fill them",
-       mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
+  table.warn(
+      !mostly_empty.empty(),
+      "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
+      "merged one of a spreadsheet, fill them",
+      mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
   warn_of_order(table);
   const bool copies = warn_of_repeats(table);
-  for (std::size_t i = 0; i < columns.size(); ++i) warn_of_values(columns[i], table.columns[i].name, copies, table);
+  for (const ColumnReader& column : columns) column.warn(reader.names()[column.index()], copies, table);
   return table;
 }
 

@@ -62,6 +62,16 @@ class DataTable {
   std::vector<DataColumn> columns;
   std::vector<std::string> warnings;  ///< what the reader of the results should know
 
+  /// Adds what a reader of the results should know of the file, if it holds.
+  void warn(bool holds, std::string_view format, const auto&... words) {
+    if (holds) warnings.push_back(file + ": " + fmt::format(fmt::runtime(format), words...));
+  }
+
+  /// The same of a column.
+  void warn_of(const std::string& column, bool holds, const std::string& format, const auto&... words) {
+    warn(holds, "column {}" + format, in_quotes(column), words...);
+  }
+
   /// The number of rows.
   std::size_t size() const { return cells_.size() / row_size(); }
 
@@ -121,6 +131,9 @@ class MissingWords {
   };
   std::vector<Word> more_;
 };
+
+/// Twice the place of each number when sorted, the same for equal ones; -1 of NaN.
+std::vector<double> ranks_of(const std::vector<double>& numbers);
 
 /// Reads a headed CSV file. A column is numeric if all its cells are numbers, else categorical. A cell without a value
 /// is missing. Throws InputError with file, line, column and value for a row without a class, a column that is nearly

@@ -4,8 +4,6 @@
 
 #include <sigmax/core/transform.hpp>
 
-#include "recognition_demo/world.hpp"
-
 namespace sigmax::apps {
 namespace {
 
@@ -96,13 +94,12 @@ std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, cons
   return spread_over_emitters(world, platform, grid[grid.size() == 1 ? 0 : draw_index(random, grid.size())]);
 }
 
-EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random) {
+Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random) {
   const auto sensor = world.sensor(truth.hit);
-  EsmRun run;
-  run.platform = draw_index(random, world.platform.size());
-  std::vector<double> usage = draw_usage(world, run.platform, truth.usage, random);
+  const std::size_t platform = draw_index(random, world.platform.size());
+  std::vector<double> usage = draw_usage(world, platform, truth.usage, random);
   if (truth.unlisted > 0.0) {
-    const auto& carried = world.carried[run.platform];
+    const auto& carried = world.carried[platform];
     const double each = truth.unlisted / static_cast<double>(usage.size() - carried.size());
     for (std::size_t f = 0; f < usage.size(); ++f)
       usage[f] = std::ranges::find(carried, f) == carried.end() ? each : (1.0 - truth.unlisted) * usage[f];
@@ -111,8 +108,9 @@ EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t report
   std::vector<double> heard_astray;
   if (truth.astray > 0.0 && random.uniform() < truth.astray) {
     const std::size_t step = 1 + draw_index(random, world.platform.size() - 1);
-    heard_astray = draw_usage(world, (run.platform + step) % world.platform.size(), truth.usage, random);
+    heard_astray = draw_usage(world, (platform + step) % world.platform.size(), truth.usage, random);
   }
+  Drawn run{platform, {{}}};
   for (std::size_t k = 0; k < reports; ++k) {
     Readings report;
     for (std::size_t s = 0; s < truth.sensors; ++s) {
@@ -120,7 +118,7 @@ EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t report
       const std::size_t emitter = draw(random, astray ? heard_astray : usage);
       report.push_back(draw(random, sensor.row(emitter)));
     }
-    run.reports.emplace_back(std::move(report));
+    run.reports.front().emplace_back(std::move(report));
   }
   return run;
 }

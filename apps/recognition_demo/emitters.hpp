@@ -1,7 +1,6 @@
 #pragma once
 
-#include "recognition_demo/contest.hpp"
-#include "support/random.hpp"
+#include "recognition_demo/world.hpp"
 
 namespace sigmax::apps {
 
@@ -44,16 +43,11 @@ struct EsmTruth {
   std::size_t sensors = 1;
 };
 
-struct EsmRun {
-  std::size_t platform = 0;
-  std::vector<AnyReport> reports;  ///< a reading of each sensor
-};
-
 /// How often the platform uses each emitter, drawn.
 std::vector<double> draw_usage(const EsmWorld& world, std::size_t platform, const Usage& usage, RandomStream& random);
 
-/// A platform, its usage and its reports, drawn.
-EsmRun draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random);
+/// A platform, its usage and its reports, drawn: a reading of each sensor.
+Drawn draw_run(const EsmWorld& world, const EsmTruth& truth, std::size_t reports, RandomStream& random);
 
 /// A classifier by what platforms use or carry and how a sensor reads it, or several alike: sigma inference, (41)–(43),
 /// if all is random, max inference, (44)–(46), if all is fuzzy; sigma-max inference, (17) without β and (19), if a

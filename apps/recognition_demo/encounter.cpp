@@ -18,9 +18,9 @@ namespace {
 constexpr std::array<const char*, 4> feature_names = {"altitude_layer_ft_agl", "airspeed_kt",
                                                       "vertical_rate_ft_per_min", "turn_rate_deg_per_s"};
 
-/// Bins of one feature, as one class has them.
+/// Where the bins of one feature begin and end, and how often one class was seen in each.
 struct Layers {
-  std::vector<double> lower, upper, count;
+  std::vector<double> edges, count;
 };
 
 std::size_t column_of(const CsvReader& reader, std::initializer_list<std::string_view> names) {
@@ -53,12 +53,12 @@ EncounterData read_encounter(const std::string& file) {
     if (known == feature_names.end()) continue;
     Layers& layers = all[{name, static_cast<std::size_t>(known - feature_names.begin())}];
     const double begin = row.number(lower), end = row.number(upper), times = row.number(count);
-    if (!layers.upper.empty() && layers.upper.back() != begin)
-      throw row.error(lower, fmt::format("{}, where the bin before ends", layers.upper.back()));
+    if (layers.edges.empty()) layers.edges.push_back(begin);
+    if (layers.edges.back() != begin)
+      throw row.error(lower, fmt::format("{}, where the bin before ends", layers.edges.back()));
     if (!(end > begin)) throw row.error(upper, fmt::format("a number above {}", begin));
     if (times < 0.0) throw row.error(count, "a count that is not negative");
-    layers.lower.push_back(begin);
-    layers.upper.push_back(end);
+    layers.edges.push_back(end);
     layers.count.push_back(times);
   }
   if (classes.size() < 2)
@@ -71,12 +71,12 @@ EncounterData read_encounter(const std::string& file) {
     for (const auto& name : classes) {
       const Layers& own = all[{name, i}];
       const double sum = std::accumulate(own.count.begin(), own.count.end(), 0.0);
-      if (own.lower != first.lower || own.upper != first.upper || !(sum > 0.0))
+      if (own.edges != first.edges || !(sum > 0.0))
         throw InputError({.where = reader.file(),
                           .what = fmt::format("class {}, feature {}", in_quotes(name), in_quotes(feature_names[i])),
                           .expected = "counts, in the same bins for every class"});
     }
-    bins.emplace_back(std::vector<double>(first.lower.begin() + 1, first.lower.end()));
+    bins.emplace_back(std::vector<double>(first.edges.begin() + 1, first.edges.end() - 1));
     variables.push_back(bins.back().variable<Random>(feature_names[i]));
   }
   Counts counts{RandomVariable{"class", classes}, variables};
@@ -85,18 +85,13 @@ EncounterData read_encounter(const std::string& file) {
       const Layers& own = all[{classes[c], i}];
       for (std::size_t b = 0; b < own.count.size(); ++b) counts.observe_value(c, i, b, own.count[b]);
     }
-  const double lowest = all[{classes.front(), 0}].lower.front();
-  return {std::move(counts), std::move(bins), lowest};
+  return {std::move(counts), std::move(bins), all[{classes.front(), 0}].edges.front()};
 }
 
-/// One report of a recording.
-struct TrackReport {
-  double time_s;
-  Readings readings;
-};
-
+/// The reports of a recording.
 struct TrackReports {
-  std::vector<TrackReport> reports{};
+  std::vector<double> times_s{};
+  std::vector<Readings> readings{};
   std::size_t rows = 0;           ///< of the recording
   std::size_t on_the_ground = 0;  ///< rows below the first layer of altitude
   double ground_ft = 0.0;
@@ -147,11 +142,12 @@ TrackReports read_track(const std::string& file, const EncounterData& data, doub
     if (k > 0 && row.time > rows[k - 1].time && row.time - rows[k - 1].time <= longest_step_s)
       turn_rate = std::remainder(row.track - rows[k - 1].track, 360.0) / (row.time - rows[k - 1].time);
     const std::array<double, 4> values = {above_ground, row.speed, row.climb, turn_rate};
-    auto& readings = result.reports.emplace_back(TrackReport{row.time, {}}).readings;
+    result.times_s.push_back(row.time);
+    auto& readings = result.readings.emplace_back();
     for (std::size_t i = 0; i < values.size(); ++i) readings.push_back(data.bins[i].bin(values[i]));
     next = row.time + every_s;
   }
-  if (result.reports.empty())
+  if (result.readings.empty())
     throw InputError(
         "{}: no row is {} ft or more above the ground at {} ft; give the altitude of the ground by --ground",
         reader.file(), data.lowest_ft, result.ground_ft);
@@ -230,20 +226,14 @@ struct TrackOutcome {
   Beliefs beliefs;
 };
 
-TrackOutcome follow_track(const Contestant& contestant, const std::vector<TrackReport>& reports) {
-  TrackOutcome outcome{contestant.name, {}, {}};
-  std::vector<AnyReport> all;
-  for (const TrackReport& report : reports) {
-    all.emplace_back(report.readings);
-    std::visit(
-        [&](const auto& belief) {
-          outcome.single.resize(belief.size());
-          for (std::size_t c = 0; c < belief.size(); ++c)
-            outcome.single[c] += credit_of(belief.logs(), c) / static_cast<double>(reports.size());
-        },
-        judged(contestant, report.readings).belief);
-  }
-  outcome.beliefs = beliefs_over(contestant, all);
+TrackOutcome follow_track(const Contestant& contestant, const std::vector<Readings>& reports) {
+  TrackOutcome outcome{contestant.name, {}, beliefs_over(contestant, {reports.begin(), reports.end()})};
+  outcome.single.resize(outcome.beliefs.front().size());
+  for (const Readings& report : reports)
+    of_kind(judged(contestant, report).belief, [&](const auto& belief) {
+      for (std::size_t c = 0; c < belief.size(); ++c)
+        outcome.single[c] += credit_of(belief.logs(), c) / static_cast<double>(reports.size());
+    });
   return outcome;
 }
 
@@ -253,8 +243,8 @@ ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
       {{.header = "feature", .align = Align::left}, {.header = "values seen, % of the reports", .align = Align::left}});
   for (std::size_t i = 0; i < data.bins.size(); ++i) {
     std::vector<double> shares(data.bins[i].size(), 0.0);
-    for (const TrackReport& report : track.reports)
-      if (report.readings[i] != missing) shares[report.readings[i]] += 1.0 / static_cast<double>(track.reports.size());
+    for (const Readings& report : track.readings)
+      if (report[i] != missing) shares[report[i]] += 1.0 / static_cast<double>(track.readings.size());
     std::string text;
     for (std::size_t b = 0; b < shares.size(); ++b)
       if (shares[b] > 0.0)
@@ -286,10 +276,10 @@ View view_of(const EncounterData& data, const std::vector<Contestant>& contestan
   const std::vector<std::string> classes = labels_of(data.counts.pattern());
   const std::size_t columns = contestants.size() * classes.size();
   Thinned rows(columns, std::max<std::size_t>(1000, 4 * columns));
-  for (std::size_t k = 0; k < track.reports.size(); ++k) {
+  for (std::size_t k = 0; k < track.times_s.size(); ++k) {
     std::vector<double> row;
     for (const auto& [name, single, beliefs] : outcomes) row.insert(row.end(), beliefs[k].begin(), beliefs[k].end());
-    rows.add(track.reports[k].time_s - track.reports.front().time_s, row);
+    rows.add(track.times_s[k] - track.times_s.front(), row);
   }
   std::vector<Beliefs> kept(contestants.size(), Beliefs(rows.kept(), std::vector<double>(classes.size())));
   for (std::size_t column = 0; column < columns; ++column) {
@@ -309,10 +299,12 @@ ResultTable reports_table(const EncounterData& data, const TrackReports& track) 
   std::vector<std::string> keys = {"time_s"};
   for (const auto& feature : data.counts.features()) keys.push_back(feature.name());
   auto table = ResultTable::of_keys(keys);
-  for (const TrackReport& report : track.reports) {
-    std::vector<Cell> cells = {report.time_s};
-    for (std::size_t i = 0; i < report.readings.size(); ++i)
-      cells.push_back(report.readings[i] == missing ? Cell() : Cell(data.bins[i].labels()[report.readings[i]]));
+  for (std::size_t k = 0; k < track.times_s.size(); ++k) {
+    std::vector<Cell> cells = {track.times_s[k]};
+    for (std::size_t i = 0; const std::size_t reading : track.readings[k]) {
+      const auto& bins = data.bins[i++];
+      cells.push_back(reading == missing ? Cell() : Cell(bins.labels()[reading]));
+    }
     table.row(std::move(cells));
   }
   return table;
@@ -322,17 +314,17 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
   const TrackReports track = read_track(options.track, data, options.every_s, options.ground_ft);
   const auto& pattern = data.counts.pattern();
   const auto all = contestants(data.counts);
-  const auto outcomes = each(all, [&](const Contestant& one) { return follow_track(one, track.reports); });
+  const auto outcomes = each(all, [&](const Contestant& one) { return follow_track(one, track.readings); });
 
   Result result = result_of_contest("What class of aircraft is " + options.track + "?", options.draws.output, all);
   say_counts(options, data.counts, result);
   result.say("{}: {} rows, {} of them below {} ft above the ground at {} ft; {} reports, {} s apart or more",
-             options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.reports.size(),
+             options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.readings.size(),
              options.every_s);
   result.page.verdict = {
       fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
                   "be, for they repeat each other.",
-                  track.reports.size(), options.every_s)};
+                  track.readings.size(), options.every_s)};
   result.page.views.push_back(view_of(data, all, track, outcomes));
   const auto decisions = decisions_table(pattern, outcomes);
   result.page.last.emplace_back(ReportTable{"Decisions", decisions, "Ties share a report."});
@@ -342,7 +334,7 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
       "(Ties share a report. Reports so close in time repeat each other, and every classifier takes them for "
       "independent: the belief after all of them is more certain than it should be.)");
   result.add(reports_table(data, track), {.printed = false, .csv = "reports.csv"});
-  result.facts("file", options.file, "track", options.track, "reports", track.reports.size(), "ground_ft",
+  result.facts("file", options.file, "track", options.track, "reports", track.readings.size(), "ground_ft",
                track.ground_ft);
   for (const TrackOutcome& outcome : outcomes)
     for (std::size_t c = 0; c < pattern.size(); ++c) {

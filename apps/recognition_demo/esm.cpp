@@ -3,7 +3,6 @@
 
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "recognition_demo/world.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -60,13 +59,13 @@ HeatMap witness_map(const Relation<Fuzzy, Fuzzy>& reading_given_feature,
 }
 
 /// A run that the page shows: the support of each platform over its reports.
-View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, EsmRun drawn) {
+View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::size_t run, const Drawn& drawn) {
   constexpr std::size_t most = 100;
-  if (drawn.reports.size() > most) drawn.reports.resize(most);
-  const auto beliefs = each(all, [&](const Contestant& one) { return beliefs_over(one, drawn.reports); });
-  return {fmt::format("run {}", run + 1),
-          support_charts(labels_of(world.platform), all, beliefs, counted_from(1, drawn.reports.size()), "reports",
-                         drawn.platform)};
+  std::vector<AnyReport> reports = drawn.reports.front();
+  if (reports.size() > most) reports.resize(most);
+  const auto beliefs = each(all, [&](const Contestant& one) { return beliefs_over(one, reports); });
+  return {fmt::format("run {}", run + 1), support_charts(labels_of(world.platform), all, beliefs,
+                                                         counted_from(1, reports.size()), "reports", drawn.truth)};
 }
 
 void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, Result& result) {
@@ -92,16 +91,12 @@ void run_esm(const EsmOptions& options) {
   const EsmWorld esm;
   const auto drawn = [&](std::size_t run) {
     RandomStream random(options.draws.seed, run);
-    return draw_run(esm, {.usage = usage_of(options), .hit = sensor_hit}, options.reports, random);
+    Drawn one = draw_run(esm, {.usage = usage_of(options), .hit = sensor_hit}, options.reports, random);
+    for (const AnyReport& report : one.reports.front())
+      one.numbers.push_back(static_cast<double>(std::get<Readings>(report).front()));
+    return one;
   };
-  const auto draw = [&](std::size_t run) {
-    EsmRun one = drawn(run);
-    Drawn result{one.platform, {one.reports}};
-    for (const AnyReport& report : one.reports)
-      result.numbers.push_back(static_cast<double>(std::get<Readings>(report).front()));
-    return result;
-  };
-  World world{"Which platform is it?", {{contestants(esm, options), draw}}};
+  World world{"Which platform is it?", {{contestants(esm, options), drawn}}};
   const auto& all = world.conditions.front().contestants;
   ResultFiles files(options.draws.output);
   // A row for each run with the truth, the readings, and what each classifier believed at last.

@@ -30,11 +30,16 @@ struct Outcome {
   Reliability reliability{};
 
   const ConfusionMatrix& confusion() const {
-    return std::visit([](const auto& e) -> const ConfusionMatrix& { return e.confusion(); }, evaluation);
+    return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
+  }
+  Recognised recognised() const {
+    Recognised all{name, {}, confusion().accuracy()};
+    for (std::size_t c = 0; c < confusion().size(); ++c) all.times.push_back(confusion()(c, c));
+    return all;
   }
   double ties() const {
-    return std::visit([](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); },
-                      evaluation);
+    return of_kind(evaluation,
+                   [](const auto& e) { return static_cast<double>(e.ties()) / static_cast<double>(e.size()); });
   }
 };
 
@@ -43,10 +48,8 @@ std::string described_folds(const EvaluateOptions& options) {
                      options.groups.empty() ? "equal shares of every class" : "whole values of " + options.groups);
 }
 
-Folds next_folds(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
-                 std::mt19937_64& generator) {
-  return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
-}
+/// Divides the rows into folds.
+using Deal = std::function<Folds(std::mt19937_64& generator)>;
 
 /// The scores in one fold, by classifier; who was right is noted.
 std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, std::size_t fold,
@@ -54,21 +57,15 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
   const TaughtFold taught_fold = taught(data, folds, fold, options);
   std::vector<Outcome> outcomes;
   for (const Contestant& contestant : taught_fold.contestants)
-    std::visit(
-        [&](const auto& by) {
-          outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
-        },
-        contestant.classifier);
+    of_kind(contestant.classifier, [&](const auto& by) {
+      outcomes.push_back({contestant.name, Evaluation{by.prior().variable()}});
+    });
   unsigned bits = 0;
   classify_rows(data, folds, taught_fold, 0, outcomes.size(), [&](const DataRow& row, std::size_t i, const Judged& by) {
-    std::visit(
-        [&](const auto& belief) {
-          using Kind = typename std::decay_t<decltype(belief)>::kind;
-          auto& evaluation = std::get<Evaluation<Kind>>(outcomes[i].evaluation);
-          if (evaluation.add(row.label(), belief) > 0.0) bits |= 1U << i;
-          outcomes[i].reliability.add(row.label(), belief);
-        },
-        by.belief);
+    of_kind(by.belief, [&]<class Kind>(const Belief<Kind>& belief) {
+      if (std::get<Evaluation<Kind>>(outcomes[i].evaluation).add(row.label(), belief) > 0.0) bits |= 1U << i;
+      outcomes[i].reliability.add(row.label(), belief);
+    });
     if (by.excluded) ++outcomes[i].excluded;
     if (i + 1 < outcomes.size()) return;
     right.set(row.index(), static_cast<std::uint8_t>(bits));
@@ -92,9 +89,9 @@ class Results {
     for (std::size_t i = 0; i < outcomes_.size(); ++i) {
       outcomes_[i].excluded += fold[i].excluded;
       outcomes_[i].reliability.add(fold[i].reliability);
-      std::visit(
-          [&](auto& evaluation) { evaluation.add(std::get<std::decay_t<decltype(evaluation)>>(fold[i].evaluation)); },
-          outcomes_[i].evaluation);
+      of_kind(outcomes_[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
+        evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
+      });
     }
   }
 
@@ -201,25 +198,22 @@ void add_reliability(Result& result, const Outcome& outcome, std::size_t folding
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
-void write_predictions(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options,
-                       ResultFiles& files) {
+void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOptions& options, ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
   keys.insert(keys.end(), data.classes.begin(), data.classes.end());
   RowFile file(files, "predictions.csv", keys);
   std::mt19937_64 generator(options.seed);
-  const Folds folds = next_folds(data, groups, options, generator);
+  const Folds folds = deal(generator);
   for (std::size_t fold = 0; fold < options.folds; ++fold) {
     const TaughtFold taught_fold = taught(data, folds, fold, options.learning);
     for (std::size_t i = 0; i < taught_fold.contestants.size(); ++i)
       classify_rows(data, folds, taught_fold, i, i + 1, [&](const DataRow& row, std::size_t, const Judged& by) {
-        std::visit(
-            [&](const auto& belief) {
-              std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()],
-                                         taught_fold.contestants[i].name, data.classes[decide(belief).pattern]};
-              for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
-              file.write(cells);
-            },
-            by.belief);
+        of_kind(by.belief, [&](const auto& belief) {
+          std::vector<Cell> cells = {row.line(), fold + 1, data.classes[row.label()], taught_fold.contestants[i].name,
+                                     data.classes[decide(belief).pattern]};
+          for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
+          file.write(cells);
+        });
       });
   }
 }
@@ -238,7 +232,7 @@ void refuse_rare_classes(const DataTable& data) {
       data.file, in_quotes(data.label), listed(each(rare, [](const auto& one) { return one.second; }), 12));
 }
 
-Results evaluated(const DataTable& data, const std::optional<Groups>& groups, const EvaluateOptions& options) {
+Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
   Results results(data.size());
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
@@ -246,7 +240,7 @@ Results evaluated(const DataTable& data, const std::optional<Groups>& groups, co
   Right right;
   for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
-    const Folds folds = next_folds(data, groups, options, generator);
+    const Folds folds = deal(generator);
     for_each_run(
         options.folds, threads,
         [&](std::size_t fold) { return classify_fold(data, folds, fold, options.learning, right); },
@@ -300,10 +294,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
       "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
-  say_beaten(
-      data.classes, data.rows_of_class,
-      each(results.outcomes(), [](const Outcome& one) { return std::pair(one.name, one.confusion().accuracy()); }),
-      result);
+  const auto recognised = each(results.outcomes(), &Outcome::recognised);
+  say_beaten(data.classes, data.rows_of_class, recognised, result);
   double of_shares = 0.0;
   for (const std::size_t rows : data.rows_of_class) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());
@@ -323,11 +315,6 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
                  excluded(outcome, options.foldings));
-  std::vector<std::pair<std::string, std::vector<double>>> recognised;
-  for (const Outcome& outcome : results.outcomes()) {
-    auto& times = recognised.emplace_back(outcome.name, std::vector<double>()).second;
-    for (std::size_t c = 0; c < data.classes.size(); ++c) times.push_back(outcome.confusion()(c, c));
-  }
   say_unrecognised(data.classes, data.rows_of_class, recognised, result);
   if (options.groups.empty())
     say_too_good(data, results.outcomes().front().confusion().accuracy(), most_often, options, result);
@@ -409,7 +396,10 @@ void run_evaluate(const EvaluateOptions& options) {
                      options.folds);
   refuse_rare_classes(data);
   const auto groups = options.groups.empty() ? std::nullopt : std::optional(groups_of(data, options.groups));
-  const Results results = evaluated(data, groups, options);
+  const Deal deal = [&](std::mt19937_64& generator) {
+    return groups ? folds_of(data, *groups, options.folds, generator) : folds_of(data, options.folds, generator);
+  };
+  const Results results = evaluated(data, deal, options);
   Result result = result_of_contest("Cross-validation of " + data.file, options.output);
   result.facts("file", data.file, "rows", data.size(), "classes", data.classes, "folds", options.folds, "foldings",
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
@@ -418,7 +408,7 @@ void run_evaluate(const EvaluateOptions& options) {
   for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
   if (!options.groups.empty()) result.fact({"groups"}, options.groups);
-  if (files.wanted()) write_predictions(data, groups, options, files);
+  if (files.wanted()) write_predictions(data, deal, options, files);
   if (files.report_wanted()) fill(result.page, data, results, options);
   result.publish(files);
 }

@@ -122,15 +122,11 @@ struct Clumps {
   static constexpr std::size_t most_rows = 1024;
   std::vector<std::size_t> rows, labels, clump;
   bool are_apart = false;  ///< whether somewhere among the nearest rows the next ones are much farther off
-
-  Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator);
-
- private:
-  std::vector<std::vector<double>> places(const DataTable& data) const;
 };
 
-/// Of each of the rows the ranks of its numbers, as shares of the rows, and its words. What is missing is a value, too.
-std::vector<std::vector<double>> Clumps::places(const DataTable& data) const {
+/// Of each of some rows the ranks of its numbers, as shares of the rows, and its words. What is missing is a value,
+/// too.
+std::vector<std::vector<double>> places_of(const std::vector<std::size_t>& rows, const DataTable& data) {
   std::vector<std::vector<double>> cells;
   std::size_t next = 0;
   data.for_each([&](const DataRow& row) {
@@ -144,25 +140,22 @@ std::vector<std::vector<double>> Clumps::places(const DataTable& data) const {
   });
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     if (!data.columns[i].numeric) continue;
-    auto sorted = each(cells, [&](const auto& own) { return own[i]; });
-    std::ranges::sort(sorted);
-    for (auto& own : cells) {
-      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), own[i]);
-      own[i] = static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) /
-               (2.0 * static_cast<double>(sorted.size()));
-    }
+    const auto ranks = ranks_of(each(cells, [&](const auto& own) { return own[i]; }));
+    for (std::size_t k = 0; k < ranks.size(); ++k) cells[k][i] = ranks[k] / (2.0 * static_cast<double>(ranks.size()));
   }
   return cells;
 }
 
-Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator) {
+Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64& generator) {
   constexpr std::size_t neighbours = 3;
+  Clumps result;
+  std::vector<std::size_t>&rows = result.rows, &clump = result.clump;
   data.for_each([&](const DataRow& row) {
-    if (generator() % (data.size() - row.index()) >= most_rows - rows.size()) return;
+    if (generator() % (data.size() - row.index()) >= Clumps::most_rows - rows.size()) return;
     rows.push_back(row.index());
-    labels.push_back(row.label());
+    result.labels.push_back(row.label());
   });
-  const auto cells = places(data);
+  const auto cells = places_of(rows, data);
   const std::size_t n = rows.size();
   const auto distance = [&](std::size_t a, std::size_t b) {
     double sum = 0.0;
@@ -188,7 +181,7 @@ Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& g
   constexpr double much = 2.0, some = 0.01;  // where distances are few, many rows are as far as the next
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (std::size_t j = i + 1; j < steps.size() && farther[j].count() > 0; ++j)
-      are_apart |= farther[j].mean() > some && farther[i].mean() > much * farther[j].mean();
+      result.are_apart |= farther[j].mean() > some && farther[i].mean() > much * farther[j].mean();
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < n; ++a)
     for (const auto& [apart, b] : nearest[a])
@@ -201,6 +194,7 @@ Clumps::Clumps(const DataTable& data, std::size_t most_alike, std::mt19937_64& g
     const auto in = [&](std::size_t which) { return static_cast<std::size_t>(std::ranges::count(clump, which)); };
     if (one != other && in(one) + in(other) <= most_alike) std::ranges::replace(clump, other, one);
   }
+  return result;
 }
 
 }  // namespace
@@ -229,13 +223,13 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
       std::min(most_of_them, std::min(Clumps::most_rows, data.size()) / (16 * data.classes.size()));
   if (!any_part_teaches(options) || alike < few_alike) return std::nullopt;
   std::mt19937_64 generator(seed);
-  const Clumps clumps(data, alike, generator);
+  const Clumps clumps = clumps_of(data, alike, generator);
   if (!clumps.are_apart) return std::nullopt;
   const std::size_t n = clumps.rows.size();
   std::vector<std::size_t> alone(n);
   std::iota(alone.begin(), alone.end(), std::size_t{0});
-  // Of each class, that of the first row, the clumps go to one fold after the other.
-  const auto dealt = [&](const std::vector<std::size_t>& clump) -> std::optional<Folds> {
+  // Whether each row is recognised when, of each class, that of the first row, clumps go to one fold after the other.
+  const auto right_by = [&](const std::vector<std::size_t>& clump) -> std::optional<std::vector<double>> {
     std::vector<std::vector<std::size_t>> of_class(data.classes.size());
     for (std::size_t k = 0; k < n; ++k)
       if (clump[k] == k) of_class[clumps.labels[k]].push_back(k);
@@ -249,24 +243,20 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
     Folds folds;
     for (std::size_t row = 0, k = 0; row < data.size(); ++row)
       folds.push_back(k < n && clumps.rows[k] == row ? fold[clump[k++]] : no_fold);
-    return folds;
+    const Right right = right_of_sigma(data, folds, number, options, threads);
+    ScratchCursor<std::uint8_t> is_right(right);
+    return each(clumps.rows, [&](std::size_t row) { return static_cast<double>(is_right[row]); });
   };
   std::vector<double> right(n), less(n);
-  for (int dealing = 0; dealing < dealings; ++dealing)
-    for (const std::vector<std::size_t>* const clump : {&std::as_const(alone), &clumps.clump}) {
-      const auto folds = dealt(*clump);
-      if (!folds) return std::nullopt;
-      const Right by = right_of_sigma(data, *folds, number, options, threads);
-      ScratchCursor<std::uint8_t> is_right(by);
-      for (std::size_t k = 0; k < n; ++k) {
-        const double share = is_right[clumps.rows[k]] / static_cast<double>(dealings);
-        less[k] += clump == &alone ? share : -share;
-        right[k] += clump == &alone ? share : 0.0;
-      }
+  for (int dealing = 0; dealing < dealings; ++dealing) {
+    const auto apart = right_by(alone), together = apart ? right_by(clumps.clump) : std::nullopt;
+    if (!together) return std::nullopt;
+    for (std::size_t k = 0; k < n; ++k) {
+      right[k] += (*apart)[k] / dealings;
+      less[k] += ((*apart)[k] - (*together)[k]) / dealings;
     }
-  RunningMean of_right, of_less;
-  for (std::size_t k = 0; k < n; ++k) of_right.add(right[k]), of_less.add(less[k]);
-  return ByClumps{n, of_right.mean(), of_less.interval()};
+  }
+  return ByClumps{n, mean_interval(right).mean, mean_interval(less)};
 }
 
 }  // namespace sigmax::apps

@@ -40,17 +40,10 @@ struct Scenario {
   }
 };
 
-/// Logarithms of the weights of both filters' modes after each sample; none before the filters start, from samples 1
-/// and 2.
-struct ManoeuvreRun {
-  std::vector<double> positions;  ///< measured
-  std::vector<std::vector<double>> imm, himm;
-};
-
 using Model = IndependentAxes<1, DiscreteWhiteNoise<2>>;
 using Point = TimedMeasurement<1>;
 
-/// The logarithms of the mode's weights after every sample.
+/// The logarithms of the mode's weights after every sample; none before the filter starts, from samples 1 and 2.
 template <Uncertainty Kind>
 std::vector<std::vector<double>> mode_weights(const Scenario& scenario, const Relation<Kind, Kind>& transition,
                                               const std::vector<Point>& points) {
@@ -84,25 +77,34 @@ std::vector<AnyReport> reports_of(const Scenario& scenario, const std::vector<st
   return result;
 }
 
-ManoeuvreRun fly(const Scenario& scenario, double acceleration, RandomStream& random) {
+/// A flight of one of the targets, and what each contestant is told of it. Its numbers are of each sample, one after
+/// the other, the measured position and the weights of the filters' modes; NaN where there is no weight.
+Drawn fly(const Scenario& scenario, std::size_t target, RandomStream& random) {
   constexpr double T = Scenario::step_s;
-  ManoeuvreRun run;
   std::vector<Point> points;
   double x = Scenario::start_m, v = Scenario::speed;
   for (std::size_t k = 1; k <= Scenario::samples; ++k) {
     if (k > 1) {
-      const double a = k >= Scenario::first_accelerated && k <= Scenario::last_accelerated ? acceleration : 0.0;
+      const double a =
+          k >= Scenario::first_accelerated && k <= Scenario::last_accelerated ? scenario.acceleration[target] : 0.0;
       x += T * v + 0.5 * T * T * a;
       v += T * a;
     }
-    run.positions.push_back(x + Scenario::sigma_position * random.normal());
-    points.push_back(
-        {T * static_cast<double>(k - 1),
-         {Vector<1>(run.positions.back()), SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
+    const double measured = x + Scenario::sigma_position * random.normal();
+    points.push_back({T * static_cast<double>(k - 1),
+                      {Vector<1>(measured), SquareMatrix<1>(Scenario::sigma_position * Scenario::sigma_position)}});
   }
   const auto transition = mostly_right(scenario.mode, scenario.mode, Scenario::stay, 1.0 - Scenario::stay);
-  run.imm = mode_weights(scenario, transition, points);
-  run.himm = mode_weights(scenario, with_fuzzy_condition(to_possibility(transition, RatioScale{})), points);
+  const auto imm = mode_weights(scenario, transition, points);
+  const auto himm = mode_weights(scenario, with_fuzzy_condition(to_possibility(transition, RatioScale{})), points);
+  const auto by_sum = reports_of<Random>(scenario, imm), by_max = reports_of<Fuzzy>(scenario, himm);
+  Drawn run{target, {by_sum, by_max, by_sum, by_max}};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    run.numbers.push_back(points[k].measurement.mean(0));
+    for (const auto* weights : {&imm[k], &himm[k]})
+      for (std::size_t j = 0; j < scenario.mode.size(); ++j)
+        run.numbers.push_back(weights->empty() ? std::nan("") : std::exp((*weights)[j]));
+  }
   return run;
 }
 
@@ -117,12 +119,6 @@ std::vector<Contestant> contestants(const Scenario& scenario) {
           {"max, of the HIMM", max},
           {"sigma-max, of the IMM", max},
           {"max-sigma, of the HIMM", sigma}};
-}
-
-/// What each of them is told.
-std::vector<std::vector<AnyReport>> reports_of(const Scenario& scenario, const ManoeuvreRun& run) {
-  const auto by_sum = reports_of<Random>(scenario, run.imm), by_max = reports_of<Fuzzy>(scenario, run.himm);
-  return {by_sum, by_max, by_sum, by_max};
 }
 
 ResultTable targets_table(const Scenario& scenario, const std::vector<Scores>& all) {
@@ -159,19 +155,6 @@ ResultTable differences_table(const Scenario& scenario, const std::vector<Scores
     table.row_of(row);
   }
   return table;
-}
-
-/// Of each sample, one after the other, the measured position and the weights of the filters' modes; NaN where there is
-/// no weight.
-std::vector<double> numbers_of(const Scenario& scenario, const ManoeuvreRun& run) {
-  std::vector<double> numbers;
-  for (std::size_t k = 0; k < Scenario::samples; ++k) {
-    numbers.push_back(run.positions[k]);
-    for (const auto* weights : {&run.imm[k], &run.himm[k]})
-      for (std::size_t j = 0; j < scenario.mode.size(); ++j)
-        numbers.push_back(weights->empty() ? std::nan("") : std::exp((*weights)[j]));
-  }
-  return numbers;
 }
 
 /// Writes what a run tells of its samples.
@@ -270,8 +253,7 @@ void run_manoeuvre(const DrawOptions& options) {
   for (std::size_t target = 0; target < targets; ++target)
     world.conditions.push_back({all, [&, target](std::size_t run) {
                                   RandomStream random(options.seed, run * targets + target);
-                                  const auto flight = fly(scenario, scenario.acceleration[target], random);
-                                  return Drawn{target, reports_of(scenario, flight), numbers_of(scenario, flight)};
+                                  return fly(scenario, target, random);
                                 }});
   world.view = [&](const SeenRun& run) { return view_of(scenario, world.conditions[run.condition], run); };
   world.runs_in_page = 1;

@@ -25,20 +25,18 @@ struct FittedDensity {
   /// Probability below x, which may be infinite.
   double cdf(double x) const {
     const double z = (x - location) / scale;
-    return std::visit(
-        [z](const auto& density) {
-          const auto [least, greatest] = boost::math::support(density);
-          if (z <= least) return 0.0;
-          if (z >= greatest) return 1.0;
-          return boost::math::cdf(density, z);
-        },
-        standard);
+    return of_kind(standard, [z](const auto& density) {
+      const auto [least, greatest] = boost::math::support(density);
+      if (z <= least) return 0.0;
+      if (z >= greatest) return 1.0;
+      return boost::math::cdf(density, z);
+    });
   }
 
   /// The number below which the probability is u, for 0 < u < 1.
   double quantile(double u) const {
-    return location +
-           scale * std::visit([u](const auto& density) { return boost::math::quantile(density, u); }, standard);
+    const auto of_standard = [u](const auto& density) { return boost::math::quantile(density, u); };
+    return location + scale * of_kind(standard, of_standard);
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include "recognition_demo/emitters.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "recognition_demo/world.hpp"
 
 namespace sigmax::apps {
 namespace {
@@ -195,8 +194,9 @@ Condition condition_of(const EsmWorld& world, const Setting& setting, const Regi
             RandomStream random(options.draws.seed, run);
             std::vector<Contestant> anew;
             if (setting.seen > 0) anew = contestants(random);
-            EsmRun drawn = draw_run(world, setting.truth, options.reports, random);
-            return Drawn{drawn.platform, {std::move(drawn.reports)}, {}, std::move(anew)};
+            Drawn drawn = draw_run(world, setting.truth, options.reports, random);
+            drawn.contestants = std::move(anew);
+            return drawn;
           }};
 }
 
