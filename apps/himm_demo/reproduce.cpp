@@ -71,7 +71,7 @@ void add_figures(const Experiment& experiment, const Trace& trace, std::size_t m
   const auto& phases = experiment.scenario.phases;
   const int onset = phases[1].first;
   add_squares(experiment.scenario, trace.error, sums + Column::square);
-  const auto squared_z = [&](std::size_t k) { return trace.squared_error(k, 2); };
+  const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
   sums[Column::onset_z] += phase_mean({"before", onset - 10, onset - 1}, squared_z);
   sums[Column::onset_z + 1] += phase_mean({"after", onset, onset + 9}, squared_z);
 
@@ -95,12 +95,13 @@ class Condition {
   Preset preset;
   int scenario, group;
   Experiment experiment;
-  Batches batches{first_filter + Column::count * experiment.filters.size()};
+  std::size_t columns = first_filter + Column::count * experiment.filters.size();
+  Batches batches{columns};
 
   /// The runs first … last − 1 of all filters, as one row: how many they are, and the columns of the measurement and of
   /// each filter.
   Study::Row batch(std::uint64_t first, std::uint64_t last) const {
-    Study::Row row(first_filter + Column::count * experiment.filters.size(), 0.0);
+    Study::Row row(columns, 0.0);
     row[0] = static_cast<double>(last - first);
     for (std::uint64_t number = first; number < last; ++number) {
       const TracedRun run = experiment.traced(number);

@@ -117,10 +117,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
-  Errors error(recording.truth.size(), {nan, nan, nan});
+  Errors error(recording.truth.size(), Vector<3>::Constant(nan));
   follow(filter, scenario.step_s, recording, [&](const TargetPoint& point) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      error[point.tag][axis] = point.mean[axis] - recording.truth[point.tag](static_cast<Eigen::Index>(axis));
+    error[point.tag] = Vector<3>(point.mean.data()) - recording.truth[point.tag].head<3>();
   });
   add_squares(scenario, error, sums.data());
 }
