@@ -576,8 +576,9 @@ void report(const Found& found, ResultFiles& files) {
                experiment.runs, "seed", experiment.seed, "settings_toml", as_toml(experiment.filters));
   result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
              name_of(options.preset), experiment.runs, experiment.seed);
-  result.say("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first, phases[0].last,
-             phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
+  result.say("Phases by sample: {}", list_of(phases, [](const Phase& phase) {
+               return fmt::format("{} {}–{}", phase.name, phase.first, phase.last);
+             }));
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;
@@ -639,17 +640,14 @@ void report(const Found& found, ResultFiles& files) {
 
 void simulate_and_report(const SimulateOptions& options) {
   const Settings settings = Settings::read(options.filters.config, options.filters.sets);
-  const Group parameters = group(options.group, options.scenario);
-  const auto filters = read_filters(settings, FilterDefaults::of(options.preset, parameters));
-  settings.refuse_unknown();
+  const int runs = options.runs.value_or(options.preset == Preset::released ? 50 : 100);
+  const Experiment experiment =
+      experiment_of(options.preset, options.scenario, options.group, settings, runs, options.seed);
   if (options.filters.print_config) {
-    fmt::print("{}", as_toml(filters));
+    fmt::print("{}", as_toml(experiment.filters));
     return;
   }
   refuse_to_overwrite(options.output, {options.filters.config}, {"filters.csv", "rmse.csv", "weights.csv"});
-  const bool released = options.preset == Preset::released;
-  const Experiment experiment{scenario(options.scenario, options.preset), parameters,   filters,
-                              options.runs.value_or(released ? 50 : 100), options.seed, released ? -1 : 0};
   Found found{options, experiment, performances(experiment), {}};
   const Study study{"runs", static_cast<std::size_t>(experiment.runs),
                     [&](std::size_t number) { return row_of(found.performances, experiment.traced(number)); }};

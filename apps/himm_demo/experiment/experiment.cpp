@@ -69,6 +69,15 @@ TracedRun Experiment::traced(std::uint64_t number) const {
   return run;
 }
 
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed) {
+  const Group parameters = group(group_number, scenario_number);
+  auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
+  settings.refuse_unknown();
+  const int mode_sample_shift = preset == Preset::released ? -1 : 0;
+  return {scenario(scenario_number, preset), parameters, std::move(filters), runs, seed, mode_sample_shift};
+}
+
 std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
   if (filter.smooth || std::ranges::all_of(filter.motions, &MotionChoice::manoeuvres)) return std::nullopt;
   for (std::size_t j = filter.motions.size(); j-- > 0;)

@@ -66,6 +66,10 @@ struct Experiment {
   TracedRun traced(std::uint64_t number) const;
 };
 
+/// That of a scenario and group, with the filters that the settings name. Throws InputError for what cannot be.
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed);
+
 /// Mean square errors are by phase and axis: 3 · phase + axis.
 inline constexpr std::size_t squares = 9;
 
