@@ -57,21 +57,12 @@ std::vector<std::string> settings_of(int scenario_number, int group_number) {
   return sets;
 }
 
-Experiment experiment_of(Preset preset, int scenario_number, int group_number, const ReproduceOptions& options) {
-  const Group parameters = group(group_number, scenario_number);
-  const Settings settings = Settings::read({}, settings_of(scenario_number, group_number));
-  auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
-  settings.refuse_unknown();
-  return {scenario(scenario_number, preset),  parameters, std::move(filters), options.runs, options.seed,
-          preset == Preset::released ? -1 : 0};
-}
-
 /// What one run of a filter adds to its columns.
 void add_figures(const Experiment& experiment, const Trace& trace, std::size_t model, double* sums) {
   const auto& phases = experiment.scenario.phases;
   const int onset = phases[1].first;
   add_squares(experiment.scenario, trace.error, sums + Column::square);
-  const auto squared_z = [&](std::size_t k) { return trace.squared_error(k, 2); };
+  const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
   sums[Column::onset_z] += phase_mean({"before", onset - 10, onset - 1}, squared_z);
   sums[Column::onset_z + 1] += phase_mean({"after", onset, onset + 9}, squared_z);
 
@@ -95,12 +86,13 @@ class Condition {
   Preset preset;
   int scenario, group;
   Experiment experiment;
-  Batches batches{first_filter + Column::count * experiment.filters.size()};
+  std::size_t columns = first_filter + Column::count * experiment.filters.size();
+  Batches batches{columns};
 
   /// The runs first … last − 1 of all filters, as one row: how many they are, and the columns of the measurement and of
   /// each filter.
   Study::Row batch(std::uint64_t first, std::uint64_t last) const {
-    Study::Row row(first_filter + Column::count * experiment.filters.size(), 0.0);
+    Study::Row row(columns, 0.0);
     row[0] = static_cast<double>(last - first);
     for (std::uint64_t number = first; number < last; ++number) {
       const TracedRun run = experiment.traced(number);
@@ -230,8 +222,11 @@ std::vector<Condition> conditions(const ReproduceOptions& options) {
   std::vector<Condition> all;
   for (const Preset preset : both_presets)
     for (const int scenario : {1, 2})
-      for (const int group : {1, 2, 3, 4})
-        all.push_back({preset, scenario, group, experiment_of(preset, scenario, group, options)});
+      for (const int group : {1, 2, 3, 4}) {
+        const Settings settings = Settings::read({}, settings_of(scenario, group));
+        all.push_back(
+            {preset, scenario, group, experiment_of(preset, scenario, group, settings, options.runs, options.seed)});
+      }
   return all;
 }
 
@@ -348,9 +343,7 @@ std::size_t least_favourable(const std::vector<Measured>& all) {
     const double inside = std::min(measured.interval.mean - region.above, region.below - measured.interval.mean);
     return std::isnan(inside) ? 0.0 : inside / std::max(measured.interval.half_width, 1e-12);
   };
-  const auto worst =
-      std::ranges::min_element(all, [&](const Measured& a, const Measured& b) { return margin(a) < margin(b); });
-  return static_cast<std::size_t>(worst - all.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(all, {}, margin) - all.begin());
 }
 
 /// Parts of the table of sentences: with a verdict for each preset, HIMM being what the preset takes for it; and with

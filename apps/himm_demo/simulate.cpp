@@ -38,7 +38,8 @@ class Performance {
           cross_time(experiment_, [&](std::size_t k) { return weight_difference(trace.weights[k], *manoeuvre_); });
     row.push_back(crossing.value_or(nan));
     for (std::size_t k = 0; k < trace.error.size(); ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) row.push_back(trace.squared_error(k, axis));
+      const Vector<3> squared = trace.error[k].cwiseAbs2();
+      row.insert(row.end(), squared.begin(), squared.end());
       const bool taken = !std::isnan(trace.nis[k]);  // else the gate turned the measurement away
       const auto& weights = trace.weights[k];
       row.insert(row.end(), {trace.nees_position[k], trace.nees_velocity[k], taken ? trace.nis[k] : 0.0,
@@ -83,8 +84,9 @@ class Performance {
 
   /// Means of the models' weights, as they are told of a sample; empty before the first estimate.
   std::vector<double> told_weights(std::size_t sample) const {
-    const auto source = experiment_.mode_sample(sample);
-    return source ? weights(*source) : std::vector<double>();
+    const int source = static_cast<int>(sample) - experiment_.mode_sample_shift;
+    const bool known = source >= 0 && source < experiment_.scenario.samples;
+    return known ? weights(static_cast<std::size_t>(source)) : std::vector<double>();
   }
 
   /// Root mean square over the samples of a phase: by axis, and of the distance.
@@ -254,7 +256,7 @@ class Views {
   LineChart error(const TracedRun& run, std::size_t axis) const {
     LineChart made = chart(fmt::format("Error in {}", axis_names[axis]), "error, m");
     const auto errors = [&](const Trace& trace) {
-      return by_sample([&](std::size_t k) { return trace.error[k][axis]; });
+      return by_sample([&](std::size_t k) { return trace.error[k](static_cast<Eigen::Index>(axis)); });
     };
     made.curves.push_back(
         {.name = measurement_name, .group = measurement_name, .values = errors(run.measurement), .dots = true});
@@ -309,7 +311,7 @@ class Views {
       plan.traces.push_back({.name = of, .group = of, .shape = shape, .x = along(0), .y = along(1), .z = along(2)});
     };
     const auto seen_by = [&](const Trace& trace) {
-      return [&](std::size_t k) -> Vector<3> { return run.truth[k].head<3>() + Vector<3>(trace.error[k].data()); };
+      return [&](std::size_t k) -> Vector<3> { return run.truth[k].head<3>() + trace.error[k]; };
     };
     add(measurement_name, PlanTrace::Shape::dots, seen_by(run.measurement));
     add(truth_name, PlanTrace::Shape::line, [&](std::size_t k) -> Vector<3> { return run.truth[k].head<3>(); });
@@ -574,8 +576,9 @@ void report(const Found& found, ResultFiles& files) {
                experiment.runs, "seed", experiment.seed, "settings_toml", as_toml(experiment.filters));
   result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
              name_of(options.preset), experiment.runs, experiment.seed);
-  result.say("Phases by sample: {} {}–{}, {} {}–{}, {} {}–{}", phases[0].name, phases[0].first, phases[0].last,
-             phases[1].name, phases[1].first, phases[1].last, phases[2].name, phases[2].first, phases[2].last);
+  result.say("Phases by sample: {}", list_of(phases, [](const Phase& phase) {
+               return fmt::format("{} {}–{}", phase.name, phase.first, phase.last);
+             }));
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;
@@ -637,17 +640,14 @@ void report(const Found& found, ResultFiles& files) {
 
 void simulate_and_report(const SimulateOptions& options) {
   const Settings settings = Settings::read(options.filters.config, options.filters.sets);
-  const Group parameters = group(options.group, options.scenario);
-  const auto filters = read_filters(settings, FilterDefaults::of(options.preset, parameters));
-  settings.refuse_unknown();
+  const int runs = options.runs.value_or(options.preset == Preset::released ? 50 : 100);
+  const Experiment experiment =
+      experiment_of(options.preset, options.scenario, options.group, settings, runs, options.seed);
   if (options.filters.print_config) {
-    fmt::print("{}", as_toml(filters));
+    fmt::print("{}", as_toml(experiment.filters));
     return;
   }
   refuse_to_overwrite(options.output, {options.filters.config}, {"filters.csv", "rmse.csv", "weights.csv"});
-  const bool released = options.preset == Preset::released;
-  const Experiment experiment{scenario(options.scenario, options.preset), parameters,   filters,
-                              options.runs.value_or(released ? 50 : 100), options.seed, released ? -1 : 0};
   Found found{options, experiment, performances(experiment), {}};
   const Study study{"runs", static_cast<std::size_t>(experiment.runs),
                     [&](std::size_t number) { return row_of(found.performances, experiment.traced(number)); }};

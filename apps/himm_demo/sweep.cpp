@@ -117,10 +117,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
-  Errors error(recording.truth.size(), {nan, nan, nan});
+  Errors error(recording.truth.size(), Vector<3>::Constant(nan));
   follow(filter, scenario.step_s, recording, [&](const TargetPoint& point) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      error[point.tag][axis] = point.mean[axis] - recording.truth[point.tag](static_cast<Eigen::Index>(axis));
+    error[point.tag] = Vector<3>(point.mean.data()) - recording.truth[point.tag].head<3>();
   });
   add_squares(scenario, error, sums.data());
 }
@@ -192,21 +191,26 @@ Scenario scenario_of(const SweepCondition& condition) {
 /// All conditions and filters, and what was found of them.
 class SweepWorld {
  public:
+  SweepChoice choice;
+  std::vector<SweepCondition> conditions = conditions_of(choice);
+  std::vector<FilterSettings> filters;
+  std::vector<Tuned> all_tuned;  ///< by condition and filter
+
   /// Throws InputError for a filter that there is not.
-  explicit SweepWorld(const SweepChoice& choice) : choice_(choice), conditions_(conditions_of(choice)) {
-    for (auto* const list : {&choice_.probability, &choice_.possibility, &choice_.sigma_w}) {
+  explicit SweepWorld(SweepChoice what) : choice(std::move(what)) {
+    for (auto* const list : {&choice.probability, &choice.possibility, &choice.sigma_w}) {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
     const std::vector<std::string> sets = {fmt::format("filters=[{}]", fmt::join(choice.filters, ","))};
-    filters_ = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
+    filters = read_filters(Settings::read({}, sets), FilterDefaults::of(Preset::paper_text, group(1, 1)));
   }
 
   /// Tunes each filter in each condition and judges it on other runs. A cell is condition · filters + filter.
   Study study() const {
-    return {"cells", conditions_.size() * filters_.size(),
-            [this](std::size_t cell) { return work(cell / filters_.size(), cell % filters_.size()); },
-            command_of(choice_)};
+    return {"cells", conditions.size() * filters.size(),
+            [this](std::size_t cell) { return work(cell / filters.size(), cell % filters.size()); },
+            command_of(choice)};
   }
   /// Of the next cell.
   void add(const Study::Row& row) {
@@ -219,15 +223,11 @@ class SweepWorld {
     const auto ratio = [&](std::size_t i) { return sqrt(batches.mean(1 + squares + i)) / sqrt(batches.mean(1 + i)); };
     Statistic sum = ratio(0);
     for (std::size_t i = 1; i < squares; ++i) sum = sum + ratio(i);
-    tuned_.push_back({place, at_the_limit(lattice(tuned_.size() % filters_.size()), place), row[of_a_place],
-                      static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
+    all_tuned.push_back({place, at_the_limit(lattice(all_tuned.size() % filters.size()), place), row[of_a_place],
+                         static_cast<std::size_t>(row[of_a_place + 1]), sum * (1.0 / squares)});
   }
 
-  const SweepChoice& choice() const { return choice_; }
-  const std::vector<SweepCondition>& conditions() const { return conditions_; }
-  const std::vector<FilterSettings>& filters() const { return filters_; }
-  const std::vector<Tuned>& all_tuned() const { return tuned_; }
-  const Tuned& tuned(std::size_t condition, std::size_t f) const { return tuned_[condition * filters_.size() + f]; }
+  const Tuned& tuned(std::size_t condition, std::size_t f) const { return all_tuned[condition * filters.size() + f]; }
 
   /// How many settings are on the lists of a filter.
   std::size_t listed_settings(std::size_t f) const { return grid(lattice(f)).size(); }
@@ -240,14 +240,13 @@ class SweepWorld {
   /// The place of the IMM among the filters, and of the fuzzy interacting filter whose score on the tuning runs is the
   /// least: what is called HIMM.
   std::optional<std::size_t> imm() const {
-    for (std::size_t f = filters_.size(); f-- > 0;)
-      if (filters_[f].name == "imm") return f;
-    return std::nullopt;
+    const auto found = std::ranges::find(filters, "imm", &FilterSettings::name);
+    return found == filters.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - filters.begin()));
   }
   std::optional<std::size_t> himm(std::size_t condition) const {
     std::optional<std::size_t> best;
-    for (std::size_t f = 0; f < filters_.size(); ++f)
-      if (filters_[f].fuzzy && filters_[f].scheme == Scheme::interacting &&
+    for (std::size_t f = 0; f < filters.size(); ++f)
+      if (filters[f].fuzzy && filters[f].scheme == Scheme::interacting &&
           (!best || tuned(condition, f).tuning_score < tuned(condition, *best).tuning_score))
         best = f;
     return best;
@@ -256,16 +255,16 @@ class SweepWorld {
   /// By how much the score is above that of the tuned IMM, relatively; one of as many intervals as there are
   /// conditions.
   Interval against_imm(std::size_t condition, std::size_t f) const {
-    return (tuned(condition, f).score / tuned(condition, *imm()).score - 1.0).interval(conditions_.size());
+    return (tuned(condition, f).score / tuned(condition, *imm()).score - 1.0).interval(conditions.size());
   }
 
  private:
   std::vector<Axis> lattice(std::size_t f) const {
-    const bool fuzzy = filters_[f].fuzzy;
+    const bool fuzzy = filters[f].fuzzy;
     const Axis off_diagonal =
-        continued(fuzzy ? choice_.possibility : choice_.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice_.beyond);
-    const Axis sigma_w = continued(choice_.sigma_w, 1e-6, 1e6, choice_.beyond);
-    Axis lift{.numbers = std::vector<double>(choice_.lifts.size())};
+        continued(fuzzy ? choice.possibility : choice.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice.beyond);
+    const Axis sigma_w = continued(choice.sigma_w, 1e-6, 1e6, choice.beyond);
+    Axis lift{.numbers = std::vector<double>(choice.lifts.size())};
     lift.ordered = false;
     return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
   }
@@ -273,25 +272,25 @@ class SweepWorld {
     const std::vector<Axis> lattice = this->lattice(f);
     const auto number = [&](std::size_t axis) { return lattice[axis].numbers[place[axis]]; };
     const double leaving = number(0), returning = number(1);
-    const double mismatch = conditions_[condition].mismatch;
-    const Polar sigma = group(1, conditions_[condition].scenario).data;
-    FilterSettings own = filters_[f];
+    const double mismatch = conditions[condition].mismatch;
+    const Polar sigma = group(1, conditions[condition].scenario).data;
+    FilterSettings own = filters[f];
     own.accuracy.radar = {mismatch * sigma.range, mismatch * sigma.azimuth, mismatch * sigma.elevation};
     own.transition = {{own.fuzzy ? 1.0 : 1.0 - leaving, leaving}, {returning, own.fuzzy ? 1.0 : 1.0 - returning}};
     for (const std::size_t model : {0U, 1U}) own.motions[model][MotionParameter::sigma_w] = number(2 + model);
-    own.lift = static_cast<Lift>(std::ranges::find(lift_names, choice_.lifts[place.back()]) - lift_names.begin());
+    own.lift = static_cast<Lift>(std::ranges::find(lift_names, choice.lifts[place.back()]) - lift_names.begin());
     return own;
   }
   Recording recording(std::size_t condition, int number) const {
-    RandomStream random(choice_.seed, static_cast<std::uint64_t>(number));
-    return simulate(scenario_of(conditions_[condition]), group(1, conditions_[condition].scenario).data, random);
+    RandomStream random(choice.seed, static_cast<std::uint64_t>(number));
+    return simulate(scenario_of(conditions[condition]), group(1, conditions[condition].scenario).data, random);
   }
   std::vector<double> scores_of(std::size_t condition, std::size_t f, const std::vector<Place>& places) const {
-    const Scenario scenario = scenario_of(conditions_[condition]);
+    const Scenario scenario = scenario_of(conditions[condition]);
     const auto tried = each(places, [&](const Place& place) { return settings(condition, f, place); });
     Squares measured{};
     std::vector<Squares> sums(places.size(), Squares{});
-    for (int run = 0; run < choice_.tuning_runs; ++run) {
+    for (int run = 0; run < choice.tuning_runs; ++run) {
       const Recording one = recording(condition, run);
       add_squares(scenario, errors_of(one), measured.data());
       for (std::size_t i = 0; i < places.size(); ++i) try {
@@ -306,7 +305,7 @@ class SweepWorld {
   // the measurement and of the filter.
   Study::Row work(std::size_t condition, std::size_t f) const {
     constexpr int most_batches = 25;
-    const Scenario scenario = scenario_of(conditions_[condition]);
+    const Scenario scenario = scenario_of(conditions[condition]);
     // The best of the grid, then from neighbour to better neighbour until none is better; the first of equals is taken.
     Place best{};
     double best_score = infinity;
@@ -325,12 +324,12 @@ class SweepWorld {
     const FilterSettings tuned = settings(condition, f, best);
     Study::Row row(best.begin(), best.end());
     row.insert(row.end(), {best_score, static_cast<double>(tried.size())});
-    const int batches = std::min(most_batches, choice_.runs);
+    const int batches = std::min(most_batches, choice.runs);
     for (int batch = 0; batch < batches; ++batch) {
       Squares own{}, raw{};
-      const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice_.runs) * at / batches); };
+      const auto bound = [&](int at) { return static_cast<int>(static_cast<long>(choice.runs) * at / batches); };
       for (int number = bound(batch); number < bound(batch + 1); ++number) {
-        const Recording one = recording(condition, choice_.tuning_runs + number);
+        const Recording one = recording(condition, choice.tuning_runs + number);
         add_squares(scenario, errors_of(one), raw.data());
         add_run(scenario, tuned, one, own);
       }
@@ -340,11 +339,6 @@ class SweepWorld {
     }
     return row;
   }
-
-  SweepChoice choice_;
-  std::vector<SweepCondition> conditions_;
-  std::vector<FilterSettings> filters_;
-  std::vector<Tuned> tuned_;  // by condition and filter
 };
 
 struct SweepOptions {
@@ -372,27 +366,27 @@ std::string answer(const SweepWorld& world) {
   if (!world.imm() || !world.himm(0)) return "";
   std::size_t better = 0, worse = 0, open = 0, best = 0;
   const auto difference = [&](std::size_t c) { return world.against_imm(c, *world.himm(c)); };
-  for (std::size_t c = 0; c < world.conditions().size(); ++c) {
+  for (std::size_t c = 0; c < world.conditions.size(); ++c) {
     ++(difference(c).below_zero() ? better : difference(c).above_zero() ? worse : open);
     if (difference(c).mean < difference(best).mean) best = c;
   }
   return fmt::format(
       "HIMM is better than the tuned IMM in {} of {} conditions, worse in {}, and {} are open. At best its score "
       "differs by {} ± {} %: scenario {}. HIMM is what did best on the tuning runs under any reading of (57).",
-      better, world.conditions().size(), worse, open, number_text(100.0 * difference(best).mean, 1, true),
-      number_text(100.0 * difference(best).half_width, 1), words_of(world.conditions()[best]));
+      better, world.conditions.size(), worse, open, number_text(100.0 * difference(best).mean, 1, true),
+      number_text(100.0 * difference(best).half_width, 1), words_of(world.conditions[best]));
 }
 
 /// How many settings were tried, and by how many runs.
 std::string searched(const SweepWorld& world) {
-  const SweepChoice& choice = world.choice();
-  std::string text = fmt::format("{} filters, {} settings each", world.filters().size(), world.listed_settings(0));
+  const SweepChoice& choice = world.choice;
+  std::string text = fmt::format("{} filters, {} settings each", world.filters.size(), world.listed_settings(0));
   if (choice.beyond > 0) {
     std::size_t tried = 0;
-    for (const Tuned& tuned : world.all_tuned()) tried += tuned.tried;
+    for (const Tuned& tuned : world.all_tuned) tried += tuned.tried;
     text += fmt::format(
         " and about {} with those on the way from the best to better neighbours, up to {} steps beyond a list",
-        tried / world.all_tuned().size(), choice.beyond);
+        tried / world.all_tuned.size(), choice.beyond);
   }
   return text + fmt::format("; chosen by {} runs and judged by {} others, seed {}", choice.tuning_runs, choice.runs,
                             choice.seed);
@@ -400,11 +394,11 @@ std::string searched(const SweepWorld& world) {
 
 /// How many of the tuned filters are at the limit of the search; empty if none is.
 std::string limits(const SweepWorld& world) {
-  const auto stopped = std::ranges::count(world.all_tuned(), true, &Tuned::at_the_limit);
+  const auto stopped = std::ranges::count(world.all_tuned, true, &Tuned::at_the_limit);
   if (stopped == 0) return "";
   return fmt::format(
-      "{} of {} tuned filters {}: there may be better ones beyond.", stopped, world.all_tuned().size(),
-      world.choice().beyond == 0 ? "have a number at an end of its list" : "stopped at the limit beyond a list");
+      "{} of {} tuned filters {}: there may be better ones beyond.", stopped, world.all_tuned.size(),
+      world.choice.beyond == 0 ? "have a number at an end of its list" : "stopped at the limit beyond a list");
 }
 
 /// Parts of the table of all filters in all conditions: with the numbers or the name of the condition, or for one.
@@ -414,9 +408,9 @@ struct ConditionPart {
 
 ResultTable filters_table(const SweepWorld& world) {
   ResultTable table;
-  for (std::size_t c = 0; c < world.conditions().size(); ++c)
-    for (std::size_t f = 0; f < world.filters().size(); ++f) {
-      const SweepCondition& condition = world.conditions()[c];
+  for (std::size_t c = 0; c < world.conditions.size(); ++c)
+    for (std::size_t f = 0; f < world.filters.size(); ++f) {
+      const SweepCondition& condition = world.conditions[c];
       const Tuned& tuned = world.tuned(c, f);
       const FilterSettings settings = world.settings(c, f);
       const auto sigma_w = [&](std::size_t model) { return settings.motions[model][MotionParameter::sigma_w]; };
@@ -450,16 +444,16 @@ ResultTable filters_table(const SweepWorld& world) {
 /// of zero.
 ResultTable above_imm_table(const SweepWorld& world) {
   ResultTable table;
-  for (std::size_t c = 0; c < world.conditions().size(); ++c) {
-    std::vector<Field> fields = {{{.header = "scenario", .align = Align::left}, words_of(world.conditions()[c])},
+  for (std::size_t c = 0; c < world.conditions.size(); ++c) {
+    std::vector<Field> fields = {{{.header = "scenario", .align = Align::left}, words_of(world.conditions[c])},
                                  {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
     const auto add = [&](const std::string& name, std::optional<std::size_t> f) {
       const Interval above = f ? world.against_imm(c, *f) : Interval{};
       fields.push_back({{.header = name, .group = "% above imm:"},
                         f ? Cell(number_text(100.0 * above.mean, 1, true) + (sure(above) ? "*" : " ")) : Cell()});
     };
-    for (std::size_t f = 0; f < world.filters().size(); ++f)
-      if (f != *world.imm()) add(world.filters()[f].name, f);
+    for (std::size_t f = 0; f < world.filters.size(); ++f)
+      if (f != *world.imm()) add(world.filters[f].name, f);
     add("himm", world.himm(c));
     table.row_of(fields);
   }
@@ -481,10 +475,10 @@ class Maps {
  public:
   explicit Maps(const SweepWorld& world) : world_(world) {
     if (world.himm(0)) choices_.push_back({"HIMM", {}});
-    for (std::size_t f = 0; f < world.filters().size(); ++f)
-      if (f != world.imm()) choices_.push_back({world.filters()[f].name, f});
+    for (std::size_t f = 0; f < world.filters.size(); ++f)
+      if (f != world.imm()) choices_.push_back({world.filters[f].name, f});
     std::vector<double> sizes;
-    for (std::size_t c = 0; c < world.conditions().size(); ++c)
+    for (std::size_t c = 0; c < world.conditions.size(); ++c)
       sizes.push_back(std::abs(world.against_imm(c, choices_.front().in(world, c)).mean));
     std::ranges::sort(sizes);
     most_ = sizes[sizes.size() * 19 / 20];
@@ -493,13 +487,13 @@ class Maps {
   /// Conditions by filters, a map for each scenario.
   std::vector<Panel> of_all_filters() const {
     std::vector<Panel> panels;
-    for (const int scenario : world_.choice().scenarios) {
+    for (const int scenario : world_.choice.scenarios) {
       HeatMap map = empty(fmt::format("Scenario {}", scenario), "condition", "filter");
       map.columns = each(choices_, &Choice::name);
       std::vector<std::size_t> own;
-      for (std::size_t c = 0; c < world_.conditions().size(); ++c) {
-        if (world_.conditions()[c].scenario != scenario) continue;
-        const std::string words = words_of(world_.conditions()[c]);
+      for (std::size_t c = 0; c < world_.conditions.size(); ++c) {
+        if (world_.conditions[c].scenario != scenario) continue;
+        const std::string words = words_of(world_.conditions[c]);
         map.rows.push_back(words.size() > 3 ? words.substr(3) : "as in the paper");
         own.push_back(c);
       }
@@ -511,7 +505,7 @@ class Maps {
 
   /// All conditions of a scenario, a view for each filter: strength and length by noise and period.
   std::vector<View> of_each_filter() const {
-    const SweepChoice& all = world_.choice();
+    const SweepChoice& all = world_.choice;
     const std::size_t lengths = all.length.size(), periods = all.period.size();
     const auto names = [](const std::vector<double>& first, const std::vector<double>& second) {
       std::vector<std::string> crossed;
@@ -528,7 +522,7 @@ class Maps {
         map.rows = names(all.strength, all.length);
         map.columns = names(all.mismatch, all.period);
         map.fill([&](std::size_t r, std::size_t c) {
-          const auto& conditions = world_.conditions();
+          const auto& conditions = world_.conditions;
           const SweepCondition here{scenario, all.mismatch[c / periods], all.period[c % periods],
                                     all.strength[r / lengths], all.length[r % lengths]};
           const auto found = std::ranges::find(conditions, here);
@@ -581,7 +575,7 @@ void report(const SweepOptions& options, const SweepWorld& world) {
   Result result(options.output);
   const ResultTable filters = filters_table(world);
   const std::string answered = answer(world), stopped = limits(world);
-  const bool all_shown = world.all_tuned().size() <= most_rows;
+  const bool all_shown = world.all_tuned.size() <= most_rows;
   result.facts("campaign", world.study().description, "searched", searched(world));
   result.say(searched(world));
   if (world.imm()) {
@@ -594,10 +588,10 @@ void report(const SweepOptions& options, const SweepWorld& world) {
   if (!answered.empty()) result.fact({"answer"}, answered);
   result.say({{!answered.empty(), answered}, {!stopped.empty(), stopped}});
   result.add(filters.part(ConditionPart::numbers, ""), {.printed = false, .csv = "tuned.csv"});
-  for (std::size_t c = 0; c < world.conditions().size(); ++c)
+  for (std::size_t c = 0; c < world.conditions.size(); ++c)
     result.add(filters.part(ResultColumn::all_parts ^ (ConditionPart::numbers | ConditionPart::name), "",
-                            c * world.filters().size(), world.filters().size()),
-               {.printed = false, .summary = {"conditions", words_of(world.conditions()[c])}});
+                            c * world.filters.size(), world.filters.size()),
+               {.printed = false, .summary = {"conditions", words_of(world.conditions[c])}});
   result.add(filters.part(ConditionPart::name, "scenario"),
              {.printed = false, .title = all_shown ? "The best settings" : ""});
   Report& page = result.page;
@@ -608,7 +602,7 @@ void report(const SweepOptions& options, const SweepWorld& world) {
                          ". The score is the mean over axes and phases of RMSE over that of the measurement.");
   if (!all_shown)
     page.verdict.emplace_back("The best settings of every filter are in tuned.csv, and in each cell of the maps.");
-  if (world.imm() && world.filters().size() > 1) {
+  if (world.imm() && world.filters.size() > 1) {
     const Maps maps(world);
     if (options.choice.cross) {
       page.chooser = "Filter";

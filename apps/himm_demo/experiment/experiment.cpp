@@ -5,16 +5,13 @@
 namespace sigmax::apps {
 namespace {
 
-std::array<double, 3> by_axis(const Vector<3>& error) { return {error.x(), error.y(), error.z()}; }
-
 void record(const TargetPoint& point, const Vector<6>& truth, Trace& trace) {
   const auto n = static_cast<Eigen::Index>(point.mean.size());
   const Eigen::Map<const Eigen::VectorXd> mean(point.mean.data(), n);
   const Eigen::Map<const Eigen::MatrixXd> covariance(point.covariance.data(), n, n);
-  trace.error[point.tag] = by_axis(mean.head<3>() - truth.head<3>());
+  trace.error[point.tag] = mean.head<3>() - truth.head<3>();
   trace.covariance[point.tag] = covariance.topLeftCorner<3, 3>();
-  trace.nees_position[point.tag] =
-      normalized_error_squared<3, 3>(mean.head<3>() - truth.head<3>(), trace.covariance[point.tag]);
+  trace.nees_position[point.tag] = normalized_error_squared<3, 3>(trace.error[point.tag], trace.covariance[point.tag]);
   if (n >= 6)
     trace.nees_velocity[point.tag] =
         normalized_error_squared<6, 6>(mean.head<6>() - truth, covariance.topLeftCorner<6, 6>());
@@ -52,7 +49,7 @@ void follow(const FilterSettings& filter, double step_s, const Recording& record
 Errors errors_of(const Recording& recording) {
   Errors errors;
   for (std::size_t k = 0; k < recording.truth.size(); ++k)
-    errors.push_back(by_axis(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>()));
+    errors.push_back(to_cartesian(recording.measured[k]) - recording.truth[k].head<3>());
   return errors;
 }
 
@@ -72,14 +69,20 @@ TracedRun Experiment::traced(std::uint64_t number) const {
   return run;
 }
 
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed) {
+  const Group parameters = group(group_number, scenario_number);
+  auto filters = read_filters(settings, FilterDefaults::of(preset, parameters));
+  settings.refuse_unknown();
+  const int mode_sample_shift = preset == Preset::released ? -1 : 0;
+  return {scenario(scenario_number, preset), parameters, std::move(filters), runs, seed, mode_sample_shift};
+}
+
 std::optional<std::size_t> manoeuvre_model(const FilterSettings& filter) {
-  if (filter.smooth) return std::nullopt;
-  const auto& motions = filter.motions;
-  std::optional<std::size_t> model;
-  for (std::size_t j = 0; j < motions.size(); ++j)
-    if (motions[j].manoeuvres()) model = j;
-  const bool all = std::ranges::all_of(motions, [](const MotionChoice& motion) { return motion.manoeuvres(); });
-  return all ? std::nullopt : model;
+  if (filter.smooth || std::ranges::all_of(filter.motions, &MotionChoice::manoeuvres)) return std::nullopt;
+  for (std::size_t j = filter.motions.size(); j-- > 0;)
+    if (filter.motions[j].manoeuvres()) return j;
+  return std::nullopt;
 }
 
 double weight_difference(const std::vector<double>& weights, std::size_t model) {
@@ -90,14 +93,10 @@ double weight_difference(const std::vector<double>& weights, std::size_t model) 
   return weights[model] - other;
 }
 
-std::optional<std::size_t> Experiment::mode_sample(std::size_t sample) const {
-  const int source = static_cast<int>(sample) - mode_sample_shift;
-  return source >= 0 && source < scenario.samples ? std::optional(static_cast<std::size_t>(source)) : std::nullopt;
-}
-
 void add_squares(const Scenario& scenario, const Errors& error, double* sums) {
-  for (std::size_t i = 0; i < squares; ++i)
-    sums[i] += phase_mean(scenario.phases[i / 3], [&](std::size_t k) { return error[k][i % 3] * error[k][i % 3]; });
+  for (const Phase& phase : scenario.phases)
+    for (const Eigen::Index axis : {0, 1, 2})
+      *sums++ += phase_mean(phase, [&](std::size_t k) { return error[k](axis) * error[k](axis); });
 }
 
 }  // namespace sigmax::apps

@@ -7,19 +7,17 @@
 
 namespace sigmax::apps {
 
-/// By sample and axis.
-using Errors = std::vector<std::array<double, 3>>;
+/// Of the position, by sample.
+using Errors = std::vector<Vector<3>>;
 
 /// One filter in one run, sample by sample; NaN where there is no estimate.
 struct Trace {
   std::size_t samples;
-  Errors error = Errors(samples, {nan, nan, nan});
+  Errors error = Errors(samples, Vector<3>::Constant(nan));
   /// Of the position, as the filter states it.
   std::vector<SquareMatrix<3>> covariance = std::vector<SquareMatrix<3>>(samples, SquareMatrix<3>::Constant(nan));
   std::vector<double> nees_position = std::vector(samples, nan), nees_velocity = nees_position, nis = nees_position;
   std::vector<std::vector<double>> weights = std::vector<std::vector<double>>(samples);
-
-  double squared_error(std::size_t sample, std::size_t axis) const { return error[sample][axis] * error[sample][axis]; }
 };
 
 /// A run of the experiment: the target, what its radar measured, and what each filter made of it.
@@ -66,10 +64,11 @@ struct Experiment {
 
   /// The run with that number, counted from 0; nothing but the seed and the number decides what is drawn.
   TracedRun traced(std::uint64_t number) const;
-
-  /// The sample whose weights are told of one, both counted from 0.
-  std::optional<std::size_t> mode_sample(std::size_t sample) const;
 };
+
+/// That of a scenario and group, with the filters that the settings name. Throws InputError for what cannot be.
+Experiment experiment_of(Preset preset, int scenario_number, int group_number, const Settings& settings, int runs,
+                         std::uint64_t seed);
 
 /// Mean square errors are by phase and axis: 3 · phase + axis.
 inline constexpr std::size_t squares = 9;

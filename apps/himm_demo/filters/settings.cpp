@@ -17,13 +17,14 @@ struct KnownFilter {
 };
 
 /// The filter over histories: a rare manoeuvre that begins with any acceleration and then hardly changes it.
-void keep_histories(FilterSettings& own) {
+FilterSettings& keep_histories(FilterSettings& own) {
   own.scheme = Scheme::histories;
   own.lift = Lift::prior;
   own.leaving_possibility = own.leaving_probability = 0.004;
   own.leaving_a_manoeuvre = 0.03;
   for (MotionChoice& motion : own.motions)
     if (motion.manoeuvres()) motion[MotionParameter::sigma_w] *= 0.1;
+  return own;
 }
 
 const std::initializer_list<KnownFilter> known_filters = {
@@ -35,12 +36,7 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"gpb1", false, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
     {"gpb2", false, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
     {"static_random", false, [](FilterSettings& own) { own.scheme = Scheme::independent; }},
-    {"imm_histories", false,
-     [](FilterSettings& own) {
-       keep_histories(own);
-       own.cut = 0.0;
-     },
-     true},
+    {"imm_histories", false, [](FilterSettings& own) { keep_histories(own).cut = 0.0; }, true},
     {"himm", true, [](FilterSettings&) {}},
     {"himm_selected", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::selected; }},
     {"himm_own", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::own; }},
@@ -49,13 +45,8 @@ const std::initializer_list<KnownFilter> known_filters = {
     {"himm_envelope", true, [](FilterSettings& own) { own.mixed_covariance = MixedCovariance::envelope; }},
     {"himm_global", true, [](FilterSettings& own) { own.scheme = Scheme::common_start; }},
     {"himm_possibility", true, [](FilterSettings& own) { own.likelihood = LikelihoodForm::possibility; }},
-    {"himm_histories", true, keep_histories, true},
-    {"himm_histories_fast", true,
-     [](FilterSettings& own) {
-       keep_histories(own);
-       own.histories = 8;
-     },
-     true},
+    {"himm_histories", true, [](FilterSettings& own) { keep_histories(own); }, true},
+    {"himm_histories_fast", true, [](FilterSettings& own) { keep_histories(own).histories = 8; }, true},
     {"viterbi", true, [](FilterSettings& own) { own.scheme = Scheme::second_order; }},
     {"static_fuzzy", true, [](FilterSettings& own) { own.scheme = Scheme::independent; }}};
 
@@ -173,21 +164,20 @@ std::optional<double> sigma_of(const Accuracy& accuracy, const AnyPlot& plot, st
 }
 
 /// What a radar measured, as a position.
-AnyPlot converted(double time, std::span<const double> z, std::span<const double> variances, RadarForm form,
-                  const std::array<double, 3>& origin) {
-  Polar measured{z[0], z[1], 0.0}, sigma{std::sqrt(variances[0]), std::sqrt(variances[1]), 0.0};
-  if (z.size() == 3) measured.elevation = z[2], sigma.elevation = std::sqrt(variances[2]);
+AnyPlot converted(const AnyPlot& seen, RadarForm form) {
+  const auto n = static_cast<std::size_t>(seen.size);
+  Polar measured{seen.z[0], seen.z[1], 0.0}, sigma{std::sqrt(seen.variance(0)), std::sqrt(seen.variance(1)), 0.0};
+  if (n == 3) measured.elevation = seen.z[2], sigma.elevation = std::sqrt(seen.variance(2));
   const Conversion conversion = form == RadarForm::unbiased   ? Conversion::unbiased
                                 : form == RadarForm::debiased ? Conversion::debiased
                                                               : Conversion::standard;
   const Gaussian<3> position = to_cartesian(measured, sigma, conversion);
-  std::vector<double> mean, covariance;
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(z.size()); ++i) {
-    mean.push_back(position.mean(i) + origin[static_cast<std::size_t>(i)]);
-    for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(z.size()); ++j)
-      covariance.push_back(position.covariance(i, j));
+  AnyPlot plot{.time = seen.time, .tag = seen.tag, .sensor = AnyPlot::Sensor::position, .size = seen.size};
+  for (std::size_t i = 0; i < n; ++i) {
+    plot.z[i] = position.mean(static_cast<Eigen::Index>(i)) + seen.origin[i];
+    for (std::size_t j = 0; j < n; ++j) plot.covariance[i * n + j] = position.covariance.data()[i + 3 * j];
   }
-  return AnyPlot::position(time, mean, covariance);
+  return plot;
 }
 
 /// Turns a radar's angles, or a bearing, from east and horizon at its origin to those of the frame.
@@ -235,45 +225,35 @@ void start_at_zero(std::vector<FilterSettings>& filters) {
 
 AnyPlot believed(const FilterSettings& settings, std::string_view sensor, const AnyPlot& plot, int axes) {
   const Accuracy& accuracy = settings.accuracy_of(sensor);
-  std::array<double, 6> z{}, variances{};
-  std::array<int, 6> places{};
-  std::array<std::size_t, 6> from{};
+  AnyPlot taken = plot;
+  std::array<std::size_t, 6> from{};  // which quantities are taken
+  std::array<double, 6> variances{};
   std::size_t n = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
     const auto sigma = sigma_of(accuracy, plot, i, axes);
     if (!sigma) continue;
     const double own = plot.variance(static_cast<int>(i));
-    z[n] = plot.z[i];
     variances[n] = std::isnan(own) ? *sigma * *sigma : own;
-    from[n] = i;
-    places[n++] = plot.places[i];
+    taken.z[n] = plot.z[i];
+    taken.places[n] = plot.places[i];
+    from[n++] = i;
   }
-  std::array<double, 36> covariance{};
+  taken.size = static_cast<int>(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      covariance[i * n + j] =
+      taken.covariance[i * n + j] =
           i == j ? variances[i] : plot.covariance[from[i] * static_cast<std::size_t>(plot.size) + from[j]];
-  const std::span numbers(z.data(), n), R(covariance.data(), n * n);
-  const auto taken = [&] {
-    switch (n == 0 ? AnyPlot::Sensor::none : plot.sensor) {
-      case AnyPlot::Sensor::bearing:
-        return AnyPlot::bearing(plot.time, z[0], variances[0], plot.origin);
-      case AnyPlot::Sensor::polar:
-      case AnyPlot::Sensor::doppler:
-        if (n > static_cast<std::size_t>(axes)) return AnyPlot::doppler(plot.time, numbers, R, plot.origin);
-        if (settings.radar_measurement == RadarForm::polar) return AnyPlot::polar(plot.time, numbers, R, plot.origin);
-        return converted(plot.time, numbers, {variances.data(), n}, settings.radar_measurement, plot.origin);
-      case AnyPlot::Sensor::components:
-        if (n == static_cast<std::size_t>(axes) && places[n - 1] == axes - 1)
-          return AnyPlot::position(plot.time, numbers, R);
-        return AnyPlot::components(plot.time, {places.data(), n}, numbers, R);
-      default:
-        return AnyPlot::missed(plot.time);
-    }
-  };
-  AnyPlot result = taken();
-  result.tag = plot.tag;
-  return result;
+  using enum AnyPlot::Sensor;
+  if (n == 0) {
+    taken.sensor = none;
+  } else if (plot.sensor == doppler || plot.sensor == polar) {
+    taken.sensor = taken.size > axes ? doppler : polar;
+    if (taken.sensor == polar && settings.radar_measurement != RadarForm::polar)
+      return converted(taken, settings.radar_measurement);
+  } else if (plot.sensor == components && taken.size == axes && taken.places[n - 1] == axes - 1) {
+    taken.sensor = position;
+  }
+  return taken;
 }
 
 SensorPlaces::SensorPlaces(const FilterSettings& settings, const RecordingReader& recording, const Position& otherwise)

@@ -132,19 +132,24 @@ std::vector<std::string> model_names(const std::vector<FilterSettings>& filters)
 /// The settings of all filters in TOML: what is in force. It reads back as the same.
 std::string as_toml(const std::vector<FilterSettings>& filters);
 
+/// What people are told of a key.
+struct KeyText {
+  std::string meaning;
+  std::string values;        ///< what may be given
+  std::string by_default{};  ///< where no value can say it
+};
+
 /// Everything that is known of one key: reading, writing, and the table of keys are loops over these.
 template <class Owner>
 struct Key {
   std::string name;
-  std::string meaning;
-  std::string values;  ///< what may be given
+  KeyText text;
   /// Leaves the owner's value where the key is absent; throws InputError for what cannot be.
   std::function<void(const Settings&, Owner&)> read;
   /// The value in TOML; empty if there is none.
   std::function<std::string(const Owner&)> write;
   /// Whether it changes anything; only then it is written.
   std::function<bool(const Owner&)> applies = [](const Owner&) { return true; };
-  std::string by_default = {};  ///< in words, where no value can say it
 };
 
 /// The keys of a filter in the order in which they are read, written and listed.
