@@ -429,12 +429,12 @@ void say_otherwise(const LearnedModel& model, const Classified& found, Result& r
     if (holds)
       result.say(
           "{:.1f} % of the rows of a class are right by sigma on the average, where {:.1f} % of those that were "
-          "learned "
-          "were when left out: {}",
+          "learned were when left out: {}",
           100.0 * here.mean(), 100.0 * there.mean(), what);
   };
   say(lower > std::max(less, sure),
-      "see whether classes and columns are written, coded and measured as there, or rows are of another kind");
+      "see whether classes and columns are written, coded and measured as there, or rows are of another kind, or "
+      "those that were learned were copies, or several of one thing (evaluate --groups)");
   say(-lower > std::max(more, sure), "if they are among those learned, their share is too good for others");
 }
 

@@ -47,6 +47,14 @@ bool is_notation(std::string_view word) {
   return has([](int c) { return std::isdigit(c); }) && !has([](int c) { return std::isalpha(c); });
 }
 
+/// Whether it is one number up to a greater one, as 55-59.
+bool is_range(std::string_view word) {
+  const auto dash = word.find('-');
+  const auto from = parse_number(word.substr(0, dash));
+  const auto to = dash == word.npos ? std::nullopt : parse_number(word.substr(dash + 1));
+  return from && to && *from < *to;
+}
+
 /// Whether points part thousands, as in 1.543.180.
 bool has_thousands(std::string_view word) {
   const auto groups = std::ranges::count(word, '.');
@@ -184,7 +192,10 @@ bool ColumnReader::names_rows() const {
 
 std::string ColumnReader::notation() const {
   const bool are_most = !categorical_ && words_.size() > few_words && 2 * notations_ > cells_;
-  return are_most && !holds_units() && several_numbers().empty() ? notation_ : "";
+  const bool are_few_ranges = words_.size() <= most_ranges && std::ranges::all_of(words_.codes(), [](const auto& word) {
+                                return is_range(word.first);
+                              });
+  return are_most && !are_few_ranges && !holds_units() && several_numbers().empty() ? notation_ : "";
 }
 
 std::string ColumnReader::several_numbers() const {
@@ -285,7 +296,7 @@ ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& cl
   return result;
 }
 
-void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) const {
+void ColumnReader::warn(const std::string& name, DataTable& table) const {
   const auto say = [&](bool holds, const std::string& format, const auto&... words) {
     table.warn_of(name, holds, format, words...);
   };
@@ -297,7 +308,7 @@ void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) 
       cells_ < table.size() ? " that has a value" : "", for_typing);
   const bool is_name = names_rows(), are_numbers = categorical_ && numeric_cells_ == cells_;
   const ByValue groups = is_name ? by_stem(table.rows_of_class) : values;
-  table.warn(!tells_all && !copies && groups.may_be_groups(table.classes.size()),
+  table.warn(!tells_all && !table.has_copies && groups.may_be_groups(table.classes.size()),
              "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what "
              "rows are of, as a patient or a session, these are parted by the folds, and the shares of right answers "
              "are too good for others, also without it (--ignore {}): keep the rows of each together by {}",
@@ -357,7 +368,7 @@ void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) 
       limit_cells_);
   const std::string slip = slip_ ? slip_->word : "";
   const bool are_some = !categorical_ && slip_ && words_.numbers() > few_words && 10 * numeric_cells_ > cells_;
-  say(are_some && !holds_units() && limit_cells_ == 0,
+  say(are_some && !holds_units() && notation.empty() && limit_cells_ == 0,
       ": {} of {} cells are numbers, and count as words, since others are none, as {}: where such stand for no number, "
       "give --missing={}; where they say that it is below a limit, write the limit",
       numeric_cells_, cells_, in_quotes(slip), typed(slip));

@@ -70,12 +70,11 @@ class ColumnReader {
   /// What there is to see, if it is not two different values: "'red'", or "no value".
   std::string lone_value() const;
 
-  /// Tells the table what the values of the column, which has this name, tell, and how they are written; whether rows
-  /// are copies.
-  void warn(const std::string& name, bool copies, DataTable& table) const;
+  /// Tells the table what the values of the column, which has this name, tell, and how they are written.
+  void warn(const std::string& name, DataTable& table) const;
 
  private:
-  static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5;
+  static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5, most_ranges = 30;
 
   /// Whether it seems to name the rows: by words most of which stand once, or by whole numbers that rise.
   bool names_rows() const;

@@ -150,22 +150,65 @@ bool same_order(const std::vector<double>& a, const std::vector<double>& b) {
   return n >= few_rows && both * both > nearly_one * (n * xx - x * x) * (n * yy - y * y);
 }
 
-/// What the rows and the columns tell twice; whether half of the rows do.
-bool warn_of_repeats(DataTable& table) {
+/// How many times the smaller numbers of a column the greater ones are, where both lie close together, far apart, by
+/// ten or a power of it, as in two units; and how many are the rarer ones. Nothing if it is otherwise.
+std::optional<std::pair<double, std::size_t>> two_units(std::vector<double> numbers) {
+  constexpr double far = 8.0, close = 4.0, near = 1.2;
+  std::erase_if(numbers, [](double number) { return std::isnan(number); });
+  std::ranges::sort(numbers);
+  if (numbers.size() < few_rows || numbers.front() <= 0.0) return {};
+  auto gap = numbers.begin() + 1;  // the widest
+  for (auto next = gap; next != numbers.end(); ++next)
+    if (*next / *(next - 1) > *gap / *(gap - 1)) gap = next;
+  const auto middle = [](auto first, auto last) { return *(first + (last - first) / 2); };
+  const double times = middle(gap, numbers.end()) / middle(numbers.begin(), gap);
+  const double power = std::pow(10.0, std::round(std::log10(times)));
+  const auto below = gap - numbers.begin(), above = numbers.end() - gap;
+  const bool are_close = *(gap - 1) < close * numbers.front() && numbers.back() < close * *gap;
+  const bool is_code = numbers.front() == *(gap - 1) || *gap == numbers.back();
+  if (*gap < far * *(gap - 1) || !are_close || is_code || std::min(below, above) < 5 || power < 10.0) return {};
+  if (times > near * power || power > near * times) return {};
+  return std::pair(power, static_cast<std::size_t>(std::min(below, above)));
+}
+
+/// How often two rows have the same in a column.
+double chance_of_two(std::vector<double> cells) {
+  std::ranges::sort(cells, [](double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; });
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  double squares = 0.0;
+  for (auto first = cells.begin(); first != cells.end();) {
+    const auto last = std::find_if_not(first, cells.end(), [&](double cell) { return same(cell, *first); });
+    squares += std::pow(static_cast<double>(last - first), 2);
+    first = last;
+  }
+  return squares / std::pow(static_cast<double>(cells.size()), 2);
+}
+
+/// What the rows and the columns tell twice.
+void warn_of_repeats(DataTable& table) {
   constexpr std::size_t most_facts = 16;  // of a column
   const DistinctRows rows(table);
   const std::size_t size = rows.classes.size();
-  if (size < few_rows) return false;
+  if (size < few_rows) return;
   std::vector<std::vector<double>> ranks;
   std::vector<bool> comparable;  // by their order
-  std::size_t fine = 0;          // columns that most of these rows differ in, as they would not by chance
+  // How many of the rows of a class would be the same by chance, where half of the columns hang on the others.
+  double alike = 1.0;
+  std::size_t fine = 0;  // columns that most of these rows differ in, as they would not by chance
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     ranks.push_back(ranks_of(rows.columns[i]));
     const std::size_t different = std::set(ranks[i].begin(), ranks[i].end()).size();
     fine += 2 * different > size ? 1U : 0U;
+    alike *= std::sqrt(chance_of_two(rows.columns[i]));
     comparable.push_back(table.columns[i].numeric && different >= 4);
+    if (const auto units = table.columns[i].numeric ? two_units(rows.columns[i]) : std::nullopt)
+      table.warn_of(table.columns[i].name, true,
+                    ": {} of {} numbers are about {:.0f} times greater, or smaller, than the others, as if in another "
+                    "unit: write all in one",
+                    units->second, size, units->first);
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
+    table.has_copies = true;
     table.warn(
         true,
         "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
@@ -222,10 +265,15 @@ bool warn_of_repeats(DataTable& table) {
              "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
              "write one row for each that was counted",
              of_counts.empty() ? "" : fmt::format(" (column {})", in_quotes(of_counts)));
-  const bool all_of_them = fine >= 2 && rows.with_copies >= 2 * size;
+  const auto by_no_chance = [&](std::size_t differ, std::size_t all) {
+    const auto pairs = static_cast<double>(all) * static_cast<double>(all) / 2.0;
+    const bool few_would = fine >= 2 || 10.0 * pairs * alike < static_cast<double>(all - differ);
+    return few_would && all >= few_rows && all >= 2 * differ;
+  };
+  const bool all_of_them = by_no_chance(size, rows.with_copies);
   if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
   for (const auto& [label, counts] : rows.of_class)
-    if (const auto [differ, all] = counts; fine >= 2 && !all_of_them && all >= few_rows && all >= 2 * differ)
+    if (const auto [differ, all] = counts; !all_of_them && by_no_chance(differ, all))
       warn_of_copies(fmt::format("the rows of class {}", in_quotes(table.classes[static_cast<std::size_t>(label)])),
                      differ, all);
   std::vector<bool> repeated(ranks.size());  // an earlier column
@@ -253,13 +301,12 @@ bool warn_of_repeats(DataTable& table) {
         " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
         "--ignore {}",
         fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
-  if (families.size() <= most_families) return all_of_them;
+  if (families.size() <= most_families) return;
   table.warn(
       true,
       "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
       "several times; leave the others out by --ignore {}",
       families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
-  return all_of_them;
 }
 
 /// Where a missing value would tell the class, and does not.
@@ -299,19 +346,24 @@ void warn_of_order(DataTable& table) {
   // What the rows were sorted by, first by one column, then by the next: how often it comes again, or falls.
   struct Order {
     double last = nan;
-    std::size_t again = 0, falls = 0, steps = 0;
+    std::size_t again = 0, falls = 0, steps = 0, same = 0;
+    bool class_rises = false, class_falls = false;  // from one row to the next with the same value
   };
   std::vector<Sums> of(columns * classes);
   std::vector<Order> orders(columns);
   std::vector<double> steps(columns), pairs(columns);
   std::size_t runs = 0, last = classes;
   table.for_each([&](const DataRow& row) {
-    runs += std::exchange(last, row.label()) != row.label() ? 1U : 0U;
+    const std::size_t before_it = std::exchange(last, row.label());
+    runs += before_it != row.label() ? 1U : 0U;
     bool are_same = true;  // the columns before
     for (std::size_t i = 0; i < columns; ++i) {
       const double now = table.columns[i].numeric ? row.number(i) : row.code(i);
       Order& own = orders[i];
       const double before = std::exchange(own.last, now);
+      own.same += now == before ? 1U : 0U;
+      own.class_rises |= now == before && row.label() > before_it;
+      own.class_falls |= now == before && row.label() < before_it;
       if (!are_same) continue;
       ++own.steps;
       own.again += now == before ? 1U : 0U;
@@ -344,7 +396,10 @@ void warn_of_order(DataTable& table) {
   const auto all = static_cast<double>(table.size());
   for (const std::size_t rows : table.rows_of_class)
     expected += static_cast<double>(rows) * (1.0 - static_cast<double>(rows) / all);
-  const bool in_runs = runs > classes && 10.0 * static_cast<double>(runs) < expected;
+  // Sorted by a column, then by the class, unless all rows differ in it.
+  const bool is_sorted = std::ranges::any_of(
+      orders, [&](const Order& own) { return own.class_rises != own.class_falls && 2 * own.same > table.size(); });
+  const bool in_runs = !is_sorted && runs > classes && 10.0 * static_cast<double>(runs) < expected;
   constexpr std::string_view too_good =
       "as in a recording: the folds part what belongs together, and the shares of right answers are too good for "
       "others; train on one part of it, and ask of another by classify, or keep its parts whole by evaluate --groups, "
@@ -491,8 +546,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
       mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
   warn_of_order(table);
-  const bool copies = warn_of_repeats(table);
-  for (const ColumnReader& column : columns) column.warn(reader.names()[column.index()], copies, table);
+  warn_of_repeats(table);
+  for (const ColumnReader& column : columns) column.warn(reader.names()[column.index()], table);
   return table;
 }
 

@@ -61,6 +61,7 @@ class DataTable {
   std::vector<std::size_t> rows_of_class;
   std::vector<DataColumn> columns;
   std::vector<std::string> warnings;  ///< what the reader of the results should know
+  bool has_copies = false;            ///< whether half of the rows, or of those of a class, seem to be copies
 
   /// Adds what a reader of the results should know of the file, if it holds.
   void warn(bool holds, std::string_view format, const auto&... words) {

@@ -274,8 +274,28 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
           "out by --ignore {}",
           in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
   }
+  const auto by_no_chance = [](const Interval& share, double least) {
+    return share.mean > least && share.mean > 1.5 * share.half_width;
+  };
+  bool any = false;
+  for (const std::size_t column : columns_of_groups(data, options.learning)) {
+    const auto by = by_column(data, options.learning, column, options.seed, options.threads);
+    if (!by) continue;
+    const std::string& name = data.columns[column].name;
+    const bool are_groups = by_no_chance(by->less, 0.05);
+    any |= are_groups;
+    if (are_groups)
+      result.say(
+          "{:.1f} % are right by sigma without column {}, and {:.1f} % where rows of the same {} are in one fold: if "
+          "other rows are of others, expect the latter; --groups {} keeps them together",
+          100.0 * by->without, in_quotes(name), 100.0 * (by->without - by->less.mean), name, typed(name));
+    else if (by_no_chance(by->more, less))
+      result.say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
+                 100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
+  }
+  if (any) return;
   const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
-  if (clumps && clumps->less.mean > less && clumps->less.mean > 1.5 * clumps->less.half_width)
+  if (clumps && by_no_chance(clumps->less, less))
     result.say(
         "{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
         "one thing, as a person, a place or a session, or made of one another, the others are too good; keep those of "

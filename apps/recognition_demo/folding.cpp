@@ -1,6 +1,7 @@
 #include "recognition_demo/folding.hpp"
 
 #include <numeric>
+#include <ranges>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
@@ -213,6 +214,72 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
   return shares;
 }
 
+std::vector<std::size_t> columns_of_groups(const DataTable& data, const LearningOptions& options) {
+  constexpr std::size_t fewest = 4, most_columns = 8, most_rows = 50000;
+  constexpr double little = 0.05;
+  if (data.size() > most_rows) return {};
+  std::vector<std::map<double, std::size_t>> values(data.columns.size());  // and their rows
+  std::vector<bool> whole(data.columns.size(), true);
+  data.for_each([&](const DataRow& row) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double cell = data.columns[i].numeric ? row.number(i) : row.code(i);
+      whole[i] = whole[i] && cell == std::floor(cell);
+      if (whole[i] && 2 * values[i].size() <= data.size()) ++values[i][cell];
+    }
+  });
+  const LearnedModel model = learn(data, options);
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < values.size() && columns.size() < most_columns; ++i) {
+    const std::map<double, std::size_t>& own = values[i];
+    if (!whole[i] || own.size() < fewest || 2 * own.size() > data.size()) continue;
+    // None has a third of all rows; and of numbers, that are no quantity, each has about as many.
+    const auto [fewest_rows, most_of_one] = std::ranges::minmax(own | std::views::values);
+    const bool counts = static_cast<double>(own.size() - 1) == own.rbegin()->first - own.begin()->first;
+    const bool are_numbers = std::ranges::all_of(
+        data.columns[i].values, [](const std::string& word) { return parse_number(word).has_value(); });
+    if (3 * most_of_one > data.size() || (are_numbers && (!counts || most_of_one > 3 * fewest_rows))) continue;
+    if (told_of_class(model, i) < little) columns.push_back(i);
+  }
+  return columns;
+}
+
+std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
+                                  std::uint64_t seed, int threads) {
+  constexpr std::size_t most_folds = 10, most_asked = 10000, most_dealings = 8;
+  if (!any_part_teaches(options) || std::ranges::min(data.rows_of_class) < 2) return std::nullopt;
+  std::map<double, std::uint32_t> numbers;
+  Groups groups;
+  data.for_each([&](const DataRow& row) {
+    const double cell = data.columns[column].numeric ? row.number(column) : row.code(column);
+    groups.push_back(numbers.try_emplace(cell, static_cast<std::uint32_t>(numbers.size())).first->second);
+  });
+  std::mt19937_64 generator(seed);
+  const std::size_t number = std::min({most_folds, numbers.size(), data.size()});
+  const std::size_t dealings = std::clamp<std::size_t>(most_asked / data.size(), 1, most_dealings);
+  std::vector<std::array<double, 3>> times(data.size());  // right with the column, without, and by whole values
+  try {
+    for (std::size_t dealing = 0; dealing < dealings; ++dealing) {
+      const Folds any = folds_of(data, number, generator), whole = folds_of(data, groups, number, generator);
+      const std::pair<const Folds&, std::optional<std::size_t>> ways[] = {{any, {}}, {any, column}, {whole, column}};
+      for (std::size_t way = 0; way < 3; ++way) {
+        const Right right = right_of_sigma(data, ways[way].first, number, options, threads, ways[way].second);
+        ScratchCursor<std::uint8_t> is_right(right);
+        for (std::size_t row = 0; row < data.size(); ++row)
+          times[row][way] += is_right[row] / static_cast<double>(dealings);
+      }
+    }
+  } catch (const InputError&) {  // a class is in one of its values only
+    return std::nullopt;
+  }
+  RunningMean right, more, less;
+  for (const auto& [with, without, whole] : times) {
+    right.add(without);
+    more.add(without - with);
+    less.add(without - whole);
+  }
+  return ByColumn{right.mean(), more.interval(), less.interval()};
+}
+
 std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
                                   int threads) {
   constexpr int dealings = 2;
@@ -257,6 +324,46 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
     }
   }
   return ByClumps{n, mean_interval(right).mean, mean_interval(less)};
+}
+
+namespace {
+
+/// The number of bins by which rows that are left out are right more often than by chance, in any class, and not less
+/// often in all; nothing if there is none.
+std::optional<std::size_t> better_bins(const DataTable& data, const LearningOptions& options) {
+  constexpr double by_no_chance = 3.0;  // standard errors
+  constexpr std::size_t most = 1000;
+  const auto before = right_when_left_out(data, options, 1, 0);
+  LearningOptions other = options;
+  other.equal_width = false;
+  for (const std::size_t times : {2U, 4U, 8U}) {
+    other.bins = std::min(times * options.bins, most);
+    const auto now = right_when_left_out(data, other, 1, 0);
+    bool any = false;
+    double more = 0.0, variance = 0.0;
+    for (std::size_t c = 0; c < now.size() && c < before.size(); ++c) {
+      const auto rows = static_cast<double>(data.rows_of_class[c]);
+      const double mean = (now[c] + before[c]) / 2.0, own = 2.0 * mean * (1.0 - mean) * rows;
+      any |= rows * (now[c] - before[c]) > by_no_chance * std::sqrt(own);
+      more += rows * (now[c] - before[c]), variance += own;
+    }
+    if (any && more > -std::sqrt(variance)) return other.bins;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void print_warnings(const DataTable& data, const LearningOptions& options) {
+  for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
+  const auto coarse = warn_of_bins(data, options);
+  // Of copies the other one would be found again.
+  const auto bins = coarse.empty() || data.has_copies ? std::nullopt : better_bins(data, options);
+  if (bins)
+    complain(fmt::format(
+        "recognition_demo: warning: {}: {} bins put together numbers of {} that tell different classes: "
+        "give --bins {}{}, or take what is codes or hours by --categorical",
+        data.file, options.bins, listed(coarse, 12), *bins, options.equal_width ? "" : ", or --equal-width"));
 }
 
 }  // namespace sigmax::apps

@@ -55,6 +55,23 @@ using Right = ScratchArray<std::uint8_t>;
 std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
                                         int threads, std::optional<std::size_t> without = {});
 
+/// Prints the warnings of a table to standard error, and where rows that are left out are right more often by more
+/// bins.
+void print_warnings(const DataTable& data, const LearningOptions& options);
+
+/// Columns whose values may be what rows are of, as a patient or a session: words, or whole numbers one after the
+/// other, that tell hardly anything of the class.
+std::vector<std::size_t> columns_of_groups(const DataTable& data, const LearningOptions& options);
+
+/// How many of the rows sigma is right about without a column, how many more that is, and how many less it is where the
+/// rows of each of its values stay in one fold, by pairs of rows; nothing where a class cannot be parted so.
+struct ByColumn {
+  double without;
+  Interval more, less;
+};
+std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
+                                  std::uint64_t seed, int threads);
+
 /// How many of some rows sigma is right about, and how many less where rows that are much alike stay in one fold, by
 /// pairs of rows; none where a class has too few rows for it, or none are much nearer to each other than to the next.
 /// Of long tables some rows are asked, chosen by chance.

@@ -184,10 +184,16 @@ double fullest(const BinCounts& bins) { return std::ranges::max(each(bins, sum_o
 
 }  // namespace
 
-void print_warnings(const DataTable& data, const LearningOptions& options) {
+double told_of_class(const LearnedModel& model, std::size_t column) {
+  const auto bins = classes_of_bins(model, column);
+  const auto all = joined(bins);
+  const double by_chance = static_cast<double>((bins.size() - 1) * (all.size() - 1)) / 2.0;
+  return (knowledge_by(bins) - knowledge(all) - by_chance) / -knowledge(all);
+}
+
+std::vector<std::string> warn_of_bins(const DataTable& data, const LearningOptions& options) {
   constexpr std::size_t many_bins = 64, most_bins = 1000;
-  for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
-  if (std::ranges::none_of(data.columns, &DataColumn::numeric) || options.bins < 3) return;
+  if (std::ranges::none_of(data.columns, &DataColumn::numeric) || options.bins < 3) return {};
   LearningOptions other = options;
   other.equal_width = false;
   other.bins = std::max(options.bins, std::min(std::max(many_bins, 4 * options.bins), most_bins));
@@ -226,11 +232,7 @@ void print_warnings(const DataTable& data, const LearningOptions& options) {
     if (!are_zeros && (loses_one || lost > 0.3 * (by_bins - knowledge(joined(bins)))))
       coarse.push_back(typed(data.columns[i].name));
   }
-  if (!coarse.empty())
-    complain(
-        fmt::format("recognition_demo: warning: {}: {} bins put together numbers of {} that tell different classes: "
-                    "give more --bins{}, or, what is codes or hours, by --categorical",
-                    data.file, options.bins, listed(coarse, 12), options.equal_width ? "" : " or --equal-width"));
+  return coarse;
 }
 
 std::string described(const DataTable& data) {

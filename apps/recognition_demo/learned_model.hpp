@@ -51,8 +51,12 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings);
 /// The options of learning, and those of the data that are learned from.
 void add_learning(CLI::App& app, std::string& file, DataOptions& data, LearningOptions& learning);
 
-/// Prints the warnings of a table to standard error.
-void print_warnings(const DataTable& data, const LearningOptions& options);
+/// The share of what is not known of the class that a column tells, less what it would by chance.
+double told_of_class(const LearnedModel& model, std::size_t column);
+
+/// Prints to standard error where bins of numbers are too wide for a plain reason. Returns the columns, as they are
+/// typed, of which narrower bins would tell more.
+std::vector<std::string> warn_of_bins(const DataTable& data, const LearningOptions& options);
 
 /// "101 rows, 7 classes, 16 features (15 categorical, 1 numeric)".
 std::string described(const DataTable& data);
