@@ -2,7 +2,6 @@
 
 #include "recognition_demo/data_table.hpp"
 #include "support/nines.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 

@@ -104,8 +104,7 @@ struct DistinctRows {
     std::vector<double> row_cells;
     table.for_each([&](const DataRow& row) {
       row_cells.clear();
-      for (std::size_t i = 0; i < table.columns.size(); ++i)
-        row_cells.push_back(table.columns[i].numeric ? row.number(i) : row.code(i) == missing_code ? nan : row.code(i));
+      for (std::size_t i = 0; i < table.columns.size(); ++i) row_cells.push_back(row.value(i));
       row_cells.push_back(static_cast<double>(row.label()));
       const auto hash = std::hash<std::string_view>{}(
           {reinterpret_cast<const char*>(row_cells.data()), row_cells.size() * sizeof(double)});
@@ -268,8 +267,7 @@ void warn_of_gaps(DataTable& table) {
   std::vector<std::size_t> gaps(table.columns.size() * classes);
   table.for_each([&](const DataRow& row) {
     for (std::size_t i = 0; i < table.columns.size(); ++i)
-      if (table.columns[i].numeric ? std::isnan(row.number(i)) : row.code(i) == missing_code)
-        ++gaps[i * classes + row.label()];
+      if (std::isnan(row.value(i))) ++gaps[i * classes + row.label()];
   });
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto share = [&](std::size_t k) {
@@ -309,18 +307,18 @@ void warn_of_order(DataTable& table) {
     runs += std::exchange(last, row.label()) != row.label() ? 1U : 0U;
     bool are_same = true;  // the columns before
     for (std::size_t i = 0; i < columns; ++i) {
-      const double now = table.columns[i].numeric ? row.number(i) : row.code(i);
-      Order& own = orders[i];
-      const double before = std::exchange(own.last, now);
-      if (!are_same) continue;
-      ++own.steps;
-      own.again += now == before ? 1U : 0U;
-      own.falls += now < before ? 1U : 0U;
-      are_same = now == before;
-    }
-    for (std::size_t i = 0; i < columns; ++i) {
-      const double number = table.columns[i].numeric ? row.number(i) : nan;
-      if (std::isnan(number)) continue;
+      const double number = row.value(i);
+      const bool numeric = table.columns[i].numeric;
+      const double now = std::isnan(number) && !numeric ? missing_code : number;  // a word, too
+      Order& order = orders[i];
+      const double before = std::exchange(order.last, now);
+      if (are_same) {
+        ++order.steps;
+        order.again += now == before ? 1U : 0U;
+        order.falls += now < before ? 1U : 0U;
+        are_same = now == before;
+      }
+      if (!numeric || std::isnan(number)) continue;
       Sums& own = of[i * classes + row.label()];
       if (own.n > 0.0) {
         steps[i] += (number - own.last) * (number - own.last);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "support/csv.hpp"
+#include "support/numbers.hpp"
 #include "support/scratch.hpp"
 
 namespace sigmax::apps {
@@ -39,11 +40,8 @@ class DataRow {
   /// The line of the file on which the row starts.
   std::size_t line() const { return static_cast<std::size_t>(cells_[1]); }
 
-  /// The number in a numeric column, NaN where it is missing.
-  double number(std::size_t column) const { return cells_[2 + 2 * column]; }
-
-  /// An index into the values of a categorical column, or `missing_code`.
-  Code code(std::size_t column) const;
+  /// The number in a numeric column, an index into the values of a categorical one; NaN where it is missing.
+  double value(std::size_t column) const;
 
  private:
   const DataTable& table_;
@@ -104,9 +102,10 @@ class DataTable {
 };
 
 inline std::size_t DataRow::label() const { return table_.class_order_[static_cast<std::size_t>(cells_[0])]; }
-inline Code DataRow::code(std::size_t column) const {
+inline double DataRow::value(std::size_t column) const {
+  if (table_.columns[column].numeric) return cells_[2 + 2 * column];
   const auto code = static_cast<Code>(cells_[3 + 2 * column]);
-  return code == missing_code ? code : table_.value_order_[column][code];
+  return code == missing_code ? nan : table_.value_order_[column][code];
 }
 
 /// Which cells hold nothing.

@@ -133,10 +133,10 @@ std::vector<std::vector<double>> places_of(const std::vector<std::size_t>& rows,
     if (next == rows.size() || rows[next] != row.index()) return;
     ++next;
     auto& own = cells.emplace_back();
-    for (std::size_t i = 0; i < data.columns.size(); ++i)
-      own.push_back(!data.columns[i].numeric    ? row.code(i)
-                    : std::isnan(row.number(i)) ? -std::numeric_limits<double>::infinity()
-                                                : row.number(i));
+    for (std::size_t i = 0; i < data.columns.size(); ++i) {
+      const double value = row.value(i);
+      own.push_back(std::isnan(value) ? -std::numeric_limits<double>::infinity() : value);
+    }
   });
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     if (!data.columns[i].numeric) continue;
