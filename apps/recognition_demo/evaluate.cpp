@@ -188,15 +188,6 @@ ResultTable rows_of_confusion(const DataTable& data, const Results& results, std
   return table;
 }
 
-/// The bins of each classifier, with as many statements as a folding has.
-void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
-  const auto bins = outcome.reliability.bins(static_cast<double>(foldings));
-  for (std::size_t i = 0; i < bins.size(); ++i)
-    result.facts_at({"reliability", outcome.name, i}, "from", bins[i].from, "to", bins[i].to, "statements",
-                    bins[i].count, "mean_degree", bins[i].mean_degree, "share_that_is_true", bins[i].share, "lower",
-                    bins[i].lower, "upper", bins[i].upper);
-}
-
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
 void write_predictions(const DataTable& data, const Deal& deal, const EvaluateOptions& options, ResultFiles& files) {
   std::vector<std::string> keys = {"line", "fold", "truth", "classifier", "decision"};
@@ -405,7 +396,11 @@ void run_evaluate(const EvaluateOptions& options) {
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
                options.learning.misread, "bins", options.learning.bins);
   say_scores(data, results, options, result);
-  for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
+  for (const Outcome& outcome : results.outcomes())
+    for (std::size_t i = 0; const auto& bin : outcome.reliability.bins(static_cast<double>(options.foldings)))
+      result.facts_at({"reliability", outcome.name, i++}, "from", bin.from, "to", bin.to, "statements", bin.count,
+                      "mean_degree", bin.mean_degree, "share_that_is_true", bin.share, "lower", bin.lower, "upper",
+                      bin.upper);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
   if (!options.groups.empty()) result.fact({"groups"}, options.groups);
   if (files.wanted()) write_predictions(data, deal, options, files);

@@ -211,14 +211,6 @@ std::vector<Contestant> contestants(const std::vector<Knowledge>& all) {
           {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}}};
 }
 
-double mean_probability_inside(const PerformanceData& data) {
-  double sum = 0.0;
-  for (const auto& row : data.table)
-    for (const Performance& each : row)
-      sum += each.density.cdf(each.triangle.maximum()) - each.density.cdf(each.triangle.minimum());
-  return sum / static_cast<double>(data.table.size() * data.types.size());
-}
-
 /// A type and, independently, its quantities; a report is one of them.
 Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge, const PerformanceOptions& options,
             std::size_t run) {
@@ -237,10 +229,15 @@ Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge
 }
 
 void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
+  double inside = 0.0;  // of the densities' probability
+  for (const auto& of_types : data.table)
+    for (const auto& [triangle, density] : of_types)
+      inside += density.cdf(triangle.maximum()) - density.cdf(triangle.minimum());
+  inside /= static_cast<double>(data.table.size() * data.types.size());
   result.say(
       "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
       "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
-      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least);
+      options.file, data.types.size(), data.variables.size(), 100.0 * inside, options.least);
   for (const auto& remark : data.remarks) result.say(remark);
   result.say(
       "{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
