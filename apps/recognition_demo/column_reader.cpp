@@ -133,12 +133,11 @@ DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_c
   return result;
 }
 
-void ColumnReader::refuse_slip(const CsvReader& reader) const {
+void ColumnReader::refuse_slip(const std::string& file) const {
   if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
-  const std::string& name = reader.names()[index_];
   const auto refuse = [&](std::string_view expected, std::size_t cells, std::string_view remedy) {
-    throw InputError({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                      .what = fmt::format("column {}", in_quotes(name)),
+    throw InputError({.where = fmt::format("{}:{}", file, slip_->line),
+                      .what = fmt::format("column {}", in_quotes(name_)),
                       .found = in_quotes(slip_->word),
                       .expected = fmt::format("{}, as {} of {} cells have", expected, cells, cells_),
                       .remedy = std::string(remedy)});
@@ -163,11 +162,11 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
          fmt::format(
              "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
              "--categorical {}",
-             typed(slip_->word), typed(name)));
+             typed(slip_->word), typed(name_)));
 }
 
-bool ColumnReader::contains(std::string_view name) const {
-  return is_numeric() ? parse_number(name).has_value() : words_.contains(trimmed(name));
+bool ColumnReader::is_named_as_a_cell() const {
+  return is_numeric() ? parse_number(name_).has_value() : words_.contains(trimmed(name_));
 }
 
 std::string ColumnReader::lone_value() const {
@@ -285,11 +284,11 @@ ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& cl
   return result;
 }
 
-void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) const {
+void ColumnReader::warn(bool copies, DataTable& table) const {
   const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    table.warn_of(name, holds, format, words...);
+    table.warn_of(name_, holds, format, words...);
   };
-  const std::string for_typing = typed(name);
+  const std::string for_typing = typed(name_);
   const ByValue values = by_value(table.rows_of_class);
   const bool tells_all = values.tells_all(table.classes.size());
   say(tells_all,
@@ -301,7 +300,7 @@ void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) 
              "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what "
              "rows are of, as a patient or a session, these are parted by the folds, and the shares of right answers "
              "are too good for others, also without it (--ignore {}): keep the rows of each together by {}",
-             groups.values, in_quotes(name) + (is_name ? ", without their last part" : ""),
+             groups.values, in_quotes(name_) + (is_name ? ", without their last part" : ""),
              static_cast<double>(groups.rows) / static_cast<double>(groups.values),
              groups.others == 0 ? "" : fmt::format(", but for {} of them", groups.others), for_typing,
              is_name ? "a column without that part, and evaluate --groups" : "evaluate --groups " + for_typing);
@@ -312,11 +311,11 @@ void ColumnReader::warn(const std::string& name, bool copies, DataTable& table) 
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
       for_typing);
-  say(name.starts_with("Unnamed: "),
+  say(name_.starts_with("Unnamed: "),
       " is called as pandas calls the numbers of rows that it wrote: if it is these, leave it out by --ignore {}",
       for_typing);
   if (is_numeric()) {
-    const std::string nines = nines_.doubt(name), two = one_number();
+    const std::string nines = nines_.doubt(name_), two = one_number();
     table.warn(!nines.empty(), "{}; where it says something, as never, that is lost so", nines);
     say(!three_digits_.empty() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_,
         ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "

@@ -49,14 +49,16 @@ struct DataCell {
 /// to ask about the column in the end.
 class ColumnReader {
  public:
-  ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
+  /// The column with this place and this name in the file.
+  ColumnReader(std::size_t index, std::string name, bool categorical)
+      : index_(index), name_(std::move(name)), categorical_(categorical) {}
 
   DataCell take(const CsvRow& row, MissingWords& missing, Code its_class);
 
   /// Throws if the column is neither numbers nor words.
-  void refuse_slip(const CsvReader& reader) const;
+  void refuse_slip(const std::string& file) const;
 
-  std::size_t index() const { return index_; }
+  const std::string& name() const { return name_; }
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
 
@@ -64,14 +66,13 @@ class ColumnReader {
   std::size_t filled() const { return cells_; }
 
   /// Whether the name of the column looks like one of its cells.
-  bool contains(std::string_view name) const;
+  bool is_named_as_a_cell() const;
 
   /// What there is to see, if it is not two different values: "'red'", or "no value".
   std::string lone_value() const;
 
-  /// Tells the table what the values of the column, which has this name, tell, and how they are written; whether rows
-  /// are copies.
-  void warn(const std::string& name, bool copies, DataTable& table) const;
+  /// Tells the table what the values of the column tell, and how they are written; whether rows are copies.
+  void warn(bool copies, DataTable& table) const;
 
  private:
   static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5;
@@ -128,6 +129,7 @@ class ColumnReader {
   ByValue summed(const std::vector<ClassesOfValue>& classes, const std::vector<std::size_t>& rows_of_class) const;
 
   std::size_t index_;
+  std::string name_;
   bool categorical_;
   std::optional<Slip> slip_;
   std::set<std::string> slips_{};  // different ones with a digit, some

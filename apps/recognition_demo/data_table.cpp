@@ -14,24 +14,23 @@ namespace sigmax::apps {
 namespace {
 
 /// Columns with their lone values, all at once: throws if there is such a one.
-void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
+void refuse_useless(const std::vector<ColumnReader>& columns, const DataTable& table) {
   std::vector<std::string> found, names;
   bool gaps = false;
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
-    const std::string& name = reader.names()[column.index()];
-    const std::size_t empty = rows - column.filled();
-    const bool has_gaps = 0 < empty && empty < rows;
+    const std::size_t empty = table.size() - column.filled();
+    const bool has_gaps = 0 < empty && empty < table.size();
     gaps |= has_gaps;
-    names.push_back(typed(name));
-    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(name),
+    names.push_back(typed(column.name()));
+    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(column.name()),
                                 has_gaps ? fmt::format(" (and no value in {} rows)", empty) : ""));
   }
   if (names.empty()) return;
   throw InputError(
-      {.where = reader.file(),
-       .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
+      {.where = table.file,
+       .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), table.size()),
        .expected = "at least two different values",
        .remedy = fmt::format("{}leave out what never changes by --ignore {}",
                              gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))});
@@ -50,27 +49,27 @@ bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
 
 void warn_of_classes(const Vocabulary& classes, DataTable& table) {
   const std::size_t rows = table.size(), number = table.classes.size();
-  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    table.warn_of(table.label, holds, format, words...);
-  };
   const std::string alike = classes.alike();
-  say(!alike.empty(), alike_words, alike);
+  table.warn_of(table.label, !alike.empty(), alike_words, alike);
   const bool most_are_lone = 2 * number > rows;
-  say(most_are_lone && rows >= few_rows,
+  table.warn_of(
+      table.label, most_are_lone && rows >= few_rows,
       " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it the right "
       "--label?",
       number, rows);
   std::vector<std::string> lone;
   for (std::size_t k = 0; k < number; ++k)
     if (table.rows_of_class[k] == 1) lone.push_back(table.classes[k]);
-  say(!lone.empty() && rows >= few_rows && !most_are_lone,
-      ": a single row is of {}: is it a slip of writing? From one row nothing can be learned", listed(lone, 12));
+  table.warn_of(table.label, !lone.empty() && rows >= few_rows && !most_are_lone,
+                ": a single row is of {}: is it a slip of writing? From one row nothing can be learned",
+                listed(lone, 12));
   for (std::size_t k = 0; k < number; ++k) {
     const std::string name = lower_case(table.classes[k]);
-    say(says_unknown(name) || (name == "-" && !classes.contains("+")) || name == "--" || name == "unknown" ||
-            is_nines(name, table.classes),
-        ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
-        table.rows_of_class[k], rows, in_quotes(table.classes[k]));
+    table.warn_of(table.label,
+                  says_unknown(name) || (name == "-" && !classes.contains("+")) || name == "--" || name == "unknown" ||
+                      is_nines(name, table.classes),
+                  ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
+                  table.rows_of_class[k], rows, in_quotes(table.classes[k]));
   }
 }
 
@@ -79,8 +78,8 @@ void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& col
   std::vector<std::string> like_cells;
   std::size_t words = 0;
   for (const ColumnReader& column : columns)
-    if (const std::string& name = reader.names()[column.index()]; column.contains(name))
-      words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(name));
+    if (column.is_named_as_a_cell())
+      words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(column.name()));
   table.warn(
       2 * like_cells.size() > columns.size() &&
           (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
@@ -370,7 +369,7 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions&
   std::vector<ColumnReader> columns;
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     if (!left_out.contains(i) && !reader.names()[i].empty())
-      columns.emplace_back(i, all_categorical || categorical.contains(i));
+      columns.emplace_back(i, reader.names()[i], all_categorical || categorical.contains(i));
   if (columns.empty())
     throw InputError("{}: there is no column beside {}: expected one with a feature", reader.file(),
                      in_quotes(options.label));
@@ -425,7 +424,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   Vocabulary classes;
   std::vector<std::size_t> rows_of;  // by class, as they come
   std::size_t first_line = 0, commented = 0;
-  for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
+  for (const auto& column : columns) table.columns.push_back({.name = column.name()});
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
@@ -462,8 +461,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   table.rows_of_class.resize(rows_of.size());
   for (std::size_t code = 0; code < rows_of.size(); ++code)
     table.rows_of_class[table.class_order_[code]] = rows_of[code];
-  for (const auto& column : columns) column.refuse_slip(reader);
-  refuse_useless(reader, columns, table.size());
+  for (const auto& column : columns) column.refuse_slip(table.file);
+  refuse_useless(columns, table);
   table.value_order_.resize(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     table.columns[i].numeric = columns[i].is_numeric();
@@ -481,7 +480,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
              "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
   std::vector<std::string> mostly_empty;
   for (const ColumnReader& column : columns)
-    if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(reader.names()[column.index()]));
+    if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(column.name()));
   table.warn(
       !mostly_empty.empty(),
       "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
@@ -490,7 +489,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   warn_of_gaps(table);
   warn_of_order(table);
   const bool copies = warn_of_repeats(table);
-  for (const ColumnReader& column : columns) column.warn(reader.names()[column.index()], copies, table);
+  for (const ColumnReader& column : columns) column.warn(copies, table);
   return table;
 }
 
