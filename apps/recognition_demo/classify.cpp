@@ -113,8 +113,8 @@ class RowReader {
         for (std::size_t c = 0; c < classes_.size(); ++c) usual += model_.counts.of(i, c)[bin] / learned;
         if (const double share = binned[bin] / static_cast<double>(all); share > usual + 0.6)
           result.say(
-              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they "
-              "in the same unit?",
+              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they in "
+              "the same unit?",
               in_quotes(feature.name), 100.0 * share, all, feature.bins->labels()[bin], 100.0 * usual);
       }
       const auto outside = std::max(below, above);
@@ -127,8 +127,8 @@ class RowReader {
       const bool is_code = below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0;
       if (is_code)
         result.say(
-            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, "
-            "empty those cells",
+            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, empty "
+            "those cells",
             in_quotes(feature.name), below, shortest(*least.begin()));
       if (all >= enough && !many) columns[1] += is_no_chance(below), columns[2] += is_no_chance(above);
       // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
@@ -425,8 +425,7 @@ void say_otherwise(const LearnedModel& model, const Classified& found, Result& r
     if (holds)
       result.say(
           "{:.1f} % of the rows of a class are right by sigma on the average, where {:.1f} % of those that were "
-          "learned "
-          "were when left out: {}",
+          "learned were when left out: {}",
           100.0 * here.mean(), 100.0 * there.mean(), what);
   };
   say(lower > std::max(less, sure),

@@ -159,10 +159,9 @@ void ColumnReader::refuse_slip(const std::string& file) const {
            "write it, and all others that are written so, as plain numbers: -0.05 for (0.05) or 0.05-, and one for a "
            "range");
   refuse("a number with a decimal point", numeric_cells_,
-         fmt::format(
-             "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
-             "--categorical {}",
-             typed(slip_->word), typed(name_)));
+         fmt::format("correct it, drop the line if it is none of data, name it by --missing={}, or take the column as "
+                     "words by --categorical {}",
+                     typed(slip_->word), typed(name_)));
 }
 
 bool ColumnReader::is_named_as_a_cell() const {

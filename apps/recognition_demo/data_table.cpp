@@ -52,11 +52,10 @@ void warn_of_classes(const Vocabulary& classes, DataTable& table) {
   const std::string alike = classes.alike();
   table.warn_of(table.label, !alike.empty(), alike_words, alike);
   const bool most_are_lone = 2 * number > rows;
-  table.warn_of(
-      table.label, most_are_lone && rows >= few_rows,
-      " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it the right "
-      "--label?",
-      number, rows);
+  table.warn_of(table.label, most_are_lone && rows >= few_rows,
+                " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it "
+                "the right --label?",
+                number, rows);
   std::vector<std::string> lone;
   for (std::size_t k = 0; k < number; ++k)
     if (table.rows_of_class[k] == 1) lone.push_back(table.classes[k]);
@@ -80,12 +79,11 @@ void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& col
   for (const ColumnReader& column : columns)
     if (column.is_named_as_a_cell())
       words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(column.name()));
-  table.warn(
-      2 * like_cells.size() > columns.size() &&
-          (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
-      "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
-      "of names above it",
-      fmt::join(like_cells, ", "));
+  table.warn(2 * like_cells.size() > columns.size() &&
+                 (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
+             "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a "
+             "row of names above it",
+             fmt::join(like_cells, ", "));
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     table.warn(reader.names()[i].empty(), "column {} has no name and is left out", i + 1);
 }
@@ -164,12 +162,11 @@ bool warn_of_repeats(DataTable& table) {
     comparable.push_back(table.columns[i].numeric && different >= 4);
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
-    table.warn(
-        true,
-        "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
-        "other, and the shares of right answers are too good: drop them; what coincides by chance, as values below a "
-        "limit do, is to stay",
-        100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
+    table.warn(true,
+               "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked "
+               "of the other, and the shares of right answers are too good: drop them; what coincides by chance, as "
+               "values below a limit do, is to stay",
+               100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
   // Columns of 0 and 1, or of two words, each of which is 1, or the second, in rows of one class only.
   std::vector<std::string> one_hot;
@@ -203,11 +200,10 @@ bool warn_of_repeats(DataTable& table) {
         facts[{table.columns[i].values[code], stands}].push_back(table.columns[i].name);
     }
   for (const auto& [fact, names] : facts)
-    table.warn(
-        names.size() > 2,
-        "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, give "
-        "--missing={}",
-        in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
+    table.warn(names.size() > 2,
+               "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, "
+               "give --missing={}",
+               in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
   // As a statistics program writes them: each combination of words and class once, and how often.
   std::size_t combinations = table.classes.size(), numbers = 0;
   std::string of_counts;
@@ -246,17 +242,16 @@ bool warn_of_repeats(DataTable& table) {
   }
   constexpr std::size_t most_families = 3;
   for (const auto& [name, others] : families)
-    table.warn_of(
-        name, families.size() <= most_families,
-        " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
-        "--ignore {}",
-        fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
+    table.warn_of(name, families.size() <= most_families,
+                  " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others "
+                  "out by --ignore {}",
+                  fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
   if (families.size() <= most_families) return all_of_them;
-  table.warn(
-      true,
-      "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
-      "several times; leave the others out by --ignore {}",
-      families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
+  table.warn(true,
+             "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and "
+             "count several times; leave the others out by --ignore {}",
+             families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","),
+             fmt::join(all_others, ","));
   return all_of_them;
 }
 
@@ -279,8 +274,8 @@ void warn_of_gaps(DataTable& table) {
     const auto [least, most] = std::ranges::minmax(known, {}, share);
     table.warn_of(
         table.columns[i].name, share(most) - share(least) >= 0.5,
-        ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
-        "empty cell says something, as no or less than a limit, and does so before the class is known, write it",
+        ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an empty "
+        "cell says something, as no or less than a limit, and does so before the class is known, write it",
         100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
   }
 }
@@ -481,11 +476,10 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   std::vector<std::string> mostly_empty;
   for (const ColumnReader& column : columns)
     if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(column.name()));
-  table.warn(
-      !mostly_empty.empty(),
-      "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
-      "merged one of a spreadsheet, fill them",
-      mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
+  table.warn(!mostly_empty.empty(),
+             "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as "
+             "a merged one of a spreadsheet, fill them",
+             mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
   warn_of_order(table);
   const bool copies = warn_of_repeats(table);

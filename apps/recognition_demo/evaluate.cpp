@@ -271,8 +271,8 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
              described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
-      "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: 1 "
+      "− the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
   const auto recognised = each(results.outcomes, &Outcome::recognised);

@@ -218,10 +218,9 @@ void tell(const Scenario& scenario, const DrawOptions& options, const std::vecto
     result.page.views.front().panels.emplace_back(std::move(chart));
   }
   result.add(curves, {.printed = false, .csv = "curves.csv"});
-  result.page.verdict = {
-      fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the "
-                  "reports.",
-                  options.runs, options.seed)};
+  result.page.verdict = {fmt::format(
+      "Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the reports.",
+      options.runs, options.seed)};
 }
 
 void run_manoeuvre(const DrawOptions& options) {

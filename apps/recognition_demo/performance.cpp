@@ -239,13 +239,11 @@ void say_performance(const PerformanceOptions& options, const PerformanceData& d
       "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
       options.file, data.types.size(), data.variables.size(), 100.0 * inside, options.least);
   for (const auto& remark : data.remarks) result.say(remark);
-  result.say(
-      "{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
-      "quantity",
-      options.draws.runs,
-      options.drawn_from == "density" ? "the densities: sigma inference knows them"
-                                      : "densities in proportion to the triangles",
-      options.draws.seed, options.bins);
+  result.say("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a quantity",
+             options.draws.runs,
+             options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                             : "densities in proportion to the triangles",
+             options.draws.seed, options.bins);
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.
@@ -270,8 +268,8 @@ void fill(Report& page, const PerformanceOptions& options, const PerformanceData
           const std::vector<Knowledge>& knowledge, const Scores& scores) {
   constexpr std::size_t most_types = 20, most_quantities = 6;
   page.verdict = {
-      fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
-                  "those of the {} quantities that tell the types apart best.",
+      fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are those of the "
+                  "{} quantities that tell the types apart best.",
                   options.draws.runs, data.types.size(), options.draws.seed, most_quantities)};
   page.panels.emplace_back(accuracy_chart(scores, "quantities"));
   page.chooser = "Type";
@@ -311,9 +309,9 @@ void add_performance(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<PerformanceOptions>();
   Subcommand app(program, "performance",
                  "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
-  app.option("data", options->file,
-             "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard "
-             "input")
+  app.option(
+         "data", options->file,
+         "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard input")
       .required()
       .type("PERFORMANCE.csv");
   app.option("--draws", options->drawn_from, "What the quantities are drawn from")
