@@ -163,16 +163,12 @@ struct EncounterOptions {
   std::optional<double> ground_ft;  ///< nothing: the lowest altitude of the recording
 };
 
-template <PossibilityTransform Method>
-Contestant max_by(const std::string& name, const Counts& counts, const Method& method) {
-  return {name, MaxClassifier{uninformative(as_fuzzy(counts.pattern())), learned_relations(counts, 0.0, method)}};
-}
-
 std::vector<Contestant> contestants(const Counts& counts) {
+  const auto prior = uninformative(as_fuzzy(counts.pattern()));
   return {{"sigma", SigmaClassifier{uninformative(counts.pattern()), learned_relations(counts, 0.0)}},
-          max_by("max, ratio scale", counts, RatioScale{}),
-          max_by("max, Dubois-Prade", counts, DuboisPrade{}),
-          max_by("max, Dubois-Prade-Sandri", counts, DuboisPradeSandri{})};
+          {"max, ratio scale", MaxClassifier{prior, learned_relations(counts, 0.0, RatioScale{})}},
+          {"max, Dubois-Prade", MaxClassifier{prior, learned_relations(counts, 0.0, DuboisPrade{})}},
+          {"max, Dubois-Prade-Sandri", MaxClassifier{prior, learned_relations(counts, 0.0, DuboisPradeSandri{})}}};
 }
 
 void say_counts(const EncounterOptions& options, const Counts& counts, Result& result) {

@@ -306,27 +306,26 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
 }
 
 /// Rows of the data by true and decided class.
-HeatMap confusion_map(const std::string& classifier, const std::vector<std::string>& classes,
-                      const ConfusionMatrix& confusion, std::size_t foldings) {
-  HeatMap map{.title = classifier,
+HeatMap confusion_map(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
+  HeatMap map{.title = outcome.name,
               .row_label = "true class",
               .column_label = "decided class",
-              .rows = classes,
-              .columns = classes,
+              .rows = data.classes,
+              .columns = data.classes,
               .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
               .digits = foldings == 1 ? 0 : 1};
   map.fill([&](std::size_t truth, std::size_t c) {
-    return HeatMap::Cell{confusion(truth, c) / static_cast<double>(foldings)};
+    return HeatMap::Cell{outcome.confusion()(truth, c) / static_cast<double>(foldings)};
   });
   return map;
 }
 
 /// What was believed of the classes of rows against how often that was true. The diagonal is calibration, or the bound
 /// that possibilities are.
-LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
-                            std::size_t foldings) {
+LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
+  const bool fuzzy = std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation);
   LineChart chart{
-      .title = "Reliability of " + classifier,
+      .title = "Reliability of " + outcome.name,
       .x_label = fuzzy ? "possibility of a class" : "probability of a class",
       .y_label = "share of such classes that are the true one",
       .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
@@ -344,7 +343,7 @@ LineChart reliability_chart(const std::string& classifier, const Reliability& re
   };
   const double nan = std::nan("");
   add(0.0, nan, nan, nan, "");
-  for (const auto& bin : reliability.bins(static_cast<double>(foldings)))
+  for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
     add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
   add(1.0, nan, nan, nan, "");
   return chart;
@@ -359,11 +358,9 @@ void fill(Report& page, const DataTable& data, const Results& results, const Eva
   constexpr std::size_t most_classes = 30;
   if (data.classes.size() <= most_classes)
     for (const Outcome& outcome : results.outcomes)
-      page.panels.emplace_back(confusion_map(outcome.name, data.classes, outcome.confusion(), options.foldings));
+      page.panels.emplace_back(confusion_map(data, outcome, options.foldings));
   for (const Outcome& outcome : results.outcomes)
-    page.panels.emplace_back(reliability_chart(outcome.name, outcome.reliability,
-                                               std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation),
-                                               options.foldings));
+    page.panels.emplace_back(reliability_chart(outcome, options.foldings));
   page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
 }
 

@@ -193,22 +193,18 @@ double draw_from(const Triangle& triangle, double u) {
 }
 
 std::vector<Contestant> contestants(const std::vector<Knowledge>& all) {
-  std::vector<FeatureModel<Random, Random>> by_density, by_triangle_p;
-  std::vector<FeatureModel<Fuzzy, Fuzzy>> by_triangle, by_ratio, by_dubois_prade;
-  for (const Knowledge& each : all) {
-    by_density.emplace_back(each.probable);
-    by_triangle.emplace_back(each.possible);
-    by_triangle_p.emplace_back(with_random_condition(to_probability(each.possible, RatioScale{})));
-    by_ratio.emplace_back(with_fuzzy_condition(to_possibility(each.probable, RatioScale{})));
-    by_dubois_prade.emplace_back(with_fuzzy_condition(to_possibility(each.probable, DuboisPrade{})));
-  }
   const auto random_prior = uninformative(all.front().probable.from());
   const auto fuzzy_prior = uninformative(all.front().possible.from());
-  return {{"sigma, p of the density", SigmaClassifier{random_prior, std::move(by_density)}},
-          {"max, π of the triangle", MaxClassifier{fuzzy_prior, std::move(by_triangle)}},
-          {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, std::move(by_triangle_p)}},
-          {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, std::move(by_ratio)}},
-          {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}}};
+  const auto in_proportion =
+      each(all, [](const Knowledge& one) { return with_random_condition(to_probability(one.possible, RatioScale{})); });
+  const auto by = [&](const auto& method) {
+    return each(all, [&](const Knowledge& one) { return with_fuzzy_condition(to_possibility(one.probable, method)); });
+  };
+  return {{"sigma, p of the density", SigmaClassifier{random_prior, each(all, &Knowledge::probable)}},
+          {"max, π of the triangle", MaxClassifier{fuzzy_prior, each(all, &Knowledge::possible)}},
+          {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, in_proportion}},
+          {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, by(RatioScale{})}},
+          {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, by(DuboisPrade{})}}};
 }
 
 /// A type and, independently, its quantities; a report is one of them.
