@@ -67,7 +67,7 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
       outcomes[i].reliability.add(row.label(), belief);
     });
     if (by.excluded) ++outcomes[i].excluded;
-    if (i + 1 == outcomes.size()) right.set(row.index(), static_cast<std::uint8_t>(std::exchange(bits, 0)));
+    if (i + 1 == outcomes.size()) right.set(row.index, static_cast<std::uint8_t>(std::exchange(bits, 0)));
   });
   return outcomes;
 }
