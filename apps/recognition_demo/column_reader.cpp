@@ -68,16 +68,16 @@ bool says_unknown(std::string_view word) {
 
 std::size_t Vocabulary::numbers() const {
   const auto is_number = [](const auto& word) { return parse_number(word.first).has_value(); };
-  return static_cast<std::size_t>(std::ranges::count_if(codes_, is_number));
+  return static_cast<std::size_t>(std::ranges::count_if(codes, is_number));
 }
 
 std::string Vocabulary::alike() const {
-  return apps::alike(each(codes_, [](const auto& word) { return std::string_view(word.first); }));
+  return apps::alike(each(codes, [](const auto& word) { return std::string_view(word.first); }));
 }
 
 std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
   std::vector<std::tuple<double, std::string, Code>> order;  // by value, words behind all numbers
-  for (const auto& [word, code] : codes_)
+  for (const auto& [word, code] : codes)
     order.emplace_back(parse_number(word).value_or(std::numeric_limits<double>::infinity()), word, code);
   std::ranges::sort(order);
   std::vector<std::string> words;
@@ -170,7 +170,7 @@ bool ColumnReader::is_named_as_a_cell() const {
 
 std::string ColumnReader::lone_value() const {
   if (too_many_words_ || words_.size() > 1) return "";
-  return words_.size() == 0 ? "no value" : in_quotes(words_.codes().begin()->first);
+  return words_.size() == 0 ? "no value" : in_quotes(words_.codes.begin()->first);
 }
 
 bool ColumnReader::names_rows() const {
@@ -189,7 +189,7 @@ std::string ColumnReader::several_numbers() const {
   if (categorical_ || too_many_words_ || words_.size() <= few_words) return "";
   std::map<std::string, std::pair<std::size_t, std::string>> forms;  // # is a number
   std::set<std::string_view> tails;                                  // behind the first number: of a unit they are few
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     std::string form;
     for (const char c : word)
       if (std::isdigit(static_cast<unsigned char>(c)) == 0)
@@ -210,7 +210,7 @@ std::string ColumnReader::several_numbers() const {
 std::string ColumnReader::one_number() const {
   constexpr std::size_t most = 100;
   if (!is_numeric() || too_many_words_ || words_.size() > most) return "";
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     const auto point = word.find('.');
     const auto without = word.find_last_not_of('0');
     if (point == word.npos || without == word.npos || without <= point || without + 1 == word.size()) continue;
@@ -256,7 +256,7 @@ ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& row
 ColumnReader::ByValue ColumnReader::by_stem(const std::vector<std::size_t>& rows_of_class) const {
   if (too_many_words_ || is_numeric()) return {};
   std::map<std::string_view, ClassesOfValue> stems;
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     auto end = word.find_last_of("_-. ");
     if (end == word.npos || end == 0) end = word.find_last_not_of("0123456789") + 1;
     if (end == 0 || code >= classes_.size()) return {};
@@ -361,7 +361,7 @@ void ColumnReader::warn(bool copies, DataTable& table) const {
       numeric_cells_, cells_, in_quotes(slip), typed(slip));
   std::size_t unknowns = 0;
   std::string unknown;  // the first such word
-  for (const auto& [word, code] : words_.codes())
+  for (const auto& [word, code] : words_.codes)
     if (code < classes_.size() && says_unknown(word)) {
       unknowns += classes_[code].same + classes_[code].others;
       if (unknown.empty()) unknown = word;

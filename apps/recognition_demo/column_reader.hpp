@@ -17,16 +17,16 @@ inline constexpr const char* alike_words =
 inline constexpr std::size_t most_values = 4096;
 
 /// Words numbered as they come.
-class Vocabulary {
- public:
+struct Vocabulary {
+  std::map<std::string, Code, std::less<>> codes;
+
   Code code(std::string_view word) {
-    const auto found = codes_.find(word);
-    if (found != codes_.end()) return found->second;
-    return codes_.emplace(std::string(word), static_cast<Code>(codes_.size())).first->second;
+    const auto found = codes.find(word);
+    if (found != codes.end()) return found->second;
+    return codes.emplace(std::string(word), static_cast<Code>(codes.size())).first->second;
   }
-  std::size_t size() const { return codes_.size(); }
-  bool contains(std::string_view word) const { return codes_.contains(word); }
-  const std::map<std::string, Code, std::less<>>& codes() const { return codes_; }
+  std::size_t size() const { return codes.size(); }
+  bool contains(std::string_view word) const { return codes.contains(word); }
   std::size_t numbers() const;
 
   /// Two words that differ in their writing only, see `apps::alike`.
@@ -34,9 +34,6 @@ class Vocabulary {
 
   /// The words in order, numbers first and by their value, and for each code the place of its word.
   std::pair<std::vector<std::string>, std::vector<Code>> sorted() const;
-
- private:
-  std::map<std::string, Code, std::less<>> codes_;
 };
 
 /// A cell as a number, NaN if it is none, and as a word, `missing_code` if it is none or there are too many.
