@@ -113,8 +113,8 @@ class RowReader {
         for (std::size_t c = 0; c < classes_.size(); ++c) usual += model_.counts.of(i, c)[bin] / learned;
         if (const double share = binned[bin] / static_cast<double>(all); share > usual + 0.6)
           result.say(
-              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they "
-              "in the same unit?",
+              "\nColumn {}: {:.0f} % of {} numbers are {}, as were {:.0f} % of those that were learned: are they in "
+              "the same unit?",
               in_quotes(feature.name), 100.0 * share, all, feature.bins->labels()[bin], 100.0 * usual);
       }
       const auto outside = std::max(below, above);
@@ -127,8 +127,8 @@ class RowReader {
       const bool is_code = below > 4 && least.size() == 1 && *least.begin() < 0.0 && feature.least >= 0.0;
       if (is_code)
         result.say(
-            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, "
-            "empty those cells",
+            "\nColumn {}: {} numbers are {}, and none that was learned is below 0; if that stands for no value, empty "
+            "those cells",
             in_quotes(feature.name), below, shortest(*least.begin()));
       if (all >= enough && !many) columns[1] += is_no_chance(below), columns[2] += is_no_chance(above);
       // That the first of all numbers in order are these has the chance n! m!/(n + m)!.
@@ -293,11 +293,9 @@ Classified classify_all(const ClassifyOptions& options, const LearnedModel& mode
                                             SelectiveAlgebra<AlgebraOf<Kind>> ? "N" : "margin", decision.margin,
                                             !rejected && decision.tied > 1 ? ", a tie" : ""));
     if (!file) return;
-    std::vector<Cell> cells = {line};
-    if (rows.has_truth()) cells.emplace_back(truth ? pattern.label(*truth) : "");
-    const std::vector<Cell> said = {tally.name, rejected ? Cell() : Cell(pattern.label(decision.pattern)),
-                                    decision.margin};
-    cells.insert(cells.end(), said.begin(), said.end());
+    std::vector<Cell> cells = {line, tally.name, rejected ? Cell() : Cell(pattern.label(decision.pattern)),
+                               decision.margin};
+    if (rows.has_truth()) cells.insert(cells.begin() + 1, truth ? pattern.label(*truth) : "");
     for (std::size_t c = 0; c < belief.size(); ++c) cells.emplace_back(belief[c]);
     file.write(cells);
   };
@@ -376,12 +374,10 @@ View view_of(const ShownRow& row, const RandomVariable& pattern, const std::vect
       .title = row.truth.empty() ? "Support of the classes" : "Support of the classes; true is " + row.truth,
       .row_label = "classifier",
       .column_label = pattern.name(),
+      .rows = each(all, &Contestant::name),
       .columns = labels_of(pattern),
+      .values = each(all, [&](const Contestant& one) { return follow(one, 0, {row.readings}).belief; }),
       .value_label = "probability or possibility"};
-  for (const Contestant& contestant : all) {
-    support.rows.push_back(contestant.name);
-    support.values.push_back(follow(contestant, 0, {row.readings}).belief);
-  }
   view.panels.emplace_back(std::move(support));
   for (const Contestant& contestant : all)
     if (auto why = explanation(contestant, row.readings))

@@ -76,16 +76,16 @@ bool says_unknown(std::string_view word) {
 
 std::size_t Vocabulary::numbers() const {
   const auto is_number = [](const auto& word) { return parse_number(word.first).has_value(); };
-  return static_cast<std::size_t>(std::ranges::count_if(codes_, is_number));
+  return static_cast<std::size_t>(std::ranges::count_if(codes, is_number));
 }
 
 std::string Vocabulary::alike() const {
-  return apps::alike(each(codes_, [](const auto& word) { return std::string_view(word.first); }));
+  return apps::alike(each(codes, [](const auto& word) { return std::string_view(word.first); }));
 }
 
 std::pair<std::vector<std::string>, std::vector<Code>> Vocabulary::sorted() const {
   std::vector<std::tuple<double, std::string, Code>> order;  // by value, words behind all numbers
-  for (const auto& [word, code] : codes_)
+  for (const auto& [word, code] : codes)
     order.emplace_back(parse_number(word).value_or(std::numeric_limits<double>::infinity()), word, code);
   std::ranges::sort(order);
   std::vector<std::string> words;
@@ -141,12 +141,11 @@ DataCell ColumnReader::take(const CsvRow& row, MissingWords& missing, Code its_c
   return result;
 }
 
-void ColumnReader::refuse_slip(const CsvReader& reader) const {
+void ColumnReader::refuse_slip(const std::string& file) const {
   if (categorical_ || !slip_ || !(too_many_words_ || nearly_all_numbers())) return;
-  const std::string& name = reader.names()[index_];
   const auto refuse = [&](std::string_view expected, std::size_t cells, std::string_view remedy) {
-    throw InputError({.where = fmt::format("{}:{}", reader.file(), slip_->line),
-                      .what = fmt::format("column {}", in_quotes(name)),
+    throw InputError({.where = fmt::format("{}:{}", file, slip_->line),
+                      .what = fmt::format("column {}", in_quotes(name_)),
                       .found = in_quotes(slip_->word),
                       .expected = fmt::format("{}, as {} of {} cells have", expected, cells, cells_),
                       .remedy = std::string(remedy)});
@@ -168,19 +167,18 @@ void ColumnReader::refuse_slip(const CsvReader& reader) const {
            "write it, and all others that are written so, as plain numbers: -0.05 for (0.05) or 0.05-, and one for a "
            "range");
   refuse("a number with a decimal point", numeric_cells_,
-         fmt::format(
-             "correct it, drop the line if it is none of data, name it by --missing={}, or take the column as words by "
-             "--categorical {}",
-             typed(slip_->word), typed(name)));
+         fmt::format("correct it, drop the line if it is none of data, name it by --missing={}, or take the column as "
+                     "words by --categorical {}",
+                     typed(slip_->word), typed(name_)));
 }
 
-bool ColumnReader::contains(std::string_view name) const {
-  return is_numeric() ? parse_number(name).has_value() : words_.contains(trimmed(name));
+bool ColumnReader::is_named_as_a_cell() const {
+  return is_numeric() ? parse_number(name_).has_value() : words_.contains(trimmed(name_));
 }
 
 std::string ColumnReader::lone_value() const {
   if (too_many_words_ || words_.size() > 1) return "";
-  return words_.size() == 0 ? "no value" : in_quotes(words_.codes().begin()->first);
+  return words_.size() == 0 ? "no value" : in_quotes(words_.codes.begin()->first);
 }
 
 bool ColumnReader::names_rows() const {
@@ -202,7 +200,7 @@ std::string ColumnReader::several_numbers() const {
   if (categorical_ || too_many_words_ || words_.size() <= few_words) return "";
   std::map<std::string, std::pair<std::size_t, std::string>> forms;  // # is a number
   std::set<std::string_view> tails;                                  // behind the first number: of a unit they are few
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     std::string form;
     for (const char c : word)
       if (std::isdigit(static_cast<unsigned char>(c)) == 0)
@@ -223,7 +221,7 @@ std::string ColumnReader::several_numbers() const {
 std::string ColumnReader::one_number() const {
   constexpr std::size_t most = 100;
   if (!is_numeric() || too_many_words_ || words_.size() > most) return "";
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     const auto point = word.find('.');
     const auto without = word.find_last_not_of('0');
     if (point == word.npos || without == word.npos || without <= point || without + 1 == word.size()) continue;
@@ -269,7 +267,7 @@ ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& row
 ColumnReader::ByValue ColumnReader::by_stem(const std::vector<std::size_t>& rows_of_class) const {
   if (too_many_words_ || is_numeric()) return {};
   std::map<std::string_view, ClassesOfValue> stems;
-  for (const auto& [word, code] : words_.codes()) {
+  for (const auto& [word, code] : words_.codes) {
     auto end = word.find_last_of("_-. ");
     if (end == word.npos || end == 0) end = word.find_last_not_of("0123456789") + 1;
     if (end == 0 || code >= classes_.size()) return {};
@@ -296,11 +294,11 @@ ColumnReader::ByValue ColumnReader::summed(const std::vector<ClassesOfValue>& cl
   return result;
 }
 
-void ColumnReader::warn(const std::string& name, DataTable& table) const {
+void ColumnReader::warn(DataTable& table) const {
   const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    table.warn_of(name, holds, format, words...);
+    table.warn_of(name_, holds, format, words...);
   };
-  const std::string for_typing = typed(name);
+  const std::string for_typing = typed(name_);
   const ByValue values = by_value(table.rows_of_class);
   const bool tells_all = values.tells_all(table.classes.size());
   say(tells_all,
@@ -312,7 +310,7 @@ void ColumnReader::warn(const std::string& name, DataTable& table) const {
              "each of {} values of column {}, of {:.2g} rows on the average, is of one class only{}: if it names what "
              "rows are of, as a patient or a session, these are parted by the folds, and the shares of right answers "
              "are too good for others, also without it (--ignore {}): keep the rows of each together by {}",
-             groups.values, in_quotes(name) + (is_name ? ", without their last part" : ""),
+             groups.values, in_quotes(name_) + (is_name ? ", without their last part" : ""),
              static_cast<double>(groups.rows) / static_cast<double>(groups.values),
              groups.others == 0 ? "" : fmt::format(", but for {} of them", groups.others), for_typing,
              is_name ? "a column without that part, and evaluate --groups" : "evaluate --groups " + for_typing);
@@ -323,11 +321,11 @@ void ColumnReader::warn(const std::string& name, DataTable& table) const {
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
       for_typing);
-  say(name.starts_with("Unnamed: "),
+  say(name_.starts_with("Unnamed: "),
       " is called as pandas calls the numbers of rows that it wrote: if it is these, leave it out by --ignore {}",
       for_typing);
   if (is_numeric()) {
-    const std::string nines = nines_.doubt(name), two = one_number();
+    const std::string nines = nines_.doubt(name_), two = one_number();
     table.warn(!nines.empty(), "{}; where it says something, as never, that is lost so", nines);
     say(!three_digits_.empty() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_,
         ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
@@ -374,7 +372,7 @@ void ColumnReader::warn(const std::string& name, DataTable& table) const {
       numeric_cells_, cells_, in_quotes(slip), typed(slip));
   std::size_t unknowns = 0;
   std::string unknown;  // the first such word
-  for (const auto& [word, code] : words_.codes())
+  for (const auto& [word, code] : words_.codes)
     if (code < classes_.size() && says_unknown(word)) {
       unknowns += classes_[code].same + classes_[code].others;
       if (unknown.empty()) unknown = word;

@@ -2,7 +2,6 @@
 
 #include "recognition_demo/data_table.hpp"
 #include "support/nines.hpp"
-#include "support/numbers.hpp"
 
 namespace sigmax::apps {
 
@@ -18,16 +17,16 @@ inline constexpr const char* alike_words =
 inline constexpr std::size_t most_values = 4096;
 
 /// Words numbered as they come.
-class Vocabulary {
- public:
+struct Vocabulary {
+  std::map<std::string, Code, std::less<>> codes;
+
   Code code(std::string_view word) {
-    const auto found = codes_.find(word);
-    if (found != codes_.end()) return found->second;
-    return codes_.emplace(std::string(word), static_cast<Code>(codes_.size())).first->second;
+    const auto found = codes.find(word);
+    if (found != codes.end()) return found->second;
+    return codes.emplace(std::string(word), static_cast<Code>(codes.size())).first->second;
   }
-  std::size_t size() const { return codes_.size(); }
-  bool contains(std::string_view word) const { return codes_.contains(word); }
-  const std::map<std::string, Code, std::less<>>& codes() const { return codes_; }
+  std::size_t size() const { return codes.size(); }
+  bool contains(std::string_view word) const { return codes.contains(word); }
   std::size_t numbers() const;
 
   /// Two words that differ in their writing only, see `apps::alike`.
@@ -35,9 +34,6 @@ class Vocabulary {
 
   /// The words in order, numbers first and by their value, and for each code the place of its word.
   std::pair<std::vector<std::string>, std::vector<Code>> sorted() const;
-
- private:
-  std::map<std::string, Code, std::less<>> codes_;
 };
 
 /// A cell as a number, NaN if it is none, and as a word, `missing_code` if it is none or there are too many.
@@ -50,14 +46,16 @@ struct DataCell {
 /// to ask about the column in the end.
 class ColumnReader {
  public:
-  ColumnReader(std::size_t index, bool categorical) : index_(index), categorical_(categorical) {}
+  /// The column with this place and this name in the file.
+  ColumnReader(std::size_t index, std::string name, bool categorical)
+      : index_(index), name_(std::move(name)), categorical_(categorical) {}
 
   DataCell take(const CsvRow& row, MissingWords& missing, Code its_class);
 
   /// Throws if the column is neither numbers nor words.
-  void refuse_slip(const CsvReader& reader) const;
+  void refuse_slip(const std::string& file) const;
 
-  std::size_t index() const { return index_; }
+  const std::string& name() const { return name_; }
   bool is_numeric() const { return could_be_numeric() && numeric_cells_ > 0; }
   const Vocabulary& words() const { return words_; }
 
@@ -65,13 +63,13 @@ class ColumnReader {
   std::size_t filled() const { return cells_; }
 
   /// Whether the name of the column looks like one of its cells.
-  bool contains(std::string_view name) const;
+  bool is_named_as_a_cell() const;
 
   /// What there is to see, if it is not two different values: "'red'", or "no value".
   std::string lone_value() const;
 
-  /// Tells the table what the values of the column, which has this name, tell, and how they are written.
-  void warn(const std::string& name, DataTable& table) const;
+  /// Tells the table what the values of the column tell, and how they are written.
+  void warn(DataTable& table) const;
 
  private:
   static constexpr std::size_t most_units = 8, few_words = 8, few_slips = 5, most_ranges = 30;
@@ -128,6 +126,7 @@ class ColumnReader {
   ByValue summed(const std::vector<ClassesOfValue>& classes, const std::vector<std::size_t>& rows_of_class) const;
 
   std::size_t index_;
+  std::string name_;
   bool categorical_;
   std::optional<Slip> slip_;
   std::set<std::string> slips_{};  // different ones with a digit, some

@@ -51,14 +51,6 @@ std::vector<double> numbers_of(const Belief<Kind>& belief) {
   return {distribution.values().begin(), distribution.values().end()};
 }
 
-HeatMap relation_map(const Relation<Random, Random>& relation) {
-  const auto possible = to_possibility(relation, RatioScale{});
-  return map_of(relation, "What was learned of " + relation.to().name(), "probability of the value, given the class",
-                [&](std::size_t c, std::size_t value) {
-                  return fmt::format("possibility {} on the ratio scale", sized_text(possible(c, value), 2));
-                });
-}
-
 }  // namespace
 
 double credit_of(std::span<const double> logs, std::size_t truth) {
@@ -194,7 +186,14 @@ std::vector<Panel> relation_maps(const std::vector<Relation<Random, Random>>& le
       all.emplace_back(telling(relation), &relation);
   std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
   all.resize(std::min(most, all.size()));
-  return each(all, [](const auto& one) { return Panel(relation_map(*one.second)); });
+  return each(all, [](const auto& one) {
+    const auto& relation = *one.second;
+    const auto possible = to_possibility(relation, RatioScale{});
+    return Panel(map_of(relation, "What was learned of " + relation.to().name(),
+                        "probability of the value, given the class", [&](std::size_t c, std::size_t value) {
+                          return fmt::format("possibility {} on the ratio scale", sized_text(possible(c, value), 2));
+                        }));
+  });
 }
 
 }  // namespace sigmax::apps

@@ -14,24 +14,23 @@ namespace sigmax::apps {
 namespace {
 
 /// Columns with their lone values, all at once: throws if there is such a one.
-void refuse_useless(const CsvReader& reader, const std::vector<ColumnReader>& columns, std::size_t rows) {
+void refuse_useless(const std::vector<ColumnReader>& columns, const DataTable& table) {
   std::vector<std::string> found, names;
   bool gaps = false;
   for (const ColumnReader& column : columns) {
     const std::string value = column.lone_value();
     if (value.empty()) continue;
-    const std::string& name = reader.names()[column.index()];
-    const std::size_t empty = rows - column.filled();
-    const bool has_gaps = 0 < empty && empty < rows;
+    const std::size_t empty = table.size() - column.filled();
+    const bool has_gaps = 0 < empty && empty < table.size();
     gaps |= has_gaps;
-    names.push_back(typed(name));
-    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(name),
+    names.push_back(typed(column.name()));
+    found.push_back(fmt::format("{} in column {}{}", value, in_quotes(column.name()),
                                 has_gaps ? fmt::format(" (and no value in {} rows)", empty) : ""));
   }
   if (names.empty()) return;
   throw InputError(
-      {.where = reader.file(),
-       .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), rows),
+      {.where = table.file,
+       .found = fmt::format("{}, in all of {} rows", fmt::join(found, ", "), table.size()),
        .expected = "at least two different values",
        .remedy = fmt::format("{}leave out what never changes by --ignore {}",
                              gaps ? "if an empty cell says no, write no; else " : "", fmt::join(names, ","))});
@@ -50,27 +49,26 @@ bool is_nines(std::string_view name, const std::vector<std::string>& classes) {
 
 void warn_of_classes(const Vocabulary& classes, DataTable& table) {
   const std::size_t rows = table.size(), number = table.classes.size();
-  const auto say = [&](bool holds, const std::string& format, const auto&... words) {
-    table.warn_of(table.label, holds, format, words...);
-  };
   const std::string alike = classes.alike();
-  say(!alike.empty(), alike_words, alike);
+  table.warn_of(table.label, !alike.empty(), alike_words, alike);
   const bool most_are_lone = 2 * number > rows;
-  say(most_are_lone && rows >= few_rows,
-      " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it the right "
-      "--label?",
-      number, rows);
+  table.warn_of(table.label, most_are_lone && rows >= few_rows,
+                " has {} classes in {} rows: of most there is a single row, from which nothing can be learned; is it "
+                "the right --label?",
+                number, rows);
   std::vector<std::string> lone;
   for (std::size_t k = 0; k < number; ++k)
     if (table.rows_of_class[k] == 1) lone.push_back(table.classes[k]);
-  say(!lone.empty() && rows >= few_rows && !most_are_lone,
-      ": a single row is of {}: is it a slip of writing? From one row nothing can be learned", listed(lone, 12));
+  table.warn_of(table.label, !lone.empty() && rows >= few_rows && !most_are_lone,
+                ": a single row is of {}: is it a slip of writing? From one row nothing can be learned",
+                listed(lone, 12));
   for (std::size_t k = 0; k < number; ++k) {
     const std::string name = lower_case(table.classes[k]);
-    say(says_unknown(name) || (name == "-" && !classes.contains("+")) || name == "--" || name == "unknown" ||
-            is_nines(name, table.classes),
-        ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
-        table.rows_of_class[k], rows, in_quotes(table.classes[k]));
+    table.warn_of(table.label,
+                  says_unknown(name) || (name == "-" && !classes.contains("+")) || name == "--" || name == "unknown" ||
+                      is_nines(name, table.classes),
+                  ": {} of {} rows hold {}, which counts as a class: if their class is not known, remove them",
+                  table.rows_of_class[k], rows, in_quotes(table.classes[k]));
   }
 }
 
@@ -79,14 +77,13 @@ void warn_of_names(const CsvReader& reader, const std::vector<ColumnReader>& col
   std::vector<std::string> like_cells;
   std::size_t words = 0;
   for (const ColumnReader& column : columns)
-    if (const std::string& name = reader.names()[column.index()]; column.contains(name))
-      words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(name));
-  table.warn(
-      2 * like_cells.size() > columns.size() &&
-          (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
-      "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a row "
-      "of names above it",
-      fmt::join(like_cells, ", "));
+    if (column.is_named_as_a_cell())
+      words += column.is_numeric() ? 0U : 1U, like_cells.push_back(in_quotes(column.name()));
+  table.warn(2 * like_cells.size() > columns.size() &&
+                 (classes.contains(table.label) || (words > 1 && like_cells.size() == columns.size())),
+             "the first row looks like data ({}): it was taken for the names of the columns, and is not counted; put a "
+             "row of names above it",
+             fmt::join(like_cells, ", "));
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     table.warn(reader.names()[i].empty(), "column {} has no name and is left out", i + 1);
 }
@@ -104,8 +101,7 @@ struct DistinctRows {
     std::vector<double> row_cells;
     table.for_each([&](const DataRow& row) {
       row_cells.clear();
-      for (std::size_t i = 0; i < table.columns.size(); ++i)
-        row_cells.push_back(table.columns[i].numeric ? row.number(i) : row.code(i) == missing_code ? nan : row.code(i));
+      for (std::size_t i = 0; i < table.columns.size(); ++i) row_cells.push_back(row.value(i));
       row_cells.push_back(static_cast<double>(row.label()));
       const auto hash = std::hash<std::string_view>{}(
           {reinterpret_cast<const char*>(row_cells.data()), row_cells.size() * sizeof(double)});
@@ -209,12 +205,11 @@ void warn_of_repeats(DataTable& table) {
   }
   const auto warn_of_copies = [&](const std::string& which, std::size_t differ, std::size_t all) {
     table.has_copies = true;
-    table.warn(
-        true,
-        "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked of the "
-        "other, and the shares of right answers are too good: drop them; what coincides by chance, as values below a "
-        "limit do, is to stay",
-        100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
+    table.warn(true,
+               "{:.0f} % of {} repeat another, label included: if they are copies, what is learned from one is asked "
+               "of the other, and the shares of right answers are too good: drop them; what coincides by chance, as "
+               "values below a limit do, is to stay",
+               100.0 - 100.0 * static_cast<double>(differ) / static_cast<double>(all), which);
   };
   // Columns of 0 and 1, or of two words, each of which is 1, or the second, in rows of one class only.
   std::vector<std::string> one_hot;
@@ -248,11 +243,10 @@ void warn_of_repeats(DataTable& table) {
         facts[{table.columns[i].values[code], stands}].push_back(table.columns[i].name);
     }
   for (const auto& [fact, names] : facts)
-    table.warn(
-        names.size() > 2,
-        "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, give "
-        "--missing={}",
-        in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
+    table.warn(names.size() > 2,
+               "{} stands in the same rows in {} columns ({}), and counts {} times: if it says that there is none, "
+               "give --missing={}",
+               in_quotes(fact.first), names.size(), listed(names, 3), names.size(), typed(fact.first));
   // As a statistics program writes them: each combination of words and class once, and how often.
   std::size_t combinations = table.classes.size(), numbers = 0;
   std::string of_counts;
@@ -296,17 +290,16 @@ void warn_of_repeats(DataTable& table) {
   }
   constexpr std::size_t most_families = 3;
   for (const auto& [name, others] : families)
-    table.warn_of(
-        name, families.size() <= most_families,
-        " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others out by "
-        "--ignore {}",
-        fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
+    table.warn_of(name, families.size() <= most_families,
+                  " says the same as {}, as if in another unit or in other words: it counts {} times; leave the others "
+                  "out by --ignore {}",
+                  fmt::join(others, ","), others.size() + 1, fmt::join(others, ","));
   if (families.size() <= most_families) return;
-  table.warn(
-      true,
-      "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and count "
-      "several times; leave the others out by --ignore {}",
-      families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","), fmt::join(all_others, ","));
+  table.warn(true,
+             "{} columns say the same as others, the first {} as {}, as if in another unit or in other words, and "
+             "count several times; leave the others out by --ignore {}",
+             families.size(), in_quotes(families[0].first), fmt::join(families[0].second, ","),
+             fmt::join(all_others, ","));
 }
 
 /// Where a missing value would tell the class, and does not.
@@ -315,8 +308,7 @@ void warn_of_gaps(DataTable& table) {
   std::vector<std::size_t> gaps(table.columns.size() * classes);
   table.for_each([&](const DataRow& row) {
     for (std::size_t i = 0; i < table.columns.size(); ++i)
-      if (table.columns[i].numeric ? std::isnan(row.number(i)) : row.code(i) == missing_code)
-        ++gaps[i * classes + row.label()];
+      if (std::isnan(row.value(i))) ++gaps[i * classes + row.label()];
   });
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto share = [&](std::size_t k) {
@@ -329,8 +321,8 @@ void warn_of_gaps(DataTable& table) {
     const auto [least, most] = std::ranges::minmax(known, {}, share);
     table.warn_of(
         table.columns[i].name, share(most) - share(least) >= 0.5,
-        ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an "
-        "empty cell says something, as no or less than a limit, and does so before the class is known, write it",
+        ": {:.0f} % of the cells of class {} are missing, and {:.0f} % of {}, which counts for nothing: where an empty "
+        "cell says something, as no or less than a limit, and does so before the class is known, write it",
         100.0 * share(most), in_quotes(table.classes[most]), 100.0 * share(least), in_quotes(table.classes[least]));
   }
 }
@@ -358,21 +350,21 @@ void warn_of_order(DataTable& table) {
     runs += before_it != row.label() ? 1U : 0U;
     bool are_same = true;  // the columns before
     for (std::size_t i = 0; i < columns; ++i) {
-      const double now = table.columns[i].numeric ? row.number(i) : row.code(i);
-      Order& own = orders[i];
-      const double before = std::exchange(own.last, now);
-      own.same += now == before ? 1U : 0U;
-      own.class_rises |= now == before && row.label() > before_it;
-      own.class_falls |= now == before && row.label() < before_it;
-      if (!are_same) continue;
-      ++own.steps;
-      own.again += now == before ? 1U : 0U;
-      own.falls += now < before ? 1U : 0U;
-      are_same = now == before;
-    }
-    for (std::size_t i = 0; i < columns; ++i) {
-      const double number = table.columns[i].numeric ? row.number(i) : nan;
-      if (std::isnan(number)) continue;
+      const double number = row.value(i);
+      const bool numeric = table.columns[i].numeric;
+      const double now = std::isnan(number) && !numeric ? missing_code : number;  // a word, too
+      Order& order = orders[i];
+      const double before = std::exchange(order.last, now);
+      order.same += now == before ? 1U : 0U;
+      order.class_rises |= now == before && row.label() > before_it;
+      order.class_falls |= now == before && row.label() < before_it;
+      if (are_same) {
+        ++order.steps;
+        order.again += now == before ? 1U : 0U;
+        order.falls += now < before ? 1U : 0U;
+        are_same = now == before;
+      }
+      if (!numeric || std::isnan(number)) continue;
       Sums& own = of[i * classes + row.label()];
       if (own.n > 0.0) {
         steps[i] += (number - own.last) * (number - own.last);
@@ -427,7 +419,7 @@ std::vector<ColumnReader> columns_of(const CsvReader& reader, const DataOptions&
   std::vector<ColumnReader> columns;
   for (std::size_t i = 0; i < reader.names().size(); ++i)
     if (!left_out.contains(i) && !reader.names()[i].empty())
-      columns.emplace_back(i, all_categorical || categorical.contains(i));
+      columns.emplace_back(i, reader.names()[i], all_categorical || categorical.contains(i));
   if (columns.empty())
     throw InputError("{}: there is no column beside {}: expected one with a feature", reader.file(),
                      in_quotes(options.label));
@@ -482,7 +474,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   Vocabulary classes;
   std::vector<std::size_t> rows_of;  // by class, as they come
   std::size_t first_line = 0, commented = 0;
-  for (const auto& column : columns) table.columns.push_back({.name = reader.names()[column.index()]});
+  for (const auto& column : columns) table.columns.push_back({.name = column.name()});
   Progress progress("reading", reader.bytes_total().value_or(0), quiet || !reader.bytes_total());
   for (CsvRow row; reader.next(row);) {
     progress.advance(reader.bytes_read() - progress.done());
@@ -519,8 +511,8 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
   table.rows_of_class.resize(rows_of.size());
   for (std::size_t code = 0; code < rows_of.size(); ++code)
     table.rows_of_class[table.class_order_[code]] = rows_of[code];
-  for (const auto& column : columns) column.refuse_slip(reader);
-  refuse_useless(reader, columns, table.size());
+  for (const auto& column : columns) column.refuse_slip(table.file);
+  refuse_useless(columns, table);
   table.value_order_.resize(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     table.columns[i].numeric = columns[i].is_numeric();
@@ -538,16 +530,15 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
              "{} of {} rows begin with #: if they are to be left out, drop them", commented, table.size());
   std::vector<std::string> mostly_empty;
   for (const ColumnReader& column : columns)
-    if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(reader.names()[column.index()]));
-  table.warn(
-      !mostly_empty.empty(),
-      "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as a "
-      "merged one of a spreadsheet, fill them",
-      mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
+    if (5 * column.filled() < table.size()) mostly_empty.push_back(in_quotes(column.name()));
+  table.warn(!mostly_empty.empty(),
+             "four of five cells of {} of {} columns are missing ({}): where a cell stands for those below it, too, as "
+             "a merged one of a spreadsheet, fill them",
+             mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
   warn_of_order(table);
   warn_of_repeats(table);
-  for (const ColumnReader& column : columns) column.warn(reader.names()[column.index()], table);
+  for (const ColumnReader& column : columns) column.warn(table);
   return table;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "support/csv.hpp"
+#include "support/numbers.hpp"
 #include "support/scratch.hpp"
 
 namespace sigmax::apps {
@@ -26,29 +27,19 @@ struct DataOptions {
 class DataTable;
 
 /// One row of the data, while it is seen.
-class DataRow {
- public:
-  DataRow(const DataTable& table, std::size_t index, const double* cells)
-      : table_(table), index_(index), cells_(cells) {}
-
-  std::size_t index() const { return index_; }
+struct DataRow {
+  const DataTable& table;
+  std::size_t index;
+  const double* cells;  ///< as the table keeps them
 
   /// An index into the classes.
   std::size_t label() const;
 
   /// The line of the file on which the row starts.
-  std::size_t line() const { return static_cast<std::size_t>(cells_[1]); }
+  std::size_t line() const { return static_cast<std::size_t>(cells[1]); }
 
-  /// The number in a numeric column, NaN where it is missing.
-  double number(std::size_t column) const { return cells_[2 + 2 * column]; }
-
-  /// An index into the values of a categorical column, or `missing_code`.
-  Code code(std::size_t column) const;
-
- private:
-  const DataTable& table_;
-  std::size_t index_;
-  const double* cells_;
+  /// The number in a numeric column, an index into the values of a categorical one; NaN where it is missing.
+  double value(std::size_t column) const;
 };
 
 /// Labelled data: the classes, sorted, and of each row its class and its features. The rows are in a ScratchArray:
@@ -85,12 +76,12 @@ class DataTable {
       const std::size_t count = std::min(most, size() - first);
       block.resize(count * row_size());
       cells_.read(first * row_size(), block);
-      for (std::size_t i = 0; i < count; ++i) see(DataRow(*this, first + i, block.data() + i * row_size()));
+      for (std::size_t i = 0; i < count; ++i) see(DataRow{*this, first + i, block.data() + i * row_size()});
     }
   }
 
  private:
-  friend class DataRow;
+  friend struct DataRow;
   friend DataTable read_data(const std::string& file, const DataOptions& options, bool quiet);
 
   static constexpr std::size_t block_size = std::size_t{1} << 13;
@@ -104,10 +95,11 @@ class DataTable {
   std::vector<std::vector<Code>> value_order_;  // the same of the values of each categorical column
 };
 
-inline std::size_t DataRow::label() const { return table_.class_order_[static_cast<std::size_t>(cells_[0])]; }
-inline Code DataRow::code(std::size_t column) const {
-  const auto code = static_cast<Code>(cells_[3 + 2 * column]);
-  return code == missing_code ? code : table_.value_order_[column][code];
+inline std::size_t DataRow::label() const { return table.class_order_[static_cast<std::size_t>(cells[0])]; }
+inline double DataRow::value(std::size_t column) const {
+  if (table.columns[column].numeric) return cells[2 + 2 * column];
+  const auto code = static_cast<Code>(cells[3 + 2 * column]);
+  return code == missing_code ? nan : table.value_order_[column][code];
 }
 
 /// Which cells hold nothing.

@@ -163,22 +163,18 @@ struct EncounterOptions {
   std::optional<double> ground_ft;  ///< nothing: the lowest altitude of the recording
 };
 
-template <PossibilityTransform Method>
-Contestant max_by(const std::string& name, const Counts& counts, const Method& method) {
-  return {name, MaxClassifier{uninformative(as_fuzzy(counts.pattern())), learned_relations(counts, 0.0, method)}};
-}
-
 std::vector<Contestant> contestants(const Counts& counts) {
+  const auto prior = uninformative(as_fuzzy(counts.pattern()));
   return {{"sigma", SigmaClassifier{uninformative(counts.pattern()), learned_relations(counts, 0.0)}},
-          max_by("max, ratio scale", counts, RatioScale{}),
-          max_by("max, Dubois-Prade", counts, DuboisPrade{}),
-          max_by("max, Dubois-Prade-Sandri", counts, DuboisPradeSandri{})};
+          {"max, ratio scale", MaxClassifier{prior, learned_relations(counts, 0.0, RatioScale{})}},
+          {"max, Dubois-Prade", MaxClassifier{prior, learned_relations(counts, 0.0, DuboisPrade{})}},
+          {"max, Dubois-Prade-Sandri", MaxClassifier{prior, learned_relations(counts, 0.0, DuboisPradeSandri{})}}};
 }
 
 void say_counts(const EncounterOptions& options, const Counts& counts, Result& result) {
   result.say(
-      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are "
-      "equally plausible before",
+      "{}: p(f|c) from counts of radar samples, and π(f|c) of them by three transforms; the classes are equally "
+      "plausible before",
       options.file);
   for (std::size_t c = 0; c < counts.pattern().size(); ++c) {
     const double samples = std::accumulate(counts.of(0, c).begin(), counts.of(0, c).end(), 0.0);
@@ -204,8 +200,8 @@ void publish_draws(const EncounterOptions& options, const EncounterData& data, R
   world.tell = [&](const std::vector<Scores>& scores, Result& result) {
     say_counts(options, data.counts, result);
     result.say(
-        "{} seeded draws from the counts themselves, every feature and report independent, as sigma "
-        "inference assumes; seed {}",
+        "{} seeded draws from the counts themselves, every feature and report independent, as sigma inference assumes; "
+        "seed {}",
         draws.runs, draws.seed);
     result.facts("file", options.file, "drawn_from", "the counts", "runs", draws.runs, "reports", options.reports,
                  "seed", draws.seed);
@@ -322,8 +318,8 @@ void publish_track(const EncounterOptions& options, const EncounterData& data, R
              options.track, track.rows, track.on_the_ground, data.lowest_ft, track.ground_ft, track.readings.size(),
              options.every_s);
   result.page.verdict = {
-      fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should "
-                  "be, for they repeat each other.",
+      fmt::format("{} reports, {} s apart or more; what they say together is more certain than it should be, for they "
+                  "repeat each other.",
                   track.readings.size(), options.every_s)};
   result.page.views.push_back(view_of(data, all, track, outcomes));
   const auto decisions = decisions_table(pattern, outcomes);
@@ -364,8 +360,8 @@ void add_encounter(CLI::App& program, const std::string& command) {
   app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000).shows_default();
   const Option track =
       app.option("--track", options->track,
-                 "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), "
-                 "groundspeed_kt (or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
+                 "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), groundspeed_kt "
+                 "(or tas_kt), track_deg, vertical_rate_fpm (or roc_fpm)")
           .type("FILE.csv");
   app.option("--every", options->every_s, "Seconds between two reports of a recording")
       .number_in(0.001, 1e6)

@@ -71,9 +71,8 @@ View view_of(const EsmWorld& world, const std::vector<Contestant>& all, std::siz
 void tell(const EsmWorld& world, const EsmOptions& options, const Scores& scores, Result& result) {
   const DrawOptions& draws = options.draws;
   result.say(
-      "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports "
-      "the true emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, "
-      "seed {}",
+      "Synthetic emitter world, not recorded data: 4 platforms carry 2 or 3 of 5 emitters, a sensor reports the true "
+      "emitter with probability {}, each other with {:.3g}\nUsage: {}\n{} runs of {} reports, seed {}",
       sensor_hit, (1.0 - sensor_hit) / 4.0, described_usage(options), draws.runs, options.reports, draws.seed);
   result.facts("synthetic", true, "usage", options.usage);
   if (options.usage == "dirichlet") result.fact({"alpha"}, options.alpha);

@@ -67,29 +67,27 @@ std::vector<Outcome> classify_fold(const DataTable& data, const Folds& folds, st
       outcomes[i].reliability.add(row.label(), belief);
     });
     if (by.excluded) ++outcomes[i].excluded;
-    if (i + 1 < outcomes.size()) return;
-    right.set(row.index(), static_cast<std::uint8_t>(bits));
-    bits = 0;
+    if (i + 1 == outcomes.size()) right.set(row.index, static_cast<std::uint8_t>(std::exchange(bits, 0)));
   });
   return outcomes;
 }
 
-/// Adds up folds in their order, and foldings. How often each classifier was right about a row is in a Scratch.
-class Results {
- public:
-  explicit Results(std::size_t rows) {
-    for (std::size_t row = 0; row < rows; ++row) times_right_.push_back({});
-  }
+/// Adds up folds in their order, and foldings.
+struct Results {
+  using TimesRight = std::array<std::uint32_t, 5>;  ///< by classifier
+
+  std::vector<Outcome> outcomes;
+  ScratchArray<TimesRight> times_right;  ///< by row
 
   void add(std::vector<Outcome> fold) {
-    if (outcomes_.empty()) {
-      outcomes_ = std::move(fold);
+    if (outcomes.empty()) {
+      outcomes = std::move(fold);
       return;
     }
-    for (std::size_t i = 0; i < outcomes_.size(); ++i) {
-      outcomes_[i].excluded += fold[i].excluded;
-      outcomes_[i].reliability.add(fold[i].reliability);
-      of_kind(outcomes_[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      outcomes[i].excluded += fold[i].excluded;
+      outcomes[i].reliability.add(fold[i].reliability);
+      of_kind(outcomes[i].evaluation, [&]<class Kind>(Evaluation<Kind>& evaluation) {
         evaluation.add(std::get<Evaluation<Kind>>(fold[i].evaluation));
       });
     }
@@ -99,33 +97,25 @@ class Results {
   void add(const Right& right) {
     ScratchCursor<std::uint8_t> bits(right);
     ScratchArray<TimesRight> sums;
-    ScratchCursor<TimesRight> before(times_right_);
+    ScratchCursor<TimesRight> before(times_right);
     for (std::size_t row = 0; row < right.size(); ++row) {
       TimesRight times = before[row];
       for (std::size_t i = 0; i < times.size(); ++i) times[i] += bits[row] >> i & 1U;
       sums.push_back(times);
     }
-    times_right_ = std::move(sums);
+    times_right = std::move(sums);
   }
-
-  const std::vector<Outcome>& outcomes() const { return outcomes_; }
 
   /// Right answers of a classifier less those of the first, paired by row; a row counts by its mean over the foldings.
   Interval minus_first(std::size_t i, std::size_t foldings) const {
     RunningMean difference;
-    ScratchCursor<TimesRight> times_right(times_right_);
-    for (std::size_t row = 0; row < times_right_.size(); ++row) {
-      const TimesRight& times = times_right[row];
+    ScratchCursor<TimesRight> of_row(times_right);
+    for (std::size_t row = 0; row < times_right.size(); ++row) {
+      const TimesRight& times = of_row[row];
       difference.add((static_cast<double>(times[i]) - static_cast<double>(times[0])) / static_cast<double>(foldings));
     }
     return difference.interval();
   }
-
- private:
-  using TimesRight = std::array<std::uint32_t, 5>;  // by classifier
-
-  std::vector<Outcome> outcomes_;
-  ScratchArray<TimesRight> times_right_;  // by row
 };
 
 /// Rows that excluded every class, the mean over the foldings.
@@ -135,8 +125,8 @@ double excluded(const Outcome& outcome, std::size_t foldings) {
 
 ResultTable outcomes_table(const Results& results, std::size_t foldings) {
   ResultTable table;
-  for (std::size_t i = 0; i < results.outcomes().size(); ++i) {
-    const Outcome& outcome = results.outcomes()[i];
+  for (std::size_t i = 0; i < results.outcomes.size(); ++i) {
+    const Outcome& outcome = results.outcomes[i];
     const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
     const auto* const fuzzy = std::get_if<Evaluation<Fuzzy>>(&outcome.evaluation);
     table.row_of({{{.key = "classifier", .header = "classifier", .align = Align::left}, outcome.name},
@@ -180,21 +170,12 @@ ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::
 
 ResultTable rows_of_confusion(const DataTable& data, const Results& results, std::size_t foldings) {
   auto table = ResultTable::of_keys({"classifier", "truth", "decision", "rows"});
-  for (const Outcome& outcome : results.outcomes())
+  for (const Outcome& outcome : results.outcomes)
     for (std::size_t truth = 0; truth < data.classes.size(); ++truth)
       for (std::size_t c = 0; c < data.classes.size(); ++c)
         table.row({outcome.name, data.classes[truth], data.classes[c],
                    outcome.confusion()(truth, c) / static_cast<double>(foldings)});
   return table;
-}
-
-/// The bins of each classifier, with as many statements as a folding has.
-void add_reliability(Result& result, const Outcome& outcome, std::size_t foldings) {
-  const auto bins = outcome.reliability.bins(static_cast<double>(foldings));
-  for (std::size_t i = 0; i < bins.size(); ++i)
-    result.facts_at({"reliability", outcome.name, i}, "from", bins[i].from, "to", bins[i].to, "statements",
-                    bins[i].count, "mean_degree", bins[i].mean_degree, "share_that_is_true", bins[i].share, "lower",
-                    bins[i].lower, "upper", bins[i].upper);
 }
 
 /// predictions.csv: belief and decision for every row and classifier, fold after fold of the first folding.
@@ -233,12 +214,12 @@ void refuse_rare_classes(const DataTable& data) {
 }
 
 Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions& options) {
-  Results results(data.size());
+  Results results;
+  Right right;
+  for (std::size_t row = 0; row < data.size(); ++row) results.times_right.push_back({}), right.push_back(0);
   const int threads = threads_or_all(options.threads);
   Progress progress("folds", options.folds * options.foldings, options.output.quiet);
   std::mt19937_64 generator(options.seed);
-  Right right;
-  for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   for (std::size_t folding = 0; folding < options.foldings; ++folding) {
     const Folds folds = deal(generator);
     for_each_run(
@@ -310,18 +291,18 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
              described(options.learning));
   result.add(outcomes_table(results, options.foldings), {.summary = {"classifiers"}});
   result.say(
-      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: "
-      "1 − the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
+      "(The class is the most likely one, the first of those that tie. Differences ± 95 % by paired rows. Necessity: 1 "
+      "− the possibility of the best other class. A truth is covered if its possibility is at least ½.)");
   const auto most = std::ranges::max_element(data.rows_of_class);
   const double most_often = static_cast<double>(*most) / static_cast<double>(data.size());
-  const auto recognised = each(results.outcomes(), &Outcome::recognised);
+  const auto recognised = each(results.outcomes, &Outcome::recognised);
   say_beaten(data.classes, data.rows_of_class, recognised, result);
   double of_shares = 0.0;
   for (const std::size_t rows : data.rows_of_class) {
     const double share = static_cast<double>(rows) / static_cast<double>(data.size());
     of_shares -= share * std::log(share);
   }
-  for (const Outcome& outcome : results.outcomes())
+  for (const Outcome& outcome : results.outcomes)
     if (const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
         random != nullptr && random->log_loss() > of_shares)
       result.say(
@@ -331,41 +312,40 @@ void say_scores(const DataTable& data, const Results& results, const EvaluateOpt
           : data.columns.size() > 1 ? ", and too sure, as where several columns tell the same, or a value or bin has "
                                       "few rows of a class (fewer --bins)"
                                     : "");
-  for (const Outcome& outcome : results.outcomes())
+  for (const Outcome& outcome : results.outcomes)
     if (outcome.excluded > 0)
       result.say("{}: {:.3g} rows excluded every class and were judged by the prior", outcome.name,
                  excluded(outcome, options.foldings));
   say_unrecognised(data.classes, data.rows_of_class, recognised, result);
   if (options.groups.empty())
-    say_too_good(data, results.outcomes().front().confusion().accuracy(), most_often, options, result);
+    say_too_good(data, results.outcomes.front().confusion().accuracy(), most_often, options, result);
   constexpr std::size_t most_classes = 10;
   result.say({{options.learning.misread == 0.0, std::string(sigma_max_is_max)}});
   if (data.classes.size() > most_classes) return;
-  for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes()[i], options.foldings), {});
+  for (const std::size_t i : {0U, 1U}) result.add(confusion_table(data, results.outcomes[i], options.foldings), {});
 }
 
 /// Rows of the data by true and decided class.
-HeatMap confusion_map(const std::string& classifier, const std::vector<std::string>& classes,
-                      const ConfusionMatrix& confusion, std::size_t foldings) {
-  HeatMap map{.title = classifier,
+HeatMap confusion_map(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
+  HeatMap map{.title = outcome.name,
               .row_label = "true class",
               .column_label = "decided class",
-              .rows = classes,
-              .columns = classes,
+              .rows = data.classes,
+              .columns = data.classes,
               .value_label = foldings == 1 ? "rows" : "rows, mean of the foldings",
               .digits = foldings == 1 ? 0 : 1};
   map.fill([&](std::size_t truth, std::size_t c) {
-    return HeatMap::Cell{confusion(truth, c) / static_cast<double>(foldings)};
+    return HeatMap::Cell{outcome.confusion()(truth, c) / static_cast<double>(foldings)};
   });
   return map;
 }
 
 /// What was believed of the classes of rows against how often that was true. The diagonal is calibration, or the bound
 /// that possibilities are.
-LineChart reliability_chart(const std::string& classifier, const Reliability& reliability, bool fuzzy,
-                            std::size_t foldings) {
+LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
+  const bool fuzzy = std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation);
   LineChart chart{
-      .title = "Reliability of " + classifier,
+      .title = "Reliability of " + outcome.name,
       .x_label = fuzzy ? "possibility of a class" : "probability of a class",
       .y_label = "share of such classes that are the true one",
       .curves = {{.name = "share, ± 95 %"}, {.name = fuzzy ? "bound: not more often than possible" : "calibrated"}},
@@ -383,7 +363,7 @@ LineChart reliability_chart(const std::string& classifier, const Reliability& re
   };
   const double nan = std::nan("");
   add(0.0, nan, nan, nan, "");
-  for (const auto& bin : reliability.bins(static_cast<double>(foldings)))
+  for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
     add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
   add(1.0, nan, nan, nan, "");
   return chart;
@@ -397,12 +377,10 @@ void fill(Report& page, const DataTable& data, const Results& results, const Eva
       ReportTable{"Classifiers", outcomes_table(results, options.foldings), "Differences ± 95 % by paired rows."});
   constexpr std::size_t most_classes = 30;
   if (data.classes.size() <= most_classes)
-    for (const Outcome& outcome : results.outcomes())
-      page.panels.emplace_back(confusion_map(outcome.name, data.classes, outcome.confusion(), options.foldings));
-  for (const Outcome& outcome : results.outcomes())
-    page.panels.emplace_back(reliability_chart(outcome.name, outcome.reliability,
-                                               std::holds_alternative<Evaluation<Fuzzy>>(outcome.evaluation),
-                                               options.foldings));
+    for (const Outcome& outcome : results.outcomes)
+      page.panels.emplace_back(confusion_map(data, outcome, options.foldings));
+  for (const Outcome& outcome : results.outcomes)
+    page.panels.emplace_back(reliability_chart(outcome, options.foldings));
   page.last = relation_maps(learned_relations(learn(data, options.learning).counts, options.learning.smoothing), 6);
 }
 
@@ -425,7 +403,11 @@ void run_evaluate(const EvaluateOptions& options) {
                options.foldings, "seed", options.seed, "smoothing", options.learning.smoothing, "misread",
                options.learning.misread, "bins", options.learning.bins);
   say_scores(data, results, options, result);
-  for (const Outcome& outcome : results.outcomes()) add_reliability(result, outcome, options.foldings);
+  for (const Outcome& outcome : results.outcomes)
+    for (std::size_t i = 0; const auto& bin : outcome.reliability.bins(static_cast<double>(options.foldings)))
+      result.facts_at({"reliability", outcome.name, i++}, "from", bin.from, "to", bin.to, "statements", bin.count,
+                      "mean_degree", bin.mean_degree, "share_that_is_true", bin.share, "lower", bin.lower, "upper",
+                      bin.upper);
   result.add(rows_of_confusion(data, results, options.foldings), {.printed = false, .csv = "confusion.csv"});
   if (!options.groups.empty()) result.fact({"groups"}, options.groups);
   if (files.wanted()) write_predictions(data, deal, options, files);

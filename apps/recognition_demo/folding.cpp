@@ -54,7 +54,7 @@ Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, s
   std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
   ScratchCursor<std::uint32_t> group(groups);
   data.for_each([&](const DataRow& row) {
-    const std::size_t own = group[row.index()];
+    const std::size_t own = group[row.index];
     rows.resize(std::max(rows.size(), own + 1));
     ++rows[own];
     of[row.label()].insert(own);
@@ -90,9 +90,8 @@ Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, s
 TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options,
                   std::span<const std::string> kinds) {
   ScratchCursor<std::uint32_t> fold_of(folds);
-  LearnedModel model = learn(data, options, [&](const DataRow& row) {
-    return fold_of[row.index()] != fold && fold_of[row.index()] != no_fold;
-  });
+  LearnedModel model = learn(
+      data, options, [&](const DataRow& row) { return fold_of[row.index] != fold && fold_of[row.index] != no_fold; });
   auto contestants = classifiers(model, kinds);
   return {fold, std::move(model), std::move(contestants)};
 }
@@ -110,7 +109,7 @@ Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t numb
   in_parallel(number, threads_or_all(threads), [&](std::size_t fold) {
     const TaughtFold by = taught(data, folds, fold, options, std::span(kind_names).first(1));
     const auto note = [&](const DataRow& row, std::size_t, const Judged& judged) {
-      right.set(row.index(), decide(std::get<Belief<Random>>(judged.belief)).pattern == row.label() ? 1 : 0);
+      right.set(row.index, decide(std::get<Belief<Random>>(judged.belief)).pattern == row.label() ? 1 : 0);
     };
     classify_rows(data, folds, by, 0, 1, note, without);
   });
@@ -131,13 +130,13 @@ std::vector<std::vector<double>> places_of(const std::vector<std::size_t>& rows,
   std::vector<std::vector<double>> cells;
   std::size_t next = 0;
   data.for_each([&](const DataRow& row) {
-    if (next == rows.size() || rows[next] != row.index()) return;
+    if (next == rows.size() || rows[next] != row.index) return;
     ++next;
     auto& own = cells.emplace_back();
-    for (std::size_t i = 0; i < data.columns.size(); ++i)
-      own.push_back(!data.columns[i].numeric    ? row.code(i)
-                    : std::isnan(row.number(i)) ? -std::numeric_limits<double>::infinity()
-                                                : row.number(i));
+    for (std::size_t i = 0; i < data.columns.size(); ++i) {
+      const double value = row.value(i);
+      own.push_back(std::isnan(value) ? -std::numeric_limits<double>::infinity() : value);
+    }
   });
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     if (!data.columns[i].numeric) continue;
@@ -152,8 +151,8 @@ Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64&
   Clumps result;
   std::vector<std::size_t>&rows = result.rows, &clump = result.clump;
   data.for_each([&](const DataRow& row) {
-    if (generator() % (data.size() - row.index()) >= Clumps::most_rows - rows.size()) return;
-    rows.push_back(row.index());
+    if (generator() % (data.size() - row.index) >= Clumps::most_rows - rows.size()) return;
+    rows.push_back(row.index);
     result.labels.push_back(row.label());
   });
   const auto cells = places_of(rows, data);
@@ -209,7 +208,7 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
   const Right right = right_of_sigma(data, folds_of(data, number, generator), number, options, threads, without);
   ScratchCursor<std::uint8_t> is_right(right);
   std::vector<double> shares(data.classes.size());
-  data.for_each([&](const DataRow& row) { shares[row.label()] += is_right[row.index()]; });
+  data.for_each([&](const DataRow& row) { shares[row.label()] += is_right[row.index]; });
   for (std::size_t c = 0; c < shares.size(); ++c) shares[c] /= static_cast<double>(data.rows_of_class[c]);
   return shares;
 }

@@ -39,7 +39,7 @@ void classify_rows(const DataTable& data, const Folds& folds, const TaughtFold& 
   ScratchCursor<std::uint32_t> fold_of(folds);
   Readings readings;
   data.for_each([&](const DataRow& row) {
-    if (fold_of[row.index()] != taught.fold) return;
+    if (fold_of[row.index] != taught.fold) return;
     read(taught.model, row, readings);
     if (without) readings[*without] = missing;
     for (std::size_t i = first; i < end; ++i) see(row, i, judged(taught.contestants[i], readings));

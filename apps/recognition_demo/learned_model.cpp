@@ -14,7 +14,7 @@ std::vector<FeatureCode> fitted(const DataTable& data, const RowChoice& chosen, 
   for (bool another_pass = !fits.empty(); another_pass;) {
     data.for_each([&](const DataRow& row) {
       if (!chosen(row)) return;
-      for (auto& [column, fit] : fits) fit.see(row.number(column));
+      for (auto& [column, fit] : fits) fit.see(row.value(column));
     });
     another_pass = false;
     for (auto& [column, fit] : fits) another_pass |= fit.wants_another_pass();
@@ -87,12 +87,9 @@ LearnedModel learn(const DataTable& data, const LearningOptions& options, const 
 void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   readings.clear();
   for (std::size_t i = 0; i < model.features.size(); ++i) {
-    if (const auto& bins = model.features[i].bins) {
-      readings.push_back(bins->bin(row.number(i)));
-    } else {
-      const Code code = row.code(i);
-      readings.push_back(code == missing_code ? missing : code);
-    }
+    const double value = row.value(i);
+    const auto& bins = model.features[i].bins;
+    readings.push_back(bins ? bins->bin(value) : std::isnan(value) ? missing : static_cast<std::size_t>(value));
   }
 }
 

@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   using namespace sigmax::apps;
   return run_command_line(
       {"recognition_demo",
-       "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and "
-       "sigma-max inference (both).",
+       "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and sigma-max inference "
+       "(both).",
        {add_esm, add_regimes, add_manoeuvre, add_encounter, add_performance, add_train, add_classify, add_evaluate},
        "esm",
        usage},

@@ -30,14 +30,6 @@ struct Scenario {
   std::array<std::size_t, 5> manoeuvre_of_mode{0, 1, 1, 2, 2};
   RandomVariable target{"target", {"airliner", "bomber", "fighter"}};
   std::array<double, 3> acceleration{-5.0, -25.0, -45.0};  ///< by target
-
-  /// p(target|manoeuvre) and π(target|manoeuvre), as the authors give them.
-  Relation<Random, Random> target_given_manoeuvre_p() const {
-    return {target, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
-  }
-  Relation<Fuzzy, Fuzzy> target_given_manoeuvre_pi() const {
-    return {as_fuzzy(target), as_fuzzy(manoeuvre), {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
-  }
 };
 
 using Model = IndependentAxes<1, DiscreteWhiteNoise<2>>;
@@ -110,11 +102,15 @@ Drawn fly(const Scenario& scenario, std::size_t target, RandomStream& random) {
 
 /// Two classifiers of each filter's mode weights: those of the HIMM by maxima, those of the IMM by sums.
 std::vector<Contestant> contestants(const Scenario& scenario) {
-  const auto probable = invert(scenario.target_given_manoeuvre_p(), uninformative(scenario.manoeuvre)).relation;
-  const auto possible =
-      invert(scenario.target_given_manoeuvre_pi(), uninformative(as_fuzzy(scenario.manoeuvre))).relation;
-  const SigmaClassifier sigma{uninformative(scenario.target), probable};
-  const MaxClassifier max{uninformative(as_fuzzy(scenario.target)), possible};
+  const RandomVariable &target = scenario.target, &manoeuvre = scenario.manoeuvre;
+  // p(target|manoeuvre) and π(target|manoeuvre), as the authors give them.
+  const Relation<Random, Random> probable{
+      target, manoeuvre, {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}};
+  const Relation<Fuzzy, Fuzzy> possible{
+      as_fuzzy(target), as_fuzzy(manoeuvre), {{1.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}}};
+  const SigmaClassifier sigma{uninformative(target), invert(probable, uninformative(manoeuvre)).relation};
+  const MaxClassifier max{uninformative(as_fuzzy(target)),
+                          invert(possible, uninformative(as_fuzzy(manoeuvre))).relation};
   return {{"sigma, of the IMM", sigma},
           {"max, of the HIMM", max},
           {"sigma-max, of the IMM", max},
@@ -155,17 +151,6 @@ ResultTable differences_table(const Scenario& scenario, const std::vector<Scores
     table.row_of(row);
   }
   return table;
-}
-
-/// Writes what a run tells of its samples.
-void write_samples(const Scenario& scenario, const SeenRun& run, RowFile& file) {
-  auto number = run.numbers.begin();
-  for (std::size_t k = 0; k < Scenario::samples && file; ++k) {
-    std::vector<Cell> cells = {scenario.target.label(run.truth), run.run + 1, k + 1};
-    for (std::size_t i = 0; i < run.numbers.size() / Scenario::samples; ++i, ++number)
-      cells.push_back(std::isnan(*number) ? Cell() : Cell(*number));
-    file.write(cells);
-  }
 }
 
 LineChart with_acceleration(LineChart chart) {
@@ -233,10 +218,9 @@ void tell(const Scenario& scenario, const DrawOptions& options, const std::vecto
     result.page.views.front().panels.emplace_back(std::move(chart));
   }
   result.add(curves, {.printed = false, .csv = "curves.csv"});
-  result.page.verdict = {
-      fmt::format("Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the "
-                  "reports.",
-                  options.runs, options.seed)};
+  result.page.verdict = {fmt::format(
+      "Simulated targets on one axis: {} runs of each, seed {}. The mode weights of IMM and HIMM are the reports.",
+      options.runs, options.seed)};
 }
 
 void run_manoeuvre(const DrawOptions& options) {
@@ -258,7 +242,12 @@ void run_manoeuvre(const DrawOptions& options) {
   world.view = [&](const SeenRun& run) { return view_of(scenario, world.conditions[run.condition], run); };
   world.runs_in_page = 1;
   world.see = [&](const SeenRun& run) {
-    write_samples(scenario, run, samples);
+    auto number = run.numbers.begin();
+    for (std::size_t k = 0; k < Scenario::samples && samples; ++k) {
+      std::vector<Cell> cells = {scenario.target.label(run.truth), run.run + 1, k + 1};
+      while (cells.size() < keys.size()) cells.emplace_back(*number++);
+      samples.write(cells);
+    }
     runs.write(with_beliefs({scenario.target.label(run.truth), run.run + 1}, run));
   };
   world.tell = [&](const std::vector<Scores>& scores, Result& result) { tell(scenario, options, all, scores, result); };

@@ -10,60 +10,54 @@ constexpr std::string_view format_name = "sigmax recognition model";
 constexpr int format_version = 1;
 
 /// A place in a model file, for its own value and for messages: "model.json: features[2].counts[0]".
-class Node {
- public:
-  Node(const Json& json, std::string file, std::string path = {})
-      : json_(json), file_(std::move(file)), path_(std::move(path)) {}
+struct Node {
+  const Json& json;
+  std::string file;
+  std::string path{};
 
   Node at(const std::string& key) const {
-    const std::string path = path_.empty() ? key : path_ + "." + key;
-    if (!json_.is_object()) throw error("an object");
-    const auto found = json_.find(key);
-    if (found == json_.end()) throw InputError("{}: there is no {}", file_, in_quotes(path));
-    return {*found, file_, path};
+    const std::string its_path = path.empty() ? key : path + "." + key;
+    if (!json.is_object()) throw error("an object");
+    const auto found = json.find(key);
+    if (found == json.end()) throw InputError("{}: there is no {}", file, in_quotes(its_path));
+    return {*found, file, its_path};
   }
   /// Of as many as are given, or expected.
   std::vector<Node> list(std::string_view of_what, std::optional<std::size_t> size = std::nullopt) const {
-    if (!json_.is_array()) throw error(fmt::format("a list of {}", of_what));
-    if (size && json_.size() != *size)
-      throw InputError("{}: {}: found {} {}, expected {}", file_, in_quotes(path_), json_.size(), of_what, *size);
+    if (!json.is_array()) throw error(fmt::format("a list of {}", of_what));
+    if (size && json.size() != *size)
+      throw InputError("{}: {}: found {} {}, expected {}", file, in_quotes(path), json.size(), of_what, *size);
     std::vector<Node> result;
-    for (std::size_t i = 0; i < json_.size(); ++i)
-      result.emplace_back(json_[i], file_, fmt::format("{}[{}]", path_, i));
+    for (std::size_t i = 0; i < json.size(); ++i) result.push_back({json[i], file, fmt::format("{}[{}]", path, i)});
     return result;
   }
   std::string text() const {
-    if (!json_.is_string() || json_.get<std::string>().empty()) throw error("a text that is not empty");
-    return json_.get<std::string>();
+    if (!json.is_string() || json.get<std::string>().empty()) throw error("a text that is not empty");
+    return json.get<std::string>();
   }
   bool boolean() const {
-    if (!json_.is_boolean()) throw error("true or false");
-    return json_.get<bool>();
+    if (!json.is_boolean()) throw error("true or false");
+    return json.get<bool>();
   }
   double number() const {
-    if (!json_.is_number()) throw error("a number");
-    return json_.get<double>();
+    if (!json.is_number()) throw error("a number");
+    return json.get<double>();
   }
   double number(double least, double below, std::string_view expected) const {
     const double value = number();
     if (!(value >= least && value < below)) throw error(expected);
     return value;
   }
-  bool has(const std::string& key) const { return json_.is_object() && json_.contains(key); }
+  bool has(const std::string& key) const { return json.is_object() && json.contains(key); }
 
   InputError error(std::string_view expected, std::string_view remedy = {}) const {
-    const std::string found = json_.is_structured() ? (json_.is_array() ? "a list" : "an object") : json_.dump();
-    return InputError({.where = file_,
-                       .what = path_.empty() ? "" : in_quotes(path_),
+    const std::string found = json.is_structured() ? (json.is_array() ? "a list" : "an object") : json.dump();
+    return InputError({.where = file,
+                       .what = path.empty() ? "" : in_quotes(path),
                        .found = in_quotes(found),
                        .expected = expected,
                        .remedy = remedy});
   }
-
- private:
-  const Json& json_;
-  std::string file_;
-  std::string path_;
 };
 
 std::vector<std::string> names(const Node& node, std::string_view of_what) {
@@ -160,7 +154,7 @@ void write_model(const LearnedModel& model, std::span<const std::string> kinds, 
 
 ModelFile read_model(const std::filesystem::path& path) {
   const Json json = parsed(path);
-  const Node root(json, path.native());
+  const Node root{json, path.native()};
   if (!root.has("format") || root.at("format").text() != format_name)
     throw InputError("{}: is no model of recognition_demo", path.native());
   if (root.at("version").number() != format_version)

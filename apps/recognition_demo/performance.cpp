@@ -193,30 +193,18 @@ double draw_from(const Triangle& triangle, double u) {
 }
 
 std::vector<Contestant> contestants(const std::vector<Knowledge>& all) {
-  std::vector<FeatureModel<Random, Random>> by_density, by_triangle_p;
-  std::vector<FeatureModel<Fuzzy, Fuzzy>> by_triangle, by_ratio, by_dubois_prade;
-  for (const Knowledge& each : all) {
-    by_density.emplace_back(each.probable);
-    by_triangle.emplace_back(each.possible);
-    by_triangle_p.emplace_back(with_random_condition(to_probability(each.possible, RatioScale{})));
-    by_ratio.emplace_back(with_fuzzy_condition(to_possibility(each.probable, RatioScale{})));
-    by_dubois_prade.emplace_back(with_fuzzy_condition(to_possibility(each.probable, DuboisPrade{})));
-  }
   const auto random_prior = uninformative(all.front().probable.from());
   const auto fuzzy_prior = uninformative(all.front().possible.from());
-  return {{"sigma, p of the density", SigmaClassifier{random_prior, std::move(by_density)}},
-          {"max, π of the triangle", MaxClassifier{fuzzy_prior, std::move(by_triangle)}},
-          {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, std::move(by_triangle_p)}},
-          {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, std::move(by_ratio)}},
-          {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, std::move(by_dubois_prade)}}};
-}
-
-double mean_probability_inside(const PerformanceData& data) {
-  double sum = 0.0;
-  for (const auto& row : data.table)
-    for (const Performance& each : row)
-      sum += each.density.cdf(each.triangle.maximum()) - each.density.cdf(each.triangle.minimum());
-  return sum / static_cast<double>(data.table.size() * data.types.size());
+  const auto in_proportion =
+      each(all, [](const Knowledge& one) { return with_random_condition(to_probability(one.possible, RatioScale{})); });
+  const auto by = [&](const auto& method) {
+    return each(all, [&](const Knowledge& one) { return with_fuzzy_condition(to_possibility(one.probable, method)); });
+  };
+  return {{"sigma, p of the density", SigmaClassifier{random_prior, each(all, &Knowledge::probable)}},
+          {"max, π of the triangle", MaxClassifier{fuzzy_prior, each(all, &Knowledge::possible)}},
+          {"sigma, p in proportion to the triangle", SigmaClassifier{random_prior, in_proportion}},
+          {"max, density by the ratio scale", MaxClassifier{fuzzy_prior, by(RatioScale{})}},
+          {"max, density by Dubois-Prade", MaxClassifier{fuzzy_prior, by(DuboisPrade{})}}};
 }
 
 /// A type and, independently, its quantities; a report is one of them.
@@ -237,18 +225,21 @@ Drawn drawn(const PerformanceData& data, const std::vector<Knowledge>& knowledge
 }
 
 void say_performance(const PerformanceOptions& options, const PerformanceData& data, Result& result) {
+  double inside = 0.0;  // of the densities' probability
+  for (const auto& of_types : data.table)
+    for (const auto& [triangle, density] : of_types)
+      inside += density.cdf(triangle.maximum()) - density.cdf(triangle.minimum());
+  inside /= static_cast<double>(data.table.size() * data.types.size());
   result.say(
       "{}: {} types of aircraft, {} quantities, each known as [min, opt, max] and as a density\n"
       "[min, max] holds {:.1f} % of the density on average; outside it the possibility is taken to be {}",
-      options.file, data.types.size(), data.variables.size(), 100.0 * mean_probability_inside(data), options.least);
+      options.file, data.types.size(), data.variables.size(), 100.0 * inside, options.least);
   for (const auto& remark : data.remarks) result.say(remark);
-  result.say(
-      "{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a "
-      "quantity",
-      options.draws.runs,
-      options.drawn_from == "density" ? "the densities: sigma inference knows them"
-                                      : "densities in proportion to the triangles",
-      options.draws.seed, options.bins);
+  result.say("{} seeded draws of a type and, independently, of its quantities from {}, seed {}; {} bins a quantity",
+             options.draws.runs,
+             options.drawn_from == "density" ? "the densities: sigma inference knows them"
+                                             : "densities in proportion to the triangles",
+             options.draws.seed, options.bins);
 }
 
 /// A quantity as far as classifiers by maxima know it: of each type's values.
@@ -273,8 +264,8 @@ void fill(Report& page, const PerformanceOptions& options, const PerformanceData
           const std::vector<Knowledge>& knowledge, const Scores& scores) {
   constexpr std::size_t most_types = 20, most_quantities = 6;
   page.verdict = {
-      fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are "
-                  "those of the {} quantities that tell the types apart best.",
+      fmt::format("{} seeded draws of one of {} types and its quantities, seed {}. The possibilities are those of the "
+                  "{} quantities that tell the types apart best.",
                   options.draws.runs, data.types.size(), options.draws.seed, most_quantities)};
   page.panels.emplace_back(accuracy_chart(scores, "quantities"));
   page.chooser = "Type";
@@ -314,9 +305,9 @@ void add_performance(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<PerformanceOptions>();
   Subcommand app(program, "performance",
                  "Which type of aircraft is it? From [min, opt, max] and from densities of the same quantities.");
-  app.option("data", options->file,
-             "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard "
-             "input")
+  app.option(
+         "data", options->file,
+         "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard input")
       .required()
       .type("PERFORMANCE.csv");
   app.option("--draws", options->drawn_from, "What the quantities are drawn from")

@@ -100,22 +100,21 @@ std::vector<Regime> regimes() {
   all.push_back(regime("sensor", "The sensor is right with probability h; the classifiers believe 0.7", "h",
                        {0.9, 0.7, 0.5, 0.4, 0.3}, [](double hit) { return Setting{.truth = {.hit = hit}}; }));
   for (const double alpha : {0.5, 0.1})
-    all.push_back(regime(
-        fmt::format("learned_{}", alpha),
-        fmt::format("Usage is Dirichlet({0}); p(f|c) is learned from n labelled reports of each platform, under an "
-                    "earlier draw of the usage",
-                    alpha),
-        "n", {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}, [&](double seen) {
-          return Setting{.truth = {.usage = dirichlet(alpha)}, .seen = static_cast<std::size_t>(seen)};
-        }));
+    all.push_back(regime(fmt::format("learned_{}", alpha),
+                         fmt::format("Usage is Dirichlet({0}); p(f|c) is learned from n labelled reports of each "
+                                     "platform, under an earlier draw of the usage",
+                                     alpha),
+                         "n", {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}, [&](double seen) {
+                           return Setting{.truth = {.usage = dirichlet(alpha)}, .seen = static_cast<std::size_t>(seen)};
+                         }));
   for (const double elsewhere : {0.0, 0.2})
-    all.push_back(regime(
-        fmt::format("unlisted_{}", elsewhere),
-        fmt::format("A report comes from an emitter that the platform does not carry with probability u; believed "
-                    "possible to {}",
-                    elsewhere),
-        "u", {0.0, 0.1, 0.2, 0.4},
-        [&](double unlisted) { return Setting{.truth = {.unlisted = unlisted}, .elsewhere = elsewhere}; }));
+    all.push_back(regime(fmt::format("unlisted_{}", elsewhere),
+                         fmt::format("A report comes from an emitter that the platform does not carry with probability "
+                                     "u; believed possible to {}",
+                                     elsewhere),
+                         "u", {0.0, 0.1, 0.2, 0.4}, [&](double unlisted) {
+                           return Setting{.truth = {.unlisted = unlisted}, .elsewhere = elsewhere};
+                         }));
   all.push_back(regime("conflict", "Two sensors; in a share s of the runs the second listens to another platform", "s",
                        {0.0, 0.25, 0.5, 1.0},
                        [](double astray) { return Setting{.truth = {.astray = astray, .sensors = 2}}; }));
@@ -205,13 +204,12 @@ void tell(const RegimesOptions& options, const std::vector<Regime>& all, Result&
   const auto [verdict, better] = verdict_of(all);
   result.page.groups.clear();  // no chart has curves
   result.page.verdict = {
-      verdict,
-      fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more often right "
-                  "than sigma inference, orange: more seldom; the colours end at 20 points.",
-                  draws.runs, options.reports, draws.seed)};
+      verdict, fmt::format("Synthetic emitter world; {} runs of {} reports for each setting, seed {}. Purple: more "
+                           "often right than sigma inference, orange: more seldom; the colours end at 20 points.",
+                           draws.runs, options.reports, draws.seed)};
   result.say(
-      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. "
-      "Differences are points ± 95 % by paired runs.",
+      "Synthetic emitter world, not recorded data; {} runs of {} reports for each setting, seed {}. Differences are "
+      "points ± 95 % by paired runs.",
       draws.runs, options.reports, draws.seed);
   for (const Regime& regime : all) {
     result.text += "\n";

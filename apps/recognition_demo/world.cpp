@@ -7,39 +7,36 @@
 namespace sigmax::apps {
 namespace {
 
-/// A run as the row of a cell: truth, numbers of patterns and of reports; of each contestant what it refused, its
-/// belief and its credits; the world's own numbers.
+/// A run as the row of a cell: the truth; of each contestant its credits, its belief and what it refused; the world's
+/// own numbers. Before each list stands how long it is.
 Study::Row row_of(const Drawn& drawn, const std::vector<Contestant>& contestants) {
   Study::Row row = {static_cast<double>(drawn.truth)};
+  const auto add = [&](const std::vector<double>& numbers) {
+    row.push_back(static_cast<double>(numbers.size()));
+    row.insert(row.end(), numbers.begin(), numbers.end());
+  };
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     const auto& reports = drawn.reports[drawn.reports.size() == 1 ? 0 : i];
     const Trace trace = follow(contestants[i], drawn.truth, reports);
-    if (i == 0)
-      row.insert(row.end(), {static_cast<double>(trace.belief.size()), static_cast<double>(trace.credit.size())});
+    add(trace.credit);
+    add(trace.belief);
     row.push_back(static_cast<double>(trace.refused));
-    row.insert(row.end(), trace.belief.begin(), trace.belief.end());
-    row.insert(row.end(), trace.credit.begin(), trace.credit.end());
   }
-  row.insert(row.end(), drawn.numbers.begin(), drawn.numbers.end());
+  add(drawn.numbers);
   return row;
 }
 
 SeenRun run_of(const Study::Row& row, std::size_t condition, std::size_t run, std::size_t contestants) {
   auto at = row.begin();
   const auto number = [&] { return static_cast<std::size_t>(*at++); };
-  const auto numbers = [&](std::size_t count) {
-    at += static_cast<std::ptrdiff_t>(count);
-    return std::vector<double>(at - static_cast<std::ptrdiff_t>(count), at);
+  const auto numbers = [&] {
+    const auto first = at + 1;
+    at = first + static_cast<std::ptrdiff_t>(*at);
+    return std::vector<double>(first, at);
   };
   SeenRun seen{condition, run, number(), {}, {}};
-  const std::size_t patterns = number(), reports = number();
-  for (std::size_t i = 0; i < contestants; ++i) {
-    Trace& trace = seen.traces.emplace_back();
-    trace.refused = number();
-    trace.belief = numbers(patterns);
-    trace.credit = numbers(reports);
-  }
-  seen.numbers.assign(at, row.end());
+  for (std::size_t i = 0; i < contestants; ++i) seen.traces.push_back({numbers(), numbers(), number()});
+  seen.numbers = numbers();
   return seen;
 }
 
