@@ -7,6 +7,8 @@
 #include <nlopt.hpp>
 #endif
 
+#include <boost/algorithm/string/split.hpp>
+
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
@@ -120,10 +122,6 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
          .least = least});
   };
   const auto least = [&](int from, int to) { return sensor.rounding_of(AnyPlot::Sensor::components, from, to); };
-  const auto least_of_radar = [&](int i) {
-    return std::max(sensor.rounding_of(AnyPlot::Sensor::polar, i, i),
-                    sensor.rounding_of(AnyPlot::Sensor::doppler, i, i));
-  };
   if (sensor.position) {
     // One number for axes from one to another, which keep their ratio.
     const auto add_axes = [&](std::string_view whose, int from, int to) {
@@ -148,16 +146,17 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   if (sensor.range_rate && now.range_rate_mps)
     add("sigma_range_rate_mps", *now.range_rate_mps, sensor.rounding_of(AnyPlot::Sensor::doppler, axes, axes),
         [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
-  if (sensor.radar || sensor.bearing)
-    add("sigma_azimuth_deg", now.radar[1] / degree,
-        std::max(least_of_radar(1), sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0)) / degree,
-        [](Accuracy& accuracy, double value) { accuracy.radar[1] = value * degree; });
-  if (!sensor.radar) return;
-  add("sigma_range_m", now.radar[0], least_of_radar(0),
-      [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
-  if (axes == 3)
-    add("sigma_elevation_deg", now.radar[2] / degree, least_of_radar(2) / degree,
-        [](Accuracy& accuracy, double value) { accuracy.radar[2] = value * degree; });
+  const std::array radar_names = {"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"};
+  for (const int i : {1, 0, 2}) {
+    if (!(sensor.radar || (i == 1 && sensor.bearing)) || i >= std::max(axes, 2)) continue;
+    const auto place = static_cast<std::size_t>(i);
+    const double unit = i == 0 ? 1.0 : degree;
+    const double least_of_radar =
+        std::max({sensor.rounding_of(AnyPlot::Sensor::polar, i, i), sensor.rounding_of(AnyPlot::Sensor::doppler, i, i),
+                  i == 1 ? sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0) : 0.0});
+    add(radar_names[place], now.radar[place] / unit, least_of_radar / unit,
+        [=](Accuracy& accuracy, double value) { accuracy.radar[place] = value * unit; });
+  }
 }
 
 /// Leaving for another mode becomes more likely, or more possible, by a factor.
@@ -245,10 +244,9 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
   result.motions.clear();
   const auto known = each(known_motions(), &KnownMotion::name);
   std::vector<MotionChoice> left = settings.motions;
-  for (std::size_t from = 0; from <= joined.size();) {
-    const std::size_t to = std::min(joined.find('+', from), joined.size());
-    const std::string name = joined.substr(from, to - from);
-    from = to + 1;
+  std::vector<std::string> names;
+  boost::split(names, joined, [](char letter) { return letter == '+'; });
+  for (const std::string& name : names) {
     if (!known_motion(name))
       throw UsageError({.what = "--models",
                         .found = in_quotes(name),
