@@ -432,8 +432,7 @@ std::vector<Field> figures_of(const Found& found, const Performance& of) {
            .parts = FigurePart::rmse},
           value(axis));
   };
-  const auto phases =
-      each(found.experiment.scenario.phases, [](const Phase& phase) { return std::string(phase.name); });
+  const std::vector<std::string> phases(phase_names.begin(), phase_names.end());
   for (std::size_t p = 0; p < 3; ++p) {
     add({.key = "rmse_" + phases[p] + "_m",
          .header = phases[p],
@@ -489,9 +488,9 @@ struct Comparison {
 Comparison compared(const Found& found, const Performance& of, const Performance& to) {
   Comparison comparison{of.name(), to.name(), {}, ""};
   for (std::size_t p = 0; p < 3; ++p) {
-    const std::string_view phase = found.experiment.scenario.phases[p].name;
     std::vector<Field> fields = {
-        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left}, phase}};
+        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left},
+         phase_names[p]}};
     std::array<Interval, 3> difference;
     std::array<double, 3> reference;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -510,7 +509,7 @@ Comparison compared(const Found& found, const Performance& of, const Performance
           {{.header = fmt::format("against the {} IMM that", correct ? "correct" : "released"), .align = Align::left},
            holds});
       comparison.sentence += fmt::format("{} {} the manoeuvre the paper says {}, which {}{}",
-                                         p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase,
+                                         p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase_names[p],
                                          word_of(claim), holds, p == 2 ? "." : "");
     }
     comparison.table.row_of(fields);
@@ -576,9 +575,10 @@ void report(const Found& found, ResultFiles& files) {
                experiment.runs, "seed", experiment.seed, "settings_toml", as_toml(experiment.filters));
   result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
              name_of(options.preset), experiment.runs, experiment.seed);
-  result.say("Phases by sample: {}", list_of(phases, [](const Phase& phase) {
-               return fmt::format("{} {}–{}", phase.name, phase.first, phase.last);
-             }));
+  std::vector<std::string> of_samples;
+  for (std::size_t p = 0; p < 3; ++p)
+    of_samples.push_back(fmt::format("{} {}–{}", phase_names[p], phases[p].first, phases[p].last));
+  result.say("Phases by sample: {}", list_of(of_samples));
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;

@@ -182,9 +182,8 @@ Scenario scenario_of(const SweepCondition& condition) {
   result.samples = before + during + after;
   result.first_accelerated = before + 1;
   result.last_accelerated = before + during;
-  result.phases = {{{"before", own[0].first, before},
-                    {"during", before + 1, before + during},
-                    {"after", before + during + 1, before + during + after}}};
+  result.phases = {
+      {{own[0].first, before}, {before + 1, before + during}, {before + during + 1, before + during + after}}};
   return result;
 }
 

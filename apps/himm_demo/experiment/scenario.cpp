@@ -23,14 +23,14 @@ Scenario scenario(int number, Preset preset) {
     result.position = Vector<3>(12e3, 8e3, 1e3);
     result.first_accelerated = 81;
     result.last_accelerated = released ? 131 : 130;
-    result.phases = {{{"before", 10, 80}, {"during", 81, 130}, {"after", 131, 200}}};
+    result.phases = {{{10, 80}, {81, 130}, {131, 200}}};
   } else {
     result.step_s = 2.0;
     result.samples = 80;
     result.position = Vector<3>(120e3, 80e3, 20e3);
     result.first_accelerated = 31;
     result.last_accelerated = 40;
-    result.phases = {{{"before", 10, 30}, {"during", 31, 40}, {"after", 41, 80}}};
+    result.phases = {{{10, 30}, {31, 40}, {41, 80}}};
   }
   return result;
 }

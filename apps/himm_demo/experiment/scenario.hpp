@@ -10,6 +10,7 @@
 namespace sigmax::apps {
 
 inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+inline constexpr std::array<const char*, 3> phase_names = {"before", "during", "after"};  ///< the manoeuvre
 
 /// Which of two accounts of the experiment is followed, where print and program differ.
 enum class Preset { paper_text, released };
@@ -18,7 +19,6 @@ inline const char* name_of(Preset preset) { return preset == Preset::released ? 
 
 /// Samples first … last, counted from one.
 struct Phase {
-  std::string_view name;
   int first;
   int last;
 };
@@ -32,7 +32,7 @@ struct Scenario {
   Vector<3> acceleration;       ///< while it manoeuvres
   int first_accelerated;        ///< the transition k → k + 1 uses the acceleration for k from here …
   int last_accelerated;         ///< … to here
-  std::array<Phase, 3> phases;  ///< before, during and after the manoeuvre
+  std::array<Phase, 3> phases;  ///< in the order of their names
   bool noise_on_velocity;       ///< process noise acts on position and velocity, or on position only
 };
 
