@@ -200,7 +200,8 @@ struct Sums {
   std::vector<double> weights;
   InnovationTally innovations;
   RunningMean predicted_share;  ///< of the variance of positions' innovations; the rest is the sensor's
-  std::size_t count = 0;
+
+  std::size_t count() const { return sigma[0].count(); }  ///< of the filter's estimates
 };
 using SumsByPart = std::array<Sums, parts.size()>;
 
@@ -244,22 +245,17 @@ struct Refusals {
 
 /// What the list of tracks says of one of them.
 struct TrackTally {
-  struct Innovations {
-    double nis = 0.0;  ///< in all, of so many measured quantities
+  struct Nis {
+    double sum = 0.0;  ///< of so many measured quantities
     std::size_t quantities = 0;
     std::size_t rejected = 0;  ///< by the gate
-
-    void add(double one, std::size_t measured) {
-      nis += one;
-      quantities += measured;
-    }
   };
   std::size_t rows = 0;
   std::size_t measurements = 0;
   double first_time = nan, last_time = nan;
   double way_m = 0.0;                ///< from estimate to estimate of the first filter
-  std::vector<Innovations> nis{};    ///< of each filter
-  bool silent = false;               ///< whether there is no estimate
+  std::vector<Nis> nis{};            ///< of each filter
+  std::size_t estimates = 0;         ///< of all filters
   std::optional<Position> before{};  ///< the last estimate
 
   void goes_to(const std::vector<double>& mean, int axes);
