@@ -84,9 +84,8 @@ class Performance {
 
   /// Means of the models' weights, as they are told of a sample; empty before the first estimate.
   std::vector<double> told_weights(std::size_t sample) const {
-    const int source = static_cast<int>(sample) - experiment_.mode_sample_shift;
-    const bool known = source >= 0 && source < experiment_.scenario.samples;
-    return known ? weights(static_cast<std::size_t>(source)) : std::vector<double>();
+    const auto source = static_cast<std::size_t>(static_cast<int>(sample) - experiment_.mode_sample_shift);
+    return source < experiment_.samples() ? weights(source) : std::vector<double>();
   }
 
   /// Root mean square over the samples of a phase: by axis, and of the distance.
@@ -146,11 +145,11 @@ class Performance {
   const Experiment& experiment_;
   const FilterSettings* filter_;
   std::optional<std::size_t> manoeuvre_ = filter_ ? manoeuvre_model(*filter_) : std::nullopt;  // its model
-  std::size_t samples_ = static_cast<std::size_t>(experiment_.scenario.samples);
   std::size_t figures_ = first_weight + (filter_ ? filter_->models.size() : 0);
-  std::vector<double> sums_ = std::vector(samples_ * figures_, 0.0);          // over the runs, in their order
-  std::vector<RunningMean> spread_ = std::vector<RunningMean>(3 * samples_);  // of squared errors, by sample and axis
-  std::array<std::vector<double>, squares> run_squares_{};                    // by run
+  std::vector<double> sums_ = std::vector(experiment_.samples() * figures_, 0.0);  // over the runs, in their order
+  std::vector<RunningMean> spread_ =
+      std::vector<RunningMean>(3 * experiment_.samples());  // of squared errors, by sample and axis
+  std::array<std::vector<double>, squares> run_squares_{};  // by run
   std::vector<double> crossings_;
 };
 
@@ -225,7 +224,7 @@ class Views {
   template <class Value>
   Samples by_sample(const Value& value) const {
     Samples values;
-    for (int k = 0; k < experiment_.scenario.samples; ++k) values.push_back(value(static_cast<std::size_t>(k)));
+    for (std::size_t k = 0; k < experiment_.samples(); ++k) values.push_back(value(k));
     return values;
   }
 
@@ -343,8 +342,7 @@ class Views {
 int runs_in_page(const Experiment& experiment) {
   constexpr std::size_t most_numbers = 42000;                          // some 350 kB
   const std::size_t per_sample = 12 + experiment.filters.size() * 12;  // coordinates, errors, weights, NEES and NIS
-  const auto fit =
-      static_cast<int>(most_numbers / (per_sample * static_cast<std::size_t>(experiment.scenario.samples)));
+  const auto fit = static_cast<int>(most_numbers / (per_sample * experiment.samples()));
   return crowded(experiment) ? 1 : std::min(std::clamp(fit, 1, 8), experiment.runs);
 }
 
@@ -534,13 +532,11 @@ std::vector<Comparison> comparisons(const Found& found) {
   return all;
 }
 
-std::size_t samples_of(const Found& found) { return static_cast<std::size_t>(found.experiment.scenario.samples); }
-
 /// The RMSE of every sample, and the mean weights.
 ResultTable rmse_by_sample(const Found& found) {
   ResultTable table({{.key = "sample"}, {.key = "filter"}, {.key = "axis"}, {.key = "rmse_m"}});
   for (const Performance& of : found.performances)
-    for (std::size_t k = 0; k < samples_of(found); ++k)
+    for (std::size_t k = 0; k < found.experiment.samples(); ++k)
       for (std::size_t axis = 0; axis < 3; ++axis) table.row({k + 1, of.name(), axis_names[axis], of.rmse(k, axis)});
   return table;
 }
@@ -551,7 +547,7 @@ ResultTable weights_by_sample(const Found& found) {
   for (const auto& model : models) columns.push_back({.key = "weight_" + model});
   ResultTable table(columns);
   for (const Performance& of : found.performances)
-    for (std::size_t k = 0; k < samples_of(found) && of.filter(); ++k) {
+    for (std::size_t k = 0; k < found.experiment.samples() && of.filter(); ++k) {
       const std::vector<double> weights = of.told_weights(k);
       std::vector<Cell> cells = {k + 1, of.name()};
       for (const auto& model : models) {

@@ -62,6 +62,8 @@ struct Experiment {
   std::uint64_t seed;
   int mode_sample_shift;  ///< added to the sample of mode curves: −1 in the released program, else 0
 
+  std::size_t samples() const { return static_cast<std::size_t>(scenario.samples); }
+
   /// The run with that number, counted from 0; nothing but the seed and the number decides what is drawn.
   TracedRun traced(std::uint64_t number) const;
 };
