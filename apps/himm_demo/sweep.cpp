@@ -113,7 +113,6 @@ bool at_the_limit(const std::vector<Axis>& lattice, const Place& place) {
 }
 
 constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {

@@ -343,8 +343,7 @@ class Fitter {
     for (const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
       if (number.relative) continue;
       const double value = number.parameter.start;
-      best.numbers.push_back(
-          {number.parameter.name, value, std::numeric_limits<double>::infinity(), number.is_least()});
+      best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
       for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
@@ -367,9 +366,9 @@ class Fitter {
       const double found =
           objective_of(losses(data_, judged_settings(settings, options_.objective), options_.objective),
                        options_.objective, counts_);
-      return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+      return std::isnan(found) ? infinity : found;
     } catch (const std::exception&) {
-      return std::numeric_limits<double>::infinity();
+      return infinity;
     }
   }
 
@@ -539,7 +538,7 @@ struct Kept {
   double nis = 1.0;    ///< the mean of those that do, none for more than the usual gate lets pass, a measured quantity
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
   double reach_of_kept = 1.0;  ///< likewise, of those that pass alone
-  double loss = std::numeric_limits<double>::infinity();
+  double loss = infinity;
   std::vector<RowPlace> set_aside{};  ///< that do not
 };
 
@@ -568,7 +567,7 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
   const auto& set_aside = kept.set_aside;
   for (std::size_t k = 0; k < set_aside.size(); ++k)
     if (k == 0 || set_aside[k].track != set_aside[k - 1].track || set_aside[k].row > set_aside[k - 1].row + 1)
-      parts.push_back(std::numeric_limits<double>::infinity());
+      parts.push_back(infinity);
   kept.reach = quantile(parts, stated);
   return kept;
 }

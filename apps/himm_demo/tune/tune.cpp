@@ -296,7 +296,7 @@ LineChart set_aside_chart(const Diagnosis& diagnosis, const TuneData& data) {
   LineChart chart{
       .title = "Rows set aside", .x_label = "time since the first row, s", .y_label = "number of the track"};
   const auto row_at = [&](const RowPlace& place) -> const Row& { return data.tracks[place.track].rows[place.row]; };
-  double first = std::numeric_limits<double>::infinity();
+  double first = infinity;
   for (const TuneTrack& track : data.tracks) first = std::min(first, track.rows.front().plot.time);
   auto places = diagnosis.set_aside;
   std::ranges::stable_sort(places, {}, [&](const RowPlace& place) { return row_at(place).plot.time; });
