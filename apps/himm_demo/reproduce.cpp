@@ -60,7 +60,7 @@ std::vector<std::string> settings_of(int scenario_number, int group_number) {
 /// What one run of a filter adds to its columns.
 void add_figures(const Experiment& experiment, const Trace& trace, std::size_t model, double* sums) {
   const auto& phases = experiment.scenario.phases;
-  const int onset = phases[1].first;
+  const int onset = experiment.scenario.onset();
   add_squares(experiment.scenario, trace.error, sums + Column::square);
   const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
   sums[Column::onset_z] += phase_mean({onset - 10, onset - 1}, squared_z);
@@ -128,7 +128,7 @@ class Condition {
       const Statistic before = mean(filter, Column::curve + i - 1), now = mean(filter, Column::curve + i);
       if (before.value() <= 0.0 && now.value() > 0.0)
         return before / (before - now) +
-               (experiment.scenario.phases[1].first - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
+               (experiment.scenario.onset() - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
     }
     return {};
   }

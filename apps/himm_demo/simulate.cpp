@@ -323,7 +323,7 @@ class Views {
       }
     }
     // The corners of the target's way from a little before the manoeuvre on.
-    const auto onset = static_cast<std::size_t>(experiment_.scenario.phases[1].first - 1);
+    const auto onset = static_cast<std::size_t>(experiment_.scenario.onset() - 1);
     const std::size_t first = onset < 3 ? 0 : onset - 3, last = std::min(onset + 15, run.truth.size() - 1);
     for (const Eigen::Index axis : {0, 1}) {
       const auto [least, greatest] = std::minmax(run.truth[first](axis), run.truth[last](axis));

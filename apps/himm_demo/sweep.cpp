@@ -178,8 +178,6 @@ Scenario scenario_of(const SweepCondition& condition) {
   const int after = scaled(own[2].last - own[2].first + 1, 1.0);
   result.step_s *= condition.period;
   result.acceleration *= condition.strength;
-  result.samples = before + during + after;
-  result.first_accelerated = before + 1;
   result.last_accelerated = before + during;
   result.phases = {
       {{own[0].first, before}, {before + 1, before + during}, {before + during + 1, before + during + after}}};
