@@ -142,7 +142,6 @@ class TrackRun {
     for (auto& [name, target] : targets_) end(name, target);
     shares_.finish();
     if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
-    outcome_.tracks = targets_.size();
     outcome_.places = places_.notes();
     outcome_.some_unplaced = places_.some_unplaced();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;

@@ -52,7 +52,7 @@ class Reporter {
     result_.fact({"skipped"}, recording_.skipped());
     for (const auto& [sensor, rows] : outcome_.sensors) result_.fact({"sensors", sensor}, rows);
     if (recording_.has_tracks())
-      result_.facts_at({"tracks"}, "count", outcome_.tracks, "never_started", outcome_.never_started);
+      result_.facts_at({"tracks"}, "count", outcome_.each.size(), "never_started", outcome_.never_started);
     result_.fact({"settings_toml"}, as_toml(filters_));
   }
 
@@ -106,7 +106,8 @@ class Reporter {
             numbered(outcome_.range_rate_unknown));
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
-        fmt::format("{} track{} by {}{}", outcome_.tracks, outcome_.tracks == 1 ? "" : "s", options_.recording.track_id,
+        fmt::format("{} track{} by {}{}", outcome_.each.size(), outcome_.each.size() == 1 ? "" : "s",
+                    options_.recording.track_id,
                     short_ones == 0 ? ""
                     : outcome_.bearings == outcome_.measurements
                         ? fmt::format(", {} of them without bearings that cross, from which every filter could start",

@@ -270,13 +270,12 @@ struct TrackOutcome {
   std::size_t measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
-  std::array<std::size_t, 3> by_default{};  ///< with a position, a range, an azimuth whose sigma nobody gave
-  std::size_t tracks = 0;
-  std::vector<std::string> places;                        ///< sentences on where the sensors stand
-  bool some_unplaced = false;                             ///< whether some stand where all others do
-  std::map<std::string, TrackTally> each;                 ///< of a recording of tracks
-  std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
-  std::map<std::string, std::size_t> sensors;             ///< the rows of each
+  std::array<std::size_t, 3> by_default{};     ///< with a position, a range, an azimuth whose sigma nobody gave
+  std::vector<std::string> places;             ///< sentences on where the sensors stand
+  bool some_unplaced = false;                  ///< whether some stand where all others do
+  std::map<std::string, TrackTally> each;      ///< of a recording of tracks
+  std::vector<std::string> never_started;      ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;  ///< the rows of each
   std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
   std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
   Counted refused_by_all;                                 ///< measurements that every filter's gate turned away
