@@ -60,11 +60,11 @@ std::vector<std::string> settings_of(int scenario_number, int group_number) {
 /// What one run of a filter adds to its columns.
 void add_figures(const Experiment& experiment, const Trace& trace, std::size_t model, double* sums) {
   const auto& phases = experiment.scenario.phases;
-  const int onset = phases[1].first;
+  const int onset = experiment.scenario.onset();
   add_squares(experiment.scenario, trace.error, sums + Column::square);
   const auto squared_z = [&](std::size_t k) { return trace.error[k].z() * trace.error[k].z(); };
-  sums[Column::onset_z] += phase_mean({"before", onset - 10, onset - 1}, squared_z);
-  sums[Column::onset_z + 1] += phase_mean({"after", onset, onset + 9}, squared_z);
+  sums[Column::onset_z] += phase_mean({onset - 10, onset - 1}, squared_z);
+  sums[Column::onset_z + 1] += phase_mean({onset, onset + 9}, squared_z);
 
   const auto leads = [&](std::size_t k) { return weight_difference(trace.weights[k], model); };
   for (std::size_t p = 0; p < phases.size(); ++p) {
@@ -128,7 +128,7 @@ class Condition {
       const Statistic before = mean(filter, Column::curve + i - 1), now = mean(filter, Column::curve + i);
       if (before.value() <= 0.0 && now.value() > 0.0)
         return before / (before - now) +
-               (experiment.scenario.phases[1].first - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
+               (experiment.scenario.onset() - 2.0 + static_cast<double>(i) + experiment.mode_sample_shift);
     }
     return {};
   }
@@ -282,8 +282,6 @@ Judgements judge(const std::vector<Condition>& conditions) {
                                         measure(sentence, conditions, preset, {reading, true})});
   return all;
 }
-
-constexpr std::array phase_names = {"before", "during", "after"};
 
 const char* words_of(Preset preset) { return preset == Preset::released ? "As released" : "As printed"; }
 

@@ -84,9 +84,8 @@ class Performance {
 
   /// Means of the models' weights, as they are told of a sample; empty before the first estimate.
   std::vector<double> told_weights(std::size_t sample) const {
-    const int source = static_cast<int>(sample) - experiment_.mode_sample_shift;
-    const bool known = source >= 0 && source < experiment_.scenario.samples;
-    return known ? weights(static_cast<std::size_t>(source)) : std::vector<double>();
+    const auto source = static_cast<std::size_t>(static_cast<int>(sample) - experiment_.mode_sample_shift);
+    return source < experiment_.samples() ? weights(source) : std::vector<double>();
   }
 
   /// Root mean square over the samples of a phase: by axis, and of the distance.
@@ -146,11 +145,11 @@ class Performance {
   const Experiment& experiment_;
   const FilterSettings* filter_;
   std::optional<std::size_t> manoeuvre_ = filter_ ? manoeuvre_model(*filter_) : std::nullopt;  // its model
-  std::size_t samples_ = static_cast<std::size_t>(experiment_.scenario.samples);
   std::size_t figures_ = first_weight + (filter_ ? filter_->models.size() : 0);
-  std::vector<double> sums_ = std::vector(samples_ * figures_, 0.0);          // over the runs, in their order
-  std::vector<RunningMean> spread_ = std::vector<RunningMean>(3 * samples_);  // of squared errors, by sample and axis
-  std::array<std::vector<double>, squares> run_squares_{};                    // by run
+  std::vector<double> sums_ = std::vector(experiment_.samples() * figures_, 0.0);  // over the runs, in their order
+  std::vector<RunningMean> spread_ =
+      std::vector<RunningMean>(3 * experiment_.samples());  // of squared errors, by sample and axis
+  std::array<std::vector<double>, squares> run_squares_{};  // by run
   std::vector<double> crossings_;
 };
 
@@ -225,7 +224,7 @@ class Views {
   template <class Value>
   Samples by_sample(const Value& value) const {
     Samples values;
-    for (int k = 0; k < experiment_.scenario.samples; ++k) values.push_back(value(static_cast<std::size_t>(k)));
+    for (std::size_t k = 0; k < experiment_.samples(); ++k) values.push_back(value(k));
     return values;
   }
 
@@ -324,7 +323,7 @@ class Views {
       }
     }
     // The corners of the target's way from a little before the manoeuvre on.
-    const auto onset = static_cast<std::size_t>(experiment_.scenario.phases[1].first - 1);
+    const auto onset = static_cast<std::size_t>(experiment_.scenario.onset() - 1);
     const std::size_t first = onset < 3 ? 0 : onset - 3, last = std::min(onset + 15, run.truth.size() - 1);
     for (const Eigen::Index axis : {0, 1}) {
       const auto [least, greatest] = std::minmax(run.truth[first](axis), run.truth[last](axis));
@@ -343,8 +342,7 @@ class Views {
 int runs_in_page(const Experiment& experiment) {
   constexpr std::size_t most_numbers = 42000;                          // some 350 kB
   const std::size_t per_sample = 12 + experiment.filters.size() * 12;  // coordinates, errors, weights, NEES and NIS
-  const auto fit =
-      static_cast<int>(most_numbers / (per_sample * static_cast<std::size_t>(experiment.scenario.samples)));
+  const auto fit = static_cast<int>(most_numbers / (per_sample * experiment.samples()));
   return crowded(experiment) ? 1 : std::min(std::clamp(fit, 1, 8), experiment.runs);
 }
 
@@ -432,8 +430,7 @@ std::vector<Field> figures_of(const Found& found, const Performance& of) {
            .parts = FigurePart::rmse},
           value(axis));
   };
-  const auto phases =
-      each(found.experiment.scenario.phases, [](const Phase& phase) { return std::string(phase.name); });
+  const std::vector<std::string> phases(phase_names.begin(), phase_names.end());
   for (std::size_t p = 0; p < 3; ++p) {
     add({.key = "rmse_" + phases[p] + "_m",
          .header = phases[p],
@@ -489,9 +486,9 @@ struct Comparison {
 Comparison compared(const Found& found, const Performance& of, const Performance& to) {
   Comparison comparison{of.name(), to.name(), {}, ""};
   for (std::size_t p = 0; p < 3; ++p) {
-    const std::string_view phase = found.experiment.scenario.phases[p].name;
     std::vector<Field> fields = {
-        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left}, phase}};
+        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left},
+         phase_names[p]}};
     std::array<Interval, 3> difference;
     std::array<double, 3> reference;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -510,7 +507,7 @@ Comparison compared(const Found& found, const Performance& of, const Performance
           {{.header = fmt::format("against the {} IMM that", correct ? "correct" : "released"), .align = Align::left},
            holds});
       comparison.sentence += fmt::format("{} {} the manoeuvre the paper says {}, which {}{}",
-                                         p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase,
+                                         p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase_names[p],
                                          word_of(claim), holds, p == 2 ? "." : "");
     }
     comparison.table.row_of(fields);
@@ -535,13 +532,11 @@ std::vector<Comparison> comparisons(const Found& found) {
   return all;
 }
 
-std::size_t samples_of(const Found& found) { return static_cast<std::size_t>(found.experiment.scenario.samples); }
-
 /// The RMSE of every sample, and the mean weights.
 ResultTable rmse_by_sample(const Found& found) {
   ResultTable table({{.key = "sample"}, {.key = "filter"}, {.key = "axis"}, {.key = "rmse_m"}});
   for (const Performance& of : found.performances)
-    for (std::size_t k = 0; k < samples_of(found); ++k)
+    for (std::size_t k = 0; k < found.experiment.samples(); ++k)
       for (std::size_t axis = 0; axis < 3; ++axis) table.row({k + 1, of.name(), axis_names[axis], of.rmse(k, axis)});
   return table;
 }
@@ -552,7 +547,7 @@ ResultTable weights_by_sample(const Found& found) {
   for (const auto& model : models) columns.push_back({.key = "weight_" + model});
   ResultTable table(columns);
   for (const Performance& of : found.performances)
-    for (std::size_t k = 0; k < samples_of(found) && of.filter(); ++k) {
+    for (std::size_t k = 0; k < found.experiment.samples() && of.filter(); ++k) {
       const std::vector<double> weights = of.told_weights(k);
       std::vector<Cell> cells = {k + 1, of.name()};
       for (const auto& model : models) {
@@ -576,9 +571,10 @@ void report(const Found& found, ResultFiles& files) {
                experiment.runs, "seed", experiment.seed, "settings_toml", as_toml(experiment.filters));
   result.say("Scenario {}, group {}, preset {}: {} runs, seed {}", options.scenario, options.group,
              name_of(options.preset), experiment.runs, experiment.seed);
-  result.say("Phases by sample: {}", list_of(phases, [](const Phase& phase) {
-               return fmt::format("{} {}–{}", phase.name, phase.first, phase.last);
-             }));
+  std::vector<std::string> of_samples;
+  for (std::size_t p = 0; p < 3; ++p)
+    of_samples.push_back(fmt::format("{} {}–{}", phase_names[p], phases[p].first, phases[p].last));
+  result.say("Phases by sample: {}", list_of(of_samples));
 
   const bool brief = !found.ns_per_step.empty();
   ResultTable figures;

@@ -113,7 +113,6 @@ bool at_the_limit(const std::vector<Axis>& lattice, const Place& place) {
 }
 
 constexpr std::size_t of_a_place = std::tuple_size_v<Place>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Squares = std::array<double, squares>;
 
 void add_run(const Scenario& scenario, const FilterSettings& filter, const Recording& recording, Squares& sums) {
@@ -179,12 +178,9 @@ Scenario scenario_of(const SweepCondition& condition) {
   const int after = scaled(own[2].last - own[2].first + 1, 1.0);
   result.step_s *= condition.period;
   result.acceleration *= condition.strength;
-  result.samples = before + during + after;
-  result.first_accelerated = before + 1;
   result.last_accelerated = before + during;
-  result.phases = {{{"before", own[0].first, before},
-                    {"during", before + 1, before + during},
-                    {"after", before + during + 1, before + during + after}}};
+  result.phases = {
+      {{own[0].first, before}, {before + 1, before + during}, {before + during + 1, before + during + after}}};
   return result;
 }
 

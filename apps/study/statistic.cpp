@@ -23,8 +23,7 @@ Statistic Statistic::mean(std::span<const double> sums, std::span<const double> 
 Interval Statistic::interval(std::size_t together) const {
   const auto n = static_cast<double>(change_.size());
   if (n < 2.0) return {value_, std::numeric_limits<double>::infinity()};
-  double squares = 0.0;
-  for (const double change : change_) squares += change * change;
+  const double squares = std::inner_product(change_.begin(), change_.end(), change_.begin(), 0.0);
   const double student =
       boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - 0.025 / static_cast<double>(together));
   return {value_, student * std::sqrt(squares / (n - 1.0) / n)};

@@ -245,7 +245,10 @@ bool CsvReader::read_record(CsvRow& row) {
       row.ends_.push_back(row.text_.size());
       refuse_endless(row);
       in_record = byte == separator_;
-      if (!in_record) end_line(byte);
+      if (in_record) continue;
+      if (byte == '\r' && peek() == '\n') get();
+      ended_ = byte == end_of_file;
+      if (!ended_) ++line_;
     }
   } while (!had_quotes && (is_blank(row.text_) || (row.ends_.size() == 1 && row.text_.starts_with('#'))));
   return true;
@@ -270,12 +273,6 @@ void CsvReader::read_quoted(CsvRow& row) {
       rows += std::exchange(separators, 0) + 1 == names().size() ? 1U : 0U;
     }
   }
-}
-
-void CsvReader::end_line(int byte) {
-  if (byte == '\r' && peek() == '\n') get();
-  ended_ = byte == end_of_file;
-  if (!ended_) ++line_;
 }
 
 void CsvReader::append(CsvRow& row, int byte) const {

@@ -97,7 +97,6 @@ class CsvReader {
   void read_header();
   bool read_record(CsvRow& row);
   void read_quoted(CsvRow& row);
-  void end_line(int byte);
   void append(CsvRow& row, int byte) const;
   void refuse_endless(const CsvRow& row) const;
   int peek();

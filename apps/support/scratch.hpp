@@ -37,46 +37,48 @@ class UnnamedFile {
   int descriptor_;
 };
 
-/// Bytes that are written once and read often, in memory that does not grow with them: the last MiB is held, what came
-/// before is in an UnnamedFile. Different threads may read, and overwrite different bytes, at a time.
-class Scratch {
- public:
-  std::uint64_t size() const { return in_file() + held_.size(); }
-
-  void append(std::span<const std::byte> bytes);
-
-  /// Reads, or overwrites, what begins at some byte; all of it must be there.
-  void read(std::uint64_t first, std::span<std::byte> bytes) const;
-  void overwrite(std::uint64_t first, std::span<const std::byte> bytes);
-
- private:
-  struct Filed {
-    UnnamedFile file{"the rows"};
-    std::uint64_t size = 0;
-  };
-  std::uint64_t in_file() const { return filed_ ? filed_->size : 0; }
-  std::size_t in_file(std::uint64_t first, std::size_t count) const;
-
-  std::vector<std::byte> held_;
-  std::unique_ptr<Filed> filed_;
-};
-
-/// Plain values in a Scratch.
+/// Plain values that are written once and read often, in memory that does not grow with them: those of the last MiB are
+/// held, those before are in an UnnamedFile. Different threads may read, and overwrite different values, at a time.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 class ScratchArray {
  public:
-  std::size_t size() const { return bytes_.size() / sizeof(T); }
-  void push_back(const T& value) { bytes_.append(std::as_bytes(std::span(&value, 1))); }
-  void read(std::size_t first, std::span<T> values) const {
-    bytes_.read(first * sizeof(T), std::as_writable_bytes(values));
+  std::size_t size() const { return in_file() + held_.size(); }
+
+  void push_back(const T& value) {
+    constexpr std::size_t most_held = (std::size_t{1} << 20U) / sizeof(T);
+    if (held_.size() == most_held) {
+      if (!filed_) filed_ = std::make_unique<Filed>();
+      filed_->file.write(filed_->count * sizeof(T), std::as_bytes(std::span(held_)));
+      filed_->count += held_.size();
+      held_.clear();
+    }
+    held_.push_back(value);
   }
+
+  /// Reads the values from some place on; all of them must be there.
+  void read(std::size_t first, std::span<T> values) const {
+    const std::size_t filed = std::min(values.size(), in_file() - std::min(first, in_file()));
+    if (filed > 0) filed_->file.read(first * sizeof(T), std::as_writable_bytes(values.first(filed)));
+    for (std::size_t i = filed; i < values.size(); ++i) values[i] = held_[first + i - in_file()];
+  }
+
   void set(std::size_t index, const T& value) {
-    bytes_.overwrite(index * sizeof(T), std::as_bytes(std::span(&value, 1)));
+    if (index < in_file())
+      filed_->file.write(index * sizeof(T), std::as_bytes(std::span(&value, 1)));
+    else
+      held_[index - in_file()] = value;
   }
 
  private:
-  Scratch bytes_;
+  struct Filed {
+    UnnamedFile file{"the rows"};
+    std::size_t count = 0;
+  };
+  std::size_t in_file() const { return filed_ ? filed_->count : 0; }
+
+  std::vector<T> held_;
+  std::unique_ptr<Filed> filed_;
 };
 
 /// Reads an array, which must outlive it and stay as it is, block by block: cheap if the indices ascend.

@@ -264,25 +264,12 @@ std::optional<Value> Settings::get(std::string_view key) const {
   return value;
 }
 
-template <class Value>
-Value Settings::get(std::string_view key, Value otherwise) const {
-  if (auto value = get<Value>(key)) return *std::move(value);
-  defaults_.insert_or_assign(std::string(key), fmt::format("{}", otherwise));
-  return otherwise;
-}
-
 template std::optional<double> Settings::get(std::string_view) const;
 template std::optional<bool> Settings::get(std::string_view) const;
 template std::optional<std::string> Settings::get(std::string_view) const;
 template std::optional<Strings> Settings::get(std::string_view) const;
 template std::optional<Numbers> Settings::get(std::string_view) const;
 template std::optional<Matrix> Settings::get(std::string_view) const;
-template double Settings::get(std::string_view, double) const;
-template bool Settings::get(std::string_view, bool) const;
-template std::string Settings::get(std::string_view, std::string) const;
-template Strings Settings::get(std::string_view, Strings) const;
-template Numbers Settings::get(std::string_view, Numbers) const;
-template Matrix Settings::get(std::string_view, Matrix) const;
 
 std::string Settings::choice(std::string_view key, std::span<const std::string_view> names,
                              std::string_view otherwise) const {

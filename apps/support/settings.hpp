@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 #include "support/error.hpp"
 
 namespace sigmax::apps {
@@ -39,7 +41,11 @@ class Settings {
   template <class Value>
   std::optional<Value> get(std::string_view key) const;
   template <class Value>
-  Value get(std::string_view key, Value otherwise) const;
+  Value get(std::string_view key, Value otherwise) const {
+    if (auto value = get<Value>(key)) return *std::move(value);
+    defaults_.insert_or_assign(std::string(key), fmt::format("{}", otherwise));
+    return otherwise;
+  }
   /// @}
 
   /// One of the names.

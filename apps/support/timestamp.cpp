@@ -14,23 +14,19 @@
 namespace sigmax::apps {
 namespace {
 
-/// Takes text apart from the left, as a form says in which 0 stands for a digit, and T for itself or a blank. Nothing
-/// is taken of a text that does not begin so.
-bool take(std::string_view& text, std::string_view form) {
+/// Takes text apart from the left, as a form says in which 0 stands for a digit, and T for itself or a blank; the
+/// numbers are those that its digits make one after another. Nothing is taken of a text that does not begin so.
+bool take(std::string_view& text, std::string_view form, std::initializer_list<int*> numbers = {}) {
   const auto fits = [](char wanted, char found) {
     if (wanted == '0') return found >= '0' && found <= '9';
     return found == wanted || (wanted == 'T' && found == ' ');
   };
   if (text.size() < form.size() || !std::equal(form.begin(), form.end(), text.begin(), fits)) return false;
+  std::size_t at = 0;
+  for (int* const number : numbers)
+    for (at = form.find('0', at); at < form.size() && form[at] == '0'; ++at) *number = 10 * *number + (text[at] - '0');
   text.remove_prefix(form.size());
   return true;
-}
-
-/// The number that these digits of a text are.
-int number_at(std::string_view text, std::size_t place, std::size_t digits = 2) {
-  int number = 0;
-  for (const char digit : text.substr(place, digits)) number = 10 * number + (digit - '0');
-  return number;
 }
 
 struct TimeOfDay {
@@ -48,9 +44,8 @@ std::optional<double> take_fraction(std::string_view& text) {
 
 /// Takes hh:mm:ss, and a fraction if any.
 std::optional<TimeOfDay> take_time_of_day(std::string_view& text) {
-  const std::string_view from = text;
-  if (!take(text, "00:00:00")) return std::nullopt;
-  const int hour = number_at(from, 0), minute = number_at(from, 3), second = number_at(from, 6);
+  int hour = 0, minute = 0, second = 0;
+  if (!take(text, "00:00:00", {&hour, &minute, &second})) return std::nullopt;
   const auto fraction = take_fraction(text);
   if (hour > 23 || minute > 59 || second > 60 || !fraction) return std::nullopt;
   return TimeOfDay{(hour * 60 + minute) * 60 + second, *fraction};
@@ -67,24 +62,18 @@ std::optional<int> offset_minutes(std::string_view zone) {
   if (zone.empty() || zone == "Z") return 0;
   const bool ahead = take(zone, "+");
   if (!ahead && !take(zone, "-")) return std::nullopt;
-  const std::string_view from = zone;
-  int minutes = 0;
-  if (!take(zone, "00")) return std::nullopt;
-  if (const std::string_view rest = zone; take(zone, ":00"))
-    minutes = number_at(rest, 1);
-  else if (take(zone, "00"))
-    minutes = number_at(rest, 0);
-  const int hours = number_at(from, 0);
+  int hours = 0, minutes = 0;
+  if (!take(zone, "00", {&hours})) return std::nullopt;
+  if (!take(zone, ":00", {&minutes})) take(zone, "00", {&minutes});
   if (!zone.empty() || hours > 23 || minutes > 59) return std::nullopt;
   return (ahead ? 1 : -1) * (60 * hours + minutes);
 }
 
 std::optional<double> parse_date_and_time(std::string_view text) {
   using namespace std::chrono;
-  const std::string_view from = text;
-  if (!take(text, "0000-00-00T")) return std::nullopt;
-  const year_month_day date{year{number_at(from, 0, 4)}, month{static_cast<unsigned>(number_at(from, 5))},
-                            day{static_cast<unsigned>(number_at(from, 8))}};
+  int y = 0, m = 0, d = 0;
+  if (!take(text, "0000-00-00T", {&y, &m, &d})) return std::nullopt;
+  const year_month_day date{year{y}, month{static_cast<unsigned>(m)}, day{static_cast<unsigned>(d)}};
   const auto time = take_time_of_day(text);
   const auto offset = offset_minutes(trimmed(text));
   if (!date.ok() || !time || !offset) return std::nullopt;

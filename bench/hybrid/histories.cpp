@@ -153,10 +153,7 @@ Gaussian<3> position_of(const Gaussian<N>& estimate) {
 /// One Kalman filter that changes its model when the target does.
 struct Told final : Runner {
   Told(const Spec& spec, const Scenario& scenario)
-      : pair(spec),
-        scale(scales_of(spec, {25.0}).front()),
-        first(scenario.first_accelerated),
-        last(scenario.last_accelerated) {}
+      : pair(spec), scale(scales_of(spec, {25.0}).front()), first(scenario.onset()), last(scenario.last_accelerated) {}
   void restart(const Bank<Models>::Estimates& start) override {
     straight = std::get<0>(start);
     sample = 3;
@@ -370,7 +367,7 @@ void print(const std::vector<Spec>& specs, const std::vector<std::vector<Sums>>&
            bool brief) {
   constexpr double z95 = 1.960, z_simultaneous = 2.935;  // of 15 intervals, by Bonferroni
   std::array<int, phase_count> samples{};
-  for (int k = 1; k <= scenario.samples; ++k)
+  for (int k = 1; k <= scenario.samples(); ++k)
     if (const auto phase = phase_of(k, scenario)) ++samples[*phase];
   const auto over_runs = [&](std::size_t f, const auto& figure) {
     std::vector<double> values;

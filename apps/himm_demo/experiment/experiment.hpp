@@ -62,6 +62,8 @@ struct Experiment {
   std::uint64_t seed;
   int mode_sample_shift;  ///< added to the sample of mode curves: −1 in the released program, else 0
 
+  std::size_t samples() const { return static_cast<std::size_t>(scenario.samples()); }
+
   /// The run with that number, counted from 0; nothing but the seed and the number decides what is drawn.
   TracedRun traced(std::uint64_t number) const;
 };
@@ -81,7 +83,7 @@ void add_squares(const Scenario& scenario, const Errors& error, double* sums);
 template <class Difference>
 std::optional<double> cross_time(const Experiment& experiment, const Difference& difference) {
   const Scenario& scenario = experiment.scenario;
-  for (int k = std::max(scenario.phases[1].first, 2); k <= scenario.samples; ++k) {
+  for (int k = std::max(scenario.onset(), 2); k <= scenario.samples(); ++k) {
     const double previous = difference(static_cast<std::size_t>(k - 2)),
                  now = difference(static_cast<std::size_t>(k - 1));
     if (previous <= 0.0 && now > 0.0) return k - 1 + previous / (previous - now) + experiment.mode_sample_shift;

@@ -19,18 +19,14 @@ Scenario scenario(int number, Preset preset) {
   result.noise_on_velocity = !released;
   if (number == 1) {
     result.step_s = 0.2;
-    result.samples = 200;
     result.position = Vector<3>(12e3, 8e3, 1e3);
-    result.first_accelerated = 81;
     result.last_accelerated = released ? 131 : 130;
-    result.phases = {{{"before", 10, 80}, {"during", 81, 130}, {"after", 131, 200}}};
+    result.phases = {{{10, 80}, {81, 130}, {131, 200}}};
   } else {
     result.step_s = 2.0;
-    result.samples = 80;
     result.position = Vector<3>(120e3, 80e3, 20e3);
-    result.first_accelerated = 31;
     result.last_accelerated = 40;
-    result.phases = {{{"before", 10, 30}, {"during", 31, 40}, {"after", 41, 80}}};
+    result.phases = {{{10, 30}, {31, 40}, {41, 80}}};
   }
   return result;
 }
@@ -52,14 +48,14 @@ Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& r
   Recording recording;
   Vector<6> state;
   state << scenario.position, scenario.velocity;
-  for (int k = 1; k <= scenario.samples; ++k) {
+  for (int k = 1; k <= scenario.samples(); ++k) {
     recording.truth.push_back(state);
     const Polar exact = to_polar(state.head<3>());
     const auto [range, azimuth, elevation] =
         measured({exact.range, exact.azimuth, exact.elevation}, {sigma.range, sigma.azimuth, sigma.elevation}, random);
     recording.measured.push_back({range, azimuth, elevation});
     Vector<3> acceleration = Vector<3>::Zero();
-    if (k >= scenario.first_accelerated && k <= scenario.last_accelerated) acceleration = scenario.acceleration;
+    if (k >= scenario.onset() && k <= scenario.last_accelerated) acceleration = scenario.acceleration;
     Vector<3> noise;
     for (double& w : noise) w = data_sigma_w * random.normal();
     const Vector<3> velocity = state.tail<3>();

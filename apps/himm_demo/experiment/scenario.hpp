@@ -10,6 +10,7 @@
 namespace sigmax::apps {
 
 inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+inline constexpr std::array<const char*, 3> phase_names = {"before", "during", "after"};  ///< the manoeuvre
 
 /// Which of two accounts of the experiment is followed, where print and program differ.
 enum class Preset { paper_text, released };
@@ -18,7 +19,6 @@ inline const char* name_of(Preset preset) { return preset == Preset::released ? 
 
 /// Samples first … last, counted from one.
 struct Phase {
-  std::string_view name;
   int first;
   int last;
 };
@@ -26,14 +26,15 @@ struct Phase {
 /// A manoeuvring target and how often it is seen, section VI.A.
 struct Scenario {
   double step_s;
-  int samples;
   Vector<3> position;
   Vector<3> velocity;
   Vector<3> acceleration;       ///< while it manoeuvres
-  int first_accelerated;        ///< the transition k → k + 1 uses the acceleration for k from here …
-  int last_accelerated;         ///< … to here
-  std::array<Phase, 3> phases;  ///< before, during and after the manoeuvre
+  int last_accelerated;         ///< the transition k → k + 1 uses it for k from the onset to here
+  std::array<Phase, 3> phases;  ///< in the order of their names
   bool noise_on_velocity;       ///< process noise acts on position and velocity, or on position only
+
+  int samples() const { return phases[2].last; }
+  int onset() const { return phases[1].first; }
 };
 
 /// Accuracies of the radar: as the data are made, and as the filters believe them (Table I, section VI.C).

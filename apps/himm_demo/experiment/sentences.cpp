@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "himm_demo/experiment/scenario.hpp"
+
 namespace sigmax::apps {
 namespace {
 
@@ -12,12 +14,11 @@ constexpr std::string_view table =
 #include "himm_demo/experiment/sentences.txt"
     ;
 
-/// In the order of FigureOf, Actor and the phases.
+/// In the order of FigureOf and Actor.
 constexpr std::array<std::string_view, 7> figures = {"rmse", "onset_rmse", "cross_time",         "cross_time_curves",
                                                      "lead", "switches",   "switches_of_the_run"};
 constexpr std::array<std::string_view, 6> actors = {"himm",        "himm_wide", "imm", "imm_most_likely",
                                                     "measurement", "nobody"};
-constexpr std::array<std::string_view, 3> when = {"before", "during", "after"};
 
 template <class Named>
 Named named(std::span<const std::string_view> names, std::string_view name) {
@@ -35,8 +36,8 @@ Statement statement(const std::string& line) {
   Statement result{
       named<FigureOf>(figures, figure),    named<Actor>(actors, of), named<Actor>(actors, against), scenario, group, {},
       {std::stod(above), std::stod(below)}};
-  for (std::size_t phase = 0; phase < when.size(); ++phase)
-    if (in.find(when[phase]) != std::string::npos) result.phases.push_back(phase);
+  for (std::size_t phase = 0; phase < phase_names.size(); ++phase)
+    if (in.find(phase_names[phase]) != std::string::npos) result.phases.push_back(phase);
   return result;
 }
 

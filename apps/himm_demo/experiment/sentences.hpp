@@ -29,8 +29,8 @@ enum class FigureOf {
 
 /// Where a figure must lie for the sentence to hold.
 struct Region {
-  double above = -std::numeric_limits<double>::infinity();
-  double below = std::numeric_limits<double>::infinity();
+  double above = -infinity;
+  double below = infinity;
 };
 
 /// What runs say of a region in which a figure should lie: its whole interval does, or none of it does, or neither.

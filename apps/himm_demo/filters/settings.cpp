@@ -207,7 +207,7 @@ TargetChoice choice_of(const FilterSettings& settings, int axes) {
   choice.axes = axes;
   choice.rules = {.gate_probability = settings.gate_probability,
                   .rejections = static_cast<std::size_t>(settings.restart_after_rejections),
-                  .longest_gap = settings.restart_after_s.value_or(std::numeric_limits<double>::infinity()),
+                  .longest_gap = settings.restart_after_s.value_or(infinity),
                   .record = settings.smooth || (settings.explain && settings.scheme == Scheme::histories)};
   return choice;
 }

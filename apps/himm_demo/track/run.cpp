@@ -24,14 +24,12 @@ struct Target {
   std::vector<Tally> tallies;
   std::optional<LocalFrame> anchor{};            // where positions are counted from in the output
   std::vector<std::vector<Segment>> segments{};  // of each filter, of a geodetic target
-  double before = nan;                           // the time of the row before
   std::deque<Row> rows{};                        // whose tags are their numbers
-  std::size_t taken = 0;
-  std::size_t told = 0;                                                              // estimates
+
   std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
 
-  const Row& row(std::size_t tag) const { return rows[tag + rows.size() - taken]; }
+  const Row& row(std::size_t tag) const { return rows[tag + rows.size() - tally.rows]; }
 
   /// The frame of a row's estimate.
   const LocalFrame& frame(std::size_t filter, std::size_t tag) const {
@@ -146,7 +144,6 @@ class TrackRun {
     for (auto& [name, target] : targets_) end(name, target);
     shares_.finish();
     if (shares_.first() && outcome_.never_started.size() == targets_.size()) refuse_nothing();
-    outcome_.tracks = targets_.size();
     outcome_.places = places_.notes();
     outcome_.some_unplaced = places_.some_unplaced();
     if (file_anchor_ && (fixed_ || recording_.origin() || !recording_.has_tracks())) outcome_.origin = file_anchor_;
@@ -163,8 +160,8 @@ class TrackRun {
       if (!shares_.concerns(target.rank)) continue;
       const bool of_day = options_.predict_to_time_of_day && recording_.times_of_day();
       Row row{.line = target.rows.back().line, .track = name, .predicted = true};
-      row.plot.time = of_day ? time_of_day_after(target.before, *options_.predict_to) : *options_.predict_to;
-      if (row.plot.time <= target.before) continue;
+      row.plot.time = of_day ? time_of_day_after(target.tally.last_time, *options_.predict_to) : *options_.predict_to;
+      if (row.plot.time <= target.tally.last_time) continue;
       step(target, std::move(row));
       ++outcome_.predicted;
     }
@@ -303,12 +300,12 @@ class TrackRun {
 
   void step(Target& target, Row row) {
     const double time = row.plot.time;
-    const bool again = time == target.before;  // of another sensor: nothing starts from two rows of one time
-    target.before = time;
-    if (target.taken == 0) target.tally.first_time = time;
-    target.tally.last_time = time;
-    row.plot.tag = target.taken++;
-    if (row.measured()) ++target.tally.measurements;
+    TrackTally& tally = target.tally;
+    const bool again = time == tally.last_time;  // of another sensor: nothing starts from two rows of one time
+    if (tally.rows == 0) tally.first_time = time;
+    tally.last_time = time;
+    row.plot.tag = tally.rows++;
+    if (row.measured()) ++tally.measurements;
     target.rows.push_back(std::move(row));
     if (!keeps_all_ && target.rows.size() > 2) target.rows.pop_front();  // a start may wait for the row after it
     auto news = shares_.by(target.rank, [&] { return followed(target, again); });
@@ -316,7 +313,7 @@ class TrackRun {
     std::optional<double> least;    // of the filters' NIS
     std::vector<std::size_t> lost;  // who does not expect the row
     for (Said& said : news->said) {
-      const auto nis = said.point.tag + 1 == target.taken ? said.point.nis : std::nullopt;
+      const auto nis = said.point.tag + 1 == tally.rows ? said.point.nis : std::nullopt;
       if (nis && (!least || *nis < *least)) least = nis;
       if (nis && *nis > Outliers::limit) lost.push_back(said.filter);
       tell(target, said);
@@ -389,7 +386,7 @@ class TrackRun {
     auto& segments = target.segments[f];
     if (segments.back().starts == 0) segments.back().starts = filter.starts();
     if (filter.starts() > segments.back().starts) {
-      segments.push_back({target.taken - 1, filter.starts(), segments.back().frame});
+      segments.push_back({target.tally.rows - 1, filter.starts(), segments.back().frame});
       if (!filters_[f].smooth) segments.erase(segments.begin());
     }
     Position position{};
@@ -414,22 +411,19 @@ class TrackRun {
 
   /// Takes down what a filter says of a row.
   void tell(Target& target, Said& said) {
-    ++target.told;
+    ++target.tally.estimates;
     TargetPoint& point = said.point;
     const Row& row = target.row(point.tag);
     const FilterSettings& filter = filters_[said.filter];
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
-      if (point.nis && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
-        std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
-        const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
-        outcome_.filters[said.filter].with_velocity.add(own, before);
-        before.assign(own.begin(), own.end());
+      if (point.nis) {
+        target.tally.nis[said.filter].sum += *point.nis;
+        target.tally.nis[said.filter].quantities += static_cast<std::size_t>(plot.size);
       }
-      if (point.nis) target.tally.nis[said.filter].add(*point.nis, static_cast<std::size_t>(plot.size));
+      std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
       add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
-        ++sums.count;
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
           sums.sigma[axis].add_square(point.covariance[axis * (n + 1)]);
           if (row.truth) sums.error[axis].add(point.mean[axis] - (*row.truth)[axis]);
@@ -510,7 +504,7 @@ class TrackRun {
     });
     if (!news) return;
     for (Said& said : news->said) tell(target, said);
-    bool started = target.told > 0;  // what only starts tells nothing
+    bool started = target.tally.estimates > 0;  // what only starts tells nothing
     for (std::size_t f = 0; f < filters_.size(); ++f) {
       FilterOutcome& own = outcome_.filters[f];
       const auto& [rejected, starts] = target.tallies[f];
@@ -527,8 +521,6 @@ class TrackRun {
         worst = {worst.many, name, &filters_[f], rejected, target.tally.measurements};
     }
     if (!started) outcome_.never_started.push_back(name);
-    target.tally.rows = target.taken;
-    target.tally.silent = target.told == 0;
     if (recording_.has_tracks()) outcome_.each.emplace(name, std::move(target.tally));
     target.rows.clear();
   }

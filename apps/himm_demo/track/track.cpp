@@ -52,7 +52,7 @@ class Reporter {
     result_.fact({"skipped"}, recording_.skipped());
     for (const auto& [sensor, rows] : outcome_.sensors) result_.fact({"sensors", sensor}, rows);
     if (recording_.has_tracks())
-      result_.facts_at({"tracks"}, "count", outcome_.tracks, "never_started", outcome_.never_started);
+      result_.facts_at({"tracks"}, "count", outcome_.each.size(), "never_started", outcome_.never_started);
     result_.fact({"settings_toml"}, as_toml(filters_));
   }
 
@@ -106,7 +106,8 @@ class Reporter {
             numbered(outcome_.range_rate_unknown));
     const std::size_t short_ones = outcome_.never_started.size();
     say(recording_.has_tracks(),
-        fmt::format("{} track{} by {}{}", outcome_.tracks, outcome_.tracks == 1 ? "" : "s", options_.recording.track_id,
+        fmt::format("{} track{} by {}{}", outcome_.each.size(), outcome_.each.size() == 1 ? "" : "s",
+                    options_.recording.track_id,
                     short_ones == 0 ? ""
                     : outcome_.bearings == outcome_.measurements
                         ? fmt::format(", {} of them without bearings that cross, from which every filter could start",
@@ -241,7 +242,7 @@ class Reporter {
          "sigma_position_m",
          file_, lasts);
     const Sums* const nearest =
-        greatest([](const Sums& sums) { return sums.error[0].count() >= std::max<std::size_t>(sums.count, 30); },
+        greatest([](const Sums& sums) { return sums.error[0].count() >= std::max<std::size_t>(sums.count(), 30); },
                  [](const Sums& sums) { return -length_of(sums.error); });
     const auto error = nearest ? length_of(nearest->error) : 0.0, stated = nearest ? length_of(nearest->sigma) : 1.0;
     const auto measured = length_of(outcome_.raw[0].error);
@@ -302,7 +303,7 @@ class Reporter {
           {{.key = "rows", .header = "rows"}, track.rows},
           {{.key = "duration_s", .header = "lasts", .unit = "s", .digits = 0}, track.last_time - track.first_time},
           {{.key = "way_m", .header = "way", .unit = "km", .scale = 1e-3},
-           track.silent ? Cell(nan, "–") : Cell(track.way_m)}};
+           track.estimates == 0 ? Cell(nan, "–") : Cell(track.way_m)}};
       for (std::size_t f = 0; f < filters_.size(); ++f) {
         const auto& [nis, quantities, rejected] = track.nis[f];
         const std::string& filter = filters_[f].name;
@@ -312,7 +313,7 @@ class Reporter {
       for (std::size_t f = 0; gated && f < filters_.size(); ++f)
         fields.push_back({{.key = "rejected_" + filters_[f].name, .header = filters_[f].name, .group = "turned away:"},
                           track.nis[f].rejected});
-      fields.push_back({{.header = "estimates", .align = Align::left}, track.silent ? track.why_silent() : ""});
+      fields.push_back({{.header = "estimates", .align = Align::left}, track.estimates == 0 ? track.why_silent() : ""});
       table.row_of(fields);
     }
     result_.add(table, {.printed = false, .summary = {"tracks", "each"}});
@@ -322,7 +323,7 @@ class Reporter {
 
   /// Of a filter, or of the measurement.
   std::vector<Field> row_of(std::size_t p, const Sums& sums, const FilterSettings* filter) const {
-    const std::size_t count = filter ? sums.count : sums.error[0].count();
+    const std::size_t count = filter ? sums.count() : sums.error[0].count();
     const std::string name = filter ? filter->name : measurement_name;
     std::vector<Field> fields = {{{.key = "filter", .header = std::string(parts[p].name), .align = Align::left}, name},
                                  {{.key = "rows", .header = "rows"}, count}};

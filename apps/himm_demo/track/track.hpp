@@ -200,7 +200,8 @@ struct Sums {
   std::vector<double> weights;
   InnovationTally innovations;
   RunningMean predicted_share;  ///< of the variance of positions' innovations; the rest is the sensor's
-  std::size_t count = 0;
+
+  std::size_t count() const { return sigma[0].count(); }  ///< of the filter's estimates
 };
 using SumsByPart = std::array<Sums, parts.size()>;
 
@@ -245,22 +246,17 @@ struct Refusals {
 
 /// What the list of tracks says of one of them.
 struct TrackTally {
-  struct Innovations {
-    double nis = 0.0;  ///< in all, of so many measured quantities
+  struct Nis {
+    double sum = 0.0;  ///< of so many measured quantities
     std::size_t quantities = 0;
     std::size_t rejected = 0;  ///< by the gate
-
-    void add(double one, std::size_t measured) {
-      nis += one;
-      quantities += measured;
-    }
   };
   std::size_t rows = 0;
   std::size_t measurements = 0;
   double first_time = nan, last_time = nan;
   double way_m = 0.0;                ///< from estimate to estimate of the first filter
-  std::vector<Innovations> nis{};    ///< of each filter
-  bool silent = false;               ///< whether there is no estimate
+  std::vector<Nis> nis{};            ///< of each filter
+  std::size_t estimates = 0;         ///< of all filters
   std::optional<Position> before{};  ///< the last estimate
 
   void goes_to(const std::vector<double>& mean, int axes);
@@ -275,13 +271,12 @@ struct TrackOutcome {
   std::size_t measurements = 0;
   std::size_t partial = 0;  ///< of these with a position along some axes only
   std::size_t bearings = 0;
-  std::array<std::size_t, 3> by_default{};  ///< with a position, a range, an azimuth whose sigma nobody gave
-  std::size_t tracks = 0;
-  std::vector<std::string> places;                        ///< sentences on where the sensors stand
-  bool some_unplaced = false;                             ///< whether some stand where all others do
-  std::map<std::string, TrackTally> each;                 ///< of a recording of tracks
-  std::vector<std::string> never_started;                 ///< tracks that are too short for a filter
-  std::map<std::string, std::size_t> sensors;             ///< the rows of each
+  std::array<std::size_t, 3> by_default{};     ///< with a position, a range, an azimuth whose sigma nobody gave
+  std::vector<std::string> places;             ///< sentences on where the sensors stand
+  bool some_unplaced = false;                  ///< whether some stand where all others do
+  std::map<std::string, TrackTally> each;      ///< of a recording of tracks
+  std::vector<std::string> never_started;      ///< tracks that are too short for a filter
+  std::map<std::string, std::size_t> sensors;  ///< the rows of each
   std::map<std::string, std::size_t> velocity_unknown;    ///< those of them with one that no filter knows how to take
   std::map<std::string, std::size_t> range_rate_unknown;  ///< the same of range rates
   Counted refused_by_all;                                 ///< measurements that every filter's gate turned away

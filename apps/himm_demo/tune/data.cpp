@@ -363,7 +363,7 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
       const bool starts = starts_anywhere || data.crosses || axes_seen(rows[plot.tag].plot, data.axes) == data.axes;
       if (!target.running() && !starts) continue;
       if (prequential && target.starts() > 0 && plot.sensor != AnyPlot::Sensor::none)
-        lost[plot.tag] = loss(plot, -std::numeric_limits<double>::infinity());  // unless it is a step
+        lost[plot.tag] = loss(plot, -infinity);  // unless it is a step
       const std::size_t rejected = target.rejected();
       target.follow({&plot, 1}, visit);
       if (set_aside && target.rejected() > rejected) set_aside->push_back({t, plot.tag});

@@ -7,6 +7,8 @@
 #include <nlopt.hpp>
 #endif
 
+#include <boost/algorithm/string/split.hpp>
+
 #include <sigmax/estimation/chi_square.hpp>
 #include <sigmax/hybrid/fit.hpp>
 #include <sigmax/hybrid/fit_target.hpp>
@@ -120,10 +122,6 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
          .least = least});
   };
   const auto least = [&](int from, int to) { return sensor.rounding_of(AnyPlot::Sensor::components, from, to); };
-  const auto least_of_radar = [&](int i) {
-    return std::max(sensor.rounding_of(AnyPlot::Sensor::polar, i, i),
-                    sensor.rounding_of(AnyPlot::Sensor::doppler, i, i));
-  };
   if (sensor.position) {
     // One number for axes from one to another, which keep their ratio.
     const auto add_axes = [&](std::string_view whose, int from, int to) {
@@ -148,16 +146,17 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
   if (sensor.range_rate && now.range_rate_mps)
     add("sigma_range_rate_mps", *now.range_rate_mps, sensor.rounding_of(AnyPlot::Sensor::doppler, axes, axes),
         [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
-  if (sensor.radar || sensor.bearing)
-    add("sigma_azimuth_deg", now.radar[1] / degree,
-        std::max(least_of_radar(1), sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0)) / degree,
-        [](Accuracy& accuracy, double value) { accuracy.radar[1] = value * degree; });
-  if (!sensor.radar) return;
-  add("sigma_range_m", now.radar[0], least_of_radar(0),
-      [](Accuracy& accuracy, double value) { accuracy.radar[0] = value; });
-  if (axes == 3)
-    add("sigma_elevation_deg", now.radar[2] / degree, least_of_radar(2) / degree,
-        [](Accuracy& accuracy, double value) { accuracy.radar[2] = value * degree; });
+  const std::array radar_names = {"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"};
+  for (const int i : {1, 0, 2}) {
+    if (!(sensor.radar || (i == 1 && sensor.bearing)) || i >= std::max(axes, 2)) continue;
+    const auto place = static_cast<std::size_t>(i);
+    const double unit = i == 0 ? 1.0 : degree;
+    const double least_of_radar =
+        std::max({sensor.rounding_of(AnyPlot::Sensor::polar, i, i), sensor.rounding_of(AnyPlot::Sensor::doppler, i, i),
+                  i == 1 ? sensor.rounding_of(AnyPlot::Sensor::bearing, 0, 0) : 0.0});
+    add(radar_names[place], now.radar[place] / unit, least_of_radar / unit,
+        [=](Accuracy& accuracy, double value) { accuracy.radar[place] = value * unit; });
+  }
 }
 
 /// Leaving for another mode becomes more likely, or more possible, by a factor.
@@ -245,10 +244,9 @@ FilterSettings with_models(const FilterSettings& settings, const std::string& jo
   result.motions.clear();
   const auto known = each(known_motions(), &KnownMotion::name);
   std::vector<MotionChoice> left = settings.motions;
-  for (std::size_t from = 0; from <= joined.size();) {
-    const std::size_t to = std::min(joined.find('+', from), joined.size());
-    const std::string name = joined.substr(from, to - from);
-    from = to + 1;
+  std::vector<std::string> names;
+  boost::split(names, joined, [](char letter) { return letter == '+'; });
+  for (const std::string& name : names) {
     if (!known_motion(name))
       throw UsageError({.what = "--models",
                         .found = in_quotes(name),
@@ -345,8 +343,7 @@ class Fitter {
     for (const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
       if (number.relative) continue;
       const double value = number.parameter.start;
-      best.numbers.push_back(
-          {number.parameter.name, value, std::numeric_limits<double>::infinity(), number.is_least()});
+      best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
       for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
@@ -369,9 +366,9 @@ class Fitter {
       const double found =
           objective_of(losses(data_, judged_settings(settings, options_.objective), options_.objective),
                        options_.objective, counts_);
-      return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+      return std::isnan(found) ? infinity : found;
     } catch (const std::exception&) {
-      return std::numeric_limits<double>::infinity();
+      return infinity;
     }
   }
 
@@ -541,7 +538,7 @@ struct Kept {
   double nis = 1.0;    ///< the mean of those that do, none for more than the usual gate lets pass, a measured quantity
   double reach = 1.0;  ///< what 95 % of the rows' NIS stay below: so many times what they should
   double reach_of_kept = 1.0;  ///< likewise, of those that pass alone
-  double loss = std::numeric_limits<double>::infinity();
+  double loss = infinity;
   std::vector<RowPlace> set_aside{};  ///< that do not
 };
 
@@ -570,7 +567,7 @@ Kept kept_by(const FilterSettings& settings, const TuneData& data, Objective obj
   const auto& set_aside = kept.set_aside;
   for (std::size_t k = 0; k < set_aside.size(); ++k)
     if (k == 0 || set_aside[k].track != set_aside[k - 1].track || set_aside[k].row > set_aside[k - 1].row + 1)
-      parts.push_back(std::numeric_limits<double>::infinity());
+      parts.push_back(infinity);
   kept.reach = quantile(parts, stated);
   return kept;
 }

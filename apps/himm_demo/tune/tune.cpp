@@ -83,36 +83,30 @@ std::vector<std::string> advice_of(const Diagnosis& diagnosis) {
 
 /// A table of sensors or of modes.
 ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool modes) {
-  std::vector<ResultColumn> columns = {{.key = "part", .header = modes ? "mode" : "sensor", .align = Align::left},
-                                       {.key = "rows", .header = "rows"},
-                                       {.key = "nis", .header = "NIS"},
-                                       {.header = "right"},
-                                       {.key = "nis_lower"},
-                                       {.key = "nis_upper"}};
-  if (modes)
-    columns.push_back({.key = "mean_weight", .header = "mean weight", .digits = 3});
-  else
-    columns.insert(columns.end(), {{.key = "neighbours", .header = "neighbours", .sign = true},
-                                   {.key = "neighbours_right", .header = "right"},
-                                   {.key = "verdict", .header = "verdict", .align = Align::left}});
-  ResultTable table(columns);
-  for (const auto& [name, tally, weight] : parts) {
+  const auto fields_of = [=](const Diagnosis::Part& part) {
+    const InnovationTally& tally = part.innovations;
     const bool any = tally.count() > 0;
     const Band band = any ? tally.band() : Band{nan, nan};
-    std::vector<Cell> cells = {name,
-                               tally.count(),
-                               any ? Cell(tally.mean_square(), fmt::format("{:.3g}", tally.mean_square())) : Cell(nan),
-                               any ? fmt::format("{:.2f}–{:.2f}", band.lower, band.upper) : "–",
-                               band.lower,
-                               band.upper};
-    const double right = tally.autocorrelation_band();
-    if (modes)
-      cells.emplace_back(weight);
-    else
-      cells.insert(cells.end(), {right > 0.0 ? Cell(tally.autocorrelation()) : Cell(nan),
-                                 Cell(right, fmt::format("±{:.2f}", right)), verdict_of(tally)});
-    table.row(std::move(cells));
-  }
+    const double nis = any ? tally.mean_square() : nan, right = tally.autocorrelation_band();
+    std::vector<Field> fields = {
+        {{.key = "part", .header = modes ? "mode" : "sensor", .align = Align::left}, part.name},
+        {{.key = "rows", .header = "rows"}, tally.count()},
+        {{.key = "nis", .header = "NIS"}, any ? Cell(nis, fmt::format("{:.3g}", nis)) : Cell(nan)},
+        {{.header = "right"}, any ? fmt::format("{:.2f}–{:.2f}", band.lower, band.upper) : "–"},
+        {{.key = "nis_lower"}, band.lower},
+        {{.key = "nis_upper"}, band.upper}};
+    if (modes) {
+      fields.push_back({{.key = "mean_weight", .header = "mean weight", .digits = 3}, part.weight});
+      return fields;
+    }
+    fields.push_back({{.key = "neighbours", .header = "neighbours", .sign = true},
+                      right > 0.0 ? Cell(tally.autocorrelation()) : Cell(nan)});
+    fields.push_back({{.key = "neighbours_right", .header = "right"}, Cell(right, fmt::format("±{:.2f}", right))});
+    fields.push_back({{.key = "verdict", .header = "verdict", .align = Align::left}, verdict_of(tally)});
+    return fields;
+  };
+  ResultTable table(each(fields_of({}), &Field::column));
+  for (const Diagnosis::Part& part : parts) table.row(each(fields_of(part), &Field::cell));
   return table;
 }
 
@@ -302,7 +296,7 @@ LineChart set_aside_chart(const Diagnosis& diagnosis, const TuneData& data) {
   LineChart chart{
       .title = "Rows set aside", .x_label = "time since the first row, s", .y_label = "number of the track"};
   const auto row_at = [&](const RowPlace& place) -> const Row& { return data.tracks[place.track].rows[place.row]; };
-  double first = std::numeric_limits<double>::infinity();
+  double first = infinity;
   for (const TuneTrack& track : data.tracks) first = std::min(first, track.rows.front().plot.time);
   auto places = diagnosis.set_aside;
   std::ranges::stable_sort(places, {}, [&](const RowPlace& place) { return row_at(place).plot.time; });

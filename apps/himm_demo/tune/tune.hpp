@@ -142,7 +142,7 @@ struct FittedNumber {
 /// Settings that were fitted to rows, at the end their noises by one factor more.
 struct Fitted {
   FilterSettings settings{};
-  double fitted = std::numeric_limits<double>::infinity();  ///< the objective over these rows
+  double fitted = infinity;  ///< the objective over these rows
   std::vector<FittedNumber> numbers{};
   double widened = 1.0;  ///< that factor, of standard deviations
 };
