@@ -221,7 +221,7 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
   std::vector<bool> whole(data.columns.size(), true);
   data.for_each([&](const DataRow& row) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double cell = data.columns[i].numeric ? row.number(i) : row.code(i);
+      const double cell = row.value(i);
       whole[i] = whole[i] && cell == std::floor(cell);
       if (whole[i] && 2 * values[i].size() <= data.size()) ++values[i][cell];
     }
@@ -249,8 +249,7 @@ std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& 
   std::map<double, std::uint32_t> numbers;
   Groups groups;
   data.for_each([&](const DataRow& row) {
-    const double cell = data.columns[column].numeric ? row.number(column) : row.code(column);
-    groups.push_back(numbers.try_emplace(cell, static_cast<std::uint32_t>(numbers.size())).first->second);
+    groups.push_back(numbers.try_emplace(row.value(column), static_cast<std::uint32_t>(numbers.size())).first->second);
   });
   std::mt19937_64 generator(seed);
   const std::size_t number = std::min({most_folds, numbers.size(), data.size()});

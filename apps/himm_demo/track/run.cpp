@@ -25,7 +25,6 @@ struct Target {
   std::optional<LocalFrame> anchor{};            // where positions are counted from in the output
   std::vector<std::vector<Segment>> segments{};  // of each filter, of a geodetic target
   std::deque<Row> rows{};                        // whose tags are their numbers
-
   std::map<std::pair<std::size_t, std::string>, std::vector<double>> innovations{};  // the last of a filter and sensor
   TrackTally tally{};
 
@@ -418,11 +417,16 @@ class TrackRun {
     const std::size_t n = point.mean.size();
     const AnyPlot plot = believed(filter, row.sensor, row.plot, axes_);
     if (!row.predicted) {
+      if (point.nis && axes_seen(plot, axes_) == axes_ && is_moving(plot, axes_)) {
+        std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
+        const std::span own = std::span(point.normalized_innovation).first(static_cast<std::size_t>(axes_));
+        outcome_.filters[said.filter].with_velocity.add(own, before);
+        before.assign(own.begin(), own.end());
+      }
       if (point.nis) {
         target.tally.nis[said.filter].sum += *point.nis;
         target.tally.nis[said.filter].quantities += static_cast<std::size_t>(plot.size);
       }
-      std::vector<double>& before = target.innovations[{said.filter, row.sensor}];
       add_by_part(outcome_.filters[said.filter].sums, row.roll_deg, [&](Sums& sums) {
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
           sums.sigma[axis].add_square(point.covariance[axis * (n + 1)]);
