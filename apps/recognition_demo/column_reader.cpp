@@ -190,9 +190,8 @@ bool ColumnReader::names_rows() const {
 
 std::string ColumnReader::notation() const {
   const bool are_most = !categorical_ && words_.size() > few_words && 2 * notations_ > cells_;
-  const bool are_few_ranges = words_.size() <= most_ranges && std::ranges::all_of(words_.codes, [](const auto& word) {
-                                return is_range(word.first);
-                              });
+  const bool are_few_ranges = words_.size() <= most_ranges &&
+                              std::ranges::all_of(words_.codes, [](const auto& word) { return is_range(word.first); });
   return are_most && !are_few_ranges && !holds_units() && several_numbers().empty() ? notation_ : "";
 }
 

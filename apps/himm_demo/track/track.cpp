@@ -251,8 +251,8 @@ class Reporter {
          "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
          file_, error, stated,
          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
-    warn(causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && consistent &&
-             best.innovations.count() >= 50 && best.innovations.share_inside() < 0.8,
+    warn(causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && consistent && best.innovations.count() >= 50 &&
+             best.innovations.share_inside() < 0.8,
          "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
          "himm_demo tune fits them",
          file_, 100.0 * best.innovations.share_inside());
