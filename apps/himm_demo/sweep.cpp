@@ -260,8 +260,7 @@ class SweepWorld {
     const Axis off_diagonal =
         continued(fuzzy ? choice.possibility : choice.probability, 1e-12, fuzzy ? 1.0 : 0.9, choice.beyond);
     const Axis sigma_w = continued(choice.sigma_w, 1e-6, 1e6, choice.beyond);
-    Axis lift{.numbers = std::vector<double>(choice.lifts.size())};
-    lift.ordered = false;
+    const Axis lift{.numbers = std::vector<double>(choice.lifts.size()), .ordered = false};
     return {off_diagonal, off_diagonal, sigma_w, sigma_w, lift};
   }
   FilterSettings settings(std::size_t condition, std::size_t f, const Place& place) const {

@@ -215,7 +215,7 @@ bool given(const FilterSettings& filter) { return filter.start == StartRule::giv
 
 /// The key of a list that has so many numbers.
 template <class Of>
-Key<Accuracy> of_sizes(std::vector<std::size_t> sizes, const std::string& expected, Of of, Key<Accuracy> key) {
+Key<Accuracy> of_sizes(const std::vector<std::size_t>& sizes, const std::string& expected, Of of, Key<Accuracy> key) {
   key.read = [=, name = key.name, read = key.read](const Settings& settings, Accuracy& accuracy) {
     read(settings, accuracy);
     if (std::ranges::find(sizes, std::invoke(of, accuracy).size()) == sizes.end()) throw settings.error(name, expected);

@@ -148,7 +148,8 @@ void add_sensor(const FilterSettings& settings, const std::string& name, const T
         [](Accuracy& accuracy, double value) { accuracy.range_rate_mps = value; });
   const std::array radar_names = {"sigma_range_m", "sigma_azimuth_deg", "sigma_elevation_deg"};
   for (const int i : {1, 0, 2}) {
-    if (!(sensor.radar || (i == 1 && sensor.bearing)) || i >= std::max(axes, 2)) continue;
+    const bool is_seen = sensor.radar || (i == 1 && sensor.bearing);
+    if (!is_seen || (i == 2 && axes < 3)) continue;
     const auto place = static_cast<std::size_t>(i);
     const double unit = i == 0 ? 1.0 : degree;
     const double least_of_radar =
