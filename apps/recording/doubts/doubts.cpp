@@ -1,5 +1,8 @@
 #include "recording/doubts/doubts.hpp"
 
+#include "recording/doubts/clocks.hpp"
+#include "recording/doubts/rates.hpp"
+#include "recording/doubts/stations.hpp"
 #include "recording/plots.hpp"
 #include "support/text.hpp"
 
@@ -43,24 +46,67 @@ double rounding_of(std::vector<double> numbers) {
   return 0.0;
 }
 
+struct Doubts::Parts {
+  struct Sensor {
+    explicit Sensor(const Spoke& first) : trail{first}, rates(first) {}
+    Trail trail;
+    Rates::Sensor rates;
+    Repeats::Sensor repeats{};
+  };
+  struct Track {
+    double first_time = 0.0, time = 0.0;  // of those with a position
+    std::optional<Vector<3>> first{}, last{};
+    std::optional<Vector<3>> located{};          // by a sensor of positions
+    std::optional<Stations::Bearing> bearing{};  // the last one
+    std::map<std::string, Sensor> sensors{};
+    std::string latest{};  // of them
+  };
+  /// A row after the first of its sensor.
+  void see_next(const Track& track, const std::string& name, Sensor& sensor, Spoke& now);
+  void see_bends(const Trail& trail, const Spoke& now);
+  void say_reading(Say& say, const RecordingReader& recording) const;
+
+  Rates rates{};
+  Stations stations{};
+  Repeats repeats{};
+  Clocks clocks{};
+  std::map<std::string, Track> tracks{};
+  std::set<std::string> sensors{};
+  static constexpr std::size_t enough_numbers = 1000;
+  std::array<std::vector<double>, 2> numbers{};  // along x and y, as rows tell them, the first of them
+  struct {
+    std::vector<double> sizes{};          // the first thousands along an axis
+    std::array<double, 4> products = {};  // of each with itself and those before
+  } second{};                             // differences of positions
+  struct {
+    std::size_t count = 0;
+    double sum = 0.0;
+  } variances{};  // that rows tell of positions, along an axis
+};
+
+Doubts::Doubts() : parts_(std::make_unique<Parts>()) {}
+Doubts::Doubts(Doubts&& other) noexcept = default;
+Doubts& Doubts::operator=(Doubts&& other) noexcept = default;
+Doubts::~Doubts() = default;
+
 void Doubts::see(const Row& row, const std::optional<Position>& position, const LocalFrame* frame, int axes) {
   const AnyPlot& plot = row.plot;
   const bool has_rate = plot.sensor == AnyPlot::Sensor::doppler;
   const bool is_radar = has_rate || plot.sensor == AnyPlot::Sensor::polar;
-  clocks_.see(plot.time);
-  Track& track = tracks_[row.track];
+  parts_->clocks.see(plot.time);
+  Parts::Track& track = parts_->tracks[row.track];
   const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
   if (is_radar || plot.sensor == AnyPlot::Sensor::bearing)
-    places_.see(plot, truth ? truth : track.located, track.bearing);
+    parts_->stations.see(plot, truth ? truth : track.located, track.bearing);
   if (!position || axes_seen(plot, axes) < axes) return;
   const Vector<3> at(position->data());
-  places_.see(at);
+  parts_->stations.see(at);
   for (int i = 0; i < 2; ++i)
-    if (auto& some = numbers_[static_cast<std::size_t>(i)]; some.size() < enough_numbers)
+    if (auto& some = parts_->numbers[static_cast<std::size_t>(i)]; some.size() < Parts::enough_numbers)
       if (const auto number = component_of(plot, i)) some.push_back(*number);
   if (const double variance = plot.variance(0); !is_radar && variance > 0.0) {
-    ++variances_.count;
-    variances_.sum += variance;
+    ++parts_->variances.count;
+    parts_->variances.sum += variance;
   }
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
   Vector<3> velocity = Vector<3>::Constant(nan);
@@ -77,15 +123,15 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
             height,
             row.twice,
             row.line};
-  repeats_.see(row, now, axes);
+  parts_->repeats.see(row, now, axes);
   const auto [own, first] = track.sensors.try_emplace(row.sensor, now);
   if (first)
-    sensors_.insert(row.sensor);
+    parts_->sensors.insert(row.sensor);
   else
-    see_next(track, row.sensor, own->second, now);
+    parts_->see_next(track, row.sensor, own->second, now);
   track.latest = row.sensor;
   if (!is_radar) track.located = at;
-  clocks_.see(plot.time, track.first ? std::optional(track.time) : std::nullopt);
+  parts_->clocks.see(plot.time, track.first ? std::optional(track.time) : std::nullopt);
   if (!track.first) {
     track.first = at;
     track.first_time = plot.time;
@@ -94,73 +140,72 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   track.time = plot.time;
 }
 
-/// A row after the first of its sensor.
-void Doubts::see_next(const Track& track, const std::string& name, Sensor& sensor, Spoke& now) {
+void Doubts::Parts::see_next(const Track& track, const std::string& name, Sensor& sensor, Spoke& now) {
   Trail& trail = sensor.trail;
   const Spoke& last = trail.last;
   const double dt = now.time - last.time;
   if (!(dt > 0.0)) return;
   if (const auto& before = trail.before; before && dt <= 2.0 * (last.time - before->first)) {
     const Vector<3> bend = off_the_way(last.time, last.at, before->first, before->second, now.time, now.at);
-    repeats_.see_bend(sensor.repeats, trail, now, length(bend));
+    repeats.see_bend(sensor.repeats, trail, now, length(bend));
     if (const auto& [other, told] = *track.sensors.find(track.latest);
         other != name && told.trail.last.time >= last.time)
-      places_.see_other(name, last, now, bend, other, told.trail.last);
+      stations.see_other(name, last, now, bend, other, told.trail.last);
   }
-  repeats_.see(sensor.repeats, trail, now);
+  repeats.see(sensor.repeats, trail, now);
   trail.recent.keep(now.at);
   trail.even = std::abs(dt - trail.step) < 0.01 * dt ? trail.even + 1 : 0;
   see_bends(trail, now);
-  clocks_.see_slip(trail, now);
-  places_.see_error(last, now);
-  rates_.see(sensor.rates, trail, now);
+  clocks.see_slip(trail, now);
+  stations.see_error(last, now);
+  rates.see(sensor.rates, trail, now);
   trail.before = {last.time, last.at};
   trail.step = dt;
   trail.last = now;
 }
 
-void Doubts::see_bends(const Trail& trail, const Spoke& now) {
+void Doubts::Parts::see_bends(const Trail& trail, const Spoke& now) {
   const auto& recent = trail.recent;
   if (!recent.reaches(3) || trail.even < 2) return;
   const auto bend = [&](std::size_t ago) -> Eigen::Vector2d {
     return (recent[ago] - 2.0 * recent[ago + 1] + recent[ago + 2]).head<2>();
   };
-  for (std::size_t lag = 0; lag < second_.products.size() && recent.reaches(lag + 2) && lag < trail.even; ++lag)
-    second_.products[lag] += bend(0).dot(bend(lag));
+  for (std::size_t lag = 0; lag < second.products.size() && recent.reaches(lag + 2) && lag < trail.even; ++lag)
+    second.products[lag] += bend(0).dot(bend(lag));
   for (const double own : {bend(0)[0], bend(0)[1]})
-    if ((own != 0.0 || now.at[1] != 0.0) && second_.sizes.size() < many) second_.sizes.push_back(std::abs(own));
+    if ((own != 0.0 || now.at[1] != 0.0) && second.sizes.size() < many) second.sizes.push_back(std::abs(own));
 }
 
 std::optional<double> Doubts::scatter() const {
-  const auto& products = second_.products;
+  const auto& products = parts_->second.products;
   const auto correlation = [&](std::size_t lag) { return products[lag] / products[0]; };
   constexpr double median_of_bends = 1.652;  // 0.6745 √6 of the noise, which outliers do not move
   // Of noise alone they are −2/3, 1/6 and 0.
   const bool is_noise = correlation(1) < -0.58 && correlation(2) < 0.4 && std::abs(correlation(3)) < 0.2 &&
-                        sensors_.size() == 1 && !repeats_.comes_back();
-  if (second_.sizes.size() < 200 || !is_noise) return {};
-  return median(second_.sizes) / median_of_bends;
+                        parts_->sensors.size() == 1 && !parts_->repeats.comes_back();
+  if (parts_->second.sizes.size() < 200 || !is_noise) return {};
+  return median(parts_->second.sizes) / median_of_bends;
 }
 
 std::optional<double> Doubts::told_sigma() const {
-  if (variances_.count < 200) return {};
-  return std::sqrt(variances_.sum / static_cast<double>(variances_.count));
+  if (parts_->variances.count < 200) return {};
+  return std::sqrt(parts_->variances.sum / static_cast<double>(parts_->variances.count));
 }
 
 double Doubts::rounding(const RecordingReader& recording) const {
   double greatest = 0.0;
   for (std::size_t i = 0; i < 2 && recording.located(); ++i)
-    if (const double own = rounding_of(numbers_[i]);
-        std::isfinite(own) && std::set(numbers_[i].begin(), numbers_[i].end()).size() >= 2 * few)
+    if (const double own = rounding_of(parts_->numbers[i]);
+        std::isfinite(own) && std::set(parts_->numbers[i].begin(), parts_->numbers[i].end()).size() >= 2 * few)
       greatest = std::max(greatest, own);
   return greatest * (recording.geodetic() ? metres_a_degree : 1.0);
 }
 
 /// What the reader found in cells and headers.
-void Doubts::say_reading(Say& say, const RecordingReader& recording) const {
-  const auto names = each(tracks_, [](const auto& named) -> std::string_view { return named.first; });
+void Doubts::Parts::say_reading(Say& say, const RecordingReader& recording) const {
+  const auto names = each(tracks, [](const auto& named) -> std::string_view { return named.first; });
   const std::pair<std::string_view, std::string> twins[] = {{"tracks", alike(names)},
-                                                            {"sensors", alike({sensors_.begin(), sensors_.end()})}};
+                                                            {"sensors", alike({sensors.begin(), sensors.end()})}};
   for (const auto& [what, two] : twins)
     say(!two.empty(),
         "{} {} differ in case, blanks or the writing of a number only, and count as two; write them alike, if they are "
@@ -199,23 +244,24 @@ void Doubts::say_reading(Say& say, const RecordingReader& recording) const {
 
 std::vector<std::string> Doubts::sentences(const RecordingReader& recording) const {
   Say say(recording.file());
-  const double step = clocks_.step();
+  const double step = parts_->clocks.step();
   constexpr double earth = 6.4e6;  // north far from a radar is not north at it
-  const double north_elsewhere = recording.polar() && !recording.located() ? 2.0 * places_.farthest() / earth : 0.0;
-  rates_.say(say, recording, repeats_.velocities(), step, north_elsewhere);
-  places_.say(say, recording, step, repeats_.no_truth());
-  say_reading(say, recording);
+  const double north_elsewhere =
+      recording.polar() && !recording.located() ? 2.0 * parts_->stations.farthest() / earth : 0.0;
+  parts_->rates.say(say, recording, parts_->repeats.velocities(), step, north_elsewhere);
+  parts_->stations.say(say, recording, step, parts_->repeats.no_truth());
+  parts_->say_reading(say, recording);
   double moved = 0.0, duration = 0.0;
   std::vector<const Repeats::Sensor*> sensors;
-  for (const auto& [name, track] : tracks_) {
+  for (const auto& [name, track] : parts_->tracks) {
     if (!track.first) continue;
     duration += track.time - track.first_time;
     moved += length(*track.first - *track.last);
     for (const auto& [sensor, own] : track.sensors) sensors.push_back(&own.repeats);
   }
-  repeats_.say_interpolated(say, sensors, rounding(recording));
-  repeats_.say(say, recording, tracks_.size(), moved);
-  clocks_.say(say, recording, tracks_.size() == 1, moved / duration);
+  parts_->repeats.say_interpolated(say, sensors, rounding(recording));
+  parts_->repeats.say(say, recording, parts_->tracks.size(), moved);
+  parts_->clocks.say(say, recording, parts_->tracks.size() == 1, moved / duration);
   return std::move(say.sentences);
 }
 

@@ -7,7 +7,7 @@
 #include "recording/recording.hpp"
 
 /// What the doubts about a recording have in common: what a sensor told, how two kinds of numbers agree, and how a
-/// doubt is said. Each kind of doubt sees row by row and has a file: the rates, the clocks, the places, and what is
+/// doubt is said. Each kind of doubt sees row by row and has a file: the rates, the clocks, the stations, and what is
 /// repeated.
 namespace sigmax::apps::doubts {
 

@@ -7,7 +7,7 @@
 namespace sigmax::apps::doubts {
 
 /// Whether sensors stand and look where they are said to: by the truth, by positions, and by each other.
-class Places {
+class Stations {
  public:
   struct Bearing {
     Position from;

@@ -1,4 +1,4 @@
-#include "recording/doubts/places.hpp"
+#include "recording/doubts/stations.hpp"
 
 #include <set>
 
@@ -16,7 +16,7 @@ bool cross(const Position& a, double alpha, const Position& b, double beta) {
 
 }  // namespace
 
-void Places::see(const AnyPlot& plot, const std::optional<Vector<3>>& reference, std::optional<Bearing>& before) {
+void Stations::see(const AnyPlot& plot, const std::optional<Vector<3>>& reference, std::optional<Bearing>& before) {
   const bool is_bearing = plot.sensor == AnyPlot::Sensor::bearing;
   const double azimuth = plot.z[is_bearing ? 0 : 1], north = 90.0 * degree;
   const Position& from = plot.origin;
@@ -37,7 +37,7 @@ void Places::see(const AnyPlot& plot, const std::optional<Vector<3>>& reference,
   before = {from, azimuth};
 }
 
-void Places::see_error(const Spoke& last, const Spoke& now) {
+void Stations::see_error(const Spoke& last, const Spoke& now) {
   const double off = length(now.error);
   if (std::isnan(off + last.error[0])) return;
   ++errors_;
@@ -50,8 +50,8 @@ void Places::see_error(const Spoke& last, const Spoke& now) {
   next_ += now.error.array() * last.error.array();
 }
 
-void Places::see_other(const std::string& sensor, const Spoke& last, const Spoke& now, const Vector<3>& bend,
-                       const std::string& other, const Spoke& told) {
+void Stations::see_other(const std::string& sensor, const Spoke& last, const Spoke& now, const Vector<3>& bend,
+                         const std::string& other, const Spoke& told) {
   constexpr std::size_t most_pairs = 100, enough = 1000;
   const std::pair pair(sensor, other);
   const auto known = apart_.find(pair);
@@ -62,7 +62,7 @@ void Places::see_other(const std::string& sensor, const Spoke& last, const Spoke
 
 /// What accounts for most of it, in each quarter of the rows, since errors that last come and go: a shift, or so many
 /// times something of the row. Empty if nothing does.
-std::string Places::why_apart(const std::vector<Off>& rows, int axes) {
+std::string Stations::why_apart(const std::vector<Off>& rows, int axes) {
   const auto median_of = [](std::span<const Off> some, const auto& number) {
     std::vector<double> all;
     for (const Off& row : some)
@@ -121,7 +121,7 @@ std::string Places::why_apart(const std::vector<Off>& rows, int axes) {
 
 /// By how much the measurements are off the truth on the average, where that is half of their scatter or more and six
 /// standard errors, of errors that last as these do; else nothing.
-std::string Places::shifted() const {
+std::string Stations::shifted() const {
   const auto n = static_cast<double>(errors_);
   Eigen::Array3d mean = error_ / n, variances = square_ / n - mean * mean;
   std::vector<std::string> parts;
@@ -141,7 +141,7 @@ std::string Places::shifted() const {
                      fmt::join(parts, ", "), std::sqrt(scatter));
 }
 
-void Places::say_azimuths(Say& say, const RecordingReader& recording) const {
+void Stations::say_azimuths(Say& say, const RecordingReader& recording) const {
   const auto n = static_cast<double>(azimuths_);
   // 1 − cos of an error is half of its square: so it is three times as great, and above 2.5°.
   const auto fits = [&](double sum) { return azimuths_ >= few && n - as_read_ > std::max(9.0 * (n - sum), 1e-3 * n); };
@@ -158,7 +158,7 @@ void Places::say_azimuths(Say& say, const RecordingReader& recording) const {
           : "see whether the stations stand where it is said, and how azimuths run");
 }
 
-void Places::say_truth(Say& say, double step) const {
+void Stations::say_truth(Say& say, double step) const {
   if (errors_ < few) return;
   const double lag = lag_.growth_per_told();
   if (lag_.tells_a_delay(0.5, step))
@@ -179,7 +179,7 @@ void Places::say_truth(Say& say, double step) const {
       shift);
 }
 
-void Places::say_sensors(Say& say, const RecordingReader& recording) const {
+void Stations::say_sensors(Say& say, const RecordingReader& recording) const {
   constexpr double earth = 6.371e6, far_away = 4e5;
   if (recording.seen_from_places() && recording.axes() == 2 && farthest_ > far_away)
     return say(true,
@@ -199,7 +199,7 @@ void Places::say_sensors(Say& say, const RecordingReader& recording) const {
   }
 }
 
-void Places::say(Say& say, const RecordingReader& recording, double step, bool no_truth) const {
+void Stations::say(Say& say, const RecordingReader& recording, double step, bool no_truth) const {
   say_azimuths(say, recording);
   if (!no_truth) say_truth(say, step);
   say_sensors(say, recording);
