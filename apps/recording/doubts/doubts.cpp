@@ -56,8 +56,9 @@ struct Doubts::Parts {
   struct Track {
     double first_time = 0.0, time = 0.0;  // of those with a position
     std::optional<Vector<3>> first{}, last{};
-    std::optional<Vector<3>> located{};          // by a sensor of positions
-    std::optional<Stations::Bearing> bearing{};  // the last one
+    std::optional<Vector<3>> located{};             // by a sensor of positions
+    std::optional<Stations::Bearing> bearing{};     // the last one
+    std::map<std::string, Stations::Path> paths{};  // that each radar saw
     std::map<std::string, Sensor> sensors{};
     std::string latest{};  // of them
   };
@@ -98,6 +99,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
   if (is_radar || plot.sensor == AnyPlot::Sensor::bearing)
     parts_->stations.see(plot, truth ? truth : track.located, track.bearing);
+  if (is_radar) parts_->stations.see_path(plot, track.paths[row.sensor]);
   if (!position || axes_seen(plot, axes) < axes) return;
   const Vector<3> at(position->data());
   parts_->stations.see(at);

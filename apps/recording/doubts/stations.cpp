@@ -37,6 +37,25 @@ void Stations::see(const AnyPlot& plot, const std::optional<Vector<3>>& referenc
   before = {from, azimuth};
 }
 
+void Stations::see_path(const AnyPlot& plot, Path& path) {
+  const Position& from = plot.origin;
+  const double elevation = plot.size > 2 && plot.sensor == AnyPlot::Sensor::polar ? plot.z[2] : 0.0;
+  const double ground = plot.z[0] * std::cos(elevation), c = ground * std::cos(plot.z[1]),
+               s = ground * std::sin(plot.z[1]);
+  const bool moves = path.from && *path.from != from;
+  path.from = from;
+  path.at[0].keep({from[0] + c, from[1] + s, 0.0});
+  path.at[1].keep({from[0] + s, from[1] + c, 0.0});
+  path.times.keep(plot.time);
+  constexpr std::size_t lag = 3, twice = 2 * lag;  // over which a turn shows beyond noise
+  if (!moves || !path.times.reaches(twice)) return;
+  ++bends_.count;
+  for (std::size_t i = 0; i < bends_.sums.size(); ++i) {
+    const auto& at = path.at[i];
+    bends_.sums[i] += length(off_the_way(path.times[lag], at[lag], path.times[twice], at[twice], path.times[0], at[0]));
+  }
+}
+
 void Stations::see_error(const Spoke& last, const Spoke& now) {
   const double off = length(now.error);
   if (std::isnan(off + last.error[0])) return;
@@ -150,6 +169,10 @@ void Stations::say_azimuths(Say& say, const RecordingReader& recording) const {
       other_way_of_azimuths(recording), remedy_of_azimuths(recording));
   say(fits(radians_) && !recording.from_north(),
       "the azimuths do not fit the {}, but would if they were radians: name the column azimuth_rad", reference);
+  const auto& [as_read, mirrored] = bends_.sums;
+  say(bends_.count >= 2 * few && mirrored < 0.3 * as_read && !fits(other_way_),
+      "the ways of targets bend {:.2g} times as much as if azimuths ran {}: {}; or the sensor's x is its y",
+      as_read / mirrored, other_way_of_azimuths(recording), remedy_of_azimuths(recording));
   const bool diverge = pairs_ >= few && pairs_ > 3 * crossing_;
   const bool would_cross = 9 * pairs_ < 10 * crossing_other_;
   say(diverge, "of {} pairs of bearings {} cross ahead of both their stations; {}", pairs_, crossing_,

@@ -14,6 +14,14 @@ class Stations {
     double azimuth;
   };
 
+  /// Where a radar that moves saw its target, read as it is, and with its azimuths the other way; which bends as if its
+  /// own x were its y.
+  struct Path {
+    std::array<Recent<Vector<3>>, 2> at{};
+    Recent<double> times{};
+    std::optional<Position> from{};
+  };
+  void see_path(const AnyPlot& plot, Path& path);
   /// A plot, and the truth or the last position of its track.
   void see(const AnyPlot& plot, const std::optional<Vector<3>>& reference, std::optional<Bearing>& before);
   /// A position.
@@ -46,6 +54,10 @@ class Stations {
   std::size_t azimuths_ = 0;
   double as_read_ = 0.0, other_way_ = 0.0, radians_ = 0.0;     // sums of cosines of azimuths' errors
   std::size_t pairs_ = 0, crossing_ = 0, crossing_other_ = 0;  // bearings of two places
+  struct {
+    std::size_t count = 0;
+    std::array<double, 2> sums{};
+  } bends_;  // of paths, so read
   double farthest_ = 0.0;
   std::size_t errors_ = 0, same_ = 0;  // about the truth, and those that are much as the one before
   double off_ = 0.0;                   // sum of those
