@@ -219,6 +219,7 @@ Option Subcommand::option(const std::string& name, Value& value, const std::stri
   if constexpr (std::is_same_v<Value, std::string>)  // CLI11 takes what follows, whatever it is
     added.check([app = &app_](const std::string& text) -> std::string {
       const bool is_option = text.starts_with("--") && app->get_option_no_throw(text) != nullptr;
+      if (text.empty()) return "found nothing, expected a value";  // as of an unset variable of the shell
       return is_option ? fmt::format("found the option {}, expected a value", text) : "";
     });
   return added;
