@@ -202,6 +202,10 @@ class RowReader {
   /// Where a cell is among names.
   std::size_t place(const CsvRow& row, std::size_t column, const std::vector<std::string>& names, const char* what) {
     const auto found = std::ranges::find(names, trimmed(row[column]));
+    if (found == names.end() && unseen_is_missing_ && unseen_cells_ > 0) {  // the first one is told
+      ++unseen_cells_;
+      return missing;
+    }
     if (found == names.end()) {
       const auto other = std::ranges::find_if(names, [&](const std::string& name) {
         return !alike({name, trimmed(row[column])}).empty();

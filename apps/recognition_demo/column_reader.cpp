@@ -164,8 +164,10 @@ void ColumnReader::refuse_slip(const std::string& file) const {
            "write the numbers alone, all in one unit, and the unit into the name of the column");
   if (slips_.size() > few_slips)  // what stands for no value comes again
     refuse("a plain number", numeric_cells_,
-           "write it, and all others that are written so, as plain numbers: -0.05 for (0.05) or 0.05-, and one for a "
-           "range");
+           fmt::format(
+               "write it, and all others that are written so, as plain numbers: -0.05 for (0.05) or 0.05-, and one "
+               "for a range; names, as of tickets, go by --categorical {0}, or --ignore {0}",
+               typed(name_)));
   refuse("a number with a decimal point", numeric_cells_,
          fmt::format("correct it, drop the line if it is none of data, name it by --missing={}, or take the column as "
                      "words by --categorical {}",

@@ -259,17 +259,19 @@ void warn_of_repeats(DataTable& table) {
              "each combination of words and classes stands once, as in a table of counts{}: each row counts once here; "
              "write one row for each that was counted",
              of_counts.empty() ? "" : fmt::format(" (column {})", in_quotes(of_counts)));
-  const auto by_no_chance = [&](std::size_t differ, std::size_t all) {
+  // Whether one in so many repeats another, and not by chance.
+  const auto repeat = [&](std::size_t differ, std::size_t all, std::size_t one_in) {
     const auto pairs = static_cast<double>(all) * static_cast<double>(all) / 2.0;
     const bool few_would = fine >= 2 || 10.0 * pairs * alike < static_cast<double>(all - differ);
-    return few_would && all >= few_rows && all >= 2 * differ;
+    return few_would && all >= few_rows && one_in * (all - differ) >= all;
   };
-  const bool all_of_them = by_no_chance(size, rows.with_copies);
-  if (all_of_them) warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
-  for (const auto& [label, counts] : rows.of_class)
-    if (const auto [differ, all] = counts; !all_of_them && by_no_chance(differ, all))
-      warn_of_copies(fmt::format("the rows of class {}", in_quotes(table.classes[static_cast<std::size_t>(label)])),
-                     differ, all);
+  if (!repeat(size, rows.with_copies, 2))
+    for (const auto& [label, counts] : rows.of_class)
+      if (const auto [differ, all] = counts; repeat(differ, all, 2))
+        warn_of_copies(fmt::format("the rows of class {}", in_quotes(table.classes[static_cast<std::size_t>(label)])),
+                       differ, all);
+  if (!table.has_copies && repeat(size, rows.with_copies, 10))
+    warn_of_copies(fmt::format("{} rows", table.size()), size, rows.with_copies);
   std::vector<bool> repeated(ranks.size());  // an earlier column
   const auto says_the_same = [&](std::size_t i, std::size_t j) {
     if (repeated[i] || repeated[j]) return false;
@@ -536,7 +538,7 @@ DataTable read_data(const std::string& file, const DataOptions& options, bool qu
              "a merged one of a spreadsheet, fill them",
              mostly_empty.size(), columns.size(), listed(mostly_empty, 3));
   warn_of_gaps(table);
-  warn_of_order(table);
+  if (!options.grouped) warn_of_order(table);
   warn_of_repeats(table);
   for (const ColumnReader& column : columns) column.warn(table);
   return table;

@@ -22,6 +22,7 @@ struct DataOptions {
   std::vector<std::string> categorical;  ///< columns to take as words although they hold numbers, or "all"
   std::vector<std::string> ignore;       ///< columns to leave out
   std::vector<std::string> missing;      ///< words that stand for nothing, beside the usual ones
+  bool grouped = false;                  ///< whether what belongs together is kept so by --groups
 };
 
 class DataTable;
@@ -52,7 +53,7 @@ class DataTable {
   std::vector<std::size_t> rows_of_class;
   std::vector<DataColumn> columns;
   std::vector<std::string> warnings;  ///< what the reader of the results should know
-  bool has_copies = false;            ///< whether half of the rows, or of those of a class, seem to be copies
+  bool has_copies = false;            ///< whether a tenth of the rows, or half of those of a class, seem to be copies
 
   /// Adds what a reader of the results should know of the file, if it holds.
   void warn(bool holds, std::string_view format, const auto&... words) {

@@ -244,7 +244,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
   if (accuracy > very_good && data.columns.size() > 1) {
     const auto relations = learned_relations(learn(data, options.learning).counts, options.learning.smoothing);
     const auto most = static_cast<std::size_t>(std::ranges::max_element(relations, {}, telling) - relations.begin());
-    const auto shares = right_when_left_out(data, options.learning, options.seed, options.threads, most);
+    const auto shares = right_when_left_out(data, options.learning, options.seed, options.threads, {most});
     double without = 0.0;
     for (std::size_t c = 0; c < shares.size(); ++c)
       without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
@@ -255,28 +255,29 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
           "out by --ignore {}",
           in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
   }
-  const auto by_no_chance = [](const Interval& share, double least) {
-    return share.mean > least && share.mean > 1.5 * share.half_width;
-  };
   bool any = false;
   for (const std::size_t column : columns_of_groups(data, options.learning)) {
     const auto by = by_column(data, options.learning, column, options.seed, options.threads);
     if (!by) continue;
+    const auto names = each(by->hidden, [&](std::size_t one) { return in_quotes(data.columns[one].name); });
     const std::string& name = data.columns[column].name;
     const bool are_groups = by_no_chance(by->less, 0.05);
     any |= are_groups;
     if (are_groups)
       result.say(
-          "{:.1f} % are right by sigma without column {}, and {:.1f} % where rows of the same {} are in one fold: if "
-          "other rows are of others, expect the latter; --groups {} keeps them together",
-          100.0 * by->without, in_quotes(name), 100.0 * (by->without - by->less.mean), name, typed(name));
+          "{:.1f} % are right by sigma without column{} {}, and {:.1f} % where rows of the same {} are in one fold: if "
+          "other "
+          "rows are of others, expect the latter; --groups {}{} keeps them together",
+          100.0 * by->without_all, names.size() > 1 ? "s" : "", fmt::join(names, ", "),
+          100.0 * (by->without_all - by->less.mean), name, typed(name),
+          by->values < options.folds ? fmt::format(" --folds {}", by->values) : "");
     else if (by_no_chance(by->more, less))
       result.say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
                  100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
   }
   if (any) return;
   const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
-  if (clumps && by_no_chance(clumps->less, less))
+  if (are_in_clumps(clumps))
     result.say(
         "{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
         "one thing, as a person, a place or a session, or made of one another, the others are too good; keep those of "
@@ -388,7 +389,7 @@ void run_evaluate(const EvaluateOptions& options) {
   refuse_to_overwrite(options.output, {options.file}, {"predictions.csv", "confusion.csv"});
   ResultFiles files(options.output);
   const DataTable data = read_data(options.file, options.data, options.output.quiet);
-  print_warnings(data, options.learning);
+  print_warnings(data, options.learning, options.data.grouped);
   if (options.folds > data.size())
     throw InputError("{}: found {} rows, expected at least as many as the {} folds", data.file, data.size(),
                      options.folds);
@@ -440,7 +441,8 @@ void add_evaluate(CLI::App& program, const std::string& command) {
     if (!options->groups.empty() && options->file == "-")
       throw UsageError("--groups reads the data twice: it takes no standard input");
     if (options->groups == options->data.label) throw UsageError("--groups: the label cannot be what rows are of, too");
-    if (!options->groups.empty()) options->data.ignore.push_back(options->groups);
+    options->data.grouped = !options->groups.empty();
+    if (options->data.grouped) options->data.ignore.push_back(options->groups);
     run_evaluate(*options);
   });
 }

@@ -93,7 +93,15 @@ TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, c
   LearnedModel model = learn(
       data, options, [&](const DataRow& row) { return fold_of[row.index] != fold && fold_of[row.index] != no_fold; });
   auto contestants = classifiers(model, kinds);
-  return {fold, std::move(model), std::move(contestants)};
+  std::vector<std::vector<bool>> known(model.features.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (model.features[i].bins) continue;
+    known[i].resize(model.features[i].values.size());
+    for (std::size_t c = 0; c < data.classes.size(); ++c)
+      for (std::size_t value = 0; value < known[i].size(); ++value)
+        known[i][value] = known[i][value] || model.counts.of(i, c)[value] > 0.0;
+  }
+  return {fold, std::move(model), std::move(contestants), std::move(known)};
 }
 
 namespace {
@@ -103,7 +111,7 @@ bool any_part_teaches(const LearningOptions& options) { return options.smoothing
 
 /// Of each row that has a fold whether sigma is right about it, by what the rows of other folds teach.
 Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t number, const LearningOptions& options,
-                     int threads, std::optional<std::size_t> without = {}) {
+                     int threads, const std::vector<std::size_t>& hidden = {}) {
   Right right;
   for (std::size_t row = 0; row < data.size(); ++row) right.push_back(0);
   in_parallel(number, threads_or_all(threads), [&](std::size_t fold) {
@@ -111,7 +119,7 @@ Right right_of_sigma(const DataTable& data, const Folds& folds, std::size_t numb
     const auto note = [&](const DataRow& row, std::size_t, const Judged& judged) {
       right.set(row.index, decide(std::get<Belief<Random>>(judged.belief)).pattern == row.label() ? 1 : 0);
     };
-    classify_rows(data, folds, by, 0, 1, note, without);
+    classify_rows(data, folds, by, 0, 1, note, hidden);
   });
   return right;
 }
@@ -200,12 +208,12 @@ Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64&
 }  // namespace
 
 std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
-                                        int threads, std::optional<std::size_t> without) {
+                                        int threads, const std::vector<std::size_t>& hidden) {
   constexpr std::size_t long_table = 50000;
   const std::size_t number = data.size() > long_table ? 3 : std::min<std::size_t>(10, data.size());
   if (!any_part_teaches(options) || std::ranges::min(data.rows_of_class) < 2) return {};
   std::mt19937_64 generator(seed);
-  const Right right = right_of_sigma(data, folds_of(data, number, generator), number, options, threads, without);
+  const Right right = right_of_sigma(data, folds_of(data, number, generator), number, options, threads, hidden);
   ScratchCursor<std::uint8_t> is_right(right);
   std::vector<double> shares(data.classes.size());
   data.for_each([&](const DataRow& row) { shares[row.label()] += is_right[row.index]; });
@@ -216,7 +224,7 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
 std::vector<std::size_t> columns_of_groups(const DataTable& data, const LearningOptions& options) {
   constexpr std::size_t fewest = 4, most_columns = 8, most_rows = 50000;
   constexpr double little = 0.05;
-  if (data.size() > most_rows) return {};
+  if (data.size() > most_rows || std::ranges::count_if(data.columns, &DataColumn::numeric) < 2) return {};
   std::vector<std::map<double, std::size_t>> values(data.columns.size());  // and their rows
   std::vector<bool> whole(data.columns.size(), true);
   data.for_each([&](const DataRow& row) {
@@ -242,6 +250,27 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
   return columns;
 }
 
+namespace {
+
+/// Columns of which each word stands beside one value of another column only, as a town beside its region.
+std::vector<std::size_t> nested_in(const DataTable& data, std::size_t column) {
+  std::vector<std::map<double, double>> beside(data.columns.size());
+  std::vector<bool> is_nested(data.columns.size());
+  for (std::size_t i = 0; i < is_nested.size(); ++i) is_nested[i] = i != column && !data.columns[i].numeric;
+  data.for_each([&](const DataRow& row) {
+    const double value = row.value(column);
+    for (std::size_t i = 0; i < is_nested.size(); ++i)
+      if (is_nested[i] && !std::isnan(row.value(i)))
+        is_nested[i] = beside[i].try_emplace(row.value(i), value).first->second == value;
+  });
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < is_nested.size(); ++i)
+    if (is_nested[i]) columns.push_back(i);
+  return columns;
+}
+
+}  // namespace
+
 std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
                                   std::uint64_t seed, int threads) {
   constexpr std::size_t most_folds = 10, most_asked = 10000, most_dealings = 8;
@@ -251,15 +280,19 @@ std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& 
   data.for_each([&](const DataRow& row) {
     groups.push_back(numbers.try_emplace(row.value(column), static_cast<std::uint32_t>(numbers.size())).first->second);
   });
+  ByColumn result{.hidden = nested_in(data, column)};
+  result.hidden.insert(result.hidden.begin(), column);
+  result.values = numbers.size();
   std::mt19937_64 generator(seed);
   const std::size_t number = std::min({most_folds, numbers.size(), data.size()});
   const std::size_t dealings = std::clamp<std::size_t>(most_asked / data.size(), 1, most_dealings);
-  std::vector<std::array<double, 3>> times(data.size());  // right with the column, without, and by whole values
-  try {
+  std::vector<std::array<double, 4>> times(data.size());  // right with all, without the column, and those in it; and so
+  try {                                                   // by whole values
     for (std::size_t dealing = 0; dealing < dealings; ++dealing) {
       const Folds any = folds_of(data, number, generator), whole = folds_of(data, groups, number, generator);
-      const std::pair<const Folds&, std::optional<std::size_t>> ways[] = {{any, {}}, {any, column}, {whole, column}};
-      for (std::size_t way = 0; way < 3; ++way) {
+      const std::pair<const Folds&, std::vector<std::size_t>> ways[] = {
+          {any, {}}, {any, {column}}, {any, result.hidden}, {whole, result.hidden}};
+      for (std::size_t way = 0; way < std::size(ways); ++way) {
         const Right right = right_of_sigma(data, ways[way].first, number, options, threads, ways[way].second);
         ScratchCursor<std::uint8_t> is_right(right);
         for (std::size_t row = 0; row < data.size(); ++row)
@@ -269,13 +302,11 @@ std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& 
   } catch (const InputError&) {  // a class is in one of its values only
     return std::nullopt;
   }
-  RunningMean right, more, less;
-  for (const auto& [with, without, whole] : times) {
-    right.add(without);
-    more.add(without - with);
-    less.add(without - whole);
-  }
-  return ByColumn{right.mean(), more.interval(), less.interval()};
+  result.without = mean_interval(each(times, [](const auto& row) { return row[1]; })).mean;
+  result.more = mean_interval(each(times, [](const auto& row) { return row[1] - row[0]; }));
+  result.less = mean_interval(each(times, [](const auto& row) { return row[2] - row[3]; }));
+  result.without_all = mean_interval(each(times, [](const auto& row) { return row[2]; })).mean;
+  return result;
 }
 
 std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
@@ -352,12 +383,12 @@ std::optional<std::size_t> better_bins(const DataTable& data, const LearningOpti
 
 }  // namespace
 
-void print_warnings(const DataTable& data, const LearningOptions& options) {
+void print_warnings(const DataTable& data, const LearningOptions& options, bool grouped) {
   for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);
   const auto coarse = warn_of_bins(data, options);
-  // Of copies the other one would be found again.
-  const auto bins = coarse.empty() || data.has_copies ? std::nullopt : better_bins(data, options);
-  if (bins)
+  // Of copies, or of rows of one thing, the other one would be found again.
+  const auto bins = coarse.empty() || data.has_copies || grouped ? std::nullopt : better_bins(data, options);
+  if (bins && !are_in_clumps(by_clumps(data, options, 1, 0)))
     complain(fmt::format(
         "recognition_demo: warning: {}: {} bins put together numbers of {} that tell different classes: "
         "give --bins {}{}, or take what is codes or hours by --categorical",

@@ -47,7 +47,8 @@ std::string_view instead_of(std::string_view header) {
   constexpr std::string_view height = "a height is altitude_m beside a latitude, else z_m";
   constexpr std::string_view sensor = "what tells sensors apart is sensor";
   constexpr std::string_view elevation = "an angle upwards from the horizon is elevation_deg";
-  constexpr std::string_view heading = "a course is track_deg; where azimuths are from the bow, add it to them";
+  constexpr std::string_view heading =
+      "a course is track_deg; where azimuths, or velocities, are from the bow, turn them by it";
   constexpr std::string_view minutes = "minutes of degrees do not count: add a 60th of them to the degrees";
   constexpr std::pair<std::string_view, std::string_view> stems[] = {
       {"accuracy", sigma},
@@ -66,6 +67,7 @@ std::string_view instead_of(std::string_view header) {
       {"heading", heading},
       {"sensor_heading", heading},
       {"sensor_yaw", heading},
+      {"yaw", heading},
       {"latitude_min", minutes},
       {"longitude_min", minutes},
       {"lat_min", minutes},

@@ -29,7 +29,10 @@ double in_seconds(double number, double unit_s) {
 
 /// Whether a header names a unit at its end: altitude_ft, Altitude (ft), X [ft].
 bool says_unit(std::string_view header, std::string_view unit) {
-  for (const std::string_view other : {unit, unit == "ft" ? "feet" : unit == "m" ? "meters" : unit})
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"ft", "feet"}, {"m", "meters"}, {"kmh", "km/h"}, {"mps", "m/s"}, {"kt", "knots"}, {"deg", "degrees"}};
+  const auto known = std::ranges::find(others, unit, [](const auto& one) { return one.first; });
+  for (const std::string_view other : {unit, known == std::end(others) ? unit : known->second})
     if (header.ends_with(fmt::format("_{}", other)) || header.ends_with(fmt::format("({})", other)) ||
         header.ends_with(fmt::format("[{}]", other)))
       return true;
@@ -550,9 +553,11 @@ AnyPlot RecordingReader::radar_plot() const {
   if (!is_bearing && !(*said(Role::polar) > 0.0))
     throw error(Role::polar, 0, "a range above 0 m", "correct the cell, or empty those of a missed measurement");
   if (!(std::abs(said(Role::polar, 2).value_or(0.0)) <= 90.0))
-    throw error(Role::polar, 2, "degrees from −90 to 90", "correct the cell");
+    throw error(Role::polar, 2, from_zenith_ ? "degrees from 0 to 180" : "degrees from −90 to 90",
+                "correct the cell; if all are gon or mils, write degrees");
   const double azimuth = *said(Role::polar, 1);
-  if (!(std::abs(azimuth) <= 360.0)) throw error(Role::polar, 1, "degrees from −360 to 360", "correct the cell");
+  if (!(std::abs(azimuth) <= 360.0))
+    throw error(Role::polar, 1, "degrees from −360 to 360", "correct the cell; if all are gon or mils, write degrees");
   const double from_east = (from_north_ ? 90.0 - azimuth : azimuth) * degree;
   const double sigma_azimuth = said(Role::sigma_polar, 1).value_or(nan) * degree;
   if (is_bearing) return AnyPlot::bearing(0.0, from_east, sigma_azimuth * sigma_azimuth);
@@ -654,7 +659,8 @@ std::string RecordingReader::taken() const {
     for (const auto units : {std::span<const Unit>(units::lengths), std::span<const Unit>(units::speeds),
                              std::span<const Unit>(units::angles), std::span<const Unit>(units::foreign)})
       for (const Unit& other : units)
-        if (other.words != columns_[q]->unit->words && says_unit(header, other.suffix) && !is_accuracy(quantity.role))
+        if (other.words != columns_[q]->unit->words && says_unit(header, other.suffix) &&
+            quantity.role != Role::covariance)
           part += fmt::format(", as --columns says, and not in {}", other.words);
     const bool is_height = q == place_of(Role::place) + 2 || q == place_of(Role::position) + 2;
     if (is_height && lower_case(header).find("depth") != header.npos)

@@ -213,22 +213,25 @@ class Reporter {
     warn(senseless > 0,
          "{}:{}: no measurement can be that great; {} such {} as missed; leave the cells empty where there is none",
          file_, first_senseless, senseless, senseless == 1 ? "row counts" : "rows count");
-    const Sums* const consistent =
-        greatest([](const Sums& sums) { return sums.innovations.count() >= 10; },
-                 [](const Sums& sums) { return sums.innovations.mean_nis() / sums.innovations.expected_nis(); });
+    // Those of the least and of the greatest NIS; one with a fuzzy mode hides what another shows.
+    const auto ratio = [](const Sums& sums) { return sums.innovations.mean_nis() / sums.innovations.expected_nis(); };
+    const auto known = [](const Sums& sums) { return sums.innovations.count() >= 10; };
+    const Sums* const consistent = greatest(known, [&](const Sums& sums) { return -ratio(sums); });
+    const Sums* const surest = greatest(known, ratio);
     const Sums best = consistent ? *consistent : Sums{};
     const double nis = best.innovations.mean_nis(), usual = best.innovations.expected_nis();
     const double low_nis = recording_.tells_accuracy() ? 0.2 : 0.1;
-    const bool low = consistent && worst.many == 0 && nis < low_nis * usual;  // what the gate lets pass has a low one
+    const bool are_low = consistent && (ratio(*surest) < low_nis || ratio(best) < low_nis / 2.0);
+    const bool low = are_low && worst.many == 0;  // what the gate lets pass has a low one
     const double share = best.predicted_share.count() > 0 ? best.predicted_share.mean() : 0.0;
     const bool by_prediction = share > 0.5 && nis >= low_nis * usual * (1.0 - share);
     const bool alone = nis >= 0.5 * usual * (1.0 - share);
     warn(low && by_prediction,
-         "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
+         "{}: the mean NIS is {:.2g}, where {:.3g} is expected, and {:.0f} % of the variance of an innovation "
          "is the prediction's: {} too great for this target",
          file_, nis, usual, 100.0 * share, alone ? "sigma_w is" : "sigma_w and the sensor's sigmas are");
     warn(low && !by_prediction,
-         "{}: the mean NIS is {:.2g} at most, where {:.3g} is expected: the measurements are far better than the "
+         "{}: the mean NIS is {:.2g}, where {:.3g} is expected: the measurements are far better than the "
          "sensor's sigmas say, their errors last, as those of a GNSS do, or they are in another unit than was taken; "
          "headers may name one, as range_nmi, range_km, altitude_ft",
          file_, nis, usual);
@@ -236,7 +239,7 @@ class Reporter {
       return one.with_velocity.count() < 50 ? 0.0 : one.with_velocity.autocorrelation();
     };
     const double lasts = lasting(*std::ranges::min_element(outcome_.filters, {}, lasting));
-    warn(consistent && !low && lasts > 0.5 && nis < usual,
+    warn(surest && !low && lasts > 0.5 && ratio(*surest) < 1.0,
          "{}: neighbouring innovations of positions are much the same (correlation {:.2f}), beside velocities that "
          "count: errors of positions that last, as those of a GNSS do, make the estimates worse than they say; raise "
          "sigma_position_m",
@@ -251,11 +254,11 @@ class Reporter {
          "it has the same axes and times, and, if so, raise sigma_w or the sensor's sigmas",
          file_, error, stated,
          measured > 0.0 && measured < error ? fmt::format("; the measurements are {:.3g} m off", measured) : "");
-    warn(causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && consistent && best.innovations.count() >= 50 &&
-             best.innovations.share_inside() < 0.8,
+    warn(causes == 0 && warnings.size() == (few_outliers ? 1 : 0) && surest && surest->innovations.count() >= 50 &&
+             surest->innovations.share_inside() < 0.8,
          "{}: {:.0f} % of the measurements are where the filters expect 95 %: raise sigma_w or the sensor's sigmas; "
          "himm_demo tune fits them",
-         file_, 100.0 * best.innovations.share_inside());
+         file_, surest ? 100.0 * surest->innovations.share_inside() : 0.0);
     for (const auto& filter : filters_)
       for (const auto& [sensor, own] : filter.sensors)
         warn(!outcome_.sensors.contains(sensor), "key 'sensor.{}' of filter '{}': no row of {} is of that sensor",

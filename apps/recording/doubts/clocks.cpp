@@ -11,6 +11,7 @@ void Clocks::see(double time) {
   ++times_;
   if (std::fmod(time, 100.0) < 60.0 && std::fmod(hundreds, 100.0) < 60.0) ++clocks_;
   if (std::fmod(time, 50.0) != 0.0) ++uneven_;
+  if (time != std::floor(time)) ++fractions_;
   if (hundreds != hundreds_) ++minutes_;
   if (std::floor(hundreds / 100.0) != std::floor(std::exchange(hundreds_, hundreds) / 100.0)) ++hours_;
   latest_ = time;
@@ -21,12 +22,22 @@ void Clocks::see(double time, std::optional<double> before) {
   if (before && steps_.size() < many) steps_.push_back(time - *before);
 }
 
+void Clocks::see_way(double step, double way) {
+  constexpr std::size_t most = 16;
+  path_ += way;
+  if (ways_.size() == most && !ways_.contains(step)) return;
+  auto& [count, sum] = ways_[step];
+  ++count;
+  sum += way;
+}
+
 void Clocks::see_slip(const Trail& trail, const Spoke& now) {
   const double dt = now.time - trail.last.time, leap = dt - trail.step;
   if (!trail.recent.reaches(3) || !(dt > 50.0 * trail.step)) return;
   const auto move = [&](std::size_t ago) -> Vector<3> { return trail.recent[ago] - trail.recent[ago + 1]; };
   const double usual = length(move(1));
-  if (!(length(move(2) - move(1)) < 0.2 * usual && length(move(0) - move(1)) < 0.2 * usual)) return;
+  constexpr double about = 0.5;  // as even a way is that is seen with noise
+  if (!(length(move(2) - move(1)) < about * usual && length(move(0) - move(1)) < about * usual)) return;
   // By a zone or a day, rather than for as long as a target waits whose ways are as long as each other.
   constexpr double quarter = 900.0, years = 1e7;
   const bool is_clock = leap > years || std::abs(std::remainder(leap, quarter)) < 0.5 * trail.step;
@@ -67,11 +78,11 @@ void Clocks::say_reading(Say& say, const RecordingReader& recording, double step
       "times have another zone from line {} on, {:.6g} s after the one before, and those without a zone were taken as "
       "UTC; see whether each has the zone that it was told in",
       zone.line, zone.step);
-  say(recording.at_one_time() > std::max(recording.rows(), few),
+  say(recording.at_one_time() > std::max(recording.rows() / (recording.has_tracks() ? 4 : 1), few),
       "{} rows have the time of the row before, and were skipped: if times were rounded, as to whole seconds, write "
       "them in full{}",
       recording.at_one_time(),
-      recording.has_tracks() ? ""
+      recording.has_tracks() ? "; if several targets have one name, give each its own"
                              : "; if rows are of several targets, name the column that tells them apart by --track-id");
   const std::string date = recording.times_of_day() ? recording.unread_date() : "";
   say(!date.empty(), "times are those of a day, beside a column {} that is not read: give --columns date={}",
@@ -82,6 +93,23 @@ void Clocks::say_reading(Say& say, const RecordingReader& recording, double step
       "it; or, where a clock begins anew (at midnight, with the week, after summer time or a restart), add from there "
       "on what it went back",
       left, left_by);
+}
+
+/// Of a target that goes somewhere: the two steps that are most frequent, and whether the longer one leads no farther.
+void Clocks::say_cut(Say& say, double moved) const {
+  if (fractions_ > 0 || ways_.size() < 2 || 2.0 * moved < path_) return;
+  std::vector<std::pair<double, std::pair<std::size_t, double>>> steps(ways_.begin(), ways_.end());
+  std::ranges::partial_sort(steps, steps.begin() + 2, std::greater{}, [](const auto& one) { return one.second.first; });
+  if (steps[0].first > steps[1].first) std::swap(steps[0], steps[1]);
+  const auto& [shorter, ways] = steps[0];
+  const auto& [longer, other_ways] = steps[1];
+  const auto mean = [](const auto& some) { return some.second / static_cast<double>(some.first); };
+  const double as_far = 1.0 + 0.3 * (longer / shorter - 1.0);
+  say(std::min(ways.first, other_ways.first) >= 2 * few && longer < 4.0 * shorter &&
+          mean(other_ways) < as_far * mean(ways),
+      "the target comes {:.3g} m in a step of {:.6g} s, and {:.3g} m in one of {:.6g} s: times seem to be cut to whole "
+      "seconds; write them in full",
+      mean(ways), shorter, mean(other_ways), longer);
 }
 
 /// Whether times are seconds from 1970 on, or since a start.
@@ -110,7 +138,7 @@ void Clocks::say_unit(Say& say, bool alone, double speed) const {
       speed, step);
 }
 
-void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double speed) const {
+void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double moved, double duration) const {
   const double step = this->step();
   say_reading(say, recording, step);
   const bool are_forward = !recording.times_are_numbers() && !recording.zoned() && steps_.size() >= few &&
@@ -120,6 +148,7 @@ void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double 
       "these{}: see whether a clock was set, days were read as months, or the zone is another one from there on",
       slip_.dt, slip_.line, slip_.step, slipped_ > 1 ? fmt::format("; so it is {} times", slipped_) : "");
   if (steps_.size() < few) return;
+  say_cut(say, moved);
   say(are_forward,
       "a step is an hour longer than the others, which are {:.6g} s: if times are local, and the clocks were put "
       "forward, write them with their zone",
@@ -128,7 +157,7 @@ void Clocks::say(Say& say, const RecordingReader& recording, bool alone, double 
       "times from 1970 on would be of the year {:.0f}: see whether they are in a smaller unit than that of their "
       "header, and name it time_ms, time_us or time_ns",
       1970.0 + latest_ / 31556952.0);
-  if (recording.times_are_seconds()) say_unit(say, alone, speed);
+  if (recording.times_are_seconds()) say_unit(say, alone, moved / duration);
 }
 
 }  // namespace sigmax::apps::doubts

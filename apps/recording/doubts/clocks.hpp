@@ -13,19 +13,22 @@ class Clocks {
   void see(double time);
   /// The time of a position, and that of its track's one before, if there is one.
   void see(double time, std::optional<double> before);
+  /// How far a sensor's target came in a step.
+  void see_way(double step, double way);
   /// A row of a sensor that came as far as before, in a much longer time.
   void see_slip(const Trail& trail, const Spoke& now);
 
   /// The usual step of a track in s; NaN if there is none.
   double step() const { return steps_.empty() ? nan : median(steps_); }
 
-  /// Of a lone track or several, and their speed in m/s.
-  void say(Say& say, const RecordingReader& recording, bool alone, double speed) const;
+  /// Of a lone track or several, which came so far in so many seconds.
+  void say(Say& say, const RecordingReader& recording, bool alone, double moved, double duration) const;
 
  private:
   std::string other_times() const;
   bool puts_clocks_forward(double step, bool alone) const;
   void say_reading(Say& say, const RecordingReader& recording, double step) const;
+  void say_cut(Say& say, double moved) const;
   void say_unit(Say& say, bool alone, double speed) const;
   bool are_dates() const { return latest_ >= 1.9e13 && latest_ < 2.1e13; }  // in digits
   bool is_far_off() const { return !are_dates() && latest_ > 1e11; }
@@ -37,7 +40,10 @@ class Clocks {
   struct {
     std::size_t line;
     double dt, step;
-  } slip_{};  // the first
+  } slip_{};                                               // the first
+  std::map<double, std::pair<std::size_t, double>> ways_;  // by step, of several: how many, and their sum
+  double path_ = 0.0;                                      // all of them
+  std::size_t fractions_ = 0;                              // times of no whole second
   std::size_t times_ = 0, clocks_ = 0, minutes_ = 0, hours_ = 0, uneven_ = 0;
   double hundreds_ = nan, latest_ = 0.0;  // of the last time
 };

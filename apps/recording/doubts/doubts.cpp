@@ -159,6 +159,7 @@ void Doubts::Parts::see_next(const Track& track, const std::string& name, Sensor
   trail.even = std::abs(dt - trail.step) < 0.01 * dt ? trail.even + 1 : 0;
   see_bends(trail, now);
   clocks.see_slip(trail, now);
+  clocks.see_way(dt, length(now.at - last.at));
   stations.see_error(last, now);
   rates.see(sensor.rates, trail, now);
   trail.before = {last.time, last.at};
@@ -263,7 +264,7 @@ std::vector<std::string> Doubts::sentences(const RecordingReader& recording) con
   }
   parts_->repeats.say_interpolated(say, sensors, rounding(recording));
   parts_->repeats.say(say, recording, parts_->tracks.size(), moved);
-  parts_->clocks.say(say, recording, parts_->tracks.size() == 1, moved / duration);
+  parts_->clocks.say(say, recording, parts_->tracks.size() == 1, moved, duration);
   return std::move(say.sentences);
 }
 

@@ -62,6 +62,7 @@ void Rates::see(Sensor& sensor, const Trail& trail, Spoke& now) {
     if (k == 1 && !std::isnan(told[x] + told[y])) {
       off_.sum += Vector<3>(told[x] - grew[x], told[y] - grew[y], 0.0);
       ++off_.squares.count;
+      off_.speeds += std::pow(told.head<2>().matrix().norm() - grew.head<2>().matrix().norm(), 2);
       off_.squares.grew += (told - grew).head<2>().square().sum();
       off_.squares.told += told.head<2>().square().sum();
     }
@@ -168,13 +169,14 @@ void Rates::say_source(Say& say, const Stays& told, double step, double turned) 
   const bool is_off = off_.squares.count >= few && 2.0 * square_off() > off_.squares.grew &&
                       square_off() > std::max(0.003, turned * turned) * off_.squares.told;
   const Agreement& by_ten = pairs_[1][velocities];
-  const bool elsewhere = same_size() && by_ten.correlation() < 0.7;
+  const bool same_speed = square_off() > 0.25 * off_.squares.told && off_.speeds < 0.05 * off_.squares.grew;
+  const bool elsewhere = (same_size() && by_ten.correlation() < 0.7) || (is_off && same_speed);
   if (told.same > 9 * told.changed)
     return say(is_off || elsewhere,
                "{} of {} velocities repeat the one before to the last digit, and the positions do not go so: nothing "
                "measured them; leave their cells empty",
                told.same, told.same + told.changed);
-  if (is_off)
+  if (is_off && !same_speed)
     return say(true,
                "the velocities are ({}) m/s off how the positions grow, on the average and much the same all the time: "
                "see whether they are relative to something that moves, as water, air or the vehicle of the sensor",

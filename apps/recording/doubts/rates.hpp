@@ -56,7 +56,8 @@ class Rates {
   struct {
     Agreement squares{};
     Vector<3> sum = Vector<3>::Zero();
-  } off_;  // what ten rows tell from how they grew
+    double speeds = 0.0;  // squares, of speeds
+  } off_;                 // what ten rows tell from how they grew
   struct {
     std::size_t count = 0;
     double off = 0.0, rough = 0.0;
