@@ -647,9 +647,7 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
   const auto options = std::make_shared<ReproduceOptions>();
   options->output.command = command;
-  app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset")
-      .in(2, 100000000)
-      .shows_default();
+  app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset").in(2, 100000000);
   add_threads(app, options->sharing.threads);
   add_seed(app, options->seed);
   add_shard(app, options->sharing);

@@ -660,12 +660,8 @@ void add_simulate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "simulate", "The paper's experiment (section VI) on simulated radar targets.");
   const auto options = std::make_shared<SimulateOptions>();
   options->output.command = command;
-  app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar")
-      .one_of({1, 2})
-      .shows_default();
-  app.option("--group", options->group, "Group of data and model parameters, section VI.C")
-      .one_of({1, 2, 3, 4})
-      .shows_default();
+  app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar").in({1, 2});
+  app.option("--group", options->group, "Group of data and model parameters, section VI.C").in({1, 2, 3, 4});
   app.choice(
          "--preset", {"paper_text", "released"},
          [options](int preset) { options->preset = both_presets.at(static_cast<std::size_t>(preset)); },

@@ -624,7 +624,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
   const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
     add_list(app, name, values, meaning).number_in(0.05, 20.0);
   };
-  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").one_of({1, 2});
+  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").in({1, 2});
   add_factors("--mismatch", choice.mismatch, "Noise of the radar, believed over true");
   add_factors("--period", choice.period, "Sampling period, times the paper's");
   add_factors("--strength", choice.strength, "Acceleration, times the paper's");
@@ -640,12 +640,9 @@ void add_sweep(CLI::App& program, const std::string& command) {
   app.option("--beyond", choice.beyond,
              "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; 0: "
              "only what is listed")
-      .in(0, 100)
-      .shows_default();
-  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen")
-      .in(1, 1000000)
-      .shows_default();
-  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000).shows_default();
+      .in(0, 100);
+  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
+  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000);
   add_seed(app, choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);

@@ -494,14 +494,12 @@ void add_classify(CLI::App& program, const std::string& command) {
       .required()
       .type("DATA");
   app.flag("--explain", options->explain, "Say why, for the rows that are shown");
-  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000).shows_default();
+  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000);
   app.option("--least-margin", options->least_margin,
              "Reject decisions whose lead in probability, or necessity, is smaller")
-      .number_in(0.0, 1.0)
-      .shows_default();
+      .number_in(0.0, 1.0);
   app.option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
-      .one_of(std::vector<std::string>{"refuse", "missing"})
-      .shows_default();
+      .one_of({"refuse", "missing"});
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] { run_classify(*options); });

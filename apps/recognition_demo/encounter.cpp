@@ -357,7 +357,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
              "Counts by class and feature: class,feature,bin,lower,upper,count; or - for the standard input")
       .required()
       .type("COUNTS.csv");
-  app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000).shows_default();
+  app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000);
   const Option track =
       app.option("--track", options->track,
                  "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), groundspeed_kt "
@@ -365,8 +365,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
           .type("FILE.csv");
   app.option("--every", options->every_s, "Seconds between two reports of a recording")
       .number_in(0.001, 1e6)
-      .needs(track)
-      .shows_default();
+      .needs(track);
   app.option("--ground", options->ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
       .number_in(-2000.0, 30000.0)
       .needs(track)

@@ -422,12 +422,8 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   options->output.command = command;
   Subcommand app(program, "evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
-      .in(2, 1000000)
-      .shows_default();
-  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
-      .in(1, 100000)
-      .shows_default();
+  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach").in(2, 1000000);
+  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one").in(1, 100000);
   app.option("--groups", options->groups,
              "A column that names what rows are of, as a patient or a session: folds keep them together, and it is no "
              "feature")

@@ -257,7 +257,7 @@ void add_regimes(CLI::App& program, const std::string& command) {
   Subcommand app(
       program, "regimes",
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
-  app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
+  app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
   add_draws(app, options->draws, command, 5000);
   app.run([options] { run_regimes(*options); });
 }

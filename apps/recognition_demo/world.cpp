@@ -121,7 +121,7 @@ std::size_t draw(RandomStream& random, std::span<const double> probabilities) {
 void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs) {
   options.output.command = command;
   options.runs = runs;
-  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000).shows_default();
+  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000);
   add_seed(app, options.seed);
   add_threads(app, options.threads);
   add_output(app, options.output);

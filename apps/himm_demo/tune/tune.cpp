@@ -610,10 +610,8 @@ void add_tune(CLI::App& program, const std::string& command) {
       .list_alone()
       .one_of({"models", "sensors", "transition", "lift"})
       .type("WHAT,…");
-  app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once")
-      .in(2, 20)
-      .shows_default();
-  app.option("--starts", options->starts, "Searches from different places").in(1, 100).shows_default();
+  app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once").in(2, 20);
+  app.option("--starts", options->starts, "Searches from different places").in(1, 100);
   add_threads(app, options->threads);
   add_seed(app, options->seed, "of the starts, and of a simulated radar");
   add_filter_options(app, options->filters);
