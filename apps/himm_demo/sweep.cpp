@@ -416,14 +416,13 @@ ResultTable filters_table(const SweepWorld& world) {
            {{.key = "period", .parts = ConditionPart::numbers}, condition.period},
            {{.key = "strength", .parts = ConditionPart::numbers}, condition.strength},
            {{.key = "length", .parts = ConditionPart::numbers}, condition.length},
-           {{.key = "condition", .header = "scenario", .align = Align::left, .parts = ConditionPart::name},
-            words_of(condition)},
-           {{.key = "filter", .header = "filter", .align = Align::left}, settings.name},
+           {of_words("condition", "scenario", ConditionPart::name), words_of(condition)},
+           {of_words("filter", "filter"), settings.name},
            {{.key = "leaving", .header = "leaving", .digits = 3, .sized = true}, settings.transition[0][1]},
            {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, settings.transition[1][0]},
            {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(0)},
            {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(1)},
-           {{.key = "lift", .header = "lift", .align = Align::left}, name_of(settings.lift)},
+           {of_words("lift", "lift"), name_of(settings.lift)},
            {{.key = "at_the_limit"}, tuned.at_the_limit ? 1 : 0},
            {{.key = "settings_tried"}, tuned.tried},
            {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
@@ -440,7 +439,7 @@ ResultTable filters_table(const SweepWorld& world) {
 ResultTable above_imm_table(const SweepWorld& world) {
   ResultTable table;
   for (std::size_t c = 0; c < world.conditions.size(); ++c) {
-    std::vector<Field> fields = {{{.header = "scenario", .align = Align::left}, words_of(world.conditions[c])},
+    std::vector<Field> fields = {{of_words("", "scenario"), words_of(world.conditions[c])},
                                  {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
     const auto add = [&](const std::string& name, std::optional<std::size_t> f) {
       const Interval above = f ? world.against_imm(c, *f) : Interval{};

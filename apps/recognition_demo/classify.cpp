@@ -245,10 +245,9 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Readi
     auto why = explain(classifier, std::span<const std::size_t>(readings), both[0], both[1]);
     std::ranges::stable_sort(
         why.contributions, [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
-    ResultTable table(
-        {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
-         {.header = "the same of " + next},
-         {.header = "log of the ratio"}});
+    ResultTable table({of_words("", fmt::format("{}: {} rather than {}, because", contestant.name, best, next)),
+                       {.header = "the same of " + next},
+                       {.header = "log of the ratio"}});
     table.row({fmt::format("before any reading: {} = {:.4g}", best, classifier.prior()[both[0]]),
                number(classifier.prior()[both[1]]), number(why.log_prior_ratio)});
     for (const Contribution& each : why.contributions)
@@ -328,9 +327,8 @@ ResultTable shown_table(const std::string& label, bool has_truth, const std::vec
   ResultTable table;
   for (const ShownRow& row : shown) {
     std::vector<Field> fields = {{{.header = "line"}, row.line}};
-    if (has_truth) fields.push_back({{.header = label, .align = Align::left}, row.truth});
-    for (std::size_t i = 0; i < all.size(); ++i)
-      fields.push_back({{.header = all[i].name, .align = Align::left}, row.decisions[i]});
+    if (has_truth) fields.push_back({of_words("", label), row.truth});
+    for (std::size_t i = 0; i < all.size(); ++i) fields.push_back({of_words("", all[i].name), row.decisions[i]});
     table.row_of(fields);
   }
   return table;
@@ -341,7 +339,7 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Cl
   const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
   ResultTable table;
   for (const Tally& tally : result.tallies) {
-    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, tally.name}};
+    std::vector<Field> row = {{of_words("", fmt::format("all {} rows", result.rows)), tally.name}};
     for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
     row.push_back({{.header = "rejected"}, tally.rejected});
     const bool all_known = tally.judged + tally.rejected == result.rows;
