@@ -425,7 +425,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
     return;
   }
   ResultFiles files(options.output);
-  TrackSinks sinks{.estimates = files.open("estimates.csv")};
+  TrackSinks sinks{.files = &files};
   std::optional<TrackPage> tracks;
   const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
