@@ -355,7 +355,6 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
     share.upper.push_back(upper);
     chart.remarks.push_back(std::move(remark));
   };
-  const double nan = std::nan("");
   add(0.0, nan, nan, nan, "");
   for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
     add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
