@@ -353,25 +353,18 @@ struct SentencePart {
 ResultTable sentences_table(const Judgements& all) {
   ResultTable table;
   for (std::size_t s = 0; s < sentences().size(); ++s) {
-    std::vector<Field> fields = {
-        {{.key = "sentence", .header = "no."}, std::to_string(s + 1)},
-        {{.key = "place", .header = "where", .align = Align::left, .parts = SentencePart::claims},
-         sentences()[s].place},
-        {{.key = "words", .header = "the paper says", .align = Align::left, .parts = SentencePart::claims},
-         sentences()[s].words}};
+    std::vector<Field> fields = {{{.key = "sentence", .header = "no."}, std::to_string(s + 1)},
+                                 {of_words("place", "where", SentencePart::claims), sentences()[s].place},
+                                 {of_words("words", "the paper says", SentencePart::claims), sentences()[s].words}};
     for (const Preset preset : both_presets)
-      fields.push_back({{.key = name_of(preset),
-                         .header = preset == Preset::released ? "as released" : "as printed",
-                         .align = Align::left,
-                         .parts = SentencePart::claims},
-                        word_of(all.at(preset).at(reading_of(preset))[s].verdict(), verdict_words)});
+      fields.push_back(
+          {of_words(name_of(preset), preset == Preset::released ? "as released" : "as printed", SentencePart::claims),
+           word_of(all.at(preset).at(reading_of(preset))[s].verdict(), verdict_words)});
     for (const Preset preset : both_presets)
       for (const std::string reading : himm_readings) {  // of whose name three letters fit into 80 columns
         const std::string word = reading.substr(reading.rfind('_') + 1);
-        fields.push_back({{.key = fmt::format("{}_{}", name_of(preset), reading),
-                           .header = word.size() <= 3 ? word : word.substr(0, 3) + ".",
-                           .align = Align::left,
-                           .parts = SentencePart::readings},
+        fields.push_back({of_words(fmt::format("{}_{}", name_of(preset), reading),
+                                   word.size() <= 3 ? word : word.substr(0, 3) + ".", SentencePart::readings),
                           word_of(all.at(preset).at(reading)[s].verdict(), verdict_letters)});
       }
     table.row_of(fields);
@@ -388,7 +381,7 @@ ResultTable deciding_figures(const std::vector<Judged>& all) {
     const std::size_t worst = least_favourable(figures);
     table.row_of({{{.header = "no."}, s + 1},
                   {{.header = "sure"}, fmt::format("{}/{}", inside, figures.size())},
-                  {{.header = "least favourable", .align = Align::left}, place_and_subject_of(figures[worst])},
+                  {of_words("", "least favourable"), place_and_subject_of(figures[worst])},
                   {{.header = "correct IMM"}, text_of(figures[worst])},
                   {{.header = "released IMM"}, text_of(all[s].against_released[worst])}});
   }
@@ -462,7 +455,7 @@ double over_measurement(const Condition& condition, std::string_view filter) {
 ResultTable overview_table(const std::vector<Condition>& conditions, Preset preset) {
   ResultTable table;
   for (const auto& name : names_of(conditions)) {
-    std::vector<Field> fields = {{{.key = "filter", .header = "filter", .align = Align::left}, name}};
+    std::vector<Field> fields = {{of_words("filter", "filter"), name}};
     for (const auto& condition : conditions)
       if (condition.preset == preset)
         fields.push_back({{.key = name_of(condition), .header = name_of(condition), .digits = 3},
@@ -647,9 +640,7 @@ void add_reproduce(CLI::App& program, const std::string& command) {
   Subcommand app(program, "reproduce", "What section VI of the paper says, sentence by sentence.");
   const auto options = std::make_shared<ReproduceOptions>();
   options->output.command = command;
-  app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset")
-      .in(2, 100000000)
-      .shows_default();
+  app.option("--runs", options->runs, "Monte Carlo runs of each scenario, group and preset").in(2, 100000000);
   add_threads(app, options->sharing.threads);
   add_seed(app, options->seed);
   add_shard(app, options->sharing);

@@ -416,31 +416,25 @@ struct FigurePart {
 
 /// All figures of all runs of a filter, or of the measurement, as far as it has them.
 std::vector<Field> figures_of(const Found& found, const Performance& of) {
-  std::vector<Field> all = {{{.key = "filter", .header = "filter", .align = Align::left}, of.name()}};
+  std::vector<Field> all = {{of_words("filter", "filter"), of.name()}};
   const auto add = [&](ResultColumn column, const Cell& cell) { all.push_back({std::move(column), cell}); };
   const auto add_of_filter = [&](const ResultColumn& column, const Cell& cell) {
     add(column, of.filter() ? cell : Cell());
   };
-  const auto add_rmse = [&](const std::string& key, const std::string& group, const auto& value) {
+  const auto add_rmse = [&](const std::string& key, const std::string& header, const std::string& group, unsigned part,
+                            const Cell& rmse) {
+    add({.key = key + "_m", .header = header, .sized = true, .group = group, .parts = part}, rmse);
+  };
+  const auto add_axes = [&](const std::string& key, const std::string& group, const auto& rmse) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      add({.key = fmt::format("{}_{}_m", key, axis_names[axis]),
-           .header = axis_names[axis],
-           .sized = true,
-           .group = group,
-           .parts = FigurePart::rmse},
-          value(axis));
+      add_rmse(fmt::format("{}_{}", key, axis_names[axis]), axis_names[axis], group, FigurePart::rmse, rmse(axis));
   };
   const std::vector<std::string> phases(phase_names.begin(), phase_names.end());
   for (std::size_t p = 0; p < 3; ++p) {
-    add({.key = "rmse_" + phases[p] + "_m",
-         .header = phases[p],
-         .sized = true,
-         .group = "RMSE, m:",
-         .parts = FigurePart::overview},
-        of.phase_rmse(p));
-    add_rmse("rmse_" + phases[p], phases[p], [&](std::size_t axis) { return of.phase_rmse(p, axis); });
+    add_rmse("rmse_" + phases[p], phases[p], "RMSE, m:", FigurePart::overview, of.phase_rmse(p));
+    add_axes("rmse_" + phases[p], phases[p], [&](std::size_t axis) { return of.phase_rmse(p, axis); });
   }
-  add_rmse("peak", "peak", [&](std::size_t axis) { return of.peak_rmse(axis); });
+  add_axes("peak", "peak", [&](std::size_t axis) { return of.peak_rmse(axis); });
   const auto add_consistency = [&](Performance::Figure figure, const std::string& key, const std::string& group,
                                    const std::string& name) {
     const bool nees = !group.empty();  // whose phases have a table on the terminal
@@ -486,9 +480,7 @@ struct Comparison {
 Comparison compared(const Found& found, const Performance& of, const Performance& to) {
   Comparison comparison{of.name(), to.name(), {}, ""};
   for (std::size_t p = 0; p < 3; ++p) {
-    std::vector<Field> fields = {
-        {{.key = "phase", .header = fmt::format("{} − {}, m", of.name(), to.name()), .align = Align::left},
-         phase_names[p]}};
+    std::vector<Field> fields = {{of_words("phase", fmt::format("{} − {}, m", of.name(), to.name())), phase_names[p]}};
     std::array<Interval, 3> difference;
     std::array<double, 3> reference;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -502,10 +494,8 @@ Comparison compared(const Found& found, const Performance& of, const Performance
       const Region claim = claim_of(found.options.scenario, found.options.group, p);
       const std::string holds = verdict(claim, difference, reference);
       const bool correct = to.filter()->imm_mixing == MixingWeights::correct;
-      fields.push_back({{.header = "the paper says", .align = Align::left}, word_of(claim)});
-      fields.push_back(
-          {{.header = fmt::format("against the {} IMM that", correct ? "correct" : "released"), .align = Align::left},
-           holds});
+      fields.push_back({of_words("", "the paper says"), word_of(claim)});
+      fields.push_back({of_words("", fmt::format("against the {} IMM that", correct ? "correct" : "released")), holds});
       comparison.sentence += fmt::format("{} {} the manoeuvre the paper says {}, which {}{}",
                                          p ? ";" : fmt::format("{} against {}:", of.name(), to.name()), phase_names[p],
                                          word_of(claim), holds, p == 2 ? "." : "");
@@ -660,12 +650,8 @@ void add_simulate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "simulate", "The paper's experiment (section VI) on simulated radar targets.");
   const auto options = std::make_shared<SimulateOptions>();
   options->output.command = command;
-  app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar")
-      .one_of({1, 2})
-      .shows_default();
-  app.option("--group", options->group, "Group of data and model parameters, section VI.C")
-      .one_of({1, 2, 3, 4})
-      .shows_default();
+  app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar").in({1, 2});
+  app.option("--group", options->group, "Group of data and model parameters, section VI.C").in({1, 2, 3, 4});
   app.choice(
          "--preset", {"paper_text", "released"},
          [options](int preset) { options->preset = both_presets.at(static_cast<std::size_t>(preset)); },

@@ -416,14 +416,13 @@ ResultTable filters_table(const SweepWorld& world) {
            {{.key = "period", .parts = ConditionPart::numbers}, condition.period},
            {{.key = "strength", .parts = ConditionPart::numbers}, condition.strength},
            {{.key = "length", .parts = ConditionPart::numbers}, condition.length},
-           {{.key = "condition", .header = "scenario", .align = Align::left, .parts = ConditionPart::name},
-            words_of(condition)},
-           {{.key = "filter", .header = "filter", .align = Align::left}, settings.name},
+           {of_words("condition", "scenario", ConditionPart::name), words_of(condition)},
+           {of_words("filter", "filter"), settings.name},
            {{.key = "leaving", .header = "leaving", .digits = 3, .sized = true}, settings.transition[0][1]},
            {{.key = "returning", .header = "returning", .digits = 3, .sized = true}, settings.transition[1][0]},
            {{.key = "sigma_w_dwna", .header = "dwna", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(0)},
            {{.key = "sigma_w_dwpa", .header = "dwpa", .sized = true, .group = "σ_w, m/s²:"}, sigma_w(1)},
-           {{.key = "lift", .header = "lift", .align = Align::left}, name_of(settings.lift)},
+           {of_words("lift", "lift"), name_of(settings.lift)},
            {{.key = "at_the_limit"}, tuned.at_the_limit ? 1 : 0},
            {{.key = "settings_tried"}, tuned.tried},
            {{.key = "tuning_score", .header = "tuning", .digits = 3, .group = "score:"}, tuned.tuning_score},
@@ -440,7 +439,7 @@ ResultTable filters_table(const SweepWorld& world) {
 ResultTable above_imm_table(const SweepWorld& world) {
   ResultTable table;
   for (std::size_t c = 0; c < world.conditions.size(); ++c) {
-    std::vector<Field> fields = {{{.header = "scenario", .align = Align::left}, words_of(world.conditions[c])},
+    std::vector<Field> fields = {{of_words("", "scenario"), words_of(world.conditions[c])},
                                  {{.header = "imm", .digits = 3}, world.tuned(c, *world.imm()).score.value()}};
     const auto add = [&](const std::string& name, std::optional<std::size_t> f) {
       const Interval above = f ? world.against_imm(c, *f) : Interval{};
@@ -624,7 +623,7 @@ void add_sweep(CLI::App& program, const std::string& command) {
   const auto add_factors = [&](const char* name, std::vector<double>& values, const char* meaning) {
     add_list(app, name, values, meaning).number_in(0.05, 20.0);
   };
-  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").one_of({1, 2});
+  add_list(app, "--scenario", choice.scenarios, "1: fire control radar, 2: surveillance radar").in({1, 2});
   add_factors("--mismatch", choice.mismatch, "Noise of the radar, believed over true");
   add_factors("--period", choice.period, "Sampling period, times the paper's");
   add_factors("--strength", choice.strength, "Acceleration, times the paper's");
@@ -640,12 +639,9 @@ void add_sweep(CLI::App& program, const std::string& command) {
   app.option("--beyond", choice.beyond,
              "Steps that the search may go beyond an end of a list of numbers, each by the ratio of the last two; 0: "
              "only what is listed")
-      .in(0, 100)
-      .shows_default();
-  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen")
-      .in(1, 1000000)
-      .shows_default();
-  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000).shows_default();
+      .in(0, 100);
+  app.option("--tuning-runs", choice.tuning_runs, "Runs by which the best settings are chosen").in(1, 1000000);
+  app.option("--runs", choice.runs, "Other runs by which they are judged").in(2, 1000000);
   add_seed(app, choice.seed);
   add_threads(app, options->sharing.threads);
   add_shard(app, options->sharing);

@@ -249,10 +249,9 @@ std::optional<ResultTable> explanation(const Contestant& contestant, const Readi
     auto why = explain(classifier, std::span<const std::size_t>(readings), both[0], both[1]);
     std::ranges::stable_sort(
         why.contributions, [](const auto& a, const auto& b) { return std::abs(a.log_ratio) > std::abs(b.log_ratio); });
-    ResultTable table(
-        {{.header = fmt::format("{}: {} rather than {}, because", contestant.name, best, next), .align = Align::left},
-         {.header = "the same of " + next},
-         {.header = "log of the ratio"}});
+    ResultTable table({of_words("", fmt::format("{}: {} rather than {}, because", contestant.name, best, next)),
+                       {.header = "the same of " + next},
+                       {.header = "log of the ratio"}});
     table.row({fmt::format("before any reading: {} = {:.4g}", best, classifier.prior()[both[0]]),
                number(classifier.prior()[both[1]]), number(why.log_prior_ratio)});
     for (const Contribution& each : why.contributions)
@@ -332,9 +331,8 @@ ResultTable shown_table(const std::string& label, bool has_truth, const std::vec
   ResultTable table;
   for (const ShownRow& row : shown) {
     std::vector<Field> fields = {{{.header = "line"}, row.line}};
-    if (has_truth) fields.push_back({{.header = label, .align = Align::left}, row.truth});
-    for (std::size_t i = 0; i < all.size(); ++i)
-      fields.push_back({{.header = all[i].name, .align = Align::left}, row.decisions[i]});
+    if (has_truth) fields.push_back({of_words("", label), row.truth});
+    for (std::size_t i = 0; i < all.size(); ++i) fields.push_back({of_words("", all[i].name), row.decisions[i]});
     table.row_of(fields);
   }
   return table;
@@ -345,7 +343,7 @@ ResultTable totals_table(const RandomVariable& pattern, bool has_truth, const Cl
   const std::size_t shown_classes = pattern.size() <= most_classes ? pattern.size() : 0;
   ResultTable table;
   for (const Tally& tally : result.tallies) {
-    std::vector<Field> row = {{{.header = fmt::format("all {} rows", result.rows), .align = Align::left}, tally.name}};
+    std::vector<Field> row = {{of_words("", fmt::format("all {} rows", result.rows)), tally.name}};
     for (std::size_t c = 0; c < shown_classes; ++c) row.push_back({{.header = pattern.label(c)}, tally.decided[c]});
     row.push_back({{.header = "rejected"}, tally.rejected});
     const bool all_known = tally.judged + tally.rejected == result.rows;
@@ -498,14 +496,12 @@ void add_classify(CLI::App& program, const std::string& command) {
       .required()
       .type("DATA");
   app.flag("--explain", options->explain, "Say why, for the rows that are shown");
-  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000).shows_default();
+  app.option("--rows", options->rows, "How many rows to show").in(0, 1000000);
   app.option("--least-margin", options->least_margin,
              "Reject decisions whose lead in probability, or necessity, is smaller")
-      .number_in(0.0, 1.0)
-      .shows_default();
+      .number_in(0.0, 1.0);
   app.option("--unseen", options->unseen, "What to do with values and classes that the model does not know")
-      .one_of(std::vector<std::string>{"refuse", "missing"})
-      .shows_default();
+      .one_of({"refuse", "missing"});
   add_output(app, options->output);
   add_report(app, options->output);
   app.run([options] { run_classify(*options); });

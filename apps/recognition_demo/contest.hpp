@@ -82,6 +82,16 @@ void say_unrecognised(const std::vector<std::string>& classes, const std::vector
 void say_beaten(const std::vector<std::string>& classes, const std::vector<std::size_t>& rows,
                 const std::vector<Recognised>& all, Result& result);
 
+/// A column of differences between shares of right decisions, in points.
+inline ResultColumn of_points(std::string key, std::string header) {
+  return {.key = std::move(key),
+          .header = std::move(header),
+          .unit = "points",
+          .scale = 100.0,
+          .sign = true,
+          .interval = true};
+}
+
 /// A result begun: the page has its title, and the contestants are what it switches on and off.
 Result result_of_contest(std::string title, const OutputOptions& output,
                          const std::vector<Contestant>& contestants = {});

@@ -235,8 +235,7 @@ TrackOutcome follow_track(const Contestant& contestant, const std::vector<Readin
 
 /// What was seen of each feature.
 ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
-  ResultTable table(
-      {{.header = "feature", .align = Align::left}, {.header = "values seen, % of the reports", .align = Align::left}});
+  ResultTable table({of_words("", "feature"), of_words("", "values seen, % of the reports")});
   for (std::size_t i = 0; i < data.bins.size(); ++i) {
     std::vector<double> shares(data.bins[i].size(), 0.0);
     for (const Readings& report : track.readings)
@@ -254,7 +253,7 @@ ResultTable seen_table(const EncounterData& data, const TrackReports& track) {
 ResultTable decisions_table(const RandomVariable& pattern, const std::vector<TrackOutcome>& outcomes) {
   ResultTable table;
   for (const TrackOutcome& outcome : outcomes) {
-    std::vector<Field> row = {{{.header = "classifier", .align = Align::left}, outcome.name}};
+    std::vector<Field> row = {{of_words("", "classifier"), outcome.name}};
     for (std::size_t c = 0; c < pattern.size(); ++c)
       row.push_back({{.header = pattern.label(c), .digits = 1, .scale = 100.0, .group = "% of single reports that say"},
                      outcome.single[c]});
@@ -357,7 +356,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
              "Counts by class and feature: class,feature,bin,lower,upper,count; or - for the standard input")
       .required()
       .type("COUNTS.csv");
-  app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000).shows_default();
+  app.option("--reports", options->reports, "Reports in a drawn run").in(1, 100000);
   const Option track =
       app.option("--track", options->track,
                  "Instead of drawing, classify a recording: time_s, altitude_ft (or altitude_gnss_ft), groundspeed_kt "
@@ -365,8 +364,7 @@ void add_encounter(CLI::App& program, const std::string& command) {
           .type("FILE.csv");
   app.option("--every", options->every_s, "Seconds between two reports of a recording")
       .number_in(0.001, 1e6)
-      .needs(track)
-      .shows_default();
+      .needs(track);
   app.option("--ground", options->ground_ft, "Altitude of the ground, in ft [the recording's lowest]")
       .number_in(-2000.0, 30000.0)
       .needs(track)

@@ -118,13 +118,11 @@ void add_esm(CLI::App& program, const std::string& command) {
   const auto options = std::make_shared<EsmOptions>();
   Subcommand app(program, "esm", "Which platform is it? A synthetic world of emitters, all classifiers.");
   app.option("--usage", options->usage, "How often a platform uses its emitters: equally, or drawn for each run")
-      .one_of(std::vector<std::string>{"uniform", "dirichlet"})
-      .shows_default();
+      .one_of({"uniform", "dirichlet"});
   const Option alpha =
       app.option("--alpha", options->alpha, "Parameter of the Dirichlet density; the smaller, the less equal")
-          .number_in(0.01, 1000.0)
-          .shows_default();
-  app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
+          .number_in(0.01, 1000.0);
+  app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
   add_draws(app, options->draws, command, 20000);
   app.run([options, alpha] {
     if (alpha.given() && options->usage == "uniform") throw UsageError("--alpha needs --usage dirichlet");

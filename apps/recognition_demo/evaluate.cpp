@@ -129,14 +129,9 @@ ResultTable outcomes_table(const Results& results, std::size_t foldings) {
     const Outcome& outcome = results.outcomes[i];
     const auto* const random = std::get_if<Evaluation<Random>>(&outcome.evaluation);
     const auto* const fuzzy = std::get_if<Evaluation<Fuzzy>>(&outcome.evaluation);
-    table.row_of({{{.key = "classifier", .header = "classifier", .align = Align::left}, outcome.name},
+    table.row_of({{of_words("classifier", "classifier"), outcome.name},
                   {{.key = "accuracy", .header = "right", .unit = "%", .scale = 100.0}, outcome.confusion().accuracy()},
-                  {{.key = "accuracy_minus_that_of_sigma",
-                    .header = "− sigma's",
-                    .unit = "points",
-                    .scale = 100.0,
-                    .sign = true,
-                    .interval = true},
+                  {of_points("accuracy_minus_that_of_sigma", "− sigma's"),
                    i == 0 ? Cell() : Cell(results.minus_first(i, foldings))},
                   {{.key = "macro_f1", .header = "macro F1", .digits = 3}, outcome.confusion().macro_f1()},
                   {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, outcome.ties()},
@@ -158,8 +153,7 @@ ResultTable outcomes_table(const Results& results, std::size_t foldings) {
 ResultTable confusion_table(const DataTable& data, const Outcome& outcome, std::size_t foldings) {
   ResultTable table;
   for (std::size_t truth = 0; truth < data.classes.size(); ++truth) {
-    std::vector<Field> row = {
-        {{.header = fmt::format("{}: true class", outcome.name), .align = Align::left}, data.classes[truth]}};
+    std::vector<Field> row = {{of_words("", fmt::format("{}: true class", outcome.name)), data.classes[truth]}};
     for (std::size_t c = 0; c < data.classes.size(); ++c)
       row.push_back({{.header = data.classes[c], .digits = foldings == 1 ? 0 : 1},
                      outcome.confusion()(truth, c) / static_cast<double>(foldings)});
@@ -362,7 +356,6 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
     share.upper.push_back(upper);
     chart.remarks.push_back(std::move(remark));
   };
-  const double nan = std::nan("");
   add(0.0, nan, nan, nan, "");
   for (const auto& bin : outcome.reliability.bins(static_cast<double>(foldings)))
     add(bin.mean_degree, bin.share, bin.lower, bin.upper, fmt::format("{:.{}f}", bin.count, foldings == 1 ? 0 : 1));
@@ -423,12 +416,8 @@ void add_evaluate(CLI::App& program, const std::string& command) {
   options->output.command = command;
   Subcommand app(program, "evaluate", "Cross-validates every kind of classifier on labelled data.");
   add_learning(app, options->file, options->data, options->learning);
-  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach")
-      .in(2, 1000000)
-      .shows_default();
-  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one")
-      .in(1, 100000)
-      .shows_default();
+  app.option("--folds", options->folds, "Parts of the data, each classified by what the others teach").in(2, 1000000);
+  app.option("--foldings", options->foldings, "Divisions into folds; one alone may be a lucky one").in(1, 100000);
   app.option("--groups", options->groups,
              "A column that names what rows are of, as a patient or a session: folds keep them together, and it is no "
              "feature")

@@ -105,15 +105,13 @@ void add_learning(CLI::App& program, std::string& file, DataOptions& data, Learn
   app.list("--missing", data.missing,
            "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
       .type("WORD,…");
-  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000).shows_default();
+  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
   app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
   app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
-      .number_in(0.0, 1e9)
-      .shows_default();
+      .number_in(0.0, 1e9);
   app.option("--misread", learning.misread,
              "Probability that a reading is not the feature's value but one of the others")
-      .number_in(0.0, 0.999)
-      .shows_default();
+      .number_in(0.0, 0.999);
   app.flag("--equal-prior", learning.equal_prior,
            "Every class is equally plausible before, whatever its share of the rows");
 }

@@ -120,13 +120,11 @@ std::vector<Contestant> contestants(const Scenario& scenario) {
 ResultTable targets_table(const Scenario& scenario, const std::vector<Scores>& all) {
   ResultTable table;
   for (std::size_t i = 0; i < all.front().size(); ++i) {
-    std::vector<Field> row = {{{.header = "after the last sample", .align = Align::left}, all.front()[i].name}};
-    for (std::size_t c = 0; c < all.size(); ++c)
-      row.push_back({{.header = fmt::format("{} ({} m/s²)", scenario.target.label(c), scenario.acceleration[c]),
-                      .digits = 1,
-                      .scale = 100.0,
-                      .group = "right, %:"},
-                     all[c][i].accuracy.back()});
+    std::vector<Field> row = {{of_words("", "after the last sample"), all.front()[i].name}};
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const std::string name = fmt::format("{} ({} m/s²)", scenario.target.label(c), scenario.acceleration[c]);
+      row.push_back({{.header = name, .digits = 1, .scale = 100.0, .group = "right, %:"}, all[c][i].accuracy.back()});
+    }
     double ties = 0.0;
     for (std::size_t c = 0; c < all.size(); ++c) {
       row.push_back(
@@ -143,8 +141,7 @@ ResultTable differences_table(const Scenario& scenario, const std::vector<Scores
   const auto& names = all.front();
   ResultTable table;
   for (std::size_t i = 1; i < names.size(); ++i) {
-    std::vector<Field> row = {
-        {{.header = fmt::format("− that of {}, points", names.front().name), .align = Align::left}, names[i].name}};
+    std::vector<Field> row = {{of_words("", fmt::format("− that of {}, points", names.front().name)), names[i].name}};
     for (std::size_t c = 0; c < all.size(); ++c)
       row.push_back(
           {{.header = scenario.target.label(c), .scale = 100.0, .sign = true}, all[c][i].minus_first.interval()});

@@ -310,13 +310,9 @@ void add_performance(CLI::App& program, const std::string& command) {
          "A CSV file with type, variable, optimum, minimum, maximum, model and parameters, or - for the standard input")
       .required()
       .type("PERFORMANCE.csv");
-  app.option("--draws", options->drawn_from, "What the quantities are drawn from")
-      .one_of(std::vector<std::string>{"density", "triangle"})
-      .shows_default();
-  app.option("--bins", options->bins, "Bins of a quantity").in(2, 10000).shows_default();
-  app.option("--least", options->least, "Possibility of what lies outside [min, max]")
-      .number_in(0.0, 1.0)
-      .shows_default();
+  app.option("--draws", options->drawn_from, "What the quantities are drawn from").one_of({"density", "triangle"});
+  app.option("--bins", options->bins, "Bins of a quantity").in(2, 10000);
+  app.option("--least", options->least, "Possibility of what lies outside [min, max]").number_in(0.0, 1.0);
   add_draws(app, options->draws, command, 60000);  // intervals below a tenth of the differences
   app.run([options] { run_performance(*options); });
 }

@@ -124,7 +124,7 @@ std::vector<Regime> regimes() {
 ResultTable regime_table(const Regime& regime) {
   ResultTable table;
   for (const Setting& setting : regime.settings) {
-    std::vector<Field> row = {{{.header = "setting", .align = Align::left}, setting.name}};
+    std::vector<Field> row = {{of_words("", "setting"), setting.name}};
     for (const Score& score : setting.scores) {
       const std::string group = score.name + ":";
       row.push_back({{.header = "right, %", .digits = 1, .scale = 100.0, .group = group}, score.accuracy.back()});
@@ -140,9 +140,9 @@ ResultTable regime_table(const Regime& regime) {
 /// How often possibilities did better and worse, by more than the interval, and where better. What is the same in every
 /// run counts once.
 std::pair<std::string, ResultTable> verdict_of(const std::vector<Regime>& all) {
-  ResultTable better({{.header = "regime", .align = Align::left},
-                      {.header = "setting", .align = Align::left},
-                      {.header = "better than sigma", .align = Align::left},
+  ResultTable better({of_words("", "regime"),
+                      of_words("", "setting"),
+                      of_words("", "better than sigma"),
                       {.header = "points", .scale = 100.0, .sign = true}});
   std::size_t better_count = 0, worse = 0, undecided = 0;
   for (const Regime& regime : all)
@@ -257,7 +257,7 @@ void add_regimes(CLI::App& program, const std::string& command) {
   Subcommand app(
       program, "regimes",
       "Where is max inference the better one? The synthetic world, with beliefs that are wrong in several ways.");
-  app.option("--reports", options->reports, "Reports in a run").in(1, 100000).shows_default();
+  app.option("--reports", options->reports, "Reports in a run").in(1, 100000);
   add_draws(app, options->draws, command, 5000);
   app.run([options] { run_regimes(*options); });
 }

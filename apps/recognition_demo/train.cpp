@@ -14,9 +14,7 @@ struct TrainOptions {
 };
 
 ResultTable features_table(const LearnedModel& model) {
-  ResultTable table({{.header = "feature", .align = Align::left},
-                     {.header = "values"},
-                     {.header = "what they are", .align = Align::left}});
+  ResultTable table({of_words("", "feature"), {.header = "values"}, of_words("", "what they are")});
   for (const FeatureCode& feature : model.features) {
     const auto labels = feature.labels();
     table.row({feature.name, labels.size(), listed(labels, feature.bins ? labels.size() : 6)});

@@ -121,7 +121,7 @@ std::size_t draw(RandomStream& random, std::span<const double> probabilities) {
 void add_draws(CLI::App& app, DrawOptions& options, const std::string& command, std::size_t runs) {
   options.output.command = command;
   options.runs = runs;
-  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000).shows_default();
+  Subcommand(app).option("--runs", options.runs, "Simulated runs").in(2, 100000000);
   add_seed(app, options.seed);
   add_threads(app, options.threads);
   add_output(app, options.output);
@@ -158,19 +158,12 @@ ResultTable scores_table(const Scores& scores, const std::string& what_is_counte
   ResultTable table;
   for (const Score& score : scores) {
     const bool first = &score == &scores.front();
-    std::vector<Field> row = {
-        {{.key = "classifier", .header = fmt::format("right, % after {}:", what_is_counted), .align = Align::left},
-         score.name}};
+    std::vector<Field> row = {{of_words("classifier", fmt::format("right, % after {}:", what_is_counted)), score.name}};
     for (const std::size_t k : shown_reports(score.accuracy.size()))
       row.push_back({{.header = fmt::format("{}", k), .digits = 1, .scale = 100.0}, score.accuracy[k - 1]});
     const std::initializer_list<Field> rest = {
         {{.key = "accuracy"}, score.accuracy.back()},
-        {{.key = "accuracy_minus_that_of_the_first",
-          .header = "last, more than row 1",
-          .unit = "points",
-          .scale = 100.0,
-          .sign = true,
-          .interval = true},
+        {of_points("accuracy_minus_that_of_the_first", "last, more than row 1"),
          first ? Cell() : Cell(score.minus_first.interval())},
         {{.key = "ties", .header = "ties", .unit = "%", .digits = 1, .scale = 100.0}, score.ties},
         {{.key = "mean_probability_of_truth"}, only_if(!score.fuzzy, score.belief_in_truth)},

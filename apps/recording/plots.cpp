@@ -99,14 +99,14 @@ void add_recording(CLI::App& program, RecordingOptions& recording, RadarOptions&
   app.option(
          "--on-bad-time", [&](const std::string& what) { recording.skip_bad_times = what == "skip"; },
          "What to do where a time repeats or goes back [error]")
-      .one_of(std::vector<std::string>{"error", "skip"})
+      .one_of({"error", "skip"})
       .text("error|skip");
   app.triple("--origin", recording.origin, "Where positions are counted from [each track's first row]")
       .type("LAT,LON,ALT");
   app.option(
          "--azimuth-from", [&](const std::string& from) { recording.azimuth_from_north = from == "north"; },
          "Whether azimuths run counter-clockwise from east or clockwise from north [east]")
-      .one_of(std::vector<std::string>{"east", "north"})
+      .one_of({"east", "north"})
       .text("east|north");
   app.triple("--radar", radar.sigma,
              "Take the recording as the truth and measure it by a simulated radar with these standard deviations")

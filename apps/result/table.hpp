@@ -77,6 +77,11 @@ struct ResultColumn {
   std::string full_header() const { return unit.empty() ? header : header + ", " + unit; }
 };
 
+/// A column of words.
+inline ResultColumn of_words(std::string key, std::string header, unsigned parts = ResultColumn::all_parts) {
+  return {.key = std::move(key), .header = std::move(header), .align = Align::left, .parts = parts};
+}
+
 /// What the terminal shows of a cell.
 std::string shown_in(const ResultColumn& column, const Cell& cell);
 
@@ -91,8 +96,7 @@ struct Field {
 
 /// Results as rows, which print themselves as text, CSV and JSON.
 ///
-///     ResultTable table{{{.key = "filter", .header = "filter", .align = Align::left},
-///                        {.key = "rmse_m", .header = "RMSE", .unit = "m"}}};
+///     ResultTable table{{of_words("filter", "filter"), {.key = "rmse_m", .header = "RMSE", .unit = "m"}}};
 ///     table.row({"IMM", 12.3});
 ///     result.add(table, {.csv = "filters.csv", .summary = {"filters"}});   // {"filters": {"IMM": {"rmse_m": 12.3}}}
 ///

@@ -180,15 +180,13 @@ Option& Option::number_in(double least, double greatest) {
   return option_->check(CLI::Validator(check, "FLOAT in " + range)), *this;
 }
 
-Option& Option::one_of(const std::vector<int>& values) { return option_->check(CLI::IsMember(values)), *this; }
+Option& Option::in(const std::vector<int>& values) { return option_->check(CLI::IsMember(values)), *this; }
 
 Option& Option::one_of(const std::vector<std::string>& values) { return option_->check(CLI::IsMember(values)), *this; }
 
 Option& Option::check(const std::function<std::string(const std::string&)>& complaint) {
   return option_->check(CLI::Validator(complaint, "")), *this;
 }
-
-Option& Option::shows_default() { return option_->capture_default_str(), *this; }
 
 Option& Option::text(const std::string& text) { return option_->option_text(text), *this; }
 
@@ -215,8 +213,11 @@ Subcommand::Subcommand(CLI::App& program, const std::string& name, const std::st
 
 template <class Value>
 Option Subcommand::option(const std::string& name, Value& value, const std::string& meaning) {
-  Option added(app_.add_option(name, value, meaning));
-  if constexpr (std::is_same_v<Value, std::string>)  // CLI11 takes what follows, whatever it is
+  CLI::Option* const option = app_.add_option(name, value, meaning);
+  constexpr bool is_text = std::is_same_v<Value, std::string>;
+  if constexpr (std::is_arithmetic_v<Value> || is_text) option->capture_default_str();
+  Option added(option);
+  if constexpr (is_text)  // CLI11 takes what follows, whatever it is
     added.check([app = &app_](const std::string& text) -> std::string {
       const bool is_option = text.starts_with("--") && app->get_option_no_throw(text) != nullptr;
       if (text.empty()) return "found nothing, expected a value";  // as of an unset variable of the shell

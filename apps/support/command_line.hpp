@@ -47,14 +47,13 @@ class Option {
   /// @{
   /// What it may be: a whole number or a number in a range, or one of some. (CLI::Range lets NaN pass.)
   Option& in(int least, int greatest);
+  Option& in(const std::vector<int>& values);
   Option& number_in(double least, double greatest);
-  Option& one_of(const std::vector<int>& values);
   Option& one_of(const std::vector<std::string>& values);
   /// @}
   /// A check of one's own, which returns what is wrong, or nothing.
   Option& check(const std::function<std::string(const std::string&)>& complaint);
 
-  Option& shows_default();                ///< in the help, as it is now
   Option& text(const std::string& text);  ///< instead of type, default and range in the help
   Option& type(const std::string& name);  ///< instead of the type alone
   Option& list();                         ///< its values have commas between
@@ -73,7 +72,7 @@ class Option {
 /// A subcommand and its options, which CLI11 reads; it takes seconds to include, and so only what implements this does.
 ///
 ///     Subcommand app(program, "simulate", "Simulated targets.");
-///     app.option("--runs", options->runs, "Monte Carlo runs").in(1, 1000).shows_default();
+///     app.option("--runs", options->runs, "Monte Carlo runs").in(1, 1000);
 ///     app.run([options] { … });
 class Subcommand {
  public:
@@ -83,7 +82,8 @@ class Subcommand {
   operator CLI::App&() const { return app_; }
 
   /// An option, or an argument if its name has no dashes, whose value is an int, a size_t, a double, a string, one of
-  /// these that may be missing (std::optional), or a vector.
+  /// these that may be missing (std::optional), or a vector. What a number or a string is now, the help shows as its
+  /// default.
   template <class Value>
   Option option(const std::string& name, Value& value, const std::string& meaning);
 

@@ -182,7 +182,13 @@ LineChart TrackPage::chart(const Track& track, std::string title, std::string y_
                  .x = track.rows.times()};
   for (double& time : made.x) time -= track.first_time;
   made.joined = true;
-  add_restarts(track, made);
+  // Restarts as lines, a few at most: more would be a shade.
+  if (track.restarts.size() > 20) made.note = "There are too many restarts to be marked.";
+  for (std::size_t i = 0; i < track.restarts.size() && track.restarts.size() <= 20; ++i) {
+    const Mark& restart = track.restarts[i];
+    const double time = restart.time - track.first_time;
+    made.shaded.push_back({time, time, filters_[restart.filter].name + " restarts"});
+  }
   return made;
 }
 
@@ -317,16 +323,6 @@ void TrackPage::add_trust(const Track& track, std::vector<Panel>& panels) const 
       }
     }
     if (!made.curves.empty()) panels.emplace_back(std::move(made));
-  }
-}
-
-/// Restarts as lines, a few at most: more would be a shade.
-void TrackPage::add_restarts(const Track& track, LineChart& chart) const {
-  if (track.restarts.size() > 20) chart.note = "There are too many restarts to be marked.";
-  for (std::size_t i = 0; i < track.restarts.size() && track.restarts.size() <= 20; ++i) {
-    const Mark& restart = track.restarts[i];
-    const double time = restart.time - track.first_time;
-    chart.shaded.push_back({time, time, filters_[restart.filter].name + " restarts"});
   }
 }
 

@@ -58,7 +58,10 @@ class Estimates {
     const std::optional<Geodetic>& place;
   };
 
-  Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording) {
+  /// Without files it keeps nothing.
+  Estimates(const TrackOptions& options, const std::vector<FilterSettings>& filters, const RecordingReader& recording,
+            ResultFiles* files) {
+    if (!files) return;
     const auto axes = static_cast<std::size_t>(recording.axes());
     std::vector<std::string> keys;
     const auto add = [&](std::string key, std::function<Cell(const Told&)> cell) {
@@ -99,17 +102,17 @@ class Estimates {
       add("altitude_m",
           [=](const Told& told) { return told.place && axes == 3 ? Cell(told.place->altitude_m) : Cell(); });
     }
-    table_ = ResultTable::of_keys(keys);
+    file_.emplace(*files, "estimates.csv", keys);
   }
 
-  std::string header() const { return table_.csv_header(); }
-  std::string line(const Told& told) const {
-    return table_.csv_line(each(cells_, [&](const auto& cell) { return cell(told); }));
+  explicit operator bool() const { return file_ && *file_; }
+  void write(const Told& told) {
+    if (*this) file_->write(each(cells_, [&](const auto& cell) { return cell(told); }));
   }
 
  private:
   std::vector<std::function<Cell(const Told&)>> cells_;
-  ResultTable table_;
+  std::optional<RowFile> file_;
 };
 
 /// All filters on all targets of one recording.
@@ -129,7 +132,6 @@ class TrackRun {
   }
 
   TrackOutcome run() {
-    if (sinks_.estimates) sinks_.estimates->write(estimates_.header());
     const auto total = recording_.csv().bytes_total();
     Progress progress(file(), total.value_or(1), options_.output.quiet || !total || !shares_.first());
     std::uint64_t done = 0;
@@ -443,11 +445,11 @@ class TrackRun {
         }
       });
     }
-    if (!sinks_.estimates && !sinks_.page) return;
+    if (!estimates_ && !sinks_.page) return;
     std::optional<Geodetic> place;
     if (said.frame) place = tell_from(*target.anchor, LocalFrame(*said.frame, axes_), point);
     if (said.filter == 0) target.tally.goes_to(point.mean, axes_);
-    if (sinks_.estimates) sinks_.estimates->write(estimates_.line({row.track, filter, point, place}));
+    estimates_.write({row.track, filter, point, place});
     if (sinks_.page) sinks_.page->estimated(row, said.filter, point, plot.size);
   }
 
@@ -574,7 +576,7 @@ class TrackRun {
   const std::vector<FilterSettings>& filters_;
   TrackSinks sinks_;
   TrackShares& shares_;
-  Estimates estimates_{options_, filters_, recording_};
+  Estimates estimates_{options_, filters_, recording_, sinks_.files};
   TrackOutcome outcome_;
   std::vector<AnyTarget> prototypes_;  // each filter before its first row
   bool keeps_all_ = false;             // rows, if a filter is to be smoothed; else two

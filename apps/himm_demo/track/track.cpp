@@ -302,7 +302,7 @@ class Reporter {
     ResultTable table;
     for (const auto& [name, track] : outcome_.each) {
       std::vector<Field> fields = {
-          {{.key = "track", .header = "track", .align = Align::left}, name},
+          {of_words("track", "track"), name},
           {{.key = "rows", .header = "rows"}, track.rows},
           {{.key = "duration_s", .header = "lasts", .unit = "s", .digits = 0}, track.last_time - track.first_time},
           {{.key = "way_m", .header = "way", .unit = "km", .scale = 1e-3},
@@ -316,7 +316,7 @@ class Reporter {
       for (std::size_t f = 0; gated && f < filters_.size(); ++f)
         fields.push_back({{.key = "rejected_" + filters_[f].name, .header = filters_[f].name, .group = "turned away:"},
                           track.nis[f].rejected});
-      fields.push_back({{.header = "estimates", .align = Align::left}, track.estimates == 0 ? track.why_silent() : ""});
+      fields.push_back({of_words("", "estimates"), track.estimates == 0 ? track.why_silent() : ""});
       table.row_of(fields);
     }
     result_.add(table, {.printed = false, .summary = {"tracks", "each"}});
@@ -328,7 +328,7 @@ class Reporter {
   std::vector<Field> row_of(std::size_t p, const Sums& sums, const FilterSettings* filter) const {
     const std::size_t count = filter ? sums.count() : sums.error[0].count();
     const std::string name = filter ? filter->name : measurement_name;
-    std::vector<Field> fields = {{{.key = "filter", .header = std::string(parts[p].name), .align = Align::left}, name},
+    std::vector<Field> fields = {{of_words("filter", std::string(parts[p].name)), name},
                                  {{.key = "rows", .header = "rows"}, count}};
     const auto add = [&](std::string_view key, const std::string& group, const std::array<RootMeanSquare, 3>& values) {
       for (std::size_t axis = 0; axis < static_cast<std::size_t>(recording_.axes()); ++axis) {
@@ -355,7 +355,7 @@ class Reporter {
       const double weight = by_model[filter->models[j]] = sums.weights[j] / static_cast<double>(count);
       weights.push_back(fmt::format("{} {:.3f}", filter->models[j], weight));
     }
-    fields.push_back({{.header = "mean weights", .align = Align::left}, list_of(weights)});
+    fields.push_back({of_words("", "mean weights"), list_of(weights)});
     for (const auto& model : model_names(filters_)) {
       const auto weight = by_model.find(model);
       fields.push_back({{.key = "mean_weight_" + model}, weight == by_model.end() ? Cell() : Cell(weight->second)});
@@ -428,7 +428,7 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
     return;
   }
   ResultFiles files(options.output);
-  TrackSinks sinks{.estimates = files.open("estimates.csv")};
+  TrackSinks sinks{.files = &files};
   std::optional<TrackPage> tracks;
   const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());

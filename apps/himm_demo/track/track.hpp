@@ -152,7 +152,6 @@ class TrackPage {
   std::vector<LineChart> error_charts(const Track& track) const;
   LineChart modes(const Track& track, std::size_t filter) const;
   void add_trust(const Track& track, std::vector<Panel>& panels) const;
-  void add_restarts(const Track& track, LineChart& chart) const;
   void add_history(const Track& track, std::size_t filter, LineChart& modes) const;
   Plan plan(const std::string& name, const Track& track) const;
   Plan map_of_all() const;
@@ -291,7 +290,7 @@ struct TrackOutcome {
 
 /// Where a run puts what it finds row by row; null where nobody wants it.
 struct TrackSinks {
-  AtomicFile* estimates = nullptr;  ///< estimates.csv
+  ResultFiles* files = nullptr;  ///< for estimates.csv
   TrackPage* page = nullptr;
 };
 

@@ -89,7 +89,7 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
     const Band band = any ? tally.band() : Band{nan, nan};
     const double nis = any ? tally.mean_square() : nan, right = tally.autocorrelation_band();
     std::vector<Field> fields = {
-        {{.key = "part", .header = modes ? "mode" : "sensor", .align = Align::left}, part.name},
+        {of_words("part", modes ? "mode" : "sensor"), part.name},
         {{.key = "rows", .header = "rows"}, tally.count()},
         {{.key = "nis", .header = "NIS"}, any ? Cell(nis, fmt::format("{:.3g}", nis)) : Cell(nan)},
         {{.header = "right"}, any ? fmt::format("{:.2f}–{:.2f}", band.lower, band.upper) : "–"},
@@ -102,7 +102,7 @@ ResultTable innovations_table(const std::vector<Diagnosis::Part>& parts, bool mo
     fields.push_back({{.key = "neighbours", .header = "neighbours", .sign = true},
                       right > 0.0 ? Cell(tally.autocorrelation()) : Cell(nan)});
     fields.push_back({{.key = "neighbours_right", .header = "right"}, Cell(right, fmt::format("±{:.2f}", right))});
-    fields.push_back({{.key = "verdict", .header = "verdict", .align = Align::left}, verdict_of(tally)});
+    fields.push_back({of_words("verdict", "verdict"), verdict_of(tally)});
     return fields;
   };
   ResultTable table(each(fields_of({}), &Field::column));
@@ -118,10 +118,10 @@ ResultTable numbers_table(const TunedFilter& tuned) {
     const std::string remark = at_rounding ? "no less: its column is rounded"
                                : told      ? fmt::format("± {:.2g}", error)
                                            : "not determined by these rows";
-    table.row_of({{{.key = "number", .header = "fitted number", .align = Align::left}, name},
+    table.row_of({{of_words("number", "fitted number"), name},
                   {{.key = "value", .header = "fitted"}, Cell(value, fmt::format("{:.4g}", value))},
                   {{.key = "error"}, told ? error : nan},
-                  {{.key = "remark", .header = "standard error", .align = Align::left}, remark}});
+                  {of_words("remark", "standard error"), remark}});
   }
   return table;
 }
@@ -138,7 +138,7 @@ ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
     std::string remark = c == tuned.selected.best ? best_name : "";
     if (c == tuned.selected.simple) remark += remark.empty() ? simple_name : ", simple";
     table.row_of(
-        {{{.key = "models", .header = "models", .align = Align::left}, candidate.name},
+        {{of_words("models", "models"), candidate.name},
          {{.key = "remark"}, remark},
          {{.key = "numbers", .header = "fitted numbers"}, tuned.numbers[c]},
          {{.key = "fitted", .header = fmt::format("fitted, {}", unit_of(objective))}, figure(candidate.fitted)},
@@ -146,7 +146,7 @@ ResultTable candidates_table(const TunedFilter& tuned, Objective objective) {
          {{.key = "gain", .header = objective == Objective::rmse ? "gain, m²" : "gain held out"},
           c == 0 ? Cell() : Cell(gain, fmt::format("{:+.3g} ± {:.2g}", gain, error))},
          {{.key = "gain_error"}, c == 0 ? Cell() : Cell(error)},
-         {{.header = " ", .align = Align::left}, remark}});
+         {of_words("", " "), remark}});
   }
   return table;
 }
@@ -156,10 +156,8 @@ ResultTable changes_table(const TunedFilter& tuned) {
   const FilterSettings &before = tuned.before().settings, &best = tuned.best().settings,
                        &simple = tuned.simple().settings;
   const bool two = tuned.selected.simple != tuned.selected.best;
-  ResultTable table({{.key = "key", .header = "key", .align = Align::left},
-                     {.key = before_name, .header = before_name, .align = Align::left},
-                     {.key = best_name, .header = best_name, .align = Align::left},
-                     {.key = simple_name, .header = two ? simple_name : "", .align = Align::left}});
+  ResultTable table({of_words("key", "key"), of_words(before_name, before_name), of_words(best_name, best_name),
+                     of_words(simple_name, two ? simple_name : "")});
   const auto add = [&](const std::string& name, const auto& value) {
     std::vector<Cell> cells = {name};
     std::set<std::string> different;
@@ -610,10 +608,8 @@ void add_tune(CLI::App& program, const std::string& command) {
       .list_alone()
       .one_of({"models", "sensors", "transition", "lift"})
       .type("WHAT,…");
-  app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once")
-      .in(2, 20)
-      .shows_default();
-  app.option("--starts", options->starts, "Searches from different places").in(1, 100).shows_default();
+  app.option("--folds", options->folds, "Parts of the rows, or of the tracks, each held out once").in(2, 20);
+  app.option("--starts", options->starts, "Searches from different places").in(1, 100);
   add_threads(app, options->threads);
   add_seed(app, options->seed, "of the starts, and of a simulated radar");
   add_filter_options(app, options->filters);
