@@ -1,7 +1,6 @@
 #include "recognition_demo/folding.hpp"
 
 #include <numeric>
-#include <ranges>
 
 #include <sigmax/recognition/decision.hpp>
 #include <sigmax/recognition/folds.hpp>
@@ -240,7 +239,7 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
     const std::map<double, std::size_t>& own = values[i];
     if (!whole[i] || own.size() < fewest || 2 * own.size() > data.size()) continue;
     // None has a third of all rows; and of numbers, that are no quantity, each has about as many.
-    const auto [fewest_rows, most_of_one] = std::ranges::minmax(own | std::views::values);
+    const auto [fewest_rows, most_of_one] = std::ranges::minmax(each(own, [](const auto& one) { return one.second; }));
     const bool counts = static_cast<double>(own.size() - 1) == own.rbegin()->first - own.begin()->first;
     const bool are_numbers = std::ranges::all_of(
         data.columns[i].values, [](const std::string& word) { return parse_number(word).has_value(); });
