@@ -221,7 +221,7 @@ std::vector<double> right_when_left_out(const DataTable& data, const LearningOpt
 }
 
 std::vector<std::size_t> columns_of_groups(const DataTable& data, const LearningOptions& options) {
-  constexpr std::size_t fewest = 4, most_columns = 8, most_rows = 50000;
+  constexpr std::size_t fewest_words = 6, fewest_numbers = 11, most_columns = 8, most_rows = 50000;
   constexpr double little = 0.05;
   if (data.size() > most_rows || std::ranges::count_if(data.columns, &DataColumn::numeric) < 2) return {};
   std::vector<std::map<double, std::size_t>> values(data.columns.size());  // and their rows
@@ -237,13 +237,14 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
   std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < values.size() && columns.size() < most_columns; ++i) {
     const std::map<double, std::size_t>& own = values[i];
-    if (!whole[i] || own.size() < fewest || 2 * own.size() > data.size()) continue;
-    // None has a third of all rows; and of numbers, that are no quantity, each has about as many.
+    if (!whole[i] || own.empty() || 2 * own.size() > data.size()) continue;
+    // Numbers that are no quantity have about as many rows each; few of them are grades, bands or answers.
     const auto [fewest_rows, most_of_one] = std::ranges::minmax(each(own, [](const auto& one) { return one.second; }));
     const bool counts = static_cast<double>(own.size() - 1) == own.rbegin()->first - own.begin()->first;
     const bool are_numbers = std::ranges::all_of(
         data.columns[i].values, [](const std::string& word) { return parse_number(word).has_value(); });
-    if (3 * most_of_one > data.size() || (are_numbers && (!counts || most_of_one > 3 * fewest_rows))) continue;
+    if (own.size() < (are_numbers ? fewest_numbers : fewest_words) || 3 * most_of_one > data.size()) continue;
+    if (are_numbers && (!counts || most_of_one > 3 * fewest_rows)) continue;
     if (told_of_class(model, i) < little) columns.push_back(i);
   }
   return columns;
