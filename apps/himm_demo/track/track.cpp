@@ -238,8 +238,9 @@ class Reporter {
     const auto lasting = [](const FilterOutcome& one) {
       return one.with_velocity.count() < 50 ? 0.0 : one.with_velocity.autocorrelation();
     };
+    constexpr double much = 0.8;  // turns within a step make 0.7
     const double lasts = lasting(*std::ranges::min_element(outcome_.filters, {}, lasting));
-    warn(surest && !low && lasts > 0.5 && ratio(*surest) < 1.0,
+    warn(surest && !low && lasts > much && ratio(*surest) < 1.0,
          "{}: neighbouring innovations of positions are much the same (correlation {:.2f}), beside velocities that "
          "count: errors of positions that last, as those of a GNSS do, make the estimates worse than they say; raise "
          "sigma_position_m",
