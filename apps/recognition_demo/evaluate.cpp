@@ -260,8 +260,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
     if (are_groups)
       result.say(
           "{:.1f} % are right by sigma without column{} {}, and {:.1f} % where rows of the same {} are in one fold: if "
-          "other "
-          "rows are of others, expect the latter; --groups {}{} keeps them together",
+          "other rows are of others, expect the latter; --groups {}{} keeps them together",
           100.0 * by->without_all, names.size() > 1 ? "s" : "", fmt::join(names, ", "),
           100.0 * (by->without_all - by->less.mean), name, typed(name),
           by->values < options.folds ? fmt::format(" --folds {}", by->values) : "");

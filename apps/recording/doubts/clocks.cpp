@@ -95,7 +95,8 @@ void Clocks::say_reading(Say& say, const RecordingReader& recording, double step
       left, left_by);
 }
 
-/// Of a target that goes somewhere: the two steps that are most frequent, and whether the longer one leads no farther.
+/// Of a target that goes somewhere: the two steps that are most frequent, and whether one that is a second longer leads
+/// no farther.
 void Clocks::say_cut(Say& say, double moved) const {
   if (fractions_ > 0 || ways_.size() < 2 || 2.0 * moved < path_) return;
   std::vector<std::pair<double, std::pair<std::size_t, double>>> steps(ways_.begin(), ways_.end());
@@ -105,7 +106,7 @@ void Clocks::say_cut(Say& say, double moved) const {
   const auto& [longer, other_ways] = steps[1];
   const auto mean = [](const auto& some) { return some.second / static_cast<double>(some.first); };
   const double as_far = 1.0 + 0.3 * (longer / shorter - 1.0);
-  say(std::min(ways.first, other_ways.first) >= 2 * few && longer < 4.0 * shorter &&
+  say(std::min(ways.first, other_ways.first) >= 2 * few && longer == shorter + 1.0 &&
           mean(other_ways) < as_far * mean(ways),
       "the target comes {:.3g} m in a step of {:.6g} s, and {:.3g} m in one of {:.6g} s: times seem to be cut to whole "
       "seconds; write them in full",

@@ -99,10 +99,10 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   const auto truth = row.truth ? std::optional(Vector<3>(row.truth->data())) : std::nullopt;
   if (is_radar || plot.sensor == AnyPlot::Sensor::bearing)
     parts_->stations.see(plot, truth ? truth : track.located, track.bearing);
-  if (is_radar) parts_->stations.see_path(plot, track.paths[row.sensor]);
   if (!position || axes_seen(plot, axes) < axes) return;
   const Vector<3> at(position->data());
   parts_->stations.see(at);
+  if (is_radar) parts_->stations.see_path(at, plot, track.paths[row.sensor]);
   for (int i = 0; i < 2; ++i)
     if (auto& some = parts_->numbers[static_cast<std::size_t>(i)]; some.size() < Parts::enough_numbers)
       if (const auto number = component_of(plot, i)) some.push_back(*number);

@@ -37,22 +37,20 @@ void Stations::see(const AnyPlot& plot, const std::optional<Vector<3>>& referenc
   before = {from, azimuth};
 }
 
-void Stations::see_path(const AnyPlot& plot, Path& path) {
+void Stations::see_path(const Vector<3>& at, const AnyPlot& plot, Path& path) {
   const Position& from = plot.origin;
-  const double elevation = plot.size > 2 && plot.sensor == AnyPlot::Sensor::polar ? plot.z[2] : 0.0;
-  const double ground = plot.z[0] * std::cos(elevation), c = ground * std::cos(plot.z[1]),
-               s = ground * std::sin(plot.z[1]);
   const bool moves = path.from && *path.from != from;
   path.from = from;
-  path.at[0].keep({from[0] + c, from[1] + s, 0.0});
-  path.at[1].keep({from[0] + s, from[1] + c, 0.0});
+  path.at[0].keep({at[0], at[1], 0.0});
+  path.at[1].keep({from[0] + at[1] - from[1], from[1] + at[0] - from[0], 0.0});
   path.times.keep(plot.time);
   constexpr std::size_t lag = 3, twice = 2 * lag;  // over which a turn shows beyond noise
   if (!moves || !path.times.reaches(twice)) return;
   ++bends_.count;
   for (std::size_t i = 0; i < bends_.sums.size(); ++i) {
-    const auto& at = path.at[i];
-    bends_.sums[i] += length(off_the_way(path.times[lag], at[lag], path.times[twice], at[twice], path.times[0], at[0]));
+    const auto& way = path.at[i];
+    bends_.sums[i] +=
+        length(off_the_way(path.times[lag], way[lag], path.times[twice], way[twice], path.times[0], way[0]));
   }
 }
 

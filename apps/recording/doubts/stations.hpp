@@ -21,7 +21,7 @@ class Stations {
     Recent<double> times{};
     std::optional<Position> from{};
   };
-  void see_path(const AnyPlot& plot, Path& path);
+  void see_path(const Vector<3>& at, const AnyPlot& plot, Path& path);
   /// A plot, and the truth or the last position of its track.
   void see(const AnyPlot& plot, const std::optional<Vector<3>>& reference, std::optional<Bearing>& before);
   /// A position.
