@@ -234,6 +234,10 @@ Results evaluated(const DataTable& data, const Deal& deal, const EvaluateOptions
 /// rows of one thing.
 void say_too_good(const DataTable& data, double accuracy, double most_often, const EvaluateOptions& options,
                   Result& result) {
+  const auto say = [&]<class... Words>(fmt::format_string<Words...> format, Words&&... words) {
+    result.page.verdict.push_back(fmt::format(format, std::forward<Words>(words)...));
+    result.say(result.page.verdict.back());
+  };
   constexpr double very_good = 0.9, much = 0.1, less = 0.03;
   if (accuracy > very_good && data.columns.size() > 1) {
     const auto relations = learned_relations(learn(data, options.learning).counts, options.learning.smoothing);
@@ -244,8 +248,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
       without += shares[c] * static_cast<double>(data.rows_of_class[c]) / static_cast<double>(data.size());
     const std::string& name = data.columns[most].name;
     if (!shares.empty() && accuracy - most_often > much && without - most_often < (accuracy - most_often) / 3.0)
-      result.say(
-          "Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
+      say("Without column {} {:.2f} % are right by sigma, not {:.2f}: if it is not known before the class is, leave it "
           "out by --ignore {}",
           in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
   }
@@ -258,21 +261,19 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
     const bool are_groups = by_no_chance(by->less, 0.05);
     any |= are_groups;
     if (are_groups)
-      result.say(
-          "{:.1f} % are right by sigma without column{} {}, and {:.1f} % where rows of the same {} are in one fold: if "
+      say("{:.1f} % are right by sigma without column{} {}, and {:.1f} % where rows of the same {} are in one fold: if "
           "other rows are of others, expect the latter; --groups {}{} keeps them together",
           100.0 * by->without_all, names.size() > 1 ? "s" : "", fmt::join(names, ", "),
           100.0 * (by->without_all - by->less.mean), name, typed(name),
           by->values < options.folds ? fmt::format(" --folds {}", by->values) : "");
     else if (by_no_chance(by->more, less))
-      result.say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
-                 100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
+      say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
+          100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
   }
   if (any) return;
   const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
   if (are_in_clumps(clumps))
-    result.say(
-        "{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
+    say("{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
         "one thing, as a person, a place or a session, or made of one another, the others are too good; keep those of "
         "one thing together by --groups, if a column names it",
         100.0 * clumps->accuracy, clumps->rows < data.size() ? fmt::format(" of {} rows", clumps->rows) : "",
@@ -364,8 +365,9 @@ LineChart reliability_chart(const Outcome& outcome, std::size_t foldings) {
 
 /// Confusion matrices and reliability side by side, and what was learned of all rows.
 void fill(Report& page, const DataTable& data, const Results& results, const EvaluateOptions& options) {
-  page.verdict = {fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
-                              options.foldings, options.seed, described(options.learning))};
+  page.verdict.insert(page.verdict.begin(),
+                      fmt::format("{}. {}, {} foldings, seed {}; {}.", described(data), described_folds(options),
+                                  options.foldings, options.seed, described(options.learning)));
   page.panels.emplace_back(
       ReportTable{"Classifiers", outcomes_table(results, options.foldings), "Differences ± 95 % by paired rows."});
   constexpr std::size_t most_classes = 30;

@@ -325,7 +325,7 @@ TEST_F(Tune, LeavesASigmaAsItIsWhoseColumnsNeverChange) {
   EXPECT_EQ(ending.output.find("sigma_position_m"), std::string::npos) << ending.output;
 }
 
-TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVary) {
+TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVaryOrVelocitiesCount) {
   const auto text = changed(recording(120, false), [](std::vector<double>& row, std::size_t k) {
     row[0] += k % 3 == 0 ? 0.6 : 0.0;  // steps of 1, 0.4 and 1.6 s
   });
@@ -335,6 +335,12 @@ TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVary) {
   EXPECT_TRUE(says(ending.output, {"cwna+cwpa"}));
   const auto asked = program::succeeded(tune(few + Arguments{directory.path() / "flight.csv", "--models", "dwna"}));
   EXPECT_EQ(asked.output.find("cwna"), std::string::npos) << asked.output;
+  const auto moving = directory.write(
+      "moving.csv", apps::recording(
+                        "time_s,x_m,y_m,vx_mps,vy_mps",
+                        [](int k) { return fmt::format("{},{},{},{},7", k, 20 * k + k % 3, 7 * k, 20 + k % 2); }, 90));
+  const Arguments counts = {"--set", "sigma_velocity_mps=1", moving};
+  EXPECT_TRUE(says(program::succeeded(tune(few + counts)).output, {"cwna+cwpa"}));
 }
 
 TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {

@@ -179,6 +179,7 @@ class Reporter {
     const bool tied = std::ranges::all_of(filters_, [&](const FilterSettings& filter) {
       return filter.accuracy.velocity_mps && std::ranges::all_of(filter.models, is_tied);
     });
+    const double apart = tied ? outcome_.doubts.apart(told, *filters_.front().accuracy.velocity_mps) : 0.0;
     const Outliers& outliers = outcome_.outliers;
     const std::size_t causes = warnings.size();
     const bool few_outliers = outliers.count > 0 && 20 * outliers.count < outcome_.measurements;
@@ -191,6 +192,11 @@ class Reporter {
          outcome_.bearings == outcome_.measurements ? ", or lower sigma_w, where bearings are far apart in time" : "",
          tied ? "; dwna and dwpa tie a velocity to the way of the step: try --set models=[cwna,cwpa]" : "",
          many ? "; if the file holds several targets, tell them apart with --track-id COLUMN" : "");
+    warn(outliers.count == 0 && apart > 1.2,
+         "{}: where velocities change, the ways by them are {:.2g} times as far from the positions as the sigmas say: "
+         "dwna and dwpa tie a velocity to the way of the step, which a turn within it does not: try --set "
+         "models=[cwna,cwpa], or raise the sensor's sigmas",
+         file_, apart);
     const auto most =
         std::ranges::max_element(outcome_.filters, {}, [](const FilterOutcome& one) { return one.lost.rows; });
     const auto& [lost, first_lost] = most->lost;

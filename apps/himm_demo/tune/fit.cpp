@@ -637,7 +637,8 @@ double finish(FilterSettings& settings, double gate, const TuneData& data, const
 
 std::vector<ModelSet> model_sets(const FilterSettings& settings, const TuneOptions& options, const TuneData& data) {
   std::vector<std::string> names = options.models;
-  const bool continuous = names.empty() && data.uneven_steps;
+  const bool moving = std::ranges::any_of(data.sensors, [](const auto& sensor) { return sensor.second.velocity; });
+  const bool continuous = names.empty() && (data.uneven_steps || (moving && !data.moves_alone));
   if (names.empty()) {
     auto motions = each(settings.motions, &MotionChoice::name);
     for (const auto& [fixed, free] : {std::pair{"dwna", "cwna"}, std::pair{"dwpa", "cwpa"}})

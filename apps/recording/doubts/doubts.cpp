@@ -195,6 +195,10 @@ std::optional<double> Doubts::told_sigma() const {
   return std::sqrt(parts_->variances.sum / static_cast<double>(parts_->variances.count));
 }
 
+double Doubts::apart(double sigma_position, double sigma_velocity) const {
+  return parts_->rates.apart(parts_->clocks.step(), sigma_position, sigma_velocity);
+}
+
 double Doubts::rounding(const RecordingReader& recording) const {
   double greatest = 0.0;
   for (std::size_t i = 0; i < 2 && recording.located(); ++i)

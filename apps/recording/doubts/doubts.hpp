@@ -33,6 +33,9 @@ class Doubts {
   /// The standard deviation along an axis that rows tell of positions, if hundreds do.
   std::optional<double> told_sigma() const;
 
+  /// How far positions and the ways by velocities that change are apart, in standard deviations that are expected.
+  double apart(double sigma_position, double sigma_velocity) const;
+
   /// Sentences, each with the name or the option that mends it.
   std::vector<std::string> sentences(const RecordingReader& recording) const;
 

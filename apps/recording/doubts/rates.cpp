@@ -204,6 +204,20 @@ void Rates::say_source(Say& say, const Stays& told, double step, double turned) 
       delay > 0.0 && delay < 0.7 * step ? ", as where each is the way since the row before by the step" : "");
 }
 
+double Rates::apart(double step, double sigma_position, double sigma_velocity) const {
+  const double noise = std::pow(sigma_velocity, 2);
+  if (changes_ < 4.0 * noise * static_cast<double>(pairs_[0][velocities].count)) return 0.0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {  // farther on a small error of all velocities is as great
+    const Agreement& both = pairs_[k][velocities];
+    if (both.count < few) continue;
+    const double rows = static_cast<double>(lengths[k]), way = std::pow(step * rows, 2);
+    const double off = way * (both.told - 2.0 * both.product + both.grew) / static_cast<double>(both.count);
+    most = std::max(most, off / (2.0 * std::pow(sigma_position, 2) + noise * way / rows));
+  }
+  return std::sqrt(most);
+}
+
 void Rates::say(Say& say, const RecordingReader& recording, const Stays& told, double step, double turned) const {
   bool is_clear = say_exchanged(say, recording);
   is_clear |= say_signs(say, recording, is_clear);

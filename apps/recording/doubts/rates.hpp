@@ -30,6 +30,10 @@ class Rates {
   /// `step` is the usual one in s; `turned` how far one's north may be from another's.
   void say(Say& say, const RecordingReader& recording, const Stays& told, double step, double turned) const;
 
+  /// How far positions and the ways by velocities that change are apart, in standard deviations that are expected, over
+  /// as many rows as make it most.
+  double apart(double step, double sigma_position, double sigma_velocity) const;
+
  private:
   /// The rates along x, y and z, and of the range; those of the first two together, taken for each other, and a right
   /// angle to the left.
