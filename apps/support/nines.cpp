@@ -30,6 +30,9 @@ bool is_code(std::string_view cell, double number) {
          digits.find_first_not_of(std::string(".0") + first) == digits.npos;
 }
 
+/// Whether a number is not just the next one, as 999 where others are 1000.
+bool is_gap(double gap, double next) { return gap > 0.05 * std::abs(next); }
+
 }  // namespace
 
 void Nines::see(std::string_view cell, double number) {
@@ -71,21 +74,25 @@ std::string Nines::doubt_of(std::string_view column, const End& end, double othe
     cells += told->second.cells;
     codes = codes || told->second.word == word_;
     const bool are_few = words.size() == 1 || told->second.word == word_ || others_ + cells_ >= 9 * cells;
-    if (codes && are_few && told->first - next > next + other_end && others_ + cells_ >= few + cells)
+    const double gap = told->first - next;
+    if (codes && are_few && gap > next + other_end && is_gap(gap, next) && others_ + cells_ >= few + cells)
       return sentence(column, cells, words);
   }
   return {};
 }
 
 std::string Nines::doubt(std::string_view column) const {
-  const bool is_far = std::max(number_ - greatest_, least_ - number_) > greatest_ - least_;
+  const double beyond = std::max(number_ - greatest_, least_ - number_);
+  const bool is_far = beyond > greatest_ - least_ && is_gap(beyond, greatest_);
   const bool is_great = number_ < 0.0 ? least_ > 0.1 * number_ : greatest_ < 0.1 * number_;
   if (!word_.empty() && others_ >= few && (is_far || is_great)) return sentence(column, cells_, {word_});
-  if (low_.empty()) return {};
+  if (low_.size() < 2) return {};
   const auto& [farthest, told] = *low_.begin();
   const std::string_view bare = std::string_view(told.word).substr(0, told.word.find('.'));
   const bool is_none = bare == "-1" || bare == "-9" || bare == "-99" || bare == "-999";
-  if (different_.size() > most_different && is_none && told.cells >= again && std::next(low_.begin())->first <= 0.0)
+  const double next = -std::next(low_.begin())->first;  // of places: -1 beside 0 is a scatter about it
+  const bool is_alone = asks_for_zero_ ? next >= 0.0 : next > 0.0;
+  if (different_.size() > most_different && is_none && told.cells >= again && is_alone)
     return fmt::format(
         "column {}: {} cells are {}, the only ones below 0; if that stands for no value, give --missing={}",
         in_quotes(column), told.cells, told.word, told.word);

@@ -126,10 +126,13 @@ void Clocks::say_unit(Say& say, bool alone, double speed) const {
     const std::string others = other_times();
     say(!others.empty(), "times are {}: write all in one unit", others);
   }
-  const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;  // as an hour: what is slow
+  // As an hour: what is slow. Devices that tell milliseconds have even steps, and none tells them of this century.
+  const bool in_minutes = std::fmod(step, 300.0) == 0.0 && std::fmod(step, 1000.0) != 0.0;
+  const auto uneven = std::ranges::count_if(steps_, [&](double own) { return std::abs(own - step) > 0.3 * step; });
+  const bool is_slow = in_minutes || 5 * uneven > std::ssize(steps_) || (latest_ > 1e9 && latest_ < 1e10);
   for (const TimeColumn& unit : time_columns)
     // From a tenth of a second to twenty seconds, and from 0.5 m/s to 500 m/s.
-    say(unit.unit_s < 1.0 && !in_minutes && !is_far_off() && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
+    say(unit.unit_s < 1.0 && !is_slow && !is_far_off() && step * unit.unit_s >= (unit.unit_s < 1e-8 ? 1e-3 : 0.1) &&
             step * unit.unit_s <= 20.0 && speed / unit.unit_s >= 0.5 && speed / unit.unit_s < 500.0,
         "times that are {:.6g} s apart, and a speed of {:.2g} m/s: these look like {}; name the column {}, if they are",
         step, speed, unit.words, unit.name);
