@@ -150,14 +150,18 @@ class RowReader {
   static constexpr const char* remedy =
       "leave the cell empty, or have all such cells counted as missing by --unseen missing";
 
-  /// Whether a number is three times as far from the cuts between bins as they are from each other, and beyond half of
-  /// the range learned from; or, of a quantity that is never zero, a tenth and as far beyond by its logarithm.
+  /// Whether a number is three times as far from the cuts between bins as they are from each other, and beyond the
+  /// range learned from by as much as that; or, of a quantity that is never zero, a tenth and as far beyond by its
+  /// logarithm. Of amounts, with a long tail, it is beyond half the range of their logarithms, too.
   static bool is_far(double number, const FeatureCode& feature) {
     const auto cuts = feature.bins->cuts();
     if (number > 0.0 && 10.0 * number < feature.least && number * feature.greatest < feature.least * feature.least)
       return true;
-    const double half = (feature.greatest - feature.least) / 2.0;
-    if (cuts.size() < 2 || (feature.least - half <= number && number <= feature.greatest + half)) return false;
+    const double range = feature.greatest - feature.least;
+    if (cuts.size() < 2 || (feature.least - range <= number && number <= feature.greatest + range)) return false;
+    const bool has_tail = feature.least > 0.0 && feature.greatest - cuts.back() > 3.0 * (cuts.front() - feature.least);
+    if (has_tail && number > 0.0 && number < feature.greatest * std::sqrt(feature.greatest / feature.least))
+      return false;
     const double far = 3.0 * (cuts.back() - cuts.front());
     return number < cuts.front() - far || number > cuts.back() + far;
   }

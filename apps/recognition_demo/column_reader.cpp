@@ -255,6 +255,13 @@ bool ColumnReader::ByValue::may_be_groups(std::size_t classes) const {
   return others == 0 || (20 * others < rows && rows < 30 * values);
 }
 
+bool ColumnReader::ByValue::changes_by_chance(const std::vector<std::size_t>& rows_of_class) const {
+  const double all = std::accumulate(rows_of_class.begin(), rows_of_class.end(), 0.0), n = static_cast<double>(values);
+  double other = 1.0;
+  for (const std::size_t of_class : rows_of_class) other -= std::pow(static_cast<double>(of_class) / all, 2);
+  return static_cast<double>(changes) >= n * other - 2.5 * std::sqrt(n * other * (1.0 - other));
+}
+
 ColumnReader::ByValue ColumnReader::by_value(const std::vector<std::size_t>& rows_of_class) const {
   if (too_many_words_) return {};
   ByValue result = summed(classes_, rows_of_class);
@@ -318,7 +325,7 @@ void ColumnReader::warn(DataTable& table) const {
   say(is_name && are_numbers,
       " holds numbers, most of which stand once, so that --categorical {} leaves little to learn: take them as numbers",
       for_typing);
-  say(is_name && !are_numbers,
+  say(is_name && !are_numbers && (!is_numeric() || counts_ || values.changes_by_chance(table.rows_of_class)),
       " seems to name the rows, or to count them, and tells nothing of others, unless they are in its order; leave it "
       "out by --ignore {}",
       for_typing);

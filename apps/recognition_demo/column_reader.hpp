@@ -99,6 +99,8 @@ class ColumnReader {
 
     bool tells_all(std::size_t classes) const;
     bool may_be_groups(std::size_t classes) const;
+    /// Whether the class changes as often as where the order of the values tells nothing of it.
+    bool changes_by_chance(const std::vector<std::size_t>& rows_of_class) const;
     static constexpr std::size_t fewest_groups = 8;
   };
   ByValue by_value(const std::vector<std::size_t>& rows_of_class) const;

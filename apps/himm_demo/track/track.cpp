@@ -95,10 +95,10 @@ class Reporter {
     say(recording_.moves_alone(),
         "There are no positions: without a given start a track starts at 0, a step before its first row, and positions "
         "are counted from there");
-    for (const auto& notes : {recording_.notes(), outcome_.places})
-      for (const std::string& note : notes) say(true, note);
     say(recording_.geodetic() && !truth_known_,
         "The σ below are those of errors that are new in each row; errors of a GNSS last, and come on top");
+    for (const auto& notes : {recording_.notes(), outcome_.places})
+      for (const std::string& note : notes) say(true, note);
     say(recording_.has_sensors() && !outcome_.sensors.empty(), "Rows by sensor: " + numbered(outcome_.sensors));
     say(!outcome_.velocity_unknown.empty(),
         "Rows whose velocity does not count, for want of sensor.NAME.sigma_velocity_mps: " +
