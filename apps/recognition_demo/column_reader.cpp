@@ -28,8 +28,9 @@ std::string_view unit_of(std::string_view cell) {
   const std::string_view before = trimmed(cell.substr(0, begin)), after = trimmed(cell.substr(end));
   const bool is_sign = std::ranges::none_of(before, [](unsigned char letter) { return std::isalpha(letter) != 0; });
   const std::string_view number = cell.substr(begin, end - begin);
-  const auto point = number.find_first_of(".,");  // S12 is a name, and EUR 12.50 none
-  const bool is_amount = is_sign || (point != number.npos && point > 0 && point + 1 < number.size());
+  const auto point = number.find_first_of(".,");  // S12, v1.2 and I21.4 are names, and EUR 12.50 is none
+  const bool is_letter = begin == 1 && before.size() == 1;
+  const bool is_amount = is_sign || (!is_letter && point != number.npos && point > 0 && point + 1 < number.size());
   const bool alone = (before.empty() || after.empty()) && is_amount && after.find_first_of("0123456789") == after.npos;
   constexpr std::array no_units = {"'", "=", "~", "*", "−", "\u00A0", "\u202F"};
   if (std::ranges::find(no_units, before.empty() ? after : before) != no_units.end()) return "";
@@ -221,8 +222,13 @@ std::string ColumnReader::several_numbers() const {
 
 std::string ColumnReader::one_number() const {
   constexpr std::size_t most = 100;
-  if (!is_numeric() || too_many_words_ || words_.size() > most) return "";
+  if (!is_numeric() || too_many_words_) return "";
+  std::string_view before;
   for (const auto& [word, code] : words_.codes) {
+    const std::string_view last = std::exchange(before, word);
+    constexpr std::size_t all_told = 15;  // digits, of a number in double precision
+    if (word.size() > all_told && parse_number(word) == parse_number(last)) return fmt::format("{} and {}", last, word);
+    if (words_.size() > most) continue;
     const auto point = word.find('.');
     const auto without = word.find_last_not_of('0');
     if (point == word.npos || without == word.npos || without <= point || without + 1 == word.size()) continue;
@@ -342,7 +348,7 @@ void ColumnReader::warn(DataTable& table) const {
     say(lengths_.size() == 1 && !with_zeros_.empty(),
         " holds codes, as {}, that are read as numbers: if their order tells nothing, give --categorical {}",
         with_zeros_, for_typing);
-    say(!two.empty(), ": {} are read as one number: if they are names, as those of versions are, give --categorical {}",
+    say(!two.empty(), ": {} are read as one number: if they are names, as of versions or things, give --categorical {}",
         two, for_typing);
     const auto inside =
         std::ranges::find_if(left_out_, [&](const auto& one) { return low_ < one.first && one.first < high_; });

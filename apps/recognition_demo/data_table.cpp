@@ -334,7 +334,7 @@ void warn_of_gaps(DataTable& table) {
 void warn_of_order(DataTable& table) {
   constexpr double lasting = 0.3;
   struct Sums {
-    double n = 0.0, sum = 0.0, squares = 0.0, last = nan;
+    double n = 0.0, first = 0.0, sum = 0.0, squares = 0.0, last = nan;  // sums about the first
   };
   const std::size_t columns = table.columns.size(), classes = table.classes.size();
   // What the rows were sorted by, first by one column, then by the next: how often it comes again, or falls.
@@ -368,11 +368,14 @@ void warn_of_order(DataTable& table) {
       }
       if (!numeric || std::isnan(number)) continue;
       Sums& own = of[i * classes + row.label()];
-      if (own.n > 0.0) {
+      if (own.n == 0.0) {
+        own.first = number;
+      } else {
         steps[i] += (number - own.last) * (number - own.last);
         ++pairs[i];
       }
-      ++own.n, own.sum += number, own.squares += number * number, own.last = number;
+      const double off = number - own.first;
+      ++own.n, own.sum += off, own.squares += off * off, own.last = number;
     }
   });
   std::size_t numbers = 0, smooth = 0;

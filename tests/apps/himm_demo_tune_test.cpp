@@ -343,6 +343,23 @@ TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVaryOrVelocitiesCount) {
   EXPECT_TRUE(says(program::succeeded(tune(few + counts)).output, {"cwna+cwpa"}));
 }
 
+TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichItBeginsFarAbove) {
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal;
+  double x = 0.0, v = 5.0;  // of cwna with 0.4 m/s^1.5, each second
+  const auto row = [&](int k) {
+    const double w = 0.4 * normal(generator);
+    x += v + w / 2.0 + 0.4 / std::sqrt(12.0) * normal(generator), v += w;
+    return fmt::format("{},{},{}", k, x + 8.0 * normal(generator), v + 0.3 * normal(generator));
+  };
+  const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,vx_mps", row, 1500));
+  const auto best = (directory.path() / "best.toml").string();
+  program::succeeded(tune(words("--set filters=imm --models cwna --starts 1 --folds 2 --set sigma_velocity_mps=0.3") +
+                          Arguments{file, "--out", best}));
+  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.3, 0.06) << contents(best);
+  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.4, 0.06) << contents(best);
+}
+
 TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {
   const auto ending = program::succeeded(tune(quickly(directory.write("flight.csv", recording(300, false)))));
   const std::string after = ending.output.substr(ending.output.find("standard error"));

@@ -305,20 +305,24 @@ class Fitter {
   bool is_better(const FilterSettings& one, const FilterSettings& other) const { return value(one) < value(other); }
 
   /// From far away: great steps. Of all numbers also from sensors that are nearly exact, since from great errors the
-  /// way to a target that swings within few of its steps leads over worse ones.
+  /// way to a target that swings within few of its steps leads over worse ones, and from motions that are: from great
+  /// noise of theirs the errors of measured velocities are taken for it.
   Fitted far(const FilterSettings& settings, Scanned scanned) const {
     Fitted best = from(settings);
     if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
     scan(best, scanned);
     if (scanned != Scanned::all) return best;
     constexpr double nearly_exact = 1e-3;
-    FilterSettings exact = settings;
-    for (const FreeNumber& number : free_numbers(settings, data_, options_))
-      if (number.sensor && number.noise) number.set(exact, nearly_exact * number.parameter.start);
-    Fitted other = from(exact);
-    scan(other, Scanned::models);
-    scan(other, scanned);
-    return other.fitted < best.fitted ? other : best;
+    for (const bool sensors : {true, false}) {
+      FilterSettings exact = settings;
+      for (const FreeNumber& number : free_numbers(settings, data_, options_))
+        if (number.sensor == sensors && number.noise) number.set(exact, nearly_exact * number.parameter.start);
+      Fitted other = from(exact);
+      if (sensors) scan(other, Scanned::models);
+      scan(other, scanned);
+      if (other.fitted < best.fitted) best = std::move(other);
+    }
+    return best;
   }
 
   /// From where those led, by start number `start` about it.
@@ -667,7 +671,7 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
     const auto numbers = free_numbers(base, data, options);
     const auto scanned = static_cast<std::size_t>(std::ranges::count(
         numbers, Scale::logarithmic, [](const FreeNumber& number) { return number.parameter.scale; }));
-    work += (base.models.size() == 1 ? 3 : 1) * most_sweeps * factors.size() * scanned +
+    work += (base.models.size() == 1 ? 4 : 1) * most_sweeps * factors.size() * scanned +
             options.starts * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
   }
   return work;

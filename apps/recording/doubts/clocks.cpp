@@ -57,10 +57,11 @@ std::string Clocks::other_times() const {
   return fmt::format("{:.6g} s apart up to {:.6g} and {:.6g} s from {:.6g} on", before, last, then, last + *longest);
 }
 
-/// Whether a step is an hour longer, of a lone track at night in those months in which it is done somewhere.
+/// Whether a step is an hour longer, of a lone track once or twice, at night in those months in which it is done
+/// somewhere.
 bool Clocks::puts_clocks_forward(double step, bool alone) const {
   double time = first_;
-  return std::ranges::any_of(steps_, [&](double own) {
+  const auto times = std::ranges::count_if(steps_, [&](double own) {
     const double before = std::exchange(time, time + own);
     if (std::abs(own - step - 3600.0) > 0.1 * step) return false;
     const std::chrono::sys_seconds then{std::chrono::seconds(std::lround(before))};
@@ -69,6 +70,7 @@ bool Clocks::puts_clocks_forward(double step, bool alone) const {
     const bool in_spring = month == 3 || month == 4 || (month >= 8 && month <= 10);
     return !alone || (in_spring && then - day < std::chrono::hours(5));
   });
+  return times > 0 && (!alone || times <= 2);
 }
 
 /// What the reader found.
