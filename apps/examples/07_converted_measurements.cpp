@@ -1,11 +1,8 @@
 // How sure of itself is a converted radar measurement? Mean NEES of three conversions: 2 in the plane and 3 in space if
 // its covariance is right. Argument: draws for each line.
 
-#include <array>
-#include <cstddef>
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <string>
 
 #include <sigmax/estimation/chi_square.hpp>

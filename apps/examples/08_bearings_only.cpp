@@ -2,8 +2,6 @@
 
 #include <sigmax/estimation/grid_filter.hpp>
 
-#include <numbers>
-
 #include "runs.hpp"
 #include "support/random.hpp"
 

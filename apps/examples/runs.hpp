@@ -2,15 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iomanip>
 #include <iostream>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <sigmax/core/mean_interval.hpp>
 
 #include "result/pictures.hpp"
 #include "result/report.hpp"

@@ -6,7 +6,6 @@
 #include "recognition_demo/column_reader.hpp"
 #include "recognition_demo/learned_model.hpp"
 #include "recognition_demo/subcommands.hpp"
-#include "support/input.hpp"
 #include "support/progress.hpp"
 
 namespace sigmax::apps {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/input.hpp"
-#include "support/output.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {

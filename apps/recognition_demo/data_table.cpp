@@ -5,8 +5,6 @@
 #include <tuple>
 
 #include "recognition_demo/column_reader.hpp"
-#include "support/input.hpp"
-#include "support/output.hpp"
 #include "support/progress.hpp"
 #include "support/text.hpp"
 

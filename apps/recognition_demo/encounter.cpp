@@ -8,7 +8,6 @@
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
 #include "support/csv.hpp"
-#include "support/input.hpp"
 #include "support/numbers.hpp"
 #include "support/thinned.hpp"
 

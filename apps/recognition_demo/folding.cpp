@@ -6,7 +6,6 @@
 #include <sigmax/recognition/folds.hpp>
 
 #include "recognition_demo/column_reader.hpp"
-#include "support/input.hpp"
 #include "support/parallel.hpp"
 
 namespace sigmax::apps {

@@ -11,7 +11,6 @@
 #include "recognition_demo/subcommands.hpp"
 #include "recognition_demo/world.hpp"
 #include "support/csv.hpp"
-#include "support/input.hpp"
 
 namespace sigmax::apps {
 namespace {

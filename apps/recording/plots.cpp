@@ -1,7 +1,7 @@
 #include "recording/plots.hpp"
 
-#include "support/output.hpp"
 #include "support/random.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 

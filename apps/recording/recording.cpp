@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "support/input.hpp"
-#include "support/output.hpp"
 #include "support/text.hpp"
 #include "support/timestamp.hpp"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "support/csv.hpp"
-#include "support/output.hpp"
 
 namespace sigmax::apps {
 namespace {

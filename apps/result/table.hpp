@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <variant>
 
 #include <nlohmann/json_fwd.hpp>

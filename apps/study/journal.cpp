@@ -4,15 +4,14 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <charconv>
 
 #include "support/command_line.hpp"
-#include "support/error.hpp"
 #include "support/input.hpp"
 #include "support/output.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

@@ -14,7 +14,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "support/input.hpp"
 #include "support/output.hpp"
 #include "support/text.hpp"
 #include "version.hpp"

@@ -1,6 +1,5 @@
 #include "support/csv.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <system_error>
 
 #include "support/input.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

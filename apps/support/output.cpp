@@ -7,9 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <climits>
-#include <cmath>
 #include <cstdio>
 #include <system_error>
 
@@ -139,18 +137,6 @@ std::filesystem::path output_directory(std::filesystem::path path) {
                       .what = "the directory cannot be created: " + reason(error.value()),
                       .remedy = remedy(error.value())});
   return path;
-}
-
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
-
-std::string toml_number(double value) {
-  std::string text = shortest(value);
-  if (std::abs(value) >= 0x1p53 && text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
 }
 
 }  // namespace sigmax::apps

@@ -62,10 +62,4 @@ void remove_unfinished_files() noexcept;
 /// reason.
 std::filesystem::path output_directory(std::filesystem::path path);
 
-/// The shortest decimal number that reads back as the same double.
-std::string shortest(double value);
-
-/// The same as TOML reads it back: with a point where it would be an integer that no double may stand for.
-std::string toml_number(double value);
-
 }  // namespace sigmax::apps

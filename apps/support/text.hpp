@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -12,6 +13,18 @@
 #include "support/error.hpp"
 
 namespace sigmax::apps {
+
+/// Text without the blanks and tabs around it.
+std::string_view trimmed(std::string_view text);
+
+/// A finite decimal number, whatever the locale; a leading '+' and blanks around it are allowed, and nothing else.
+std::optional<double> parse_number(std::string_view text);
+
+/// The shortest decimal number that reads back as the same double.
+std::string shortest(double value);
+
+/// The same as TOML reads it back: with a point where it would be an integer that no double may stand for.
+std::string toml_number(double value);
 
 /// Columns of a terminal that nobody has widened.
 inline constexpr std::size_t terminal_width = 80;

@@ -1,15 +1,11 @@
 #include "support/timestamp.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
-#include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "support/input.hpp"
+#include "support/text.hpp"
 
 namespace sigmax::apps {
 namespace {

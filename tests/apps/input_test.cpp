@@ -5,30 +5,6 @@
 
 namespace input_test {
 
-TEST(ParseNumber, TakesDecimalNumbersWithSignAndBlanks) {
-  EXPECT_EQ(parse_number("12.5"), 12.5);
-  EXPECT_EQ(parse_number(" \t-0.25\t "), -0.25);
-  EXPECT_EQ(parse_number("+3"), 3.0);
-  EXPECT_EQ(parse_number("1e-3"), 1e-3);
-  EXPECT_EQ(parse_number(".5"), 0.5);
-  EXPECT_EQ(parse_number("5."), 5.0);
-  EXPECT_EQ(parse_number("5e-324"), least_subnormal);
-  EXPECT_EQ(parse_number("0.1000000000000000055511151231257827"), 0.1);
-}
-
-TEST(ParseNumber, TakesNothingElse) {
-  for (const std::string_view text :
-       {"",     " ",   "abc",  "1x",  "1 2",  "1,5",      "+",     "-",  "+-1", "-+1",   "++1", "+ 1",
-        "0x10", "nan", "-nan", "inf", "+inf", "Infinity", "1e999", "1e", "--1", "1_000", "½"})
-    EXPECT_EQ(parse_number(text), std::nullopt) << text;
-}
-
-TEST(Trimmed, TakesBlanksOffBothEnds) {
-  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
-  EXPECT_EQ(trimmed(" \t "), "");
-  EXPECT_EQ(trimmed(""), "");
-}
-
 class OpenInput : public InDirectory {};
 
 TEST_F(OpenInput, ReadsBytesAsTheyAre) {

@@ -4,7 +4,6 @@
 
 #include "apps/temporary_directory.hpp"
 #include "support/error.hpp"
-#include "support/random.hpp"
 
 namespace output_test {
 
@@ -150,30 +149,6 @@ TEST_F(OutputDirectory, SaysWhyItCannotBe) {
   for (const fs::path& path : {file, file / "below"})
     EXPECT_EQ(message_of<InputError>([&] { output_directory(path); }),
               path.string() + ": the directory cannot be created: Not a directory; choose another place");
-}
-
-TEST(Shortest, ReadsBackAsTheSameDouble) {
-  EXPECT_EQ(shortest(0.1), "0.1");
-  EXPECT_EQ(shortest(5.0), "5");
-  EXPECT_EQ(shortest(-1e-300), "-1e-300");
-  EXPECT_EQ(shortest(1.0 / 3.0), "0.3333333333333333");
-  RandomStream random{1, 0};
-  for (int i = 0; i < 10'000; ++i) {
-    const double value = std::ldexp(random.normal(), static_cast<int>(2000.0 * (random.uniform() - 0.5)));
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(std::strtod(shortest(value).c_str(), nullptr)),
-              std::bit_cast<std::uint64_t>(value));
-  }
-}
-
-TEST(TomlNumber, HasAPointWhereAnIntegerWouldNotFit) {
-  EXPECT_EQ(toml_number(2.0), "2");
-  EXPECT_EQ(toml_number(0.1), "0.1");
-  EXPECT_EQ(toml_number(9007199254740991.0), "9007199254740991");
-  EXPECT_EQ(toml_number(9007199254740992.0), "9007199254740992.0");
-  EXPECT_EQ(toml_number(-92233720368547758.7), "-92233720368547760.0");
-  EXPECT_EQ(toml_number(92233720368547758072.5), "92233720368547758080.0");
-  EXPECT_EQ(toml_number(-92233720368547758072.5), "-92233720368547758080.0");
-  EXPECT_EQ(toml_number(1e300), "1e+300");
 }
 
 }  // namespace output_test

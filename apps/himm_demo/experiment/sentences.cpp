@@ -1,6 +1,5 @@
 #include "himm_demo/experiment/sentences.hpp"
 
-#include <cmath>
 #include <sstream>
 
 #include "himm_demo/experiment/scenario.hpp"

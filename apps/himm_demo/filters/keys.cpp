@@ -3,8 +3,6 @@
 #include <sstream>
 
 #include "himm_demo/experiment/scenario.hpp"
-#include "support/input.hpp"
-#include "support/output.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {

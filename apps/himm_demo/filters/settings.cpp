@@ -2,7 +2,6 @@
 
 #include "himm_demo/experiment/scenario.hpp"
 #include "recording/plots.hpp"
-#include "support/output.hpp"
 #include "support/text.hpp"
 
 namespace sigmax::apps {

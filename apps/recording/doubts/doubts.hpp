@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "recording/recording.hpp"
 
 namespace sigmax::apps {

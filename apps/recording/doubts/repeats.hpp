@@ -1,7 +1,5 @@
 #pragma once
 
-#include <set>
-
 #include "recording/doubts/trail.hpp"
 
 namespace sigmax::apps::doubts {

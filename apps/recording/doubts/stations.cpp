@@ -1,7 +1,5 @@
 #include "recording/doubts/stations.hpp"
 
-#include <set>
-
 #include "support/text.hpp"
 
 namespace sigmax::apps::doubts {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "recording/doubts/trail.hpp"
 
 namespace sigmax::apps::doubts {
