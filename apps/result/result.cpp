@@ -102,10 +102,6 @@ void ResultFiles::write(const std::string& name, std::string_view text) {
   if (AtomicFile* const file = open(name)) file->write(text);
 }
 
-void ResultFiles::write_json(const std::string& name, const Json& json) {
-  if (wanted()) write(name, dumped(json, 2) + "\n");
-}
-
 bool ResultFiles::report_wanted() const { return report_ || !plots_.empty() || (wanted() && has_reports()); }
 
 void ResultFiles::write_report(const Report& report) {
@@ -181,7 +177,7 @@ void Result::publish(ResultFiles& files) {
   print_charts(options_, on_terminal);
   for (const auto& [name, rows] : tables_) files.write(name, rows);
   if (files.report_wanted()) fact({"report_data"}, report_data_name);
-  files.write_json("summary.json", *summary_);
+  files.write("summary.json", dumped(*summary_, 2) + "\n");
   if (files.report_wanted()) files.write_report(page);
   files.commit();
 }

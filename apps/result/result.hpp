@@ -37,7 +37,7 @@ void add_wide(CLI::App& app, bool& wide);
 ///     ResultFiles files(options);
 ///     …
 ///     files.write("curves.csv", curves.csv());
-///     files.write_json("summary.json", summary);
+///     files.write("summary.json", summary);
 ///     if (files.report_wanted()) files.write_report({.title = "…"});
 ///     files.commit();
 class ResultFiles {
@@ -53,7 +53,6 @@ class ResultFiles {
   AtomicFile* open(const std::string& name);
 
   void write(const std::string& name, std::string_view text);
-  void write_json(const std::string& name, const nlohmann::ordered_json& json);
 
   /// Whether there is to be a report: with a directory, unless this program was built without charts, or where --report
   /// says, or as pictures.

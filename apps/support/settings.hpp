@@ -1,12 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -50,24 +48,6 @@ class Settings {
 
   /// One of the names.
   std::string choice(std::string_view key, std::span<const std::string_view> names, std::string_view otherwise) const;
-
-  /// What one of the names stands for: choice("lift", {{"zero", Lift::zero}, {"unbiased", Lift::unbiased}},
-  /// Lift::zero).
-  template <class Value>
-  Value choice(std::string_view key,
-               std::initializer_list<std::pair<std::string_view, std::type_identity_t<Value>>> meanings,
-               Value otherwise) const {
-    std::vector<std::string_view> names;
-    std::string_view name_otherwise;
-    for (const auto& [name, value] : meanings) {
-      names.push_back(name);
-      if (value == otherwise) name_otherwise = name;
-    }
-    const std::string chosen = choice(key, names, name_otherwise);
-    for (const auto& [name, value] : meanings)
-      if (name == chosen) return value;
-    return otherwise;
-  }
 
   /// The keys of a table, which has none if it is absent.
   Settings sub(std::string_view key) const;

@@ -348,12 +348,13 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
       if (!known.tuned) names.emplace_back(known.name);
   }
   const Settings tables = settings.sub("filter");
+  constexpr std::array<std::string_view, 2> kinds = {"random", "fuzzy"};
   const auto read = [&](const std::string& name) {
     const Settings table = tables.sub(name);
     FilterSettings own = defaults.filter;
     own.name = name;
-    own.fuzzy = table.has("kind") ? table.choice("kind", {{"random", false}, {"fuzzy", true}}, false)
-                                  : default_kind(settings, table, name);
+    own.fuzzy =
+        table.has("kind") ? table.choice("kind", kinds, kinds[0]) == kinds[1] : default_kind(settings, table, name);
     if (const KnownFilter* known = known_filter(name)) known->adapt(own);
     return read_filter(settings.overlaid_by(table), std::move(own));
   };
