@@ -79,16 +79,10 @@ struct Doubts::Parts {
     std::vector<double> sizes{};          // the first thousands along an axis
     std::array<double, 4> products = {};  // of each with itself and those before
   } second{};                             // differences of positions
-  struct {
-    std::size_t count = 0;
-    double sum = 0.0;
-  } variances{};  // that rows tell of positions, along an axis
+  RunningMean variances{};                // that rows tell of positions, along an axis
 };
 
-Doubts::Doubts() : parts_(std::make_unique<Parts>()) {}
-Doubts::Doubts(Doubts&& other) noexcept = default;
-Doubts& Doubts::operator=(Doubts&& other) noexcept = default;
-Doubts::~Doubts() = default;
+Doubts::Doubts() : parts_(std::make_shared<Parts>()) {}
 
 void Doubts::see(const Row& row, const std::optional<Position>& position, const LocalFrame* frame, int axes) {
   const AnyPlot& plot = row.plot;
@@ -106,10 +100,7 @@ void Doubts::see(const Row& row, const std::optional<Position>& position, const 
   for (int i = 0; i < 2; ++i)
     if (auto& some = parts_->numbers[static_cast<std::size_t>(i)]; some.size() < Parts::enough_numbers)
       if (const auto number = component_of(plot, i)) some.push_back(*number);
-  if (const double variance = plot.variance(0); !is_radar && variance > 0.0) {
-    ++parts_->variances.count;
-    parts_->variances.sum += variance;
-  }
+  if (const double variance = plot.variance(0); !is_radar && variance > 0.0) parts_->variances.add(variance);
   const double height = axes == 3 ? component_of(plot, 2).value_or(nan) : nan;
   Vector<3> velocity = Vector<3>::Constant(nan);
   for (int i = 0; i < axes; ++i)
@@ -191,8 +182,8 @@ std::optional<double> Doubts::scatter() const {
 }
 
 std::optional<double> Doubts::told_sigma() const {
-  if (parts_->variances.count < 200) return {};
-  return std::sqrt(parts_->variances.sum / static_cast<double>(parts_->variances.count));
+  if (parts_->variances.count() < 200) return {};
+  return std::sqrt(parts_->variances.mean());
 }
 
 double Doubts::apart(double sigma_position, double sigma_velocity) const {

@@ -14,9 +14,6 @@ double rounding_of(std::vector<double> numbers);
 class Doubts {
  public:
   Doubts();
-  Doubts(Doubts&& other) noexcept;
-  Doubts& operator=(Doubts&& other) noexcept;
-  ~Doubts();
 
   /// A row, and where its measurement was, in m; of a place on the Earth, in this frame.
   void see(const Row& row, const std::optional<Position>& position, const LocalFrame* frame, int axes);
@@ -39,7 +36,7 @@ class Doubts {
 
  private:
   struct Parts;
-  std::unique_ptr<Parts> parts_;  // which alone need Eigen
+  std::shared_ptr<Parts> parts_;  // which alone need Eigen; shared, as their type is not whole here
 };
 
 }  // namespace sigmax::apps

@@ -138,7 +138,7 @@ void Repeats::say_held(Say& say, std::size_t tracks, double moved) const {
   const bool on_its_way = moved > 0.5 * path_ && (goes_any_way || positions.regular());
   // Where some rows repeat the one before, at random, the next step is of several rows; after a rest it is a short one.
   const bool catches_up =
-      tracks == 1 && on_.count >= few && after_.count >= few && after_.of_all() > 1.5 * on_.of_all() && goes_any_way;
+      tracks == 1 && on_.count() >= few && after_.count() >= few && after_.mean() > 1.5 * on_.mean() && goes_any_way;
   say(positions.same >= few &&
           ((4 * positions.same > jumps && (on_its_way || held_again)) || (10 * positions.same > jumps && catches_up)),
       "{} of {} positions repeat the one before to the last digit, although the target moves: values that are held "

@@ -67,15 +67,6 @@ class Repeats {
     }
     bool stands_out() const { return rows > 1 && others > 0 && std::isfinite(least) && least > 5.0 * greatest_other; }
   };
-  struct Mean {
-    std::size_t count = 0;
-    double sum = 0.0;
-    void add(double number) {
-      ++count;
-      sum += number;
-    }
-    double of_all() const { return sum / static_cast<double>(count); }
-  };
   bool is_twice(const Spoke& spoke) const { return spoke.twice && spoke.twice == twice_; }
   void see_leap(Sensor& sensor, const Trail& trail, const Spoke& now, double jump);
   void say_held(Say& say, std::size_t tracks, double moved) const;
@@ -84,7 +75,7 @@ class Repeats {
   double path_ = 0.0;                 // of all positions, each sensor's own
   std::size_t held_again_ = 0;        // positions that change, where the next one does not
   std::set<long> ways_;               // how far those went, some, as logarithms to three digits
-  Mean on_, after_;                   // ways after a position that was not held, and after one that was
+  RunningMean on_, after_;            // ways after a position that was not held, and after one that was
   std::size_t returns_ = 0;           // positions that are near one of the last few, but not near the last
   std::optional<Sensor::Leap> leap_;  // the first, and how many there are
   std::size_t leaps_ = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <sigmax/core/mean_interval.hpp>
 #include <sigmax/estimation/gaussian.hpp>
 
 #include "recording/recording.hpp"
