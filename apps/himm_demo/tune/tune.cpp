@@ -183,10 +183,7 @@ ResultTable changes_table(const TunedFilter& tuned) {
 }
 
 /// What settings lose in each fold, held out, and in all of them.
-struct FoldFigures {
-  const char* name;
-  std::vector<double> figures;
-};
+using FoldFigures = std::pair<const char*, std::vector<double>>;
 
 /// Of the settings before, the best and the simple ones, as far as they differ.
 std::vector<FoldFigures> by_fold(const TunedFilter& tuned, const TuneOptions& options, const TuneData& data) {
@@ -194,7 +191,7 @@ std::vector<FoldFigures> by_fold(const TunedFilter& tuned, const TuneOptions& op
   const auto& [best, simple] = tuned.selected;
   std::vector<FoldFigures> all;
   const auto add = [&](const char* name, std::size_t candidate) {
-    auto& figures = all.emplace_back(FoldFigures{name, {}}).figures;
+    auto& figures = all.emplace_back(name, std::vector<double>()).second;
     for (std::size_t fold = 0; fold <= options.folds; ++fold)
       figures.push_back(figure_of(
           objective_of(tuned.held_out[candidate], options.objective,
@@ -222,28 +219,25 @@ std::vector<std::pair<const char*, const Diagnosis*>> diagnoses(const TuneFindin
 template <class Figure>
 IntervalChart innovation_chart(IntervalChart chart, const TuneFindings& findings, bool modes, const Figure& figure) {
   chart.wanted_label = "95 % of right filters";
-  std::vector<std::map<std::string, const InnovationTally*>> parts;
   for (const auto& [when, diagnosis] : diagnoses(findings)) {
-    auto& own = parts.emplace_back();
+    IntervalSeries& series = chart.series.emplace_back(IntervalSeries{.name = when, .group = when});
     const auto add = [&](const std::string& row, const InnovationTally& tally) {
-      own[row] = &tally;
-      if (std::ranges::find(chart.rows, row) == chart.rows.end()) chart.rows.push_back(row);
+      const auto place = static_cast<std::size_t>(std::ranges::find(chart.rows, row) - chart.rows.begin());
+      if (place == chart.rows.size()) chart.rows.push_back(row);
+      if (tally.count() == 0) return;
+      const auto [value, band] = figure(tally);
+      series.values.resize(chart.rows.size(), {nan, 0.0});
+      series.wanted.resize(chart.rows.size(), {nan, nan});
+      series.values[place].mean = value;
+      series.wanted[place] = {band.lower, band.upper};
     };
     for (const auto& sensor : diagnosis->sensors) add(sensor.name, sensor.innovations);
     for (const auto& mode : diagnosis->modes)
       if (modes) add("mode " + mode.name, mode.innovations);
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const char* const name = diagnoses(findings)[i].first;
-    IntervalSeries series{.name = name, .group = name};
-    for (const auto& row : chart.rows) {
-      const auto found = parts[i].find(row);
-      const bool any = found != parts[i].end() && found->second->count() > 0;
-      const auto [value, band] = any ? figure(*found->second) : std::pair(nan, Band{nan, nan});
-      series.values.push_back({value, 0.0});
-      series.wanted.push_back({band.lower, band.upper});
-    }
-    chart.series.push_back(std::move(series));
+  for (IntervalSeries& series : chart.series) {  // of sensors and modes that one of them has
+    series.values.resize(chart.rows.size(), {nan, 0.0});
+    series.wanted.resize(chart.rows.size(), {nan, nan});
   }
   return chart;
 }
