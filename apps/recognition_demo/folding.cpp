@@ -9,99 +9,6 @@
 #include "support/parallel.hpp"
 
 namespace sigmax::apps {
-
-Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
-  constexpr std::size_t part = std::size_t{1} << 17;
-  FoldDealer dealer(data.rows_of_class, folds);
-  Folds result;
-  std::vector<std::size_t> labels;
-  const auto deal = [&] {
-    for (const std::size_t fold : dealer.deal(labels, generator)) result.push_back(static_cast<std::uint32_t>(fold));
-    labels.clear();
-  };
-  data.for_each([&](const DataRow& row) {
-    labels.push_back(row.label());
-    if (labels.size() == part) deal();
-  });
-  deal();
-  return result;
-}
-
-Groups groups_of(const DataTable& data, const std::string& column) {
-  CsvReader reader = open_csv(data.file);
-  const std::size_t place = reader.column(column);
-  std::map<std::string, std::uint32_t, std::less<>> numbers;
-  Groups groups;
-  for (CsvRow row; reader.next(row);) {
-    const std::string name(trimmed(row[place]));
-    if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
-    groups.push_back(numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size())).first->second);
-  }
-  if (const std::string two = alike(each(numbers, [](const auto& one) { return std::string_view(one.first); }));
-      !two.empty())
-    complain(
-        fmt::format("recognition_demo: warning: {}: column {}: {} differ in case, blanks or the writing of a number "
-                    "only, and count as two groups",
-                    data.file, in_quotes(column), two));
-  return groups;
-}
-
-Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator) {
-  constexpr int most_tries = 100;
-  std::vector<std::size_t> rows;                               // of each group
-  std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
-  ScratchCursor<std::uint32_t> group(groups);
-  data.for_each([&](const DataRow& row) {
-    const std::size_t own = group[row.index];
-    rows.resize(std::max(rows.size(), own + 1));
-    ++rows[own];
-    of[row.label()].insert(own);
-  });
-  if (rows.size() < folds)
-    throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
-                     rows.size(), folds);
-  std::vector<std::size_t> order(rows.size()), fold(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto is_parted = [&](const std::set<std::size_t>& its) {
-    return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
-  };
-  for (int tried = 0; tried == 0 || !std::ranges::all_of(of, is_parted); ++tried) {
-    if (tried == most_tries) {
-      const auto whole = std::ranges::find_if_not(of, is_parted);
-      throw InputError(
-          "{}: the rows of class {} are of {} groups, which came into one fold: expected two at least, one to learn "
-          "from, one to classify",
-          data.file, in_quotes(data.classes[static_cast<std::size_t>(whole - of.begin())]), whole->size());
-    }
-    for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[generator() % left]);
-    std::vector<std::size_t> sizes(folds);
-    for (const std::size_t one : order) {
-      fold[one] = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
-      sizes[fold[one]] += rows[one];
-    }
-  }
-  Folds result;
-  for (std::size_t row = 0; row < data.size(); ++row) result.push_back(static_cast<std::uint32_t>(fold[group[row]]));
-  return result;
-}
-
-TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options,
-                  std::span<const std::string> kinds) {
-  ScratchCursor<std::uint32_t> fold_of(folds);
-  LearnedModel model = learn(
-      data, options, [&](const DataRow& row) { return fold_of[row.index] != fold && fold_of[row.index] != no_fold; });
-  auto contestants = classifiers(model, kinds);
-  std::vector<std::vector<bool>> known(model.features.size());
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (model.features[i].bins) continue;
-    known[i].resize(model.features[i].values.size());
-    for (std::size_t c = 0; c < data.classes.size(); ++c)
-      for (std::size_t value = 0; value < known[i].size(); ++value)
-        known[i][value] = known[i][value] || model.counts.of(i, c)[value] > 0.0;
-  }
-  return {fold, std::move(model), std::move(contestants), std::move(known)};
-}
-
 namespace {
 
 /// Whether any part of the rows can be learned from that has some of each class, however few values a column has there.
@@ -203,7 +110,140 @@ Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64&
   return result;
 }
 
+/// Columns of which each word stands beside one value of another column only, as a town beside its region.
+std::vector<std::size_t> nested_in(const DataTable& data, std::size_t column) {
+  std::vector<std::map<double, double>> beside(data.columns.size());
+  std::vector<bool> is_nested(data.columns.size());
+  for (std::size_t i = 0; i < is_nested.size(); ++i) is_nested[i] = i != column && !data.columns[i].numeric;
+  data.for_each([&](const DataRow& row) {
+    const double value = row.value(column);
+    for (std::size_t i = 0; i < is_nested.size(); ++i)
+      if (is_nested[i] && !std::isnan(row.value(i)))
+        is_nested[i] = beside[i].try_emplace(row.value(i), value).first->second == value;
+  });
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < is_nested.size(); ++i)
+    if (is_nested[i]) columns.push_back(i);
+  return columns;
+}
+
+/// The number of bins by which rows that are left out are right more often than by chance, in any class, and not less
+/// often in all; nothing if there is none.
+std::optional<std::size_t> better_bins(const DataTable& data, const LearningOptions& options) {
+  constexpr double by_no_chance = 3.0;  // standard errors
+  constexpr std::size_t most = 1000;
+  const auto before = right_when_left_out(data, options, 1, 0);
+  LearningOptions other = options;
+  other.equal_width = false;
+  for (const std::size_t times : {2U, 4U, 8U}) {
+    other.bins = std::min(times * options.bins, most);
+    const auto now = right_when_left_out(data, other, 1, 0);
+    bool any = false;
+    double more = 0.0, variance = 0.0;
+    for (std::size_t c = 0; c < now.size() && c < before.size(); ++c) {
+      const auto rows = static_cast<double>(data.rows_of_class[c]);
+      const double mean = (now[c] + before[c]) / 2.0, own = 2.0 * mean * (1.0 - mean) * rows;
+      any |= rows * (now[c] - before[c]) > by_no_chance * std::sqrt(own);
+      more += rows * (now[c] - before[c]), variance += own;
+    }
+    if (any && more > -std::sqrt(variance)) return other.bins;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+Folds folds_of(const DataTable& data, std::size_t folds, std::mt19937_64& generator) {
+  constexpr std::size_t part = std::size_t{1} << 17;
+  FoldDealer dealer(data.rows_of_class, folds);
+  Folds result;
+  std::vector<std::size_t> labels;
+  const auto deal = [&] {
+    for (const std::size_t fold : dealer.deal(labels, generator)) result.push_back(static_cast<std::uint32_t>(fold));
+    labels.clear();
+  };
+  data.for_each([&](const DataRow& row) {
+    labels.push_back(row.label());
+    if (labels.size() == part) deal();
+  });
+  deal();
+  return result;
+}
+
+Groups groups_of(const DataTable& data, const std::string& column) {
+  CsvReader reader = open_csv(data.file);
+  const std::size_t place = reader.column(column);
+  std::map<std::string, std::uint32_t, std::less<>> numbers;
+  Groups groups;
+  for (CsvRow row; reader.next(row);) {
+    const std::string name(trimmed(row[place]));
+    if (name.empty() || says_unknown(name)) throw row.error(place, "the name of the row's group", "fill the cell");
+    groups.push_back(numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size())).first->second);
+  }
+  if (const std::string two = alike(each(numbers, [](const auto& one) { return std::string_view(one.first); }));
+      !two.empty())
+    complain(
+        fmt::format("recognition_demo: warning: {}: column {}: {} differ in case, blanks or the writing of a number "
+                    "only, and count as two groups",
+                    data.file, in_quotes(column), two));
+  return groups;
+}
+
+Folds folds_of(const DataTable& data, const Groups& groups, std::size_t folds, std::mt19937_64& generator) {
+  constexpr int most_tries = 100;
+  std::vector<std::size_t> rows;                               // of each group
+  std::vector<std::set<std::size_t>> of(data.classes.size());  // the groups of each class
+  ScratchCursor<std::uint32_t> group(groups);
+  data.for_each([&](const DataRow& row) {
+    const std::size_t own = group[row.index];
+    rows.resize(std::max(rows.size(), own + 1));
+    ++rows[own];
+    of[row.label()].insert(own);
+  });
+  if (rows.size() < folds)
+    throw InputError("{}: found {} groups, expected at least as many as the {} folds; give fewer --folds", data.file,
+                     rows.size(), folds);
+  std::vector<std::size_t> order(rows.size()), fold(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto is_parted = [&](const std::set<std::size_t>& its) {
+    return std::ranges::any_of(its, [&](std::size_t one) { return fold[one] != fold[*its.begin()]; });
+  };
+  for (int tried = 0; tried == 0 || !std::ranges::all_of(of, is_parted); ++tried) {
+    if (tried == most_tries) {
+      const auto whole = std::ranges::find_if_not(of, is_parted);
+      throw InputError(
+          "{}: the rows of class {} are of {} groups, which came into one fold: expected two at least, one to learn "
+          "from, one to classify",
+          data.file, in_quotes(data.classes[static_cast<std::size_t>(whole - of.begin())]), whole->size());
+    }
+    for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[generator() % left]);
+    std::vector<std::size_t> sizes(folds);
+    for (const std::size_t one : order) {
+      fold[one] = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
+      sizes[fold[one]] += rows[one];
+    }
+  }
+  Folds result;
+  for (std::size_t row = 0; row < data.size(); ++row) result.push_back(static_cast<std::uint32_t>(fold[group[row]]));
+  return result;
+}
+
+TaughtFold taught(const DataTable& data, const Folds& folds, std::size_t fold, const LearningOptions& options,
+                  std::span<const std::string> kinds) {
+  ScratchCursor<std::uint32_t> fold_of(folds);
+  LearnedModel model = learn(
+      data, options, [&](const DataRow& row) { return fold_of[row.index] != fold && fold_of[row.index] != no_fold; });
+  auto contestants = classifiers(model, kinds);
+  std::vector<std::vector<bool>> known(model.features.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (model.features[i].bins) continue;
+    known[i].resize(model.features[i].values.size());
+    for (std::size_t c = 0; c < data.classes.size(); ++c)
+      for (std::size_t value = 0; value < known[i].size(); ++value)
+        known[i][value] = known[i][value] || model.counts.of(i, c)[value] > 0.0;
+  }
+  return {fold, std::move(model), std::move(contestants), std::move(known)};
+}
 
 std::vector<double> right_when_left_out(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
                                         int threads, const std::vector<std::size_t>& hidden) {
@@ -248,27 +288,6 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
   }
   return columns;
 }
-
-namespace {
-
-/// Columns of which each word stands beside one value of another column only, as a town beside its region.
-std::vector<std::size_t> nested_in(const DataTable& data, std::size_t column) {
-  std::vector<std::map<double, double>> beside(data.columns.size());
-  std::vector<bool> is_nested(data.columns.size());
-  for (std::size_t i = 0; i < is_nested.size(); ++i) is_nested[i] = i != column && !data.columns[i].numeric;
-  data.for_each([&](const DataRow& row) {
-    const double value = row.value(column);
-    for (std::size_t i = 0; i < is_nested.size(); ++i)
-      if (is_nested[i] && !std::isnan(row.value(i)))
-        is_nested[i] = beside[i].try_emplace(row.value(i), value).first->second == value;
-  });
-  std::vector<std::size_t> columns;
-  for (std::size_t i = 0; i < is_nested.size(); ++i)
-    if (is_nested[i]) columns.push_back(i);
-  return columns;
-}
-
-}  // namespace
 
 std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
                                   std::uint64_t seed, int threads) {
@@ -353,34 +372,6 @@ std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& 
   }
   return ByClumps{n, mean_interval(right).mean, mean_interval(less)};
 }
-
-namespace {
-
-/// The number of bins by which rows that are left out are right more often than by chance, in any class, and not less
-/// often in all; nothing if there is none.
-std::optional<std::size_t> better_bins(const DataTable& data, const LearningOptions& options) {
-  constexpr double by_no_chance = 3.0;  // standard errors
-  constexpr std::size_t most = 1000;
-  const auto before = right_when_left_out(data, options, 1, 0);
-  LearningOptions other = options;
-  other.equal_width = false;
-  for (const std::size_t times : {2U, 4U, 8U}) {
-    other.bins = std::min(times * options.bins, most);
-    const auto now = right_when_left_out(data, other, 1, 0);
-    bool any = false;
-    double more = 0.0, variance = 0.0;
-    for (std::size_t c = 0; c < now.size() && c < before.size(); ++c) {
-      const auto rows = static_cast<double>(data.rows_of_class[c]);
-      const double mean = (now[c] + before[c]) / 2.0, own = 2.0 * mean * (1.0 - mean) * rows;
-      any |= rows * (now[c] - before[c]) > by_no_chance * std::sqrt(own);
-      more += rows * (now[c] - before[c]), variance += own;
-    }
-    if (any && more > -std::sqrt(variance)) return other.bins;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 void print_warnings(const DataTable& data, const LearningOptions& options, bool grouped) {
   for (const auto& warning : data.warnings) complain("recognition_demo: warning: " + warning);

@@ -59,65 +59,6 @@ Contestant fuzzy(const LearnedModel& model, const std::string& name, const Metho
                     [&](const auto& sensor) { return with_fuzzy_condition(to_possibility(sensor, method)); });
 }
 
-}  // namespace
-
-LearnedModel learn(const DataTable& data, const LearningOptions& options, const RowChoice& chosen) {
-  auto codes = fitted(data, chosen, options);
-  std::vector<RandomVariable> variables;
-  for (const FeatureCode& code : codes) {
-    variables.emplace_back(code.name, code.labels());
-    const auto n = static_cast<double>(variables.back().size());
-    if (n > 1.0 && n * options.misread > n - 1.0)
-      throw UsageError(
-          "--misread {0}: feature {1} has {2} values, so that each other one would be read more often than the right "
-          "one: give at most {3:.2f}",
-          options.misread, in_quotes(code.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
-  }
-  Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
-  LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
-  Readings readings;
-  data.for_each([&](const DataRow& row) {
-    if (!chosen(row)) return;
-    read(model, row, readings);
-    model.counts.observe(row.label(), readings);
-  });
-  return model;
-}
-
-void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
-  readings.clear();
-  for (std::size_t i = 0; i < model.features.size(); ++i) {
-    const double value = row.value(i);
-    const auto& bins = model.features[i].bins;
-    readings.push_back(bins ? bins->bin(value) : std::isnan(value) ? missing : static_cast<std::size_t>(value));
-  }
-}
-
-void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
-  Subcommand app(program);
-  app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
-      .required()
-      .type("DATA");
-  app.option("--label", data.label, "The column with the class").required().type("COLUMN");
-  app.list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all")
-      .type("COLUMN,…|all");
-  app.list("--ignore", data.ignore, "Columns to leave out").type("COLUMN,…");
-  app.list("--missing", data.missing,
-           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
-      .type("WORD,…");
-  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
-  app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
-  app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
-      .number_in(0.0, 1e9);
-  app.option("--misread", learning.misread,
-             "Probability that a reading is not the feature's value but one of the others")
-      .number_in(0.0, 0.999);
-  app.flag("--equal-prior", learning.equal_prior,
-           "Every class is equally plausible before, whatever its share of the rows");
-}
-
-namespace {
-
 /// Σ n log(n/Σ n): where counts are parted, the sum of these grows by what that tells.
 double knowledge(const std::vector<double>& counts) {
   double sum = 0.0, result = 0.0;
@@ -178,6 +119,61 @@ double told_by_a_limit(const BinCounts& bins) {
 double fullest(const BinCounts& bins) { return std::ranges::max(each(bins, sum_of)) / sum_of(joined(bins)); }
 
 }  // namespace
+
+LearnedModel learn(const DataTable& data, const LearningOptions& options, const RowChoice& chosen) {
+  auto codes = fitted(data, chosen, options);
+  std::vector<RandomVariable> variables;
+  for (const FeatureCode& code : codes) {
+    variables.emplace_back(code.name, code.labels());
+    const auto n = static_cast<double>(variables.back().size());
+    if (n > 1.0 && n * options.misread > n - 1.0)
+      throw UsageError(
+          "--misread {0}: feature {1} has {2} values, so that each other one would be read more often than the right "
+          "one: give at most {3:.2f}",
+          options.misread, in_quotes(code.name), n, std::floor(100.0 * (n - 1.0) / n) / 100.0);
+  }
+  Counts counts{RandomVariable{data.label, data.classes}, std::move(variables)};
+  LearnedModel model{data.label, {}, std::move(codes), std::move(counts), options};
+  Readings readings;
+  data.for_each([&](const DataRow& row) {
+    if (!chosen(row)) return;
+    read(model, row, readings);
+    model.counts.observe(row.label(), readings);
+  });
+  return model;
+}
+
+void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
+  readings.clear();
+  for (std::size_t i = 0; i < model.features.size(); ++i) {
+    const double value = row.value(i);
+    const auto& bins = model.features[i].bins;
+    readings.push_back(bins ? bins->bin(value) : std::isnan(value) ? missing : static_cast<std::size_t>(value));
+  }
+}
+
+void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
+  Subcommand app(program);
+  app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
+      .required()
+      .type("DATA");
+  app.option("--label", data.label, "The column with the class").required().type("COLUMN");
+  app.list("--categorical", data.categorical, "Columns to take as words although they hold numbers, or all")
+      .type("COLUMN,…|all");
+  app.list("--ignore", data.ignore, "Columns to leave out").type("COLUMN,…");
+  app.list("--missing", data.missing,
+           "Words that are missing values; - NA N/A nan null inf are so in columns of numbers")
+      .type("WORD,…");
+  app.option("--bins", learning.bins, "Bins of a numeric column").in(1, 1000);
+  app.flag("--equal-width", learning.equal_width, "Bins of equal width instead of equal frequency");
+  app.option("--smoothing", learning.smoothing, "What is added to every count; 1 is Laplace's rule")
+      .number_in(0.0, 1e9);
+  app.option("--misread", learning.misread,
+             "Probability that a reading is not the feature's value but one of the others")
+      .number_in(0.0, 0.999);
+  app.flag("--equal-prior", learning.equal_prior,
+           "Every class is equally plausible before, whatever its share of the rows");
+}
 
 double told_of_class(const LearnedModel& model, std::size_t column) {
   const auto bins = classes_of_bins(model, column);

@@ -1,13 +1,10 @@
 #include "recognition_demo/subcommands.hpp"
 
-namespace {
-constexpr const char* usage =
-#include "recognition_demo/usage.txt"
-    ;
-}  // namespace
-
 int main(int argc, char** argv) {
   using namespace sigmax::apps;
+  constexpr const char* usage =
+#include "recognition_demo/usage.txt"
+      ;
   return run_command_line(
       {"recognition_demo",
        "Recognises patterns by sigma inference (probabilities), max inference (possibilities) and sigma-max inference "
