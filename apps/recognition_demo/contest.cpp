@@ -159,10 +159,9 @@ std::vector<Panel> support_charts(const std::vector<std::string>& patterns, cons
                     .y_label = "probability or possibility",
                     .x = x,
                     .greatest_y = 1.05};
-    for (std::size_t i = 0; i < contestants.size(); ++i) {
-      chart.curves.push_back({contestants[i].name, contestants[i].name, {}});
-      for (const auto& belief : beliefs[i]) chart.curves.back().values.push_back(belief[pattern]);
-    }
+    for (std::size_t i = 0; i < contestants.size(); ++i)
+      chart.curves.push_back({contestants[i].name, contestants[i].name,
+                              each(beliefs[i], [&](const auto& belief) { return belief[pattern]; })});
     charts.emplace_back(std::move(chart));
   }
   return charts;

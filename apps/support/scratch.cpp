@@ -27,9 +27,7 @@ UnnamedFile::UnnamedFile(std::string purpose) : purpose_(std::move(purpose)) {
   ::unlink(name.c_str());
 }
 
-UnnamedFile::~UnnamedFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
+UnnamedFile::~UnnamedFile() { ::close(descriptor_); }
 
 void UnnamedFile::fail(const char* what, int error_number) const {
   throw InputError({.where = directory().native(),

@@ -354,7 +354,7 @@ std::vector<FilterSettings> read_filters(const Settings& settings, const FilterD
     FilterSettings own = defaults.filter;
     own.name = name;
     own.fuzzy =
-        table.has("kind") ? table.choice("kind", kinds, kinds[0]) == kinds[1] : default_kind(settings, table, name);
+        table.has("kind") ? table.choice("kind", kinds, "random") == "fuzzy" : default_kind(settings, table, name);
     if (const KnownFilter* known = known_filter(name)) known->adapt(own);
     return read_filter(settings.overlaid_by(table), std::move(own));
   };

@@ -134,11 +134,9 @@ class TrackRun {
   TrackOutcome run() {
     const auto total = recording_.csv().bytes_total();
     Progress progress(file(), total.value_or(1), options_.output.quiet || !total || !shares_.first());
-    std::uint64_t done = 0;
     for (Row row; recording_.next(row);) {
       take(row);
-      progress.advance(recording_.csv().bytes_read() - done);
-      done = recording_.csv().bytes_read();
+      progress.advance(recording_.csv().bytes_read() - progress.done());
     }
     progress.finish();
     if (options_.predict_to) predict();
