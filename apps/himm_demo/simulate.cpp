@@ -32,11 +32,7 @@ class Performance {
   void append(const Trace& trace, Study::Row& row) const {
     row.resize(row.size() + squares, 0.0);
     add_squares(experiment_.scenario, trace.error, &row[row.size() - squares]);
-    std::optional<double> crossing;
-    if (manoeuvre_)
-      crossing =
-          cross_time(experiment_, [&](std::size_t k) { return weight_difference(trace.weights[k], *manoeuvre_); });
-    row.push_back(crossing.value_or(nan));
+    row.push_back(crossing([&](std::size_t k) -> const auto& { return trace.weights[k]; }).value_or(nan));
     for (std::size_t k = 0; k < trace.error.size(); ++k) {
       const Vector<3> squared = trace.error[k].cwiseAbs2();
       row.insert(row.end(), squared.begin(), squared.end());
@@ -116,8 +112,7 @@ class Performance {
     return manoeuvre_ ? std::optional(crossings_.size()) : std::nullopt;
   }
   std::optional<double> cross_time_of_curves() const {
-    if (!manoeuvre_) return std::nullopt;
-    return cross_time(experiment_, [&](std::size_t k) { return weight_difference(weights(k), *manoeuvre_); });
+    return crossing([&](std::size_t k) { return weights(k); });
   }
 
   /// This RMSE minus that of another one in one phase and axis, paired by run (delta method).
@@ -133,6 +128,12 @@ class Performance {
   }
 
  private:
+  /// When the weights of samples cross; nothing without a manoeuvre model.
+  template <class WeightsOf>
+  std::optional<double> crossing(const WeightsOf& weights_of) const {
+    if (!manoeuvre_) return std::nullopt;
+    return cross_time(experiment_, [&](std::size_t k) { return weight_difference(weights_of(k), *manoeuvre_); });
+  }
   std::vector<double> weights(std::size_t sample) const {
     std::vector<double> weights;
     for (std::size_t i = first_weight; i < figures_ && sum(sample, weight_count) > 0.0; ++i)
@@ -173,8 +174,6 @@ Study::Row row_of(const std::vector<Performance>& performances, const TracedRun&
 void add(std::span<const double> row, std::vector<Performance>& performances) {
   for (Performance& of : performances) of.add(row);
 }
-
-using Samples = std::vector<double>;
 
 /// Where a position in plan lies with a probability of 95 %, if it is normal.
 ErrorEllipse error_ellipse(const std::string& group, const Vector<3>& centre, const SquareMatrix<3>& covariance) {
@@ -222,8 +221,8 @@ class Views {
 
   /// The numbers of all samples, counted from 0.
   template <class Value>
-  Samples by_sample(const Value& value) const {
-    Samples values;
+  std::vector<double> by_sample(const Value& value) const {
+    std::vector<double> values;
     for (std::size_t k = 0; k < experiment_.samples(); ++k) values.push_back(value(k));
     return values;
   }

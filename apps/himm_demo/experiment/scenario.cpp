@@ -6,10 +6,6 @@
 
 namespace sigmax::apps {
 
-namespace {
-constexpr double data_sigma_w = 3.0;
-}  // namespace
-
 Scenario scenario(int number, Preset preset) {
   assert(number == 1 || number == 2);
   const bool released = preset == Preset::released;
@@ -44,6 +40,7 @@ Group group(int number, int scenario_number) {
 }
 
 Recording simulate(const Scenario& scenario, const Polar& sigma, RandomStream& random) {
+  constexpr double data_sigma_w = 3.0;
   const double T = scenario.step_s;
   Recording recording;
   Vector<6> state;

@@ -1,11 +1,8 @@
 #include "recording/doubts/repeats.hpp"
 
 namespace sigmax::apps::doubts {
-namespace {
 
 constexpr std::size_t many_ways = 100;
-
-}  // namespace
 
 void Stays::see(double change, std::size_t& run) {
   if (std::isnan(change)) return;
