@@ -87,8 +87,8 @@ class ColumnReader {
   /// are no dates and no times; or nothing.
   std::string several_numbers() const;
 
-  /// "3.1 and 3.10", which are one number and may be two versions, if there are such and not many others, or two of more
-  /// digits than a number tells; or nothing.
+  /// "3.1 and 3.10", which are one number and may be two versions, if there are such and not many others, or two of
+  /// more digits than a number tells; or nothing.
   std::string one_number() const;
 
   /// What the classes are of the rows that have the same value.

@@ -252,6 +252,13 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
           "out by --ignore {}",
           in_quotes(name), 100.0 * without, 100.0 * accuracy, typed(name));
   }
+  constexpr std::size_t few_rows_of_a_class = 100, many_classes = 8;
+  if (data.classes.size() > many_classes && data.size() < few_rows_of_a_class * data.classes.size())
+    if (const auto less_so = less_in_any_folds(data, options.learning, options.seed, options.threads);
+        less_so && by_no_chance(*less_so, 0.02))
+      say("{:.1f} % are right by sigma where folds are drawn whatever the class is: of {} classes with few rows some "
+          "have more by chance, and so in each of the folds above; expect that of other rows",
+          100.0 * (accuracy - less_so->mean), data.classes.size());
   bool any = false;
   for (const std::size_t column : columns_of_groups(data, options.learning)) {
     const auto by = by_column(data, options.learning, column, options.seed, options.threads);

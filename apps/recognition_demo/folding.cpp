@@ -289,42 +289,61 @@ std::vector<std::size_t> columns_of_groups(const DataTable& data, const Learning
   return columns;
 }
 
-std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
-                                  std::uint64_t seed, int threads) {
+/// Of each row the shares of dealings in which sigma is right about it: in any folds, once for each of some sets of
+/// hidden columns, and at last in folds of whole groups, without the last set; nothing where these cannot part a class.
+std::optional<std::vector<std::vector<double>>> shares_right(const DataTable& data, const LearningOptions& options,
+                                                             const Groups& groups, std::size_t number_of_groups,
+                                                             const std::vector<std::vector<std::size_t>>& hidden,
+                                                             std::uint64_t seed, int threads) {
   constexpr std::size_t most_folds = 10, most_asked = 10000, most_dealings = 8;
   if (!any_part_teaches(options) || std::ranges::min(data.rows_of_class) < 2) return std::nullopt;
+  std::mt19937_64 generator(seed);
+  const std::size_t number = std::min({most_folds, number_of_groups, data.size()});
+  const std::size_t dealings = std::clamp<std::size_t>(most_asked / data.size(), 1, most_dealings);
+  std::vector<std::vector<double>> shares(data.size(), std::vector<double>(hidden.size() + 1));
+  try {
+    for (std::size_t dealing = 0; dealing < dealings; ++dealing) {
+      const Folds any = folds_of(data, number, generator), whole = folds_of(data, groups, number, generator);
+      for (std::size_t way = 0; way <= hidden.size(); ++way) {
+        const bool is_any = way < hidden.size();
+        const Right right =
+            right_of_sigma(data, is_any ? any : whole, number, options, threads, is_any ? hidden[way] : hidden.back());
+        ScratchCursor<std::uint8_t> is_right(right);
+        for (std::size_t row = 0; row < data.size(); ++row)
+          shares[row][way] += is_right[row] / static_cast<double>(dealings);
+      }
+    }
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return shares;
+}
+
+std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
+                                  std::uint64_t seed, int threads) {
   std::map<double, std::uint32_t> numbers;
   Groups groups;
   data.for_each([&](const DataRow& row) {
     groups.push_back(numbers.try_emplace(row.value(column), static_cast<std::uint32_t>(numbers.size())).first->second);
   });
-  ByColumn result{.hidden = nested_in(data, column)};
+  ByColumn result{.hidden = nested_in(data, column), .values = numbers.size()};
   result.hidden.insert(result.hidden.begin(), column);
-  result.values = numbers.size();
-  std::mt19937_64 generator(seed);
-  const std::size_t number = std::min({most_folds, numbers.size(), data.size()});
-  const std::size_t dealings = std::clamp<std::size_t>(most_asked / data.size(), 1, most_dealings);
-  std::vector<std::array<double, 4>> times(data.size());  // right with all, without the column, and those in it; and so
-  try {                                                   // by whole values
-    for (std::size_t dealing = 0; dealing < dealings; ++dealing) {
-      const Folds any = folds_of(data, number, generator), whole = folds_of(data, groups, number, generator);
-      const std::pair<const Folds&, std::vector<std::size_t>> ways[] = {
-          {any, {}}, {any, {column}}, {any, result.hidden}, {whole, result.hidden}};
-      for (std::size_t way = 0; way < std::size(ways); ++way) {
-        const Right right = right_of_sigma(data, ways[way].first, number, options, threads, ways[way].second);
-        ScratchCursor<std::uint8_t> is_right(right);
-        for (std::size_t row = 0; row < data.size(); ++row)
-          times[row][way] += is_right[row] / static_cast<double>(dealings);
-      }
-    }
-  } catch (const InputError&) {  // a class is in one of its values only
-    return std::nullopt;
-  }
-  result.without = mean_interval(each(times, [](const auto& row) { return row[1]; })).mean;
-  result.more = mean_interval(each(times, [](const auto& row) { return row[1] - row[0]; }));
-  result.less = mean_interval(each(times, [](const auto& row) { return row[2] - row[3]; }));
-  result.without_all = mean_interval(each(times, [](const auto& row) { return row[2]; })).mean;
+  const auto shares = shares_right(data, options, groups, numbers.size(), {{}, {column}, result.hidden}, seed, threads);
+  if (!shares) return std::nullopt;
+  result.without = mean_interval(each(*shares, [](const auto& row) { return row[1]; })).mean;
+  result.more = mean_interval(each(*shares, [](const auto& row) { return row[1] - row[0]; }));
+  result.less = mean_interval(each(*shares, [](const auto& row) { return row[2] - row[3]; }));
+  result.without_all = mean_interval(each(*shares, [](const auto& row) { return row[2]; })).mean;
   return result;
+}
+
+std::optional<Interval> less_in_any_folds(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                          int threads) {
+  Groups rows;
+  for (std::size_t row = 0; row < data.size(); ++row) rows.push_back(static_cast<std::uint32_t>(row));
+  const auto shares = shares_right(data, options, rows, data.size(), {{}}, seed, threads);
+  if (!shares) return std::nullopt;
+  return mean_interval(each(*shares, [](const auto& row) { return row[0] - row[1]; }));
 }
 
 std::optional<ByClumps> by_clumps(const DataTable& data, const LearningOptions& options, std::uint64_t seed,

@@ -79,6 +79,12 @@ struct ByColumn {
 std::optional<ByColumn> by_column(const DataTable& data, const LearningOptions& options, std::size_t column,
                                   std::uint64_t seed, int threads);
 
+/// How many less of the rows sigma is right about where folds are drawn without regard to the class, by pairs of rows:
+/// where classes have few rows, those that by chance have more have more in each of the folds, too. Nothing where
+/// a class cannot be parted so.
+std::optional<Interval> less_in_any_folds(const DataTable& data, const LearningOptions& options, std::uint64_t seed,
+                                          int threads);
+
 /// How many of some rows sigma is right about, and how many less where rows that are much alike stay in one fold, by
 /// pairs of rows; none where a class has too few rows for it, or none are much nearer to each other than to the next.
 /// Of long tables some rows are asked, chosen by chance.
