@@ -225,9 +225,10 @@ std::string ColumnReader::one_number() const {
   for (const auto& [word, code] : words_.codes) {
     const std::string_view last = std::exchange(before, word);
     constexpr std::size_t all_told = 15;  // digits, of a number in double precision
-    if (word.size() > all_told && parse_number(word) == parse_number(last)) return fmt::format("{} and {}", last, word);
-    if (words_.size() > most) continue;
     const auto point = word.find('.');
+    if (point == word.npos && word.size() > all_told && parse_number(word) == parse_number(last))
+      return fmt::format("{} and {}", last, word);
+    if (words_.size() > most) continue;
     const auto without = word.find_last_not_of('0');
     if (point == word.npos || without == word.npos || without <= point || without + 1 == word.size()) continue;
     if (const std::string other = word.substr(0, without + 1); words_.contains(other))

@@ -170,9 +170,8 @@ class Reporter {
                      : fmt::format("give --set sigma_position_m={:.3g} or more", sigma);
     };
     warn(rounding > 2.0 * told && (by_rows || !recording_.tells_accuracy()) && is_alone,
-         "{}: the coordinates come in steps, and to round to these alone makes errors of {:.3g} m along an axis, where "
-         "{} "
-         "{:.3g}: if they are rounded, {}",
+         "{}: the coordinates come in steps, and to round to these alone makes errors of {:.3g} m along an axis, "
+         "where {} {:.3g}: if they are rounded, {}",
          file_, rounding, told_by, told, remedy(rounding));
     const double scatter = outcome_.doubts.scatter().value_or(0.0);
     warn(scatter > std::max(3.0 * told, 4.0 * rounding) && is_alone && !recording_.polar(),
