@@ -339,7 +339,11 @@ void ColumnReader::warn(DataTable& table) const {
       for_typing);
   if (is_numeric()) {
     const std::string nines = nines_.doubt(name_), two = one_number();
-    table.warn(!nines.empty(), "{}; where it says something, as never, that is lost so", nines);
+    const bool are_powers = exponents_ == numeric_cells_;
+    table.warn(!nines.empty() && !are_powers, "{}; where it says something, as never, that is lost so", nines);
+    say(are_powers && numeric_cells_ >= few_rows,
+        " holds numbers times powers of ten, as {}: if they are names, as of places, give --categorical {}", exponent_,
+        for_typing);
     say(!three_digits_.empty() && hundreds_ > 0 && numeric_cells_ >= few_rows && !other_writing_,
         ": every number with a point has three digits behind it, as {}, and all others are below a thousand: if the "
         "point parts thousands, leave it out",
@@ -422,6 +426,9 @@ void ColumnReader::see_writing(std::string_view cell) {
   const bool parts = point != bare.npos && bare.size() - point == 4 && digits <= 3 && bare[0] != '0';
   if (parts && three_digits_.empty()) three_digits_ = cell;
   if (point == bare.npos && digits == 3) ++hundreds_;
+  const auto letter = bare.find_first_of("Ee");
+  if (letter < bare.size() - 1 && point == bare.npos && std::isdigit(static_cast<unsigned char>(bare[letter + 1])) != 0)
+    if (++exponents_ == 1) exponent_ = cell;
   other_writing_ = other_writing_ || !is_plain || !(parts || (point == bare.npos && digits <= 3));
   if (lengths_.size() < 2) lengths_.insert(is_plain && !is_signed && point == bare.npos ? bare.size() : 0);
   if (with_zeros_.empty() && digits >= 3 && bare[0] == '0') with_zeros_ = cell;

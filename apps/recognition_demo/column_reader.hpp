@@ -138,9 +138,9 @@ class ColumnReader {
   double first_ = 0.0, low_ = 0.0, high_ = 0.0;
   double sum_ = 0.0, squares_ = 0.0;  // of the distances from the first
   Nines nines_{true};
-  std::string three_digits_, with_zeros_, notation_;  // the first of these
-  std::size_t hundreds_ = 0, nothings_ = 0;           // hundreds of three digits
-  bool leading_zeros_ = false;                        // of numbers with a unit, as in 055xx
+  std::string three_digits_, with_zeros_, notation_, exponent_;  // the first of these
+  std::size_t hundreds_ = 0, nothings_ = 0, exponents_ = 0;      // hundreds of three digits
+  bool leading_zeros_ = false;                                   // of numbers with a unit, as in 055xx
   bool other_writing_ = false;
   std::set<std::size_t> lengths_;        // of whole numbers, 0 of others, up to two
   std::vector<ClassesOfValue> classes_;  // by code

@@ -70,10 +70,12 @@ Clumps clumps_of(const DataTable& data, std::size_t most_alike, std::mt19937_64&
   });
   const auto cells = places_of(rows, data);
   const std::size_t n = rows.size();
+  constexpr std::size_t most_words = 24;  // those of more, as of towns, are themselves what rows are of
   const auto distance = [&](std::size_t a, std::size_t b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < data.columns.size(); ++i)
-      sum += data.columns[i].numeric ? std::abs(cells[a][i] - cells[b][i]) : cells[a][i] == cells[b][i] ? 0.0 : 0.5;
+      if (data.columns[i].values.size() <= most_words)
+        sum += data.columns[i].numeric ? std::abs(cells[a][i] - cells[b][i]) : cells[a][i] == cells[b][i] ? 0.0 : 0.5;
     return sum;
   };
   using Near = std::pair<double, std::size_t>;
