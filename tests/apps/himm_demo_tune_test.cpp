@@ -1,3 +1,5 @@
+#include <complex>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/recordings.hpp"
@@ -343,21 +345,23 @@ TEST_F(Tune, TriesModelsOfContinuousTimeWhereStepsVaryOrVelocitiesCount) {
   EXPECT_TRUE(says(program::succeeded(tune(few + counts)).output, {"cwna+cwpa"}));
 }
 
-TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichItBeginsFarAbove) {
+TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichTurns) {
   std::mt19937_64 generator(5);
   std::normal_distribution<double> normal;
-  double x = 0.0, v = 5.0;  // of cwna with 0.4 m/s^1.5, each second
+  const auto noise = [&](double sigma) { return sigma * std::complex(normal(generator), normal(generator)); };
+  const std::complex<double> rate(0.0, -0.07), turned = std::exp(rate);  // each second
+  std::complex<double> x, v(20.0);
   const auto row = [&](int k) {
-    const double w = 0.4 * normal(generator);
-    x += v + w / 2.0 + 0.4 / std::sqrt(12.0) * normal(generator), v += w;
-    return fmt::format("{},{},{}", k, x + 8.0 * normal(generator), v + 0.3 * normal(generator));
+    const auto w = noise(0.5), seen = (x += v * (turned - 1.0) / rate + w / 2.0 + noise(0.144)) + noise(8.0);
+    const auto told = (v = v * turned + w) + noise(0.5);
+    return fmt::format("{},{},{},{},{}", k, seen.real(), seen.imag(), told.real(), told.imag());
   };
-  const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,vx_mps", row, 1500));
+  const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,y_m,vx_mps,vy_mps", row, 500));
   const auto best = (directory.path() / "best.toml").string();
-  program::succeeded(tune(words("--set filters=imm --models cwna --starts 1 --folds 2 --set sigma_velocity_mps=0.3") +
+  program::succeeded(tune(words("--set filters=imm --models known_turn --starts 1 --set sigma_velocity_mps=1") +
                           Arguments{file, "--out", best}));
-  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.3, 0.06) << contents(best);
-  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.4, 0.06) << contents(best);
+  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.5, 0.1) << contents(best);
+  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.1) << contents(best);
 }
 
 TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {

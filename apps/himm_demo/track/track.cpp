@@ -119,6 +119,9 @@ class Reporter {
         fmt::format("Skipped {} rows whose time was not after that of the row before", recording_.skipped()));
     const bool by_steps =
         std::ranges::any_of(model_names(filters_), [](const auto& model) { return model.starts_with("dw"); });
+    say(recording_.moves_alone() && by_steps,
+        "By dwna and dwpa the way of a step is known from the velocities at its ends, and positions are too sure where "
+        "it is not; by cwna and cwpa it is not");
     say(outcome_.predicted > 0 && by_steps,
         "What is predicted is one step, in which dwna and dwpa have one acceleration all the time: far ahead their "
         "sigmas are too great, where those of cwna and cwpa do not depend on steps");
