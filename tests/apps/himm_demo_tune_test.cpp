@@ -358,10 +358,15 @@ TEST_F(Tune, FindsTheNoiseOfVelocitiesBesideThatOfATargetWhichTurns) {
   };
   const auto file = directory.write("flight.csv", apps::recording("time_s,x_m,y_m,vx_mps,vy_mps", row, 500));
   const auto best = (directory.path() / "best.toml").string();
-  program::succeeded(tune(words("--set filters=imm --models known_turn --starts 1 --set sigma_velocity_mps=1") +
-                          Arguments{file, "--out", best}));
-  EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.5, 0.1) << contents(best);
-  EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.1) << contents(best);
+  for (const std::string models : {"known_turn", "cwna+known_turn"}) {
+    const auto ending =
+        program::succeeded(tune(words("--set filters=imm --starts 1 --set sigma_velocity_mps=1 --models " + models) +
+                                Arguments{file, "--out", best}));
+    EXPECT_NEAR(value_in(contents(best), "sigma_velocity_mps"), 0.5, 0.1) << contents(best);
+    if (models == "known_turn") EXPECT_NEAR(value_in(contents(best), "sigma_w"), 0.5, 0.1) << contents(best);
+    // Of a mode that no row is in nothing is told, where slopes and curvature vanish alike.
+    EXPECT_EQ(models == "known_turn", !says(ending.output, {"not determined by these rows"})) << ending.output;
+  }
 }
 
 TEST_F(Tune, TellsTheErrorOfEachNumberAndWhichTheRowsDoNotTell) {

@@ -64,7 +64,9 @@ constexpr double usual_rejections = 3.0;  // in a row, as a start wants
 
 constexpr double usual_sojourn_steps = 20.0;  // as .95 on the diagonal
 
-constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};  // by which a number may be off at first
+constexpr std::array factors = {0.03, 0.1, 0.3, 3.0, 10.0, 30.0};       // by which a number may be off at first
+constexpr std::array turn_rates = {-10.0, -3.0, -1.0, 1.0, 3.0, 10.0};  // that a turn may have at first, in °/s
+static_assert(factors.size() == turn_rates.size());
 constexpr std::size_t most_sweeps = 4;
 
 /// How often a search of n numbers may ask.
@@ -304,14 +306,15 @@ class Fitter {
 
   bool is_better(const FilterSettings& one, const FilterSettings& other) const { return value(one) < value(other); }
 
-  /// From far away: great steps. Of all numbers also from sensors that are nearly exact, since from great errors the
-  /// way to a target that swings within few of its steps leads over worse ones, and from motions that are: from great
-  /// noise of theirs the errors of measured velocities are taken for it.
+  /// From far away: great steps. Of all numbers, and a search from there, also from sensors that are nearly exact,
+  /// since from great errors the way to a target that swings within few of its steps leads over worse ones, and from
+  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it.
   Fitted far(const FilterSettings& settings, Scanned scanned) const {
     Fitted best = from(settings);
     if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
     scan(best, scanned);
     if (scanned != Scanned::all) return best;
+    search_numbers(best, 0);
     constexpr double nearly_exact = 1e-3;
     for (const bool sensors : {true, false}) {
       FilterSettings exact = settings;
@@ -320,6 +323,7 @@ class Fitter {
       Fitted other = from(exact);
       if (sensors) scan(other, Scanned::models);
       scan(other, scanned);
+      search_numbers(other, 0);
       if (other.fitted < best.fitted) best = std::move(other);
     }
     return best;
@@ -358,6 +362,7 @@ class Fitter {
       if (number.relative) continue;
       const double value = number.parameter.start;
       best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
+      if (!learns && number.noise && may_be_nothing(best, number)) continue;
       for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
@@ -392,6 +397,17 @@ class Fitter {
       }
     }
     return any;
+  }
+
+  /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it
+  /// and the slopes vanish alike.
+  bool may_be_nothing(const Fitted& found, const FreeNumber& noise) const {
+    constexpr double nothing = 1e-3;
+    FilterSettings without = found.settings;
+    noise.set(without, nothing * noise.parameter.start);
+    const MeanDifference worse =
+        mean_difference(judged(data_, without, options_.objective), judged(data_, found.settings, options_.objective));
+    return worse.mean <= worse.error;
   }
 
   /// The settings, but no number less than may be fitted.
@@ -486,8 +502,7 @@ class Fitter {
   void scan(Fitted& best, Scanned scanned) const {
     auto numbers = free_numbers(best.settings, data_, options_);
     std::erase_if(numbers, [&](const FreeNumber& number) {
-      return number.parameter.scale != Scale::logarithmic || (scanned != Scanned::all && number.sensor) ||
-             (scanned == Scanned::transition && !number.relative);
+      return (scanned != Scanned::all && number.sensor) || (scanned == Scanned::transition && !number.relative);
     });
     std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
     for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
@@ -495,10 +510,12 @@ class Fitter {
       for (FreeNumber& number : numbers) {
         const FilterSettings base = best.settings;
         double taken = number.parameter.start;
-        for (const double factor : factors) {
+        for (std::size_t i = 0; i < factors.size(); ++i) {
+          const bool turns = number.parameter.scale == Scale::linear;
+          const double other = turns ? turn_rates[i] : factors[i] * number.parameter.start;
           FilterSettings tried = base;
-          number.set(tried, factor * number.parameter.start);
-          if (take_if_better(best, tried)) taken = factor * number.parameter.start;
+          number.set(tried, other);
+          if (take_if_better(best, tried)) taken = other;
         }
         if (!number.relative) number.parameter.start = taken;
         progress_.advance(factors.size());
@@ -697,10 +714,9 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
   std::size_t work = 0;
   for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
-    const auto scanned = static_cast<std::size_t>(std::ranges::count(
-        numbers, Scale::logarithmic, [](const FreeNumber& number) { return number.parameter.scale; }));
-    work += (base.models.size() == 1 ? 4 : 1) * most_sweeps * factors.size() * scanned +
-            options.starts * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
+    const std::size_t of_far = base.models.size() == 1 ? 4 : 1;
+    work += of_far * most_sweeps * factors.size() * numbers.size() +
+            (of_far - 1 + options.starts) * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
   }
   return work;
 }
