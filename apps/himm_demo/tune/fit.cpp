@@ -308,7 +308,9 @@ class Fitter {
 
   /// From far away: great steps. Of all numbers, and a search from there, also from sensors that are nearly exact,
   /// since from great errors the way to a target that swings within few of its steps leads over worse ones, and from
-  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it.
+  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it. Not where more
+  /// rows are stray to what is found: of places that were held or interpolated some are exact, and the others would be
+  /// given up.
   Fitted far(const FilterSettings& settings, Scanned scanned) const {
     Fitted best = from(settings);
     if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
@@ -324,7 +326,7 @@ class Fitter {
       if (sensors) scan(other, Scanned::models);
       scan(other, scanned);
       search_numbers(other, 0);
-      if (other.fitted < best.fitted) best = std::move(other);
+      if (other.fitted < best.fitted && !has_more_strays(other.settings, best.settings)) best = std::move(other);
     }
     return best;
   }
@@ -382,6 +384,15 @@ class Fitter {
     return best;
   }
 
+  bool has_more_strays(const FilterSettings& one, const FilterSettings& other) const {
+    constexpr double no_more = 0.01;
+    return share_of_strays(one) > share_of_strays(other) + no_more;
+  }
+
+  double share_of_strays(const FilterSettings& settings) const {
+    return data_.share_of_strays(judged(data_, settings, options_.objective));
+  }
+
   /// Gives measured velocities and range rates, if there are any, a third of what nine in ten of their changes from row
   /// to row stay below as noise.
   bool takes_noise_of_rates(FilterSettings& settings) const {
@@ -407,7 +418,7 @@ class Fitter {
     noise.set(without, nothing * noise.parameter.start);
     const MeanDifference worse =
         mean_difference(judged(data_, without, options_.objective), judged(data_, found.settings, options_.objective));
-    return worse.mean <= worse.error;
+    return worse.mean <= worse.error && !has_more_strays(without, found.settings);
   }
 
   /// The settings, but no number less than may be fitted.
@@ -464,7 +475,7 @@ class Fitter {
   /// Where most rows count as stray ones, as where a filter that is made for seconds begins on fixes hours apart, no
   /// number alone makes much of a difference: all noises of the motions, and all of the sensors, by greater steps.
   void leave_plateau(Fitted& best, bool with_sensors) const {
-    if (!(data_.share_of_strays(judged(data_, best.settings, options_.objective)) > 0.5)) return;
+    if (!(share_of_strays(best.settings) > 0.5)) return;
     const FilterSettings begun = best.settings;
     for (const double of_motions : {1.0, 30.0, 1000.0, 3e-2, 1e-3, 3e-5, 1e-6})
       for (const double of_sensors : {1.0, 30.0, 3e-2}) {
@@ -481,8 +492,7 @@ class Fitter {
   /// better.
   bool part_models(Fitted& best) const {
     const FilterSettings begun = best.settings;
-    if (begun.models.size() < 2 || !(data_.share_of_strays(judged(data_, begun, options_.objective)) > 0.05))
-      return false;
+    if (begun.models.size() < 2 || !(share_of_strays(begun) > 0.05)) return false;
     auto numbers = free_numbers(begun, data_, options_);
     std::erase_if(numbers, [](const FreeNumber& number) { return number.sensor || !number.noise; });
     bool better = false;
