@@ -144,7 +144,7 @@ void summarize(TuneData& data, const Columns& columns) {
   });
   data.too_short = all - data.tracks.size();
   std::vector<double> steps;
-  std::map<QuantityKey, std::vector<double>> changes;
+  std::map<std::string, std::map<QuantityKey, std::vector<double>>> changes;
   std::map<std::string, Bends> bends;
   for (const TuneTrack& track : data.tracks) {
     for (auto& [sensor, its] : bends) its.last.clear();
@@ -170,7 +170,7 @@ void summarize(TuneData& data, const Columns& columns) {
         const auto key = quantity_of(row.plot, i);
         const auto [before, is_first] = numbers.try_emplace(key, row.plot.z[i]);
         if (const double change = std::abs(row.plot.z[i] - before->second); change > 0.0)
-          changes[key].push_back(change);
+          changes[row.sensor][key].push_back(change);
         before->second = row.plot.z[i];
       }
     }
@@ -190,7 +190,8 @@ void summarize(TuneData& data, const Columns& columns) {
                           "sigma of such columns alone is left as it is; leave out what nothing measured",
                           name.empty() ? "all rows" : "sensor " + name));
       }
-  for (auto& [key, own] : changes) data.stray_width[key] = 6.0 * quantile(own, 0.9);
+  for (auto& [name, its] : changes)
+    for (auto& [key, own] : its) data.sensors[name].stray_width[key] = 6.0 * quantile(own, 0.9);
   if (steps.empty()) return;
   data.step_s = quantile(steps, 0.5);
   data.longest_step_s = *std::ranges::max_element(steps);
@@ -270,13 +271,13 @@ TuneData read_tune_data(const TuneOptions& options, const FilterSettings& settin
         fmt::format("dwna and dwpa are models of one step, {:.4g} s as a rule: after one of {:.4g} s they state too "
                     "great sigmas, which cwna and cwpa do not (--models cwna,cwpa,cwna+cwpa)",
                     data.step_s, data.longest_step_s));
-  const auto width = data.stray_width.find({AnyPlot::Sensor::components, 0});
+  const double change = data.stray_width({AnyPlot::Sensor::components, 0}) / 6.0;
   const double sigma = settings.accuracy.position_m.front();
-  if (width != data.stray_width.end() && width->second < 1e-4 * sigma)
+  if (change > 0.0 && change < 1.7e-5 * sigma)
     data.notes.push_back(fmt::format(
         "positions change by {:.2g} m from row to row, and sigma_position_m begins at {:.2g} m: from so far away "
         "nothing is found; begin nearer, with --set sigma_position_m={:.1g} and a sigma_w as small",
-        width->second / 6.0, sigma, width->second / 6.0));
+        change, sigma, change));
   if (data.measurements < fewest_in_all)
     throw InputError(
         "{}: there is too little to fit: found {} measurements of tracks with at least {}, expected at least {}; give "
@@ -299,12 +300,20 @@ double TuneSensor::rounding_of(AnyPlot::Sensor kind, int from, int to) const {
   return greatest.value_or(0.0);
 }
 
-double TuneData::log_stray(const AnyPlot& plot) const {
+double TuneData::stray_width(const QuantityKey& quantity) const {
+  double width = 0.0;
+  for (const auto& [name, sensor] : sensors)
+    if (const auto own = sensor.stray_width.find(quantity); own != sensor.stray_width.end())
+      width = std::max(width, own->second);
+  return width;
+}
+
+double TuneData::log_stray(const std::string& sensor, const AnyPlot& plot) const {
+  const auto& widths = sensors.find(sensor)->second.stray_width;
   double sum = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(plot.size); ++i) {
     // A quantity that never changes has no width, and no row is off.
-    if (const auto found = stray_width.find(quantity_of(plot, i)); found != stray_width.end())
-      sum -= std::log(found->second);
+    if (const auto found = widths.find(quantity_of(plot, i)); found != widths.end()) sum -= std::log(found->second);
   }
   return sum;
 }
@@ -315,7 +324,7 @@ double TuneData::share_of_strays(const RowLosses& losses) const {
     for (std::size_t k = 0; k < losses[t].size(); ++k) {
       if (std::isnan(losses[t][k])) continue;
       ++all;
-      const double width = log_stray(tracks[t].rows[k].plot);  // 0 where nothing changes
+      const double width = log_stray(tracks[t].rows[k].sensor, tracks[t].rows[k].plot);  // 0 where nothing changes
       const double of_a_stray = -std::log(stray_share) - width;
       if (width != 0.0 && losses[t][k] > of_a_stray - std::log(2.0)) ++strays;
     }
@@ -349,7 +358,7 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
     const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
     AnyTarget target(choice);
     const auto loss = [&](const AnyPlot& plot, double log_score) {
-      return -robust_log_score(log_score, stray_share, data.log_stray(plot));
+      return -robust_log_score(log_score, stray_share, data.log_stray(rows[plot.tag].sensor, plot));
     };
     const auto visit = [&](const TargetPoint& now) {
       if (prequential && !now.is_start && now.log_score) lost[now.tag] = loss(plots[now.tag], *now.log_score);
@@ -378,11 +387,11 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
   choice.rules.rejections = 0;
   choice.rules.record = true;
   std::vector<RowPlace> strays;
-  for (std::size_t pass = 0; pass < 2; ++pass)  // the second for neighbours
+  for (std::size_t pass = 0; pass < 4; ++pass)  // the others for neighbours
     for (std::size_t t = 0; t < data.tracks.size(); ++t) {
       auto& rows = data.tracks[t].rows;
       const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
-      std::vector<double> odds(rows.size() + 2 * reach, 0.0);  // logarithms, behind and before rows that there are not
+      std::vector<double> odds(rows.size(), 0.0);  // logarithms
       AnyTarget target(choice);
       try {
         for (const AnyPlot& plot : plots) target.take(plot);
@@ -390,17 +399,23 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
           const AnyPlot& plot = plots[now.tag];
           if (!now.nis || quantity_of(plot, 0).first != AnyPlot::Sensor::components) return;
           if (const auto own = log_score_by_others(plot, now))
-            odds[now.tag + reach] = std::log(stray_share) + data.log_stray(plot) - std::log1p(-stray_share) - *own;
+            odds[now.tag] =
+                std::log(stray_share) + data.log_stray(rows[now.tag].sensor, plot) - std::log1p(-stray_share) - *own;
         });
       } catch (const std::exception&) {  // what cannot be smoothed is not judged by it
         continue;
       }
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        const double* const about = &odds[k];
-        if (!(about[reach] > 0.0) || about[reach] < *std::max_element(about, about + 2 * reach + 1)) continue;
-        rows[k].plot = AnyPlot::missed(rows[k].plot.time);
-        rows[k].plot.tag = k;
-        strays.push_back({t, k});
+      std::size_t likeliest = rows.size(), last = 0;  // of rows in a row that may be stray, since one makes others so
+      for (std::size_t k = 0; k <= rows.size(); ++k) {
+        if (likeliest < rows.size() && (k == rows.size() || k > last + reach)) {
+          rows[likeliest].plot = AnyPlot::missed(rows[likeliest].plot.time);
+          rows[likeliest].plot.tag = likeliest;
+          strays.push_back({t, likeliest});
+          likeliest = rows.size();
+        }
+        if (k == rows.size() || !(odds[k] > 0.0)) continue;
+        if (likeliest == rows.size() || odds[k] > odds[likeliest]) likeliest = k;
+        last = k;
       }
     }
   std::ranges::sort(strays, {}, [](const RowPlace& place) { return std::pair(place.track, place.row); });

@@ -56,6 +56,7 @@ namespace {
 constexpr std::size_t rounds = 2;  // of a search and the transition's EM
 constexpr std::size_t most_em_steps = 3;
 constexpr double least_improvement = 1e-4;  // nats a row
+constexpr double no_more = 0.01;            // of all rows: chance, not another kind of fit
 constexpr double surface_step = 0.25;       // of a logarithm: rows jump over the gate, which is no slope
 
 /// Of candidates without a gate of their own: what it turns away is unheard of, yet would move a filter.
@@ -304,13 +305,16 @@ class Fitter {
   /// What of a filter's numbers is looked for from far away.
   enum class Scanned { all, models, transition };
 
-  bool is_better(const FilterSettings& one, const FilterSettings& other) const { return value(one) < value(other); }
+  /// Unless more rows are stray to the other: of places that were held or interpolated some are exact, and all others
+  /// would be given up.
+  void keep_better(Fitted& best, Fitted other) const {
+    if (other.fitted < best.fitted && share_of_strays(other.settings) < share_of_strays(best.settings) + no_more)
+      best = std::move(other);
+  }
 
   /// From far away: great steps. Of all numbers, and a search from there, also from sensors that are nearly exact,
   /// since from great errors the way to a target that swings within few of its steps leads over worse ones, and from
-  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it. Not where more
-  /// rows are stray to what is found: of places that were held or interpolated some are exact, and the others would be
-  /// given up.
+  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it.
   Fitted far(const FilterSettings& settings, Scanned scanned) const {
     Fitted best = from(settings);
     if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
@@ -326,7 +330,7 @@ class Fitter {
       if (sensors) scan(other, Scanned::models);
       scan(other, scanned);
       search_numbers(other, 0);
-      if (other.fitted < best.fitted && !has_more_strays(other.settings, best.settings)) best = std::move(other);
+      keep_better(best, std::move(other));
     }
     return best;
   }
@@ -360,11 +364,13 @@ class Fitter {
     const auto shape = surface.shape(counts_);
     take_if_better(best, moved(about.settings, numbers, shape.least));
     if (learns) learn(best);
-    for (const FreeNumber& number : free_numbers(best.settings, data_, options_)) {
+    for (FreeNumber& number : free_numbers(best.settings, data_, options_)) {
       if (number.relative) continue;
+      const bool flat = !learns && number.noise && may_be_nothing(best, number);
+      if (flat && number.sensor && !number.is_least()) raise(best, number);
       const double value = number.parameter.start;
       best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
-      if (!learns && number.noise && may_be_nothing(best, number)) continue;
+      if (flat) continue;
       for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
           best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
@@ -384,11 +390,6 @@ class Fitter {
     return best;
   }
 
-  bool has_more_strays(const FilterSettings& one, const FilterSettings& other) const {
-    constexpr double no_more = 0.01;
-    return share_of_strays(one) > share_of_strays(other) + no_more;
-  }
-
   double share_of_strays(const FilterSettings& settings) const {
     return data_.share_of_strays(judged(data_, settings, options_.objective));
   }
@@ -400,10 +401,10 @@ class Fitter {
     for (const FreeNumber& number : free_numbers(settings, data_, options_)) {
       const bool is_range_rate = number.parameter.name.starts_with("sigma_range_rate");
       if (is_range_rate || number.parameter.name.starts_with("sigma_velocity")) {
-        const auto width = data_.stray_width.find(
-            {is_range_rate ? AnyPlot::Sensor::doppler : AnyPlot::Sensor::components, data_.axes});
-        if (width == data_.stray_width.end()) continue;
-        number.set(settings, width->second / 18.0);
+        const double width =
+            data_.stray_width({is_range_rate ? AnyPlot::Sensor::doppler : AnyPlot::Sensor::components, data_.axes});
+        if (width == 0.0) continue;
+        number.set(settings, width / 18.0);
         any = true;
       }
     }
@@ -418,7 +419,20 @@ class Fitter {
     noise.set(without, nothing * noise.parameter.start);
     const MeanDifference worse =
         mean_difference(judged(data_, without, options_.objective), judged(data_, found.settings, options_.objective));
-    return worse.mean <= worse.error && !has_more_strays(without, found.settings);
+    return worse.mean <= worse.error && share_of_strays(without) <= share_of_strays(found.settings) + no_more;
+  }
+
+  /// A sensor's noise as great as it may be where the rows lose half a nat by it: less would be stated for no reason.
+  void raise(Fitted& found, FreeNumber& noise) const {
+    const double most = found.fitted + 0.5 / static_cast<double>(data_.measurements);
+    for (std::size_t k = 0; k < 40; ++k) {
+      Fitted raised = found;
+      noise.set(raised.settings, 2.0 * noise.parameter.start);
+      raised.fitted = value(raised.settings);
+      if (!(raised.fitted < most)) return;
+      noise.parameter.start *= 2.0;
+      found = raised;
+    }
   }
 
   /// The settings, but no number less than may be fitted.
@@ -477,8 +491,8 @@ class Fitter {
   void leave_plateau(Fitted& best, bool with_sensors) const {
     if (!(share_of_strays(best.settings) > 0.5)) return;
     const FilterSettings begun = best.settings;
-    for (const double of_motions : {1.0, 30.0, 1000.0, 3e-2, 1e-3, 3e-5, 1e-6})
-      for (const double of_sensors : {1.0, 30.0, 3e-2}) {
+    for (const double of_motions : {1.0, 30.0, 1000.0, 3e-2, 1e-3, 3e-5, 1e-6, 1e-9, 1e-12, 1e-15})
+      for (const double of_sensors : {1.0, 30.0, 3e-2, 1e-3}) {
         FilterSettings tried = begun;
         for (const FreeNumber& number : free_numbers(begun, data_, options_))
           if (number.noise && (with_sensors || !number.sensor))
@@ -752,13 +766,12 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
   for (std::size_t c = 1; c < sets; ++c)
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
   if (!similar) begun[first] = far(first, Fitter::Scanned::all);
-  for (std::size_t c = 0; c < sets; ++c) {
-    FilterSettings borrowed = bases[c].settings;
-    borrow(borrowed, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
-    if (fitter.is_better(borrowed, bases[c].settings)) bases[c].settings = std::move(borrowed);
-  }
   in_parallel(sets, options.threads, [&](std::size_t c) {
-    if (similar || c != first) begun[c] = far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models);
+    if (!similar && c == first) return;
+    begun[c] = far(c, Fitter::Scanned::all);
+    FilterSettings& settings_of = bases[c].settings;
+    borrow(settings_of, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
+    fitter.keep_better(begun[c], far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models));
   });
   const std::size_t starts = similar ? 1 : options.starts;
   for_each_run(

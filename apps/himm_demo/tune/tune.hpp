@@ -64,6 +64,9 @@ struct TuneSensor {
   bool range_rate = false;
   /// Of quantities that come in whole steps, as altitudes in 25 ft do: the standard deviation of the rounding.
   std::map<QuantityKey, double> rounding{};
+  /// How wide its stray measurements scatter: six times what nine in ten changes of a quantity from the row of a track
+  /// before, of any sensor, stay below, those that are none left out.
+  std::map<QuantityKey, double> stray_width{};
 
   /// The greatest rounding of quantities of a kind, from one to another; 0 if there is none, infinite if none changes.
   double rounding_of(AnyPlot::Sensor kind, int from, int to) const;
@@ -81,15 +84,15 @@ struct TuneData {
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
-  /// How wide stray measurements of each quantity scatter: six times what nine in ten changes from one row of a track
-  /// to the next stay below, those that are none left out.
-  std::map<QuantityKey, double> stray_width{};
   double step_s = 0.0;  ///< the median time between a track's measurements
   double longest_step_s = 0.0;
   bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 
+  /// The greatest of the sensors' stray widths of a quantity; 0 if it never changes.
+  double stray_width(const QuantityKey& quantity) const;
+
   /// The density, as a logarithm, of a stray measurement of this kind: the same for all settings.
-  double log_stray(const AnyPlot& plot) const;
+  double log_stray(const std::string& sensor, const AnyPlot& plot) const;
 
   /// The share of all rows with a loss that were predicted no better than stray ones are, see `losses`.
   double share_of_strays(const RowLosses& losses) const;
