@@ -381,17 +381,19 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
 }
 
 std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& settings) {
-  constexpr std::size_t reach = 2;  // so far a stray row spoils what others say of its neighbours
+  constexpr std::size_t reach = 2;   // so far a stray row spoils what others say of its neighbours most
+  constexpr double weaker = 10.0;    // and farther off makes good ones doubtful, but so many times less
+  constexpr std::size_t passes = 6;  // since a stray row hides weaker ones
   TargetChoice choice = judged_choice(data, settings);
   choice.rules.gate_probability = 1.0;
   choice.rules.rejections = 0;
   choice.rules.record = true;
   std::vector<RowPlace> strays;
-  for (std::size_t pass = 0; pass < 4; ++pass)  // the others for neighbours
+  for (std::size_t pass = 0; pass < passes; ++pass)
     for (std::size_t t = 0; t < data.tracks.size(); ++t) {
       auto& rows = data.tracks[t].rows;
       const std::vector<AnyPlot> plots = data.plots(data.tracks[t], settings);
-      std::vector<double> odds(rows.size(), 0.0);  // logarithms
+      std::vector<double> odds(rows.size() + 2 * reach, 0.0);  // logarithms, behind and before rows that there are not
       AnyTarget target(choice);
       try {
         for (const AnyPlot& plot : plots) target.take(plot);
@@ -399,23 +401,19 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
           const AnyPlot& plot = plots[now.tag];
           if (!now.nis || quantity_of(plot, 0).first != AnyPlot::Sensor::components) return;
           if (const auto own = log_score_by_others(plot, now))
-            odds[now.tag] =
+            odds[now.tag + reach] =
                 std::log(stray_share) + data.log_stray(rows[now.tag].sensor, plot) - std::log1p(-stray_share) - *own;
         });
       } catch (const std::exception&) {  // what cannot be smoothed is not judged by it
         continue;
       }
-      std::size_t likeliest = rows.size(), last = 0;  // of rows in a row that may be stray, since one makes others so
-      for (std::size_t k = 0; k <= rows.size(); ++k) {
-        if (likeliest < rows.size() && (k == rows.size() || k > last + reach)) {
-          rows[likeliest].plot = AnyPlot::missed(rows[likeliest].plot.time);
-          rows[likeliest].plot.tag = likeliest;
-          strays.push_back({t, likeliest});
-          likeliest = rows.size();
-        }
-        if (k == rows.size() || !(odds[k] > 0.0)) continue;
-        if (likeliest == rows.size() || odds[k] > odds[likeliest]) likeliest = k;
-        last = k;
+      const double least = std::max(0.0, *std::ranges::max_element(odds) / weaker);
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double* const about = &odds[k];
+        if (!(about[reach] > least) || about[reach] < *std::max_element(about, about + 2 * reach + 1)) continue;
+        rows[k].plot = AnyPlot::missed(rows[k].plot.time);
+        rows[k].plot.tag = k;
+        strays.push_back({t, k});
       }
     }
   std::ranges::sort(strays, {}, [](const RowPlace& place) { return std::pair(place.track, place.row); });
