@@ -302,24 +302,21 @@ class Fitter {
   Fitter(const TuneData& data, const TuneOptions& options, Progress& progress, RowCounts counts = {})
       : data_(data), options_(options), progress_(progress), counts_(std::move(counts)) {}
 
-  /// What of a filter's numbers is looked for from far away.
-  enum class Scanned { all, models, transition };
-
-  /// Unless more rows are stray to the other: of places that were held or interpolated some are exact, and all others
-  /// would be given up.
+  /// Takes the other if it is better, unless more rows are stray to it: of places that were held or interpolated some
+  /// are exact, and all others would be given up.
   void keep_better(Fitted& best, Fitted other) const {
     if (other.fitted < best.fitted && share_of_strays(other.settings) < share_of_strays(best.settings) + no_more)
       best = std::move(other);
   }
 
-  /// From far away: great steps. Of all numbers, and a search from there, also from sensors that are nearly exact,
-  /// since from great errors the way to a target that swings within few of its steps leads over worse ones, and from
-  /// motions that are: from great noise of theirs the errors of measured velocities are taken for it.
-  Fitted far(const FilterSettings& settings, Scanned scanned) const {
+  /// From far away: great steps. With those of sensors, and a search from there, also from sensors that are nearly
+  /// exact, since from great errors the way to a target that swings within few of its steps leads over worse ones, and
+  /// from motions that are: from great noise of theirs the errors of measured velocities are taken for it.
+  Fitted far(const FilterSettings& settings, bool with_sensors) const {
     Fitted best = from(settings);
-    if (scanned != Scanned::transition) leave_plateau(best, scanned == Scanned::all);
-    scan(best, scanned);
-    if (scanned != Scanned::all) return best;
+    leave_plateau(best, with_sensors);
+    scan(best, with_sensors);
+    if (!with_sensors) return best;
     search_numbers(best, 0);
     constexpr double nearly_exact = 1e-3;
     for (const bool sensors : {true, false}) {
@@ -327,8 +324,8 @@ class Fitter {
       for (const FreeNumber& number : free_numbers(settings, data_, options_))
         if (number.sensor == sensors && number.noise) number.set(exact, nearly_exact * number.parameter.start);
       Fitted other = from(exact);
-      if (sensors) scan(other, Scanned::models);
-      scan(other, scanned);
+      if (sensors) scan(other, false);
+      scan(other, true);
       search_numbers(other, 0);
       keep_better(best, std::move(other));
     }
@@ -343,7 +340,7 @@ class Fitter {
     FilterSettings noisy = best.settings;
     if (!takes_noise_of_rates(noisy)) return best;
     Fitted other = from(noisy);
-    scan(other, Scanned::models);
+    scan(other, false);
     other = descended(std::move(other), start);
     return other.fitted < best.fitted ? other : best;
   }
@@ -424,8 +421,9 @@ class Fitter {
 
   /// A sensor's noise as great as it may be where the rows lose half a nat by it: less would be stated for no reason.
   void raise(Fitted& found, FreeNumber& noise) const {
+    constexpr std::size_t most_doublings = 40;
     const double most = found.fitted + 0.5 / static_cast<double>(data_.measurements);
-    for (std::size_t k = 0; k < 40; ++k) {
+    for (std::size_t k = 0; k < most_doublings; ++k) {
       Fitted raised = found;
       noise.set(raised.settings, 2.0 * noise.parameter.start);
       raised.fitted = value(raised.settings);
@@ -523,11 +521,9 @@ class Fitter {
 
   /// One number after the other by great factors, the sensors' first: a search would be caught where measurements that
   /// are thought exact are explained by a wild target, or all by great errors.
-  void scan(Fitted& best, Scanned scanned) const {
+  void scan(Fitted& best, bool with_sensors) const {
     auto numbers = free_numbers(best.settings, data_, options_);
-    std::erase_if(numbers, [&](const FreeNumber& number) {
-      return (scanned != Scanned::all && number.sensor) || (scanned == Scanned::transition && !number.relative);
-    });
+    std::erase_if(numbers, [&](const FreeNumber& number) { return number.sensor && !with_sensors; });
     std::stable_partition(numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.sensor; });
     for (std::size_t sweep = 0; sweep < most_sweeps; ++sweep) {
       const double before = best.fitted;
@@ -738,9 +734,9 @@ std::size_t work_of(const FilterSettings& settings, const TuneData& data, const 
   std::size_t work = 0;
   for (const auto& [name, base] : model_sets(settings, options, data)) {
     const auto numbers = free_numbers(base, data, options);
-    const std::size_t of_far = base.models.size() == 1 ? 4 : 1;
-    work += of_far * most_sweeps * factors.size() * numbers.size() +
-            (of_far - 1 + options.starts) * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
+    constexpr std::size_t scans = 5, searches = 3;  // from far away
+    work += scans * most_sweeps * factors.size() * numbers.size() +
+            (searches + options.starts) * budget(numbers.size()) + LossSurface::asked(numbers.size()) + options.folds;
   }
   return work;
 }
@@ -757,21 +753,21 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
     if (similar->candidates.size() != sets + 1 || similar->candidates[c + 1].name != bases[c].name) similar = nullptr;
   const Fitter fitter(data, options, progress);
   std::vector<Fitted> begun(sets), fitted(sets);
-  // The sensors of one set are those of the others, and another filter's numbers are near: one alone begins from afar.
-  const auto far = [&](std::size_t c, Fitter::Scanned scanned) {
+  const auto far = [&](std::size_t c, const FilterSettings& from, bool with_sensors) {
     tell(c, "by great steps");
-    return fitter.far(bases[c].settings, scanned);
+    return fitter.far(from, with_sensors);
   };
   std::size_t first = 0;
   for (std::size_t c = 1; c < sets; ++c)
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
-  if (!similar) begun[first] = far(first, Fitter::Scanned::all);
+  if (!similar) begun[first] = far(first, bases[first].settings, true);
+  // The sensors of one set are those of the others, and another filter's numbers are near.
   in_parallel(sets, options.threads, [&](std::size_t c) {
     if (!similar && c == first) return;
-    begun[c] = far(c, Fitter::Scanned::all);
-    FilterSettings& settings_of = bases[c].settings;
-    borrow(settings_of, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
-    fitter.keep_better(begun[c], far(c, similar ? Fitter::Scanned::transition : Fitter::Scanned::models));
+    FilterSettings borrowed = bases[c].settings;
+    borrow(borrowed, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
+    begun[c] = far(c, bases[c].settings, true);
+    fitter.keep_better(begun[c], far(c, borrowed, false));
   });
   const std::size_t starts = similar ? 1 : options.starts;
   for_each_run(
