@@ -277,7 +277,8 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
       say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
           100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
   }
-  if (any) return;
+  const double by_chance = 1.0 / std::sqrt(static_cast<double>(data.size()));  // two standard errors at ½
+  if (any || accuracy < most_often + by_chance) return;
   const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
   if (are_in_clumps(clumps))
     say("{:.1f} % are right by sigma{}, and {:.1f} % where rows that are much alike are in one fold: if they are of "
