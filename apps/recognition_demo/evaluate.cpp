@@ -277,7 +277,7 @@ void say_too_good(const DataTable& data, double accuracy, double most_often, con
       say("{:.1f} % are right by sigma without column {}, {:.1f} points more: leave it out by --ignore {}",
           100.0 * by->without, in_quotes(name), 100.0 * by->more.mean, typed(name));
   }
-  const double by_chance = 1.0 / std::sqrt(static_cast<double>(data.size()));  // two standard errors at ½
+  const double by_chance = 0.5 / std::sqrt(static_cast<double>(data.size()));  // a standard error at ½
   if (any || accuracy < most_often + by_chance) return;
   const auto clumps = by_clumps(data, options.learning, options.seed, options.threads);
   if (are_in_clumps(clumps))
