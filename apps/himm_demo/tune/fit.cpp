@@ -760,13 +760,12 @@ TunedFilter tune(const FilterSettings& settings, const TuneData& data, const Tun
   std::size_t first = 0;
   for (std::size_t c = 1; c < sets; ++c)
     if (bases[c].settings.models.size() < bases[first].settings.models.size()) first = c;
-  if (!similar) begun[first] = far(first, bases[first].settings, true);
+  in_parallel(sets, options.threads, [&](std::size_t c) { begun[c] = far(c, bases[c].settings, true); });
   // The sensors of one set are those of the others, and another filter's numbers are near.
   in_parallel(sets, options.threads, [&](std::size_t c) {
     if (!similar && c == first) return;
     FilterSettings borrowed = bases[c].settings;
     borrow(borrowed, similar ? similar->candidates[c + 1].settings : begun[first].settings, !similar, data, options);
-    begun[c] = far(c, bases[c].settings, true);
     fitter.keep_better(begun[c], far(c, borrowed, false));
   });
   const std::size_t starts = similar ? 1 : options.starts;
