@@ -122,7 +122,8 @@ LossSurface::Shape LossSurface::shape(const RowCounts& counts) const {
           (i == j ? bend(i, i) : 0.5 * (bend(i, j) - bend(i, i) - bend(j, j))) / (step_ * step_);
 
   Shape result{std::vector<double>(numbers_, 0.0),
-               std::vector<double>(numbers_, std::numeric_limits<double>::infinity())};
+               std::vector<double>(numbers_, std::numeric_limits<double>::infinity()),
+               std::vector<std::vector<double>>(numbers_)};
   std::vector<Eigen::Index> told;  // the numbers that the rows tell, all together
   for (Eigen::Index i = 0; i < n; ++i) told.push_back(i);
   while (!told.empty()) {
@@ -136,6 +137,10 @@ LossSurface::Shape LossSurface::shape(const RowCounts& counts) const {
         const auto of = static_cast<Eigen::Index>(i);
         result.least[at] = std::clamp(least[of], -4.0 * step_, 4.0 * step_);
         result.error[at] = std::sqrt(variance[of]);
+        result.ridges[at].assign(numbers_, 0.0);
+        for (std::size_t k = 0; k < told.size(); ++k)
+          result.ridges[at][static_cast<std::size_t>(told[k])] =
+              inverse(static_cast<Eigen::Index>(k), of) / inverse(of, of);
       }
       return result;
     }

@@ -59,6 +59,17 @@ TEST(CrossValidation, SelectsTheBestAndTheSimplestThatIsAsGood) {
   EXPECT_INVALID(("1", "4"), select_settings(all, std::array<std::size_t, 1>{3}));
 }
 
+TEST(LossSurface, TellsWhereTheOthersAreBestIfANumberIsOff) {
+  const LossSurface surface(3, 0.1, [](const std::vector<double>& x) {
+    return RowLosses{{1.0 + x[0] * x[0] + x[0] * x[1] + 1.5 * x[1] * x[1]}};
+  });
+  const auto ridges = surface.shape().ridges;
+  EXPECT_NEAR(ridges[0][1], -1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(ridges[1][0], -0.5, 1e-9);
+  EXPECT_EQ(ridges[0][0], 1.0);
+  EXPECT_TRUE(ridges[2].empty());
+}
+
 /// Minus the log-densities of numbers by a mean and the logarithm of a standard deviation; a third setting changes
 /// nothing.
 TEST(LossSurface, KnowsTheBestNumbersOfAGaussianAndTheirErrors) {

@@ -381,9 +381,11 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
 }
 
 std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& settings) {
-  constexpr std::size_t reach = 2;   // so far a stray row spoils what others say of its neighbours most
-  constexpr double weaker = 10.0;    // and farther off makes good ones doubtful, but so many times less
-  constexpr std::size_t passes = 6;  // since a stray row hides weaker ones
+  constexpr std::size_t reach = 2;      // so far a stray row spoils what others say of its neighbours most
+  constexpr double weaker = 10.0;       // and farther off makes good ones doubtful, but so many times less
+  constexpr std::size_t passes = 6;     // since a stray row hides weaker ones
+  constexpr std::size_t too_many = 10;  // where one row in so many seems stray, it is the settings that are wrong
+  auto whole = data.tracks;
   TargetChoice choice = judged_choice(data, settings);
   choice.rules.gate_probability = 1.0;
   choice.rules.rejections = 0;
@@ -416,6 +418,10 @@ std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& set
         strays.push_back({t, k});
       }
     }
+  if (too_many * strays.size() > data.measurements) {
+    data.tracks = std::move(whole);
+    return {};
+  }
   std::ranges::sort(strays, {}, [](const RowPlace& place) { return std::pair(place.track, place.row); });
   return strays;
 }

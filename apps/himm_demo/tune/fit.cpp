@@ -360,17 +360,22 @@ class Fitter {
     const auto numbers = told_numbers(about.settings);
     const auto shape = surface.shape(counts_);
     take_if_better(best, moved(about.settings, numbers, shape.least));
-    if (learns) learn(best);
+    if (learns) {
+      learn(best);
+      return best;
+    }
+    const auto now = told_numbers(best.settings);
     for (FreeNumber& number : free_numbers(best.settings, data_, options_)) {
       if (number.relative) continue;
-      const bool flat = !learns && number.noise && may_be_nothing(best, number);
+      const bool flat = number.noise && may_be_nothing(best, number);
       if (flat && number.sensor && !number.is_least()) raise(best, number);
       const double value = number.parameter.start;
       best.numbers.push_back({number.parameter.name, value, infinity, number.is_least()});
-      if (flat) continue;
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (numbers[i].parameter.name == number.parameter.name && shape.error[i] < 1.0)
-          best.numbers.back().error = shape.error[i] * (number.parameter.scale == Scale::linear ? 1.0 : value);
+      for (std::size_t i = 0; i < numbers.size() && !flat && now.size() == numbers.size(); ++i) {
+        if (numbers[i].parameter.name != number.parameter.name || !(shape.error[i] < 1.0)) continue;
+        const double error = as_lost(best, now, shape.ridges[i], shape.error[i]);
+        if (error < 1.0) best.numbers.back().error = error * (number.parameter.scale == Scale::linear ? 1.0 : value);
+      }
     }
     return best;
   }
@@ -406,6 +411,22 @@ class Fitter {
       }
     }
     return any;
+  }
+
+  /// A standard error, greater where all rows lose less than two nats at two of it, the other numbers following: where
+  /// a loss flattens out, as with a tau of half the recording, a parabola tells too little.
+  double as_lost(const Fitted& at, const std::vector<FreeNumber>& numbers, const std::vector<double>& ridge,
+                 double error) const {
+    constexpr double wider = 1.25;
+    const double most = at.fitted + 2.0 / static_cast<double>(data_.measurements);
+    for (const double side : {2.0, -2.0})
+      while (options_.objective != Objective::rmse && error < 1.0) {
+        std::vector<double> offsets = ridge;
+        for (double& offset : offsets) offset *= side * error;
+        if (!(value(moved(at.settings, numbers, offsets)) < most)) break;
+        error *= wider;
+      }
+    return error;
   }
 
   /// Whether the rows lose no more without a noise, within a standard error: the curvature does not tell, as both it

@@ -116,7 +116,7 @@ ResultTable numbers_table(const TunedFilter& tuned) {
   for (const auto& [name, value, error, at_rounding] : tuned.best().numbers) {
     const bool told = !at_rounding && std::isfinite(error);
     const std::string remark = at_rounding ? "no less: its column is rounded"
-                               : told      ? fmt::format("± {:.2g}", error)
+                               : told      ? fmt::format(fmt::runtime(error < 100.0 ? "± {:.2g}" : "± {:.0f}"), error)
                                            : "not determined by these rows";
     table.row_of({{of_words("number", "fitted number"), name},
                   {{.key = "value", .header = "fitted"}, Cell(value, fmt::format("{:.4g}", value))},

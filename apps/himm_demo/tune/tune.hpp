@@ -84,7 +84,7 @@ struct TuneData {
   std::size_t measurements = 0;
   std::map<std::string, TuneSensor, std::less<>> sensors{};  ///< "" if the rows name none
   std::vector<std::string> notes{};                          ///< sentences on what does not count
-  double step_s = 0.0;  ///< the median time between a track's measurements
+  double step_s = 0.0;                                       ///< the median time between a track's measurements
   double longest_step_s = 0.0;
   bool uneven_steps = false;  ///< whether one in ten is twice as long as another one in ten, or more
 
@@ -125,7 +125,8 @@ RowLosses losses(const TuneData& data, const FilterSettings& settings, Objective
 TargetChoice judged_choice(const TuneData& data, const FilterSettings& settings);
 
 /// Leaves out, as misses, the rows of positions and velocities that are stray ones more likely than not by what all
-/// others, also those after them, say with these settings: what a filter cannot know where it predicts far ahead.
+/// others, also those after them, say with these settings: what a filter cannot know where it predicts far ahead. None
+/// where they would be more than one in ten.
 std::vector<RowPlace> leave_out_strays(TuneData& data, const FilterSettings& settings);
 
 /// The mean of the rows that count: nats a row, or of the RMSE its logarithm.

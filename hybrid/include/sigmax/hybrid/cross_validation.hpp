@@ -61,6 +61,9 @@ class LossSurface {
     /// rows, so that the losses need not be those of a right model; infinite of numbers on which the loss does not
     /// depend or has no least value.
     std::vector<double> error;
+    /// For each number where all of them are best if it is off by one, by the parabola: the columns of H⁻¹, over its
+    /// own element; empty of numbers whose error is infinite.
+    std::vector<std::vector<double>> ridges;
   };
   Shape shape(const RowCounts& counts = {}) const;
 
