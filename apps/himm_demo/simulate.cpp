@@ -648,7 +648,6 @@ void simulate_and_report(const SimulateOptions& options) {
 void add_simulate(CLI::App& program, const std::string& command) {
   Subcommand app(program, "simulate", "The paper's experiment (section VI) on simulated radar targets.");
   const auto options = std::make_shared<SimulateOptions>();
-  options->output.command = command;
   app.option("--scenario", options->scenario, "1: fire control radar, 2: surveillance radar").in({1, 2});
   app.option("--group", options->group, "Group of data and model parameters, section VI.C").in({1, 2, 3, 4});
   app.choice(
@@ -660,8 +659,7 @@ void add_simulate(CLI::App& program, const std::string& command) {
   add_threads(app, options->threads);
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   add_no_chart(app, options->output.no_chart);
   app.run([options] { simulate_and_report(*options); });
 }

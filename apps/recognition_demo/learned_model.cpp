@@ -152,8 +152,7 @@ void read(const LearnedModel& model, const DataRow& row, Readings& readings) {
   }
 }
 
-void add_learning(CLI::App& program, std::string& file, DataOptions& data, LearningOptions& learning) {
-  Subcommand app(program);
+void add_learning(Subcommand app, std::string& file, DataOptions& data, LearningOptions& learning) {
   app.option("data", file, "A headed CSV file, or - for the standard input; empty cells and ? are missing values")
       .required()
       .type("DATA");

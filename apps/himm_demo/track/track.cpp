@@ -462,7 +462,6 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
 void add_track(CLI::App& program, const std::string& command) {
   Subcommand app(program, "track", "Tracks the targets of a recording, a headed CSV file.");
   const auto options = std::make_shared<TrackOptions>();
-  options->output.command = command;
   app.option("file", options->recording.file, "A recording as below; - is the standard input").required();
   add_recording(app, options->recording, options->radar);
   app.option("--predict-to", options->predict_to_text, "A time up to which each target is predicted after its last row")
@@ -471,8 +470,7 @@ void add_track(CLI::App& program, const std::string& command) {
            "Also write times, seconds since 1970, as dates, 2016-01-12T13:02:11.218Z");
   add_seed(app, options->seed);
   add_filter_options(app, options->filters);
-  add_output(app, options->output);
-  add_report(app, options->output);
+  add_results(app, options->output, command);
   add_no_chart(app, options->output.no_chart);
   app.run([options] {
     TrackShares shares;
