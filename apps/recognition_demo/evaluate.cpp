@@ -33,9 +33,8 @@ struct Outcome {
     return of_kind(evaluation, [](const auto& e) -> const ConfusionMatrix& { return e.confusion(); });
   }
   Recognised recognised() const {
-    Recognised all{name, {}, confusion().accuracy()};
-    for (std::size_t c = 0; c < confusion().size(); ++c) all.times.push_back(confusion()(c, c));
-    return all;
+    const ConfusionMatrix& rows = confusion();
+    return {name, each_below(rows.size(), [&](std::size_t c) { return rows(c, c); }), rows.accuracy()};
   }
   double ties() const {
     return of_kind(evaluation,
