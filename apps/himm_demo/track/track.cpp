@@ -441,12 +441,10 @@ void track_and_report(TrackOptions options, TrackShares& shares) {
     return;
   }
   ResultFiles files(options.output);
-  TrackSinks sinks{.files = &files};
   std::optional<TrackPage> tracks;
   const bool charts = shares.alone() && charts_on_terminal(options.output);  // mpirun's output is no such place
   if (files.report_wanted() || charts) tracks.emplace(filters, recording, options.radar.sigma || recording.has_truth());
-  sinks.page = tracks ? &*tracks : nullptr;
-  const TrackOutcome outcome = run_track(options, recording, filters, sinks, shares);
+  const TrackOutcome outcome = run_track(options, recording, filters, {&files, tracks ? &*tracks : nullptr}, shares);
   if (tracks) tracks->finish(outcome);
   Result result(options.output);
   const auto warnings = Reporter(options, recording, filters, outcome, result).made();
